@@ -12,7 +12,12 @@ namespace quadloop {
 namespace {
 
 constexpr double quadrants_of_leaf = 4.0 / 3;  ///< leaves and what was split into them
-constexpr double parts_to_share = 64;  ///< for each rank, about: quadrants among which the work is shared out
+constexpr double parts_to_share =
+    64;  ///< for each rank, about: quadrants among which the leaves to come are shared out
+constexpr std::int64_t leaves_to_judge =
+    4096;                              ///< for each rank: of so many the sample tells well where they are
+constexpr int last_levels = 3;         ///< refined after a second look at the shares, where it does not
+constexpr int weight_unfinished = 16;  ///< of a leaf that may yet be split, down those levels
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
 /// split.
@@ -66,38 +71,27 @@ class SqueezedLeaves {
   bool any_ = false;
 };
 
-/// The work that is yet to be done below a quadrant, in quadrants' shares of what all ranks have to do.
-class WorkAhead {
- public:
-  WorkAhead(const LeafSample& sample, int ranks)
-      : sample_{sample}, share_{units_of(sample.all()) / (parts_to_share * ranks)} {}
+/// Before the leaves are there: down to quadrants of about as many each, which are then shared out, so that
+/// no two ranks look for the same in the size tree. *Collective.*
+void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
+                         Gradation& gradation, Forest& forest) {
+  constexpr double units = 1000, most_parts = 1e6;
+  const double part = sample.leaves() / (parts_to_share * comm.size());
+  const auto must_split = [&](const Quadrant& q) {
+    return sample.leaves_in(q) > part && gradation.must_split(q);
+  };
+  forest.refine(must_split, sizes.finest_level());
+  forest.partition(
+      [&](const Quadrant& q) {  // not 0, so that those are shared out, too, which the sample has not
+        return 1 + static_cast<int>(part > 0 ? units * std::min(sample.leaves_in(q) / part, most_parts) : 0);
+      });
+}
 
-  bool is_to_share(const Quadrant& q) const { return units_in(q) > share_; }
-  /// Not 0, so that quadrants in which no leaf was looked at are shared out, too.
-  int weight(const Quadrant& q) const {
-    return 1 +
-           static_cast<int>(share_ > 0 ? units_of_share * std::min(units_in(q) / share_, most_shares) : 0);
-  }
-
- private:
-  static constexpr double units_of_share = 1000, most_shares = 1e6;
-  static double units_of(const LeafSample::Counts& leaves) {
-    return weight_uncut * leaves.uncut + weight_cut * leaves.cut;
-  }
-  double units_in(const Quadrant& q) const { return units_of(sample_.in(q)); }
-
-  const LeafSample& sample_;
-  double share_;
-};
-
-/// Before the leaves are there: down to quadrants of about as much work each, which are then shared out, so
-/// that nothing is looked up in the size tree by two ranks. *Collective.*
-void share_out_work(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
-                    Gradation& gradation, Forest& forest) {
-  const WorkAhead ahead(sample, comm.size());
-  const auto is_to_split = [&](const Quadrant& q) { return ahead.is_to_share(q) && gradation.must_split(q); };
-  forest.refine(is_to_split, sizes.finest_level());
-  forest.partition([&](const Quadrant& q) { return ahead.weight(q); });
+/// Whether leaves are as large as any may be in so much of the root that the sample is right about most.
+bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
+  constexpr int deep_enough = 15;
+  const int level = std::min(sizes.coarsest_level(), deep_enough);
+  return (std::int64_t{1} << (2 * level)) > leaves_to_judge * comm.size();
 }
 
 /// By the work of cutting. *Collective.*
@@ -113,13 +107,21 @@ LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const L
   Gradation gradation(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
-  if (comm.size() > 1) share_out_work(comm, sizes, expected.sample, gradation, forest);
+  if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, gradation, forest);
   double looked_at = 0;
+  int refined = 0;
   const auto must_split = [&](const Quadrant& q) {
+    if (q.level < refined) return false;
     stage.advance(++looked_at);
     return gradation.must_split(q);
   };
-  forest.refine(must_split, sizes.finest_level());
+  const int finest = sizes.finest_level(), before_last = finest - last_levels;
+  if (comm.size() > 1 && before_last > 0 && !are_leaves_even(comm, sizes)) {
+    forest.refine(must_split, before_last);
+    forest.partition([&](const Quadrant& q) { return q.level == before_last ? weight_unfinished : 1; });
+    refined = before_last;
+  }
+  forest.refine(must_split, finest);
   if (comm.size() > 1) share_out_leaves(sizes, forest);
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);

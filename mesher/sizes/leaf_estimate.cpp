@@ -97,7 +97,7 @@ class LeafCount {
         (cut                               ? counted_.cut
          : q.side == Sampled::Side::inside ? counted_.inside
                                            : counted_.outside) += q.weight;
-        sampled_.push_back({q.quadrant, q.weight, cut});
+        sampled_.push_back({q.quadrant, q.weight});
       }
     }
     return splits;

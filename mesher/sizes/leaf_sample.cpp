@@ -14,22 +14,20 @@ LeafSample::Key LeafSample::key_of(const Quadrant& q) {
 
 LeafSample::LeafSample(std::vector<Row> rows) {
   std::ranges::sort(rows, {}, [](const Row& row) { return key_of(row.leaf); });
-  Counts sum;
-  sums_.push_back(sum);
+  sums_.push_back(0);
   for (const Row& row : rows) {
     keys_.push_back(key_of(row.leaf));
-    (row.is_cut ? sum.cut : sum.uncut) += row.leaves;
-    sums_.push_back(sum);
+    sums_.push_back(sums_.back() + row.leaves);
   }
 }
 
-LeafSample::Counts LeafSample::in(const Quadrant& q) const {
-  if (keys_.empty()) return {};
+double LeafSample::leaves_in(const Quadrant& q) const {
+  if (keys_.empty()) return 0;
   const Key first = key_of(q);
-  const Key last{first.tree, first.square + (std::uint64_t{1} << (2 * (Quadrant::unit_level - q.level))) - 1};
-  const Counts& before = sums_[std::ranges::lower_bound(keys_, first) - keys_.begin()];
-  const Counts& up_to = sums_[std::ranges::upper_bound(keys_, last) - keys_.begin()];
-  return {up_to.cut - before.cut, up_to.uncut - before.uncut};
+  const std::uint64_t squares = std::uint64_t{1} << (2 * (Quadrant::unit_level - q.level));
+  const auto begin = std::ranges::lower_bound(keys_, first);
+  const auto end = std::ranges::lower_bound(begin, keys_.end(), Key{first.tree, first.square + squares});
+  return sums_[end - keys_.begin()] - sums_[begin - keys_.begin()];
 }
 
 }  // namespace quadloop

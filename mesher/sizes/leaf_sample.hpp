@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "mesher/lattice/lattice.hpp"
@@ -9,24 +8,20 @@
 namespace quadloop {
 
 /// Leaves of a forest that is yet to be made, each of which stands for so many: from it follows about how
-/// many leaves there will be in a quadrant. The samples below a quadrant are one stretch of the curve, so
-/// that two places in sums along it tell of all.
+/// many leaves a quadrant will have. Those below a quadrant are one stretch of the curve, so that two places
+/// in sums along it tell of all.
 class LeafSample {
  public:
   struct Row {
     Quadrant leaf;
-    double leaves = 1;    ///< for which it stands
-    bool is_cut = false;  ///< whether they hold outline
+    double leaves = 1;  ///< for which it stands
   };
   LeafSample() = default;
   explicit LeafSample(std::vector<Row> rows);
 
-  /// Of both kinds, below a quadrant or at it; 0 where the sample has none.
-  struct Counts {
-    double cut = 0, uncut = 0;
-  };
-  Counts in(const Quadrant& q) const;
-  Counts all() const { return sums_.empty() ? Counts{} : sums_.back(); }
+  /// Below a quadrant or at it; 0 where the sample has none.
+  double leaves_in(const Quadrant& q) const;
+  double leaves() const { return sums_.empty() ? 0 : sums_.back(); }
 
  private:
   /// Where a square begins along the curve, the trees taken row by row.
@@ -38,7 +33,7 @@ class LeafSample {
   static Key key_of(const Quadrant& q);
 
   std::vector<Key> keys_;
-  std::vector<Counts> sums_;  ///< of the rows before each, and of all
+  std::vector<double> sums_;  ///< of the rows before each, and of all
 };
 
 }  // namespace quadloop
