@@ -16,8 +16,8 @@ constexpr double parts_to_share =
     64;  ///< for each rank, about: quadrants among which the leaves to come are shared out
 constexpr std::int64_t leaves_to_judge =
     4096;                              ///< for each rank: of so many the sample tells well where they are
-constexpr int last_levels = 3;         ///< refined after a second look at the shares, where it does not
-constexpr int weight_unfinished = 16;  ///< of a leaf that may yet be split, down those levels
+constexpr int last_levels = 5;         ///< refined after a second look at the shares, where it does not
+constexpr int weight_unfinished = 64;  ///< of a leaf that may yet be split, down those levels
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
 /// split.
