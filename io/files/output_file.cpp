@@ -89,6 +89,10 @@ std::optional<std::vector<FolderLock>> lock_all(
 
 }  // namespace
 
+OutputSet::~OutputSet() {
+  for (const Written& file : written_) ::close(file.descriptor);
+}
+
 StagingFolder& OutputSet::staging_beside(const std::string& target, const std::string& shown) {
   const std::string folder = folder_of(target);
   std::unique_ptr<StagingFolder>& staging = staging_[id_of(folder, shown)];
@@ -123,9 +127,22 @@ std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
 
 void OutputSet::commit() {
   comm_.together([&] {
+    bring_written_to_disk();
     for (const Output& output : outputs_) bring_to_disk(output.staged.temporary, output.staged.path);
+  });
+  comm_.together([&] {
     if (!outputs_.empty()) put_in_place();
   });
+}
+
+void OutputSet::bring_written_to_disk() {
+  while (!written_.empty()) {
+    const auto [descriptor, path] = std::move(written_.back());
+    written_.pop_back();
+    const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
+    if (::close(descriptor) != 0) refuse_output(path, errno);
+    if (reason != 0) refuse_output(path, reason);
+  }
 }
 
 void OutputSet::put_in_place() {

@@ -21,13 +21,14 @@ struct StagedFile {
 
 /// The outputs of one command: all of them appear whole, under their own names, or none does; of two runs
 /// with the same names at the same time one has all its files stand. A link is followed: its target is
-/// replaced. Rank 0 alone touches the disk; what fails there is the same OutputError on every rank.
+/// replaced. Rank 0 alone touches the disk, but for files that all ranks write; what fails there is the same
+/// OutputError on every rank.
 class OutputSet {
  public:
   /// `comm` must outlive the set. Not collective.
   explicit OutputSet(const Communicator& comm) : comm_{comm} {}
   /// Removes what was not committed.
-  ~OutputSet() = default;
+  ~OutputSet();
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 
@@ -45,6 +46,10 @@ class OutputSet {
   /// these. *Collective.*
   std::vector<StagedFile> stage_folder(const std::string& path, const std::vector<std::string>& files);
 
+  /// What this rank wrote to the descriptor, of the output `path`, comes to the disk before any file gets its
+  /// name; until then other files are written. The set closes it. Not collective.
+  void take_over(int descriptor, const std::string& path) { written_.push_back({descriptor, path}); }
+
   /// Brings all outputs to the disk, then gives them their names. *Collective.*
   void commit();
 
@@ -54,13 +59,21 @@ class OutputSet {
     std::string target;  ///< where `staged.path` leads
   };
 
+  /// Of a file that rank 0 staged.
+  struct Written {
+    int descriptor;
+    std::string path;
+  };
+
+  void bring_written_to_disk();
   StagingFolder& staging_beside(const std::string& target, const std::string& shown);
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<NewFolder> folders_;  ///< these three on rank 0 only; before what is staged in them
+  std::vector<NewFolder> folders_;  ///< the first three on rank 0 only; before what is staged in them
   std::vector<Output> outputs_;
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
+  std::vector<Written> written_;
 };
 
 /// Appends text to a staged file; on rank 0 only. Every failure, a full disk too, is an OutputError that

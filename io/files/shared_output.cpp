@@ -13,21 +13,22 @@
 
 namespace quadloop {
 
-SharedOutput::SharedOutput(const Communicator& comm, std::string path)
-    : comm_{comm}, path_{std::move(path)} {}
+SharedOutput::SharedOutput(OutputSet& outputs, std::string path)
+    : outputs_{outputs}, path_{std::move(path)} {}
 
 // From here on the destructor is due, also where another rank cannot open the file.
-SharedOutput::SharedOutput(const Communicator& comm, const StagedFile& staged)
-    : SharedOutput(comm, staged.path) {
+SharedOutput::SharedOutput(OutputSet& outputs, const StagedFile& staged)
+    : SharedOutput(outputs, staged.path) {
+  const Communicator& comm = outputs.communicator();
   const std::string temporary = broadcast_words(comm, {staged.temporary}).front();
-  comm_.together([&] {
+  comm.together([&] {
     descriptor_ = ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
     if (descriptor_ >= 0) return;
-    if (comm_.is_root()) refuse_output(path_, errno);
+    if (comm.is_root()) refuse_output(path_, errno);
     throw OutputError(
         fmt::format("{}: all ranks write this file at once, but rank {} cannot open it ({}); name a folder "
                     "that all machines share, or write a .mesh",
-                    path_, comm_.rank(), std::strerror(errno)));
+                    path_, comm.rank(), std::strerror(errno)));
   });
 }
 
@@ -46,10 +47,9 @@ void SharedOutput::write_at(std::int64_t offset, std::string_view bytes) {
 }
 
 void SharedOutput::close() {
-  comm_.together([&] {
-    if (!comm_.is_root() && ::fsync(descriptor_) != 0) refuse_output(path_, errno);
-    if (::close(std::exchange(descriptor_, -1)) != 0) refuse_output(path_, errno);
-  });
+  ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // without waiting; where it cannot, later
+  outputs_.take_over(std::exchange(descriptor_, -1), path_);
+  outputs_.communicator().barrier();
 }
 
 }  // namespace quadloop

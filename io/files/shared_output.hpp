@@ -15,23 +15,22 @@ namespace quadloop {
 class SharedOutput {
  public:
   /// *Collective.*
-  SharedOutput(const Communicator& comm, const StagedFile& staged);
+  SharedOutput(OutputSet& outputs, const StagedFile& staged);
   ~SharedOutput();
   SharedOutput(const SharedOutput&) = delete;
   SharedOutput& operator=(const SharedOutput&) = delete;
 
-  const Communicator& communicator() const { return comm_; }
-
   /// Not collective: call it within Communicator::together(). No two ranks write the same byte.
   void write_at(std::int64_t offset, std::string_view bytes);
 
-  /// What this rank wrote is on the disk, before rank 0 gives the file its name. *Collective.*
+  /// No rank writes any more. The disk begins with what there is; the set, which `outputs` must be until
+  /// then, waits for it when it is committed. *Collective.*
   void close();
 
  private:
-  SharedOutput(const Communicator& comm, std::string path);
+  SharedOutput(OutputSet& outputs, std::string path);
 
-  const Communicator& comm_;
+  OutputSet& outputs_;
   std::string path_;  ///< as messages name it
   int descriptor_ = -1;
 };

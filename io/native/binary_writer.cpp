@@ -22,7 +22,7 @@ class BinaryWriter {
         mesh_{mesh},
         solution_{solution},
         boundaries_{comm_, mesh},
-        file_{comm_, outputs.stage(path)} {
+        file_{outputs, outputs.stage(path)} {
     header_.nodes = comm_.sum(mesh.owned_nodes);
     header_.node_bytes = node_bytes_for(header_.nodes);
     for (std::size_t n = 0; n < boundaries_.present().size(); ++n) {

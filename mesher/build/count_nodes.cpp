@@ -14,9 +14,9 @@ std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const 
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
   SizedDomain domain(geometry, options.size, demanded);
-  const MeshEstimate estimate = estimate_mesh(geometry, options.type, domain);
-  require_within(estimate, geometry, options, demanded);
-  const LeafGraph graph = refine_forest(comm, domain.sizes, estimate.leaves);
+  const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
+  require_within(estimate_mesh(geometry, options.type, domain, leaves), geometry, options, demanded);
+  const LeafGraph graph = refine_forest(comm, domain.sizes, leaves);
   const CutForest cut =
       cut_forest(comm, graph, domain.sizes, domain.outline, domain.inside, options.snap, options.mirror);
   return comm.sum(NodeNumbering(comm, domain.lattice, graph, cut).owned());

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "mesher/build/islands.hpp"
-#include "mesher/sizes/leaf_estimate.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
@@ -55,8 +54,8 @@ double cells_of_layers(const Geometry& geometry, const SizedDomain& domain) {
 
 }  // namespace
 
-MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain) {
-  const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
+MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, const SizedDomain& domain,
+                           const LeafEstimate& leaves) {
   const bool delaunay = has_triangles_alone(type);
   MeshEstimate estimate;
   estimate.leaves = leaves.all();
@@ -75,8 +74,8 @@ MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
   MeshReport dropped;
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
-  SizedDomain domain(geometry, options.size, demanded);
-  return estimate_mesh(geometry, options.type, domain);
+  const SizedDomain domain(geometry, options.size, demanded);
+  return estimate_mesh(geometry, options.type, domain, estimate_leaves(domain.sizes, domain.inside));
 }
 
 double share_of(const MeshLimit& limit, const MeshEstimate& estimate) {

@@ -4,14 +4,16 @@
 
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/build/sized_domain.hpp"
+#include "mesher/sizes/leaf_estimate.hpp"
 
 namespace quadloop {
 
 /// What a mesh of this geometry will cost, within a factor of 1.5 as a rule: from a sample of the tree,
 /// without making it. The time grows with the levels and the segments, not with the cells. The same on any
 /// number of ranks; not collective. Boundaries with layers are taken for the front, on whose edges the layers
-/// are to stand.
-MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain);
+/// are to stand. `leaves` are what estimate_leaves() says of the domain.
+MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, const SizedDomain& domain,
+                           const LeafEstimate& leaves);
 
 /// The same of a mesh that build_mesh would make. Throws InputError where no domain is left.
 MeshEstimate estimate_mesh(const Geometry& geometry, const MeshOptions& options,

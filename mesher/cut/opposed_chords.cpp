@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/parallel/exchange.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 
 namespace quadloop {
 
@@ -15,12 +16,12 @@ struct SideChord {
 };
 
 /// The leaves across a side.
-std::array<LeafId, 2> across(const LeafGraph& graph, LeafId leaf, Side side) {
-  const Quadrant& q = graph.leaf(leaf);
+std::array<LeafId, 2> across(LeafFinder& finder, LeafId leaf, Side side) {
+  const Quadrant& q = finder.graph().leaf(leaf);
   const std::int64_t last = q.size() - 1;
   const std::int64_t beyond = q.line(side) - (side == Side::left || side == Side::bottom ? 1 : 0);
-  if (is_vertical(side)) return {graph.leaf_at(beyond, q.y), graph.leaf_at(beyond, q.y + last)};
-  return {graph.leaf_at(q.x, beyond), graph.leaf_at(q.x + last, beyond)};
+  if (is_vertical(side)) return {finder.leaf_at(beyond, q.y), finder.leaf_at(beyond, q.y + last)};
+  return {finder.leaf_at(q.x, beyond), finder.leaf_at(q.x + last, beyond)};
 }
 
 }  // namespace
@@ -28,6 +29,7 @@ std::array<LeafId, 2> across(const LeafGraph& graph, LeafId leaf, Side side) {
 OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<SideChord> chords;
   Outbox<SideChord> out;
+  LeafFinder finder(graph);
   for (const LeafId leaf : graph.local()) {
     const std::int32_t e = cut.entry_of[graph.local_index(leaf)];
     if (e < 0) continue;
@@ -44,7 +46,7 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       if (comm.size() == 1) continue;
       for (const Side side : all_sides) {
         if (!common.contains(side)) continue;
-        for (const LeafId other : across(graph, leaf, side)) {
+        for (const LeafId other : across(finder, leaf, side)) {
           if (other != LeafGraph::none && !graph.is_local(other)) out.add(graph.owner_of(other).rank, chord);
         }
       }

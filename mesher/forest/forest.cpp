@@ -136,9 +136,9 @@ void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
 std::int32_t Forest::local_leaves() const { return impl_->forest->local_num_quadrants; }
 std::int64_t Forest::global_leaves() const { return impl_->forest->global_num_quadrants; }
 
-std::vector<Quadrant> Forest::leaves() const {
+std::vector<Quadrant> Forest::leaves(std::size_t room) const {
   std::vector<Quadrant> leaves;
-  leaves.reserve(local_leaves());
+  leaves.reserve(local_leaves() + room);
   p4est_t& forest = *impl_->forest;
   for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
     sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;

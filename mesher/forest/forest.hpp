@@ -33,8 +33,8 @@ class Forest {
 
   std::int32_t local_leaves() const;
   std::int64_t global_leaves() const;
-  /// This rank's leaves in the order of the curve.
-  std::vector<Quadrant> leaves() const;
+  /// This rank's leaves in the order of the curve, with room for so many more.
+  std::vector<Quadrant> leaves(std::size_t room = 0) const;
 
   /// Who has which leaves now. Not collective.
   CurveOwners owners() const;

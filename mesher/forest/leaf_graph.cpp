@@ -8,9 +8,20 @@
 
 namespace quadloop {
 
+namespace {
+
+/// Enough for most: what joins them then moves no leaf to a new place. Room that is not filled takes no
+/// memory.
+std::size_t room_for_ghosts(std::int32_t leaves) {
+  constexpr std::int32_t share = 16, least = 1024;
+  return leaves / share + least;
+}
+
+}  // namespace
+
 LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
     : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
-  std::vector<Quadrant> local = forest.leaves();
+  std::vector<Quadrant> local = forest.leaves(comm.size() == 1 ? 0 : room_for_ghosts(forest.local_leaves()));
   const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
   local_count_ = size32(local);

@@ -11,11 +11,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t leaves_to_share = 64;    ///< for each rank, before the first partition
-constexpr std::int64_t leaves_to_judge = 4096;  ///< for each rank: enough to estimate the leaves to come well
-constexpr double quadrants_of_leaf = 4.0 / 3;   ///< leaves and what was split into them
-constexpr int last_levels = 3;  ///< refined after the second partition, where such an estimate cannot be had
-constexpr int weight_unfinished = 16;  ///< of a leaf that is yet to be split, down those levels
+constexpr double quadrants_of_leaf = 4.0 / 3;  ///< leaves and what was split into them
+constexpr double parts_to_share =
+    64;  ///< for each rank, about: quadrants among which the leaves to come are shared out
+constexpr std::int64_t leaves_to_judge =
+    4096;                              ///< for each rank: of so many the sample tells well where they are
+constexpr int last_levels = 5;         ///< refined after a second look at the shares, where it does not
+constexpr int weight_unfinished = 64;  ///< of a leaf that may yet be split, down those levels
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
 /// split.
@@ -69,64 +71,58 @@ class SqueezedLeaves {
   bool any_ = false;
 };
 
-/// The level of a uniform tree with at least so many leaves.
-int level_with(std::int64_t leaves) {
-  int level = 1;
-  while (level < Quadrant::unit_level && (std::int64_t{1} << (2 * level)) < leaves) ++level;
-  return level;
+/// Before the leaves are there: down to quadrants of about as many each, which are then shared out, so that
+/// no two ranks look for the same in the size tree. *Collective.*
+void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
+                         Gradation& gradation, Forest& forest) {
+  constexpr double units = 1000, most_parts = 1e6;
+  const double part = sample.leaves() / (parts_to_share * comm.size());
+  const auto must_split = [&](const Quadrant& q) {
+    return sample.leaves_in(q) > part && gradation.must_split(q);
+  };
+  forest.refine(must_split, sizes.finest_level());
+  forest.partition(
+      [&](const Quadrant& q) {  // not 0, so that those are shared out, too, which the sample has not
+        return 1 + static_cast<int>(part > 0 ? units * std::min(sample.leaves_in(q) / part, most_parts) : 0);
+      });
 }
 
-/// The levels down to which the forest is refined before the leaves are shared out anew. Passes over finished
-/// leaves cost, so there are few.
-std::vector<int> stops_of(const Communicator& comm, const SizeTree& sizes) {
-  const int finest = sizes.finest_level();
-  if (comm.size() == 1) return {finest};
-  const int first = std::min(finest, level_with(leaves_to_share * comm.size())),
-            judged = level_with(leaves_to_judge * comm.size());
-  std::vector<int> stops{first};
-  const int last = judged < sizes.coarsest_level() ? judged : finest - last_levels;
-  if (last > first) stops.push_back(last);
-  if (finest > first) stops.push_back(finest);
-  return stops;
+/// Whether leaves are as large as any may be in so much of the root that the sample is right about most.
+bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
+  constexpr int deep_enough = 15;
+  const int level = std::min(sizes.coarsest_level(), deep_enough);
+  return (std::int64_t{1} << (2 * level)) > leaves_to_judge * comm.size();
 }
 
-/// An estimate of the leaves that a quadrant will hold, in the end, for each that it holds where there is no
-/// outline: those as large as any may be, and about `leaves_across` of each finer size beside the outline.
-int leaves_to_come(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor) {
-  constexpr int leaves_across = 4, deepest = 12;
-  if (cursor.segments_in(q).empty()) return 1;
-  return 1 + (leaves_across << std::min(sizes.finest_level() - q.level, deepest)) /
-                 (1 << 2 * std::clamp(sizes.coarsest_level() - q.level, 0, deepest));
-}
-
-/// The weight of a leaf when the leaves are shared out at a stop: at the last one by the work of cutting,
-/// before by the leaves still to come.
-int weight_at(const Quadrant& q, const SizeTree& sizes, SizeCursor& cursor, Gradation& gradation, int stop) {
-  if (stop == sizes.finest_level()) return cursor.segments_in(q).empty() ? weight_uncut : weight_cut;
-  if (stop < sizes.coarsest_level()) return leaves_to_come(q, sizes, cursor);
-  return q.level == stop && gradation.must_split(q) ? weight_unfinished : 1;
+/// By the work of cutting. *Collective.*
+void share_out_leaves(const SizeTree& sizes, Forest& forest) {
+  SizeCursor cursor(sizes);
+  forest.partition(
+      [&](const Quadrant& q) { return cursor.segments_in(q).empty() ? weight_uncut : weight_cut; });
 }
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, double expected_leaves) {
-  SizeCursor cursor(sizes);
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
   Gradation gradation(sizes);
   Forest forest(comm, sizes.lattice());
-  progress::Stage stage("refinement", expected_leaves * quadrants_of_leaf / comm.size(), "quadrants");
+  progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
+  if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, gradation, forest);
   double looked_at = 0;
-  int refined = 1;
-  for (const int stop : stops_of(comm, sizes)) {
-    const auto must_split = [&](const Quadrant& q) {
-      if (q.level < refined) return false;
-      stage.advance(++looked_at);
-      return gradation.must_split(q);
-    };
-    forest.refine(must_split, stop);
-    const auto weight = [&](const Quadrant& q) { return weight_at(q, sizes, cursor, gradation, stop); };
-    if (comm.size() > 1) forest.partition(weight);
-    refined = stop;
+  int refined = 0;
+  const auto must_split = [&](const Quadrant& q) {
+    if (q.level < refined) return false;
+    stage.advance(++looked_at);
+    return gradation.must_split(q);
+  };
+  const int finest = sizes.finest_level(), before_last = finest - last_levels;
+  if (comm.size() > 1 && before_last > 0 && !are_leaves_even(comm, sizes)) {
+    forest.refine(must_split, before_last);
+    forest.partition([&](const Quadrant& q) { return q.level == before_last ? weight_unfinished : 1; });
+    refined = before_last;
   }
+  forest.refine(must_split, finest);
+  if (comm.size() > 1) share_out_leaves(sizes, forest);
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);
     const SqueezedLeaves squeezed(graph);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "mesher/sizes/leaves_ahead.hpp"
@@ -71,7 +72,8 @@ class LeafCount {
       }
     }
     while (!level.empty()) level = chosen(splits_among(children_of(level)), ahead_, cursor_);
-    return counted_;
+    counted_.sample = LeafSample(std::move(sampled_));
+    return std::move(counted_);
   }
 
  private:
@@ -95,6 +97,7 @@ class LeafCount {
         (cut                               ? counted_.cut
          : q.side == Sampled::Side::inside ? counted_.inside
                                            : counted_.outside) += q.weight;
+        sampled_.push_back({q.quadrant, q.weight});
       }
     }
     return splits;
@@ -112,6 +115,7 @@ class LeafCount {
   Gradation gradation_;
   LeavesAhead ahead_;
   LeafEstimate counted_;
+  std::vector<LeafSample::Row> sampled_;
 };
 
 }  // namespace

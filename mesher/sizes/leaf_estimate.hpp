@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesher/geometry/interior.hpp"
+#include "mesher/sizes/leaf_sample.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
@@ -10,6 +11,7 @@ struct LeafEstimate {
   double cut = 0;      ///< that hold outline
   double inside = 0;   ///< others in the domain
   double outside = 0;  ///< the rest
+  LeafSample sample;   ///< where they are
   double all() const { return cut + inside + outside; }
 };
 

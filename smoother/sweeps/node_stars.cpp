@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
+#include "smoother/sweeps/rings.hpp"
 
 namespace quadloop {
 
@@ -79,9 +80,15 @@ bool NodeStars::has_quads() const {
 /// Copies are few and lie at the borders of ranks.
 void NodeStars::list_stars_round_copies() {
   if (mesh_.points().size() == static_cast<std::size_t>(mesh_.owned_nodes())) return;
+  NodeFlags near_copies(mesh_.points().size(), 0);
+  mesh_.for_each_cell([&](const auto& cell) {
+    if (!std::ranges::all_of(cell, [&](NodeId node) { return mesh_.owns(node); }))
+      flag_all(cell, near_copies);
+  });
   copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
   const auto for_each_pair = [&](const auto& visit) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (near_copies[nodes_[i]] == 0) continue;
       for_each_neighbour(i, [&](NodeId other) {
         if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), static_cast<std::int32_t>(i));
       });

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numbers>
 
 #include "mesher/forest/refine_forest.hpp"
 #include "mesher/sizes/gradation.hpp"
 #include "mesher/sizes/size_cursor.hpp"
+#include "tests/sizes/diamond_sizes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -51,6 +53,25 @@ SizeOptions options_with(double min, double max, double gradation) {
   options.max = max;
   options.gradation = gradation;
   return options;
+}
+
+/// The nodes of a size tree that a rank has asked for which alone asks about all quadrants.
+std::int64_t nodes_of_all(const SizeTree& sizes) {
+  Gradation gradation(sizes);
+  const std::function<void(const Quadrant&)> look_below = [&](const Quadrant& q) {
+    if (q.level > 0 && !gradation.must_split(q)) return;
+    for (const Corner quarter : corners_along_curve) look_below(q.child(quarter));
+  };
+  look_below({});
+  return sizes.size();
+}
+
+TEST(RefineForest, RanksShareAnOutlineInOneQuarterOfTheRoot) {
+  const test::DiamondSizes domain({{0.5, 0.5}, 0.3}, 0.0005, 0.00025, 0.0078125);
+  const SizeTree sizes = domain.tree();
+  refine_forest(test::world(), sizes, estimate_leaves(domain.tree(), domain.inside));
+  const auto most = static_cast<double>(test::world().maximum(std::int64_t{sizes.size()}));
+  EXPECT_LT(most / static_cast<double>(nodes_of_all(domain.tree())), 1.0 / test::world().size() + 0.38);
 }
 
 TEST(TreeRules, LeavesTileTheRoot) {

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,7 +23,7 @@ using test::world;
 TEST(SharedOutput, HoldsWhatEachRankWroteAtItsPlace) {
   const test::TemporaryFolder folder;
   OutputSet outputs(world());
-  SharedOutput file(world(), outputs.stage(folder.file("a.bin")));
+  SharedOutput file(outputs, outputs.stage(folder.file("a.bin")));
   world().together([&] {
     for (int part = 1; part >= 0; --part)  // in no order
       file.write_at(2 * world().rank() + part,
@@ -38,13 +40,13 @@ TEST(SharedOutput, AFailureOfAnyRankEndsOnAll) {
   const test::TemporaryFolder folder;
   OutputSet outputs(world());
   const StagedFile staged = outputs.stage(folder.file("a.bin"));
-  SharedOutput file(world(), staged);
+  SharedOutput file(outputs, staged);
   const int last = world().size() - 1;
   EXPECT_THROW(world().together([&] {
     if (world().rank() == last) file.write_at(-1, "x");
   }),
                OutputError);
-  EXPECT_THROW(SharedOutput(world(), {"b.bin", folder.file("missing")}), OutputError);
+  EXPECT_THROW(SharedOutput(outputs, {"b.bin", folder.file("missing")}), OutputError);
 }
 
 /// Files that this process has open, the folder that tells of them among them.
@@ -77,9 +79,30 @@ TEST(SharedOutput, NoRankKeepsAFileOpenThatAnotherCouldNotOpen) {
   {
     std::optional<NoFurtherFile> limit;
     if (world().rank() == world().size() - 1) limit.emplace();
-    EXPECT_THROW(SharedOutput(world(), staged), OutputError);
+    EXPECT_THROW(SharedOutput(outputs, staged), OutputError);
   }
   EXPECT_EQ(open_files(), before);
+}
+
+TEST(SharedOutput, WhatDoesNotReachTheDiskLeavesNoFile) {
+  const test::TemporaryFolder folder;
+  const std::ptrdiff_t before = open_files();
+  {
+    OutputSet outputs(world());
+    SharedOutput file(outputs, outputs.stage(folder.file("a.bin")));
+    file.close();
+    const int last = world().size() - 1;
+    if (world().rank() == last) {
+      std::array<int, 2> pipe{};
+      ASSERT_EQ(::pipe(pipe.data()), 0);
+      ::close(pipe[0]);
+      outputs.take_over(pipe[1], "a.bin");  // a pipe has no disk: fsync refuses it
+    }
+    EXPECT_THROW(outputs.commit(), OutputError);
+  }
+  world().barrier();
+  EXPECT_EQ(open_files(), before);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.bin")));
 }
 
 }  // namespace
