@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// Sorts small keys and then moves each sight once.
+/// Sorts small keys and then moves each sight once. By merging: along the curve corners come nearly in order.
 std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
   struct Key {
     LatticePoint corner;
@@ -18,9 +18,8 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
   std::vector<Key> keys;
   keys.reserve(sights.size());
   for (const Sight& s : sights) keys.push_back({s.corner, static_cast<std::uint32_t>(keys.size())});
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return a.corner == b.corner ? a.index < b.index : comes_earlier(a.corner, b.corner);
-  });
+  std::stable_sort(keys.begin(), keys.end(),
+                   [](const Key& a, const Key& b) { return comes_earlier(a.corner, b.corner); });
   std::vector<Sight> sorted;
   sorted.reserve(sights.size());
   for (const Key& key : keys) sorted.push_back(sights[key.index]);

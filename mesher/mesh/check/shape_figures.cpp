@@ -129,7 +129,8 @@ struct AreaRange {
   double ratio() const { return area_ratio(largest, smallest); }
 };
 
-/// The largest ratio at edges of those owned nodes round which the areas differ by `least` or more.
+/// The largest ratio at edges between nodes round which the areas differ by `least` or more, as far as this
+/// rank knows: of owned nodes.
 double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ranges, double least) {
   struct Side {
     NodeId node, other;
@@ -145,8 +146,8 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
       if (!mesh.owns(node) || is_wanted[node] == 0) continue;
       const double area = area_of(mesh, nodes);
       for (const NodeId other : {nodes[(k + 1) % n], nodes[(k + n - 1) % n]}) {
-        const bool listed_there = mesh.owns(other) && other < node && is_wanted[other] != 0;
-        if (!listed_there) sides.push_back({node, other, area});
+        const bool counts = !mesh.owns(other) || (node < other && is_wanted[other] != 0);
+        if (counts) sides.push_back({node, other, area});
       }
     }
   });
