@@ -90,6 +90,9 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
     options.initial = EulerOptions::Initial::vortex;
   if (table.choice("far_field", {"uniform", "vortex"}) == "vortex")
     options.far_field = EulerOptions::FarField::vortex;
+  if (options.far_field == EulerOptions::FarField::vortex && options.mach >= 1)
+    table.refuse("far_field",
+                 fmt::format("is for streams slower than sound; leave it out at mach {}", options.mach));
   options.reference_length =
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }

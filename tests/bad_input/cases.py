@@ -68,6 +68,7 @@ CASES = [
     case_file("command without a program", CASE + "[solver]\nkind = \"command\"\n", "case.toml:6:", "command"),
     case_file("goal of a command", CASE + "[solver]\nkind = \"command\"\ncommand = [\"a\"]\ngoal = \"drag\"\n", "case.toml:9:", "goal"),
     case_file("goal with a far-field vortex", CASE + "[solver]\nfar_field = \"vortex\"\ngoal = \"drag\"\n", "case.toml:8:", "far_field"),
+    case_file("far-field vortex in a fast stream", CASE + "[solver]\nfar_field = \"vortex\"\nmach = 1.2\n", "case.toml:7:", "mach 1.2"),
     case_file("unknown far field", CASE + "[solver]\nfar_field = \"swirl\"\n", "case.toml:7:", "far_field"),
     case_file("unknown way with unsteady flows", CASE + "[solver]\nunsteady = \"go_on\"\n", "case.toml:7:", "unsteady", "stop, carry_on"),
     case_file("carried on twice", CASE + "[solver]\ntime = \"accurate\"\nend_time = 1\nunsteady = \"carry_on\"\n", "case.toml:9:", "unsteady"),
