@@ -13,16 +13,30 @@
 
 namespace quadloop {
 
+namespace {
+
+/// -1, and errno, where this rank cannot.
+int open_staged(const std::string& temporary) {
+  return ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+std::string name_on_all(const Communicator& comm, const StagedFile& staged) {
+  return broadcast_words(comm, {staged.temporary}).front();
+}
+
+}  // namespace
+
 SharedOutput::SharedOutput(OutputSet& outputs, std::string path)
     : outputs_{outputs}, path_{std::move(path)} {}
 
 // From here on the destructor is due, also where another rank cannot open the file.
-SharedOutput::SharedOutput(OutputSet& outputs, const StagedFile& staged)
+SharedOutput::SharedOutput(OutputSet& outputs, const StagedFile& staged, Writers writers)
     : SharedOutput(outputs, staged.path) {
   const Communicator& comm = outputs.communicator();
-  const std::string temporary = broadcast_words(comm, {staged.temporary}).front();
+  const std::string temporary = name_on_all(comm, staged);
   comm.together([&] {
-    descriptor_ = ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (writers == Writers::root && !comm.is_root()) return;
+    descriptor_ = open_staged(temporary);
     if (descriptor_ >= 0) return;
     if (comm.is_root()) refuse_output(path_, errno);
     throw OutputError(
@@ -47,9 +61,17 @@ void SharedOutput::write_at(std::int64_t offset, std::string_view bytes) {
 }
 
 void SharedOutput::close() {
-  ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // without waiting; where it cannot, later
-  outputs_.take_over(std::exchange(descriptor_, -1), path_);
+  if (descriptor_ >= 0) {
+    ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // without waiting; where it cannot, later
+    outputs_.take_over(std::exchange(descriptor_, -1), path_);
+  }
   outputs_.communicator().barrier();
+}
+
+bool reached_by_all(const Communicator& comm, const StagedFile& staged) {
+  const int descriptor = open_staged(name_on_all(comm, staged));
+  if (descriptor >= 0) ::close(descriptor);
+  return !comm.any(descriptor < 0);
 }
 
 }  // namespace quadloop

@@ -10,17 +10,19 @@
 namespace quadloop {
 
 /// A staged file into which all ranks write at once, each at places that it knows: nothing passes through
-/// rank 0. The ranks' machines must share the folder. Every failure is an OutputError that names the output,
-/// the same one on all ranks.
+/// rank 0. The ranks' machines must share the folder; where they do not, rank 0 may write all. Every failure
+/// is an OutputError that names the output, the same one on all ranks.
 class SharedOutput {
  public:
+  enum class Writers { all, root };
+
   /// *Collective.*
-  SharedOutput(OutputSet& outputs, const StagedFile& staged);
+  SharedOutput(OutputSet& outputs, const StagedFile& staged, Writers writers = Writers::all);
   ~SharedOutput();
   SharedOutput(const SharedOutput&) = delete;
   SharedOutput& operator=(const SharedOutput&) = delete;
 
-  /// Not collective: call it within Communicator::together(). No two ranks write the same byte.
+  /// By a writer; not collective: call it within Communicator::together(). No two ranks write the same byte.
   void write_at(std::int64_t offset, std::string_view bytes);
 
   /// No rank writes any more. The disk begins with what there is; the set, which `outputs` must be until
@@ -34,5 +36,8 @@ class SharedOutput {
   std::string path_;  ///< as messages name it
   int descriptor_ = -1;
 };
+
+/// Whether all ranks could write the staged file: their machines share the folder. *Collective.*
+bool reached_by_all(const Communicator& comm, const StagedFile& staged);
 
 }  // namespace quadloop

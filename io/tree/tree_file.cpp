@@ -1,14 +1,16 @@
 #include "io/tree/tree_file.hpp"
 
-#include <algorithm>
+#include <bit>
 #include <cstring>
-#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "io/files/binary_output.hpp"
 #include "io/files/hdf5_handle.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/row_stream.hpp"
+#include "io/files/shared_output.hpp"
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
 
@@ -16,13 +18,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t rows_per_chunk = std::int64_t{1} << 16;
+/// How many leaves are turned into columns at a time.
+constexpr std::int64_t rows_per_piece = std::int64_t{1} << 15;
 
-/// The file on rank 0. Rows arrive in pieces of any length and are written in whole chunks: where HDF5 puts a
-/// chunk follows the order of the calls, which must not follow the ranks.
-class TreeSink {
+/// The file but for its leaves, whose places it keeps: HDF5 writes it on rank 0.
+class TreeFrame {
  public:
-  TreeSink(const StagedFile& staged, std::int64_t leaves) : shown_{staged.path}, rows_{leaves} {
+  TreeFrame(const StagedFile& staged, std::int64_t leaves) : shown_{staged.path}, rows_{leaves} {
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose),
         access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_obj_track_times(creation.id(), false);
@@ -32,6 +34,9 @@ class TreeSink {
     check(file_.valid());
     for_each_tree_dataset([&](const char* name, const auto& members) { create_dataset(name, members); });
   }
+
+  /// Where in the file each dataset begins, in their order.
+  const std::vector<std::int64_t>& places() const { return places_; }
 
   void put_attributes(TreeAttributes attributes) {
     put_text("format", tree_format_name);
@@ -53,55 +58,33 @@ class TreeSink {
           dataset.close() >= 0);
   }
 
-  void put_leaves(std::span<const LeafRecord> leaves) {
-    while (!leaves.empty()) {
-      const std::size_t count = std::min<std::size_t>(leaves.size(), rows_per_chunk - waiting_.size());
-      waiting_.insert(waiting_.end(), leaves.begin(), leaves.begin() + count);
-      leaves = leaves.subspan(count);
-      if (std::ssize(waiting_) == rows_per_chunk) write_waiting();
-    }
-  }
-
-  void close() {
-    write_waiting();
-    for (Hdf5Handle& dataset : datasets_) check(dataset.close() >= 0);
-    check(file_.close() >= 0);
-  }
+  void close() { check(file_.close() >= 0); }
 
  private:
-  template <class Member>
-  struct ValueOf;
-  template <class T>
-  struct ValueOf<T LeafRecord::*> {
-    using type = T;
-  };
-
   /// What failed stays as it is: HDF5 may crash on a file that it could not write.
   void check(bool good) {
     if (good) return;
-    for (Hdf5Handle& dataset : datasets_) dataset.abandon();
     file_.abandon();
     if (quiet_.reason() != 0) refuse_output(shown_, quiet_.reason());
     throw OutputError(shown_ + ": cannot be written; is the disk full?");
   }
 
-  template <class Member, std::size_t width>
-  void create_dataset(const char* name, const std::array<Member, width>&) {
-    using Value = typename ValueOf<Member>::type;
-    const int rank = width == 1 ? 1 : 2;
-    const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows_), width}, largest{H5S_UNLIMITED, width};
-    const std::array<hsize_t, 2> chunk{
-        static_cast<hsize_t>(std::clamp(rows_, std::int64_t{1}, rows_per_chunk)), width};
-    const Hdf5Handle space(H5Screate_simple(rank, size.data(), largest.data()), H5Sclose);
+  /// One run of bytes, which has its place at once and is not filled.
+  template <class Value, std::size_t width>
+  void create_dataset(const char* name, const std::array<Value LeafRecord::*, width>&) {
+    const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows_), width};
+    const Hdf5Handle space(H5Screate_simple(width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose);
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation.id(), false);
-    H5Pset_chunk(creation.id(), rank, chunk.data());
-    H5Pset_fill_time(creation.id(),
-                     H5D_FILL_TIME_ALLOC);  // the rest of the last chunk: zeros, not what memory held
-    datasets_.emplace_back(
+    H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
+    H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+    Hdf5Handle dataset(
         H5Dcreate2(file_.id(), name, file_type<Value>(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
         H5Dclose);
-    check(datasets_.back().valid());
+    check(dataset.valid());
+    places_.push_back(static_cast<std::int64_t>(H5Dget_offset(dataset.id())));
+    check((places_.back() >= 0 || rows_ == 0) && dataset.close() >= 0);
   }
 
   template <class T>
@@ -120,62 +103,92 @@ class TreeSink {
     check(attribute.valid() && H5Awrite(attribute.id(), type.id(), text) >= 0);
   }
 
-  void write_waiting() {
-    if (waiting_.empty()) return;
-    std::size_t dataset = 0;
-    for_each_tree_dataset(
-        [&](const char*, const auto& members) { write_column(datasets_[dataset++], members); });
-    written_ += std::ssize(waiting_);
-    waiting_.clear();
-  }
-
-  template <class Member, std::size_t width>
-  void write_column(const Hdf5Handle& dataset, const std::array<Member, width>& members) {
-    using Value = typename ValueOf<Member>::type;
-    std::vector<Value> column;
-    column.reserve(waiting_.size() * width);
-    for (const LeafRecord& leaf : waiting_) {
-      for (const Member member : members) column.push_back(leaf.*member);
-    }
-    const std::array<hsize_t, 2> begin{static_cast<hsize_t>(written_), 0}, count{waiting_.size(), width};
-    const Hdf5Handle memory(H5Screate_simple(width == 1 ? 1 : 2, count.data(), nullptr), H5Sclose);
-    const Hdf5Handle file(H5Dget_space(dataset.id()), H5Sclose);
-    H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, begin.data(), nullptr, count.data(), nullptr);
-    check(H5Dwrite(dataset.id(), memory_type<Value>(), memory.id(), file.id(), H5P_DEFAULT, column.data()) >=
-          0);
-  }
-
   QuietHdf5 quiet_;  // first, so that it outlives what the handles release
   std::string shown_;
-  std::int64_t rows_ = 0, written_ = 0;
+  std::int64_t rows_;
   Hdf5Handle file_;
-  std::vector<Hdf5Handle> datasets_;
-  std::vector<LeafRecord> waiting_;
+  std::vector<std::int64_t> places_;
 };
+
+/// The file's leaves, each rank's written by itself.
+class LeafColumns {
+ public:
+  LeafColumns(SharedOutput& file, std::vector<std::int64_t> places)
+      : file_{file}, places_{std::move(places)} {}
+
+  /// `first`: the place of the first of them among all leaves.
+  void write(std::int64_t first, std::span<const LeafRecord> leaves) {
+    auto place = places_.begin();
+    for_each_tree_dataset(
+        [&](const char*, const auto& members) { write_column(*place++, first, members, leaves); });
+  }
+
+ private:
+  template <class Value, std::size_t width>
+  void write_column(std::int64_t place, std::int64_t first,
+                    const std::array<Value LeafRecord::*, width>& members,
+                    std::span<const LeafRecord> leaves) {
+    std::vector<Value> column;
+    column.reserve(leaves.size() * width);
+    for (const LeafRecord& leaf : leaves) {
+      for (const auto member : members) column.push_back(in_order<std::endian::little>(leaf.*member));
+    }
+    file_.write_at(place + first * std::int64_t{width * sizeof(Value)},
+                   bytes_of(std::span<const Value>(column)));
+  }
+
+  SharedOutput& file_;
+  std::vector<std::int64_t> places_;
+};
+
+/// Writes all but the leaves and tells every rank where these belong. *Collective.*
+std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord& tree,
+                                      const StagedFile& staged, std::int64_t leaves) {
+  std::vector<std::int64_t> places;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    TreeFrame frame(staged, leaves);
+    frame.put_attributes(tree.attributes);
+    frame.put_measured_wall(tree.measured_wall);
+    places = frame.places();
+    frame.close();
+  });
+  comm.broadcast(places);
+  return places;
+}
 
 }  // namespace
 
 void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& path) {
   const Communicator& comm = outputs.communicator();
   const auto own = std::ssize(tree.leaves);
-  const std::int64_t all = comm.sum(own);
+  const std::int64_t all = comm.sum(own), before = comm.exclusive_sum(own);
   const StagedFile staged = outputs.stage(path);
-  std::unique_ptr<TreeSink> sink;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    sink = std::make_unique<TreeSink>(staged, all);
-    sink->put_attributes(tree.attributes);
-    sink->put_measured_wall(tree.measured_wall);
-  });
-  const RowStream stream{comm, own, rows_per_chunk};
-  stream.run<LeafRecord>(
-      [&](std::int64_t begin, std::int64_t end) {
-        return std::vector<LeafRecord>(tree.leaves.begin() + begin, tree.leaves.begin() + end);
-      },
-      [&](std::span<const LeafRecord> leaves) { sink->put_leaves(leaves); });
-  comm.together([&] {
-    if (sink) sink->close();
-  });
+  const bool shared = reached_by_all(comm, staged);
+  SharedOutput file(outputs, staged, shared ? SharedOutput::Writers::all : SharedOutput::Writers::root);
+  LeafColumns columns(file, write_frame(comm, tree, staged, all));
+  const RowStream stream{comm, own, rows_per_piece};
+  const auto piece = [&](std::int64_t begin, std::int64_t end) {
+    return std::span(tree.leaves).subspan(begin, end - begin);
+  };
+  if (shared) {
+    comm.together([&] {
+      for (std::int64_t k = 0; k < stream.pieces(); ++k)
+        columns.write(before + stream.begin_of(k), piece(stream.begin_of(k), stream.begin_of(k + 1)));
+    });
+  } else {
+    std::int64_t written = 0;
+    stream.run<LeafRecord>(
+        [&](std::int64_t begin, std::int64_t end) {
+          const auto leaves = piece(begin, end);
+          return std::vector<LeafRecord>(leaves.begin(), leaves.end());
+        },
+        [&](std::span<const LeafRecord> leaves) {
+          columns.write(written, leaves);
+          written += std::ssize(leaves);
+        });
+  }
+  file.close();
 }
 
 void write_tree(const Communicator& comm, const TreeRecord& tree, const std::string& path) {

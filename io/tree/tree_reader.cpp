@@ -101,12 +101,15 @@ class TreeSource {
   }
 
   /// Whether what is stored can be as many numbers; filters pack at most 1032 bytes into one.
-  static bool may_hold(const Hdf5Handle& dataset, hsize_t numbers) {
+  bool may_hold(const Hdf5Handle& dataset, hsize_t numbers) const {
     const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose),
         creation(H5Dget_create_plist(dataset.id()), H5Pclose);
     const hsize_t largest_ratio = H5Pget_nfilters(creation.id()) == 0 ? 1 : 1100;
     const hsize_t width = H5Tget_size(type.id());
-    return width > 0 && numbers <= H5Dget_storage_size(dataset.id()) * largest_ratio / width;
+    hsize_t whole_file = 0;
+    H5Fget_filesize(file_.id(), &whole_file);
+    const hsize_t stored = std::min(whole_file, H5Dget_storage_size(dataset.id()));
+    return width > 0 && numbers <= stored * largest_ratio / width;
   }
 
   template <class T, std::size_t width>

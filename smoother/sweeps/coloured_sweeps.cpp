@@ -28,16 +28,21 @@ void ColouredSweeps::move(std::size_t i, Point to) {
 }
 
 void ColouredSweeps::share_moves() {
-  const auto just_moved = [&](std::int32_t n) { return moved_[NodeId{n}] != 0; };
-  mesh_.exchange().update(mesh_.points(), just_moved);
-  mesh_.exchange().update(moved_, just_moved);
+  struct Place {
+    Point point;
+    bool is_new;
+  };
+  mesh_.exchange().update_some(
+      [&](std::int32_t n) {
+        return Place{mesh_.points()[n], moved_[NodeId{n}] != 0};
+      },
+      [&](std::int32_t n, const Place& place) {
+        if (!place.is_new) return;
+        mesh_.points()[n] = place.point;
+        stars_.for_each_star_round(NodeId{n}, [&](std::int32_t star) { look_again(stars_.nodes()[star]); });
+      });
   for (const NodeId node : own_moves_) moved_[node] = 0;
   own_moves_.clear();
-  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(moved_)})) {
-    if (moved_[copy] != 0)
-      stars_.for_each_star_round(copy, [&](std::int32_t star) { look_again(stars_.nodes()[star]); });
-    moved_[copy] = 0;
-  }
 }
 
 }  // namespace quadloop

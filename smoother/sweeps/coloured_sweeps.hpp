@@ -67,8 +67,8 @@ class ColouredSweeps {
   std::vector<std::vector<std::int32_t>> by_colour_;  ///< those to be visited
   NodeFlags& stale_;
   NodeFlags changed_;              ///< what take_changed() will give
-  NodeFlags moved_;                ///< nodes that have moved in this colour
-  std::vector<NodeId> own_moves_;  ///< the same, this rank's
+  NodeFlags moved_;                ///< this rank's nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;  ///< the same
 };
 
 }  // namespace quadloop

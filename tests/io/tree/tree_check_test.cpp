@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <sstream>
 
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
@@ -149,6 +153,46 @@ TEST(TreeFile, AHandMadeTreeComesBackWhole) {
     EXPECT_EQ(read.leaves[i].level, expected.level);
     EXPECT_EQ(read.leaves[i].tree_x, expected.tree_x);
   }
+}
+
+/// Rank 0's, of a file that all ranks have written.
+std::string bytes_at_root(const std::string& file) {
+  std::ostringstream text;
+  if (world().is_root()) text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// The leaves shared out from the last rank on; none before.
+TreeRecord tree_of_last_ranks() {
+  TreeRecord tree = hand_made_tree();
+  const std::int64_t first = world().size() - world().rank() - 1, all = 8;
+  tree.leaves.clear();
+  const std::vector<LeafRecord> whole = leaves();
+  const std::int64_t ranks = std::min<std::int64_t>(3, world().size());
+  if (first < ranks) {
+    const std::int64_t part = ranks - 1 - first;
+    tree.leaves.assign(whole.begin() + all * part / ranks, whole.begin() + all * (part + 1) / ranks);
+  }
+  return tree;
+}
+
+TEST(TreeFile, IsTheSameWhoeverHasTheLeaves) {
+  const test::TemporaryFolder folder;
+  write_tree(world(), hand_made_tree(), folder.file("a.tree.h5"));
+  write_tree(world(), tree_of_last_ranks(), folder.file("b.tree.h5"));
+  EXPECT_EQ(bytes_at_root(folder.file("a.tree.h5")), bytes_at_root(folder.file("b.tree.h5")));
+}
+
+TEST(TreeFile, IsTheSameWhereARankDoesNotReachTheFolder) {
+  const test::TemporaryFolder folder;
+  write_tree(world(), tree_of_last_ranks(), folder.file("a.tree.h5"));
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(world().rank() == world().size() - 1 && world().size() > 1
+                                    ? std::filesystem::path("/")
+                                    : std::filesystem::path(folder.file(".")));
+  write_tree(world(), tree_of_last_ranks(), "b.tree.h5");
+  std::filesystem::current_path(here);
+  EXPECT_EQ(bytes_at_root(folder.file("a.tree.h5")), bytes_at_root(folder.file("b.tree.h5")));
 }
 
 TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
