@@ -93,7 +93,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   tell(result.report.estimate, geometry, options, comm.size(), demanded.empty());
 
   times.begin("refinement");
-  const LeafGraph graph = refine_forest(comm, sizes, leaves);
+  const LeafGraph graph = refine_forest(comm, sizes, domain.inside, leaves);
 
   times.begin("cutting");
   CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);

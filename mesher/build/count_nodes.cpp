@@ -16,7 +16,7 @@ std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const 
   SizedDomain domain(geometry, options.size, demanded);
   const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
   require_within(estimate_mesh(geometry, options.type, domain, leaves), geometry, options, demanded);
-  const LeafGraph graph = refine_forest(comm, domain.sizes, leaves);
+  const LeafGraph graph = refine_forest(comm, domain.sizes, domain.inside, leaves);
   const CutForest cut =
       cut_forest(comm, graph, domain.sizes, domain.outline, domain.inside, options.snap, options.mirror);
   return comm.sum(NodeNumbering(comm, domain.lattice, graph, cut).owned());

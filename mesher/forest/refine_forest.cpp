@@ -4,6 +4,7 @@
 #include <array>
 
 #include "mesher/base/progress.hpp"
+#include "mesher/forest/outside_splits.hpp"
 #include "mesher/sizes/gradation.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 
@@ -71,14 +72,31 @@ class SqueezedLeaves {
   bool any_ = false;
 };
 
+/// Which quadrants are split by their sizes: those that reach into the domain.
+class SizedSplits {
+ public:
+  SizedSplits(const SizeTree& sizes, const Interior& inside) : gradation_{sizes}, outside_{sizes, inside} {}
+
+  bool must_split(const Quadrant& q) {
+    if (!gradation_.must_split(q) || outside_.is_outside(q)) return false;
+    outside_.note_split(q);
+    return true;
+  }
+  void split_outside(const Communicator& comm, Forest& forest) { outside_.split(comm, forest); }
+
+ private:
+  Gradation gradation_;
+  OutsideSplits outside_;
+};
+
 /// Before the leaves are there: down to quadrants of about as many each, which are then shared out, so that
 /// no two ranks look for the same in the size tree. *Collective.*
 void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
-                         Gradation& gradation, Forest& forest) {
+                         SizedSplits& splits, Forest& forest) {
   constexpr double units = 1000, most_parts = 1e6;
   const double part = sample.leaves() / (parts_to_share * comm.size());
   const auto must_split = [&](const Quadrant& q) {
-    return sample.leaves_in(q) > part && gradation.must_split(q);
+    return sample.leaves_in(q) > part && splits.must_split(q);
   };
   forest.refine(must_split, sizes.finest_level());
   forest.partition(
@@ -103,17 +121,18 @@ void share_out_leaves(const SizeTree& sizes, Forest& forest) {
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
-  Gradation gradation(sizes);
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const Interior& inside,
+                        const LeafEstimate& expected) {
+  SizedSplits splits(sizes, inside);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
-  if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, gradation, forest);
+  if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, splits, forest);
   double looked_at = 0;
   int refined = 0;
   const auto must_split = [&](const Quadrant& q) {
     if (q.level < refined) return false;
     stage.advance(++looked_at);
-    return gradation.must_split(q);
+    return splits.must_split(q);
   };
   const int finest = sizes.finest_level(), before_last = finest - last_levels;
   if (comm.size() > 1 && before_last > 0 && !are_leaves_even(comm, sizes)) {
@@ -122,6 +141,7 @@ LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const L
     refined = before_last;
   }
   forest.refine(must_split, finest);
+  splits.split_outside(comm, forest);
   if (comm.size() > 1) share_out_leaves(sizes, forest);
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);

@@ -12,7 +12,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double followed = 192;  ///< split quadrants of a level, about
+constexpr double followed = 192;         ///< split quadrants of a level, about
+constexpr double outside_of_cut = 0.75;  ///< leaves into which the outside is split for each cut one, about
 
 /// A quadrant that stands for `weight` of its level.
 struct Sampled {
@@ -91,16 +92,21 @@ class LeafCount {
     for (Sampled q : quadrants) {
       const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.quadrant).empty();
       if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.quadrant);
-      if (gradation_.must_split(q.quadrant)) {
+      if (q.side == Sampled::Side::outside)
+        count(q, counted_.outside);
+      else if (gradation_.must_split(q.quadrant))
         splits.push_back(q);
-      } else {
-        (cut                               ? counted_.cut
-         : q.side == Sampled::Side::inside ? counted_.inside
-                                           : counted_.outside) += q.weight;
-        sampled_.push_back({q.quadrant, q.weight});
-      }
+      else
+        cut ? count(q, counted_.cut, outside_of_cut * q.weight) : count(q, counted_.inside);
     }
     return splits;
+  }
+
+  /// `outside`: how many more lie outside beside it.
+  void count(const Sampled& leaf, double& of_its_kind, double outside = 0) {
+    of_its_kind += leaf.weight;
+    counted_.outside += outside;
+    sampled_.push_back({leaf.quadrant, leaf.weight + outside});
   }
 
   Sampled::Side side_of(const Quadrant& q) const {

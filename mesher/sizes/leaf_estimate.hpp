@@ -17,8 +17,9 @@ struct LeafEstimate {
 
 /// Estimates the leaves of the forest that the size tree leads to, without making it: of the quadrants that
 /// are to be split on each level only some hundreds are followed, more of them where more leaves are to be
-/// expected, each for as many others as its chance says. A forest with fewer is counted. Time grows with the
-/// levels, not with the leaves. The same on any number of ranks; not collective.
+/// expected, each for as many others as its chance says. A forest with fewer is counted, but for what is
+/// split outside the domain, which is guessed by the cut leaves. Time grows with the levels, not with the
+/// leaves. The same on any number of ranks; not collective.
 LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside);
 
 }  // namespace quadloop

@@ -34,12 +34,18 @@ struct Tree {
         demanded{test::world(), demands},
         sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
               demanded},
-        graph{refine_forest(test::world(), sizes)} {
+        graph{refine_forest(test::world(), sizes, inside)} {
     std::vector<Quadrant> local;
     for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
     leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
   }
+  /// Whether no part of it is in the domain.
+  bool is_outside(const Quadrant& q) const {
+    SizeCursor cursor(sizes);
+    return cursor.segments_in(q).empty() && !inside.contains(lattice.box_of(q).centre());
+  }
   ShiftedOutline outline;
+  Interior inside{outline};
   Lattice lattice;
   DemandedSplits demanded;
   SizeTree sizes;
@@ -69,7 +75,7 @@ std::int64_t nodes_of_all(const SizeTree& sizes) {
 TEST(RefineForest, RanksShareAnOutlineInOneQuarterOfTheRoot) {
   const test::DiamondSizes domain({{0.5, 0.5}, 0.3}, 0.0005, 0.00025, 0.0078125);
   const SizeTree sizes = domain.tree();
-  refine_forest(test::world(), sizes, estimate_leaves(domain.tree(), domain.inside));
+  refine_forest(test::world(), sizes, domain.inside, estimate_leaves(domain.tree(), domain.inside));
   const auto most = static_cast<double>(test::world().maximum(std::int64_t{sizes.size()}));
   EXPECT_LT(most / static_cast<double>(nodes_of_all(domain.tree())), 1.0 / test::world().size() + 0.38);
 }
@@ -111,6 +117,7 @@ TEST_P(TreeRulesAt, NoLeafIsTooLargeForAWantedOne) {
     if (cursor.wanted_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
     ++wanted_leaves;
     for (const Quadrant& q : tree.leaves) {
+      if (tree.is_outside(q)) continue;
       EXPECT_LE(static_cast<double>(q.size()),
                 static_cast<double>(w.size()) + slope * static_cast<double>(chebyshev_gap(q, w)) + 1);
     }
@@ -155,12 +162,29 @@ bool is_squeezed(const Quadrant& q, const std::vector<Quadrant>& leaves) {
   return (finer[0] && finer[2]) || (finer[1] && finer[3]);
 }
 
-void split_by_size(const Quadrant& q, Gradation& gradation, std::vector<Quadrant>& leaves) {
-  if (q.level >= 1 && !gradation.must_split(q)) {
+void split_by_size(const Quadrant& q, const Tree& tree, Gradation& gradation, std::vector<Quadrant>& leaves) {
+  if (q.level >= 1 && (tree.is_outside(q) || !gradation.must_split(q))) {
     leaves.push_back(q);
     return;
   }
-  for (const Corner quarter : corners_along_curve) split_by_size(q.child(quarter), gradation, leaves);
+  for (const Corner quarter : corners_along_curve) split_by_size(q.child(quarter), tree, gradation, leaves);
+}
+
+/// Whether it touches one more than a level finer.
+bool is_too_large(const Quadrant& q, const std::vector<Quadrant>& leaves) {
+  return std::any_of(leaves.begin(), leaves.end(),
+                     [&](const Quadrant& r) { return r.level > q.level + 1 && chebyshev_gap(q, r) == 0; });
+}
+
+void split_while(const std::function<bool(const Quadrant&, const std::vector<Quadrant>&)>& must_split,
+                 std::vector<Quadrant>& leaves) {
+  for (std::size_t i = 0, kept = 0; kept < leaves.size(); i = (i + 1) % leaves.size(), ++kept) {
+    const Quadrant q = leaves[i];
+    if (!must_split(q, leaves)) continue;
+    leaves[i] = q.child(corners_along_curve[0]);
+    for (std::size_t k = 1; k < 4; ++k) leaves.push_back(q.child(corners_along_curve[k]));
+    kept = 0;
+  }
 }
 
 using Places = std::vector<std::array<std::int64_t, 3>>;
@@ -171,26 +195,18 @@ Places sorted_places(const std::vector<Quadrant>& leaves) {
   return places;
 }
 
-/// What sizes and gradation ask for, then leaves between finer ones split, one after another, until there is
-/// none.
+/// What sizes and gradation ask for in the domain, then leaves that touch much finer ones or lie between
+/// finer ones split, one after another, until there is none.
 std::vector<Quadrant> smallest_tree(const Tree& tree) {
   std::vector<Quadrant> leaves;
   Gradation gradation(tree.sizes);
   for (int ty = 0; ty < tree.lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < tree.lattice.trees_x(); ++tx)
       split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0},
-                    gradation, leaves);
+                    tree, gradation, leaves);
   }
-  for (std::size_t i = 0; i < leaves.size();) {
-    const Quadrant q = leaves[i];
-    if (!is_squeezed(q, leaves)) {
-      ++i;
-      continue;
-    }
-    leaves[i] = q.child(corners_along_curve[0]);
-    for (std::size_t k = 1; k < 4; ++k) leaves.push_back(q.child(corners_along_curve[k]));
-    i = 0;
-  }
+  split_while(is_too_large, leaves);
+  split_while(is_squeezed, leaves);
   return leaves;
 }
 
@@ -228,6 +244,7 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
     for (const Quadrant& q : tree.leaves) {
       const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
       if (q.level <= 1 || q.x != parent.x || q.y != parent.y) continue;
+      if (tree.is_outside(parent)) continue;
       const bool forbidden = is_forbidden(parent, wanted, (GetParam() - 1) / 2);
       EXPECT_EQ(forbidden, gradation.must_split(parent));
       if (forbidden) continue;
@@ -236,7 +253,22 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
           << parent.x << ", " << parent.y << ", level " << parent.level;
     }
   }
-  EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 11 : 6);
+  EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 9 : 1);
+}
+
+/// Sides on lattice lines, and others through lattice corners, with a corner of the outline on some.
+TEST_P(TreeRulesAt, TheTreeIsTheSmallestWhereTheOutlineRunsAlongLatticeLines) {
+  const test::Diamond diamond{{0, 0}, 0.5};
+  const Geometry geometry =
+      test::diamond_in_square(diamond, {"frame", 0.125, 30, "none"}, {"wall", 0.015625, 30, "wall"});
+  SizeOptions options = options_with(0.01, 0.5, GetParam());
+  options.root = {{-2, -2}, 4};
+  const Tree tree(geometry, options);
+  EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
+  std::array<int, 10> outside{};  // by level
+  for (const Quadrant& q : tree.leaves) outside[q.level] += tree.is_outside(q) ? 1 : 0;
+  EXPECT_GT(outside[1] + outside[2] + outside[3], 0);
+  EXPECT_GT(outside[7], 0);
 }
 
 TEST(TreeRules, LeavesThatSplittingSqueezesAreSplitToo) {
@@ -296,9 +328,8 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
   const Geometry geometry = circle_in_square(0.1);
   const SizeOptions options = options_with(0.05, 0.5, 1.5);
   const Tree before(geometry, options);
-  const auto coarsest =
-      std::min_element(before.leaves.begin(), before.leaves.end(),
-                       [](const Quadrant& a, const Quadrant& b) { return a.level < b.level; });
+  const auto by_level = [&](const Quadrant& q) { return before.is_outside(q) ? 100 : q.level; };
+  const auto coarsest = std::ranges::min_element(before.leaves, {}, by_level);
   using enum Corner;
   const Quadrant deep =
       coarsest->child(north_east).child(south_west).child(north_east).child(north_east).child(south_west);

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "mesher/sizes/gradation.hpp"
+#include <algorithm>
+
 #include "mesher/sizes/leaf_estimate.hpp"
-#include "tests/sizes/diamond_sizes.hpp"
+#include "mesher/sizes/size_cursor.hpp"
+#include "tests/sizes/forest_of.hpp"
 
 namespace quadloop {
 namespace {
@@ -14,12 +16,8 @@ struct Sizes : test::DiamondSizes {
   explicit Sizes(double spacing) : DiamondSizes({{0.6, 0.6}, 0.37}, spacing, spacing, 0.5) {}
 };
 
-/// The leaves below a quadrant, one by one.
-double counted(const Quadrant& q, Gradation& gradation) {
-  if (q.level > 0 && !gradation.must_split(q)) return 1;
-  double leaves = 0;
-  for (const Corner quarter : corners_along_curve) leaves += counted(q.child(quarter), gradation);
-  return leaves;
+double counted(const Quadrant& q, const std::vector<Quadrant>& leaves) {
+  return static_cast<double>(std::ranges::count_if(leaves, [&](const Quadrant& r) { return q.contains(r); }));
 }
 
 /// Quadrants of a level, in all of the root.
@@ -56,22 +54,28 @@ TEST(LeafSample, CountsBelowAQuadrantAndAtIt) {
   EXPECT_EQ(sample.leaves_in({tree, 0, 0}), 32);
 }
 
-TEST(LeafSample, OfFewLeavesIsTheirNumberInEachQuadrant) {
+TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
   const Sizes sizes(0.06);
   const SizeTree tree = sizes.tree();
-  Gradation gradation(tree);
   const LeafSample sample = estimate_leaves(tree, sizes.inside).sample;
-  for (const Quadrant& q : quadrants_of(2)) EXPECT_EQ(sample.leaves_in(q), counted(q, gradation));
+  const std::vector<Quadrant> leaves = test::forest_of(sizes);
+  SizeCursor cursor(tree);
+  int inside = 0;
+  for (const Quadrant& q : quadrants_of(3)) {
+    if (!cursor.segments_in(q).empty() || !sizes.inside.contains(sizes.lattice.box_of(q).centre())) continue;
+    EXPECT_EQ(sample.leaves_in(q), counted(q, leaves));
+    ++inside;
+  }
+  EXPECT_GT(inside, 5);
   EXPECT_EQ(sample.leaves(), estimate_leaves(tree, sizes.inside).all());
 }
 
 TEST(LeafSample, OfManyTellsHalvesAboutRight) {
   const Sizes sizes(0.001);
-  const SizeTree tree = sizes.tree();
-  Gradation gradation(tree);
-  const LeafSample sample = estimate_leaves(tree, sizes.inside).sample;
+  const LeafSample sample = estimate_leaves(sizes.tree(), sizes.inside).sample;
+  const std::vector<Quadrant> leaves = test::forest_of(sizes);
   for (const Quadrant& q : quadrants_of(1))
-    EXPECT_NEAR(sample.leaves_in(q) / counted(q, gradation), 1, 0.3) << q.x << " " << q.y;
+    EXPECT_NEAR(sample.leaves_in(q) / counted(q, leaves), 1, 0.3) << q.x << " " << q.y;
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include "mesher/forest/outside_splits.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <tuple>
+
+#include "mesher/base/parallel/exchange.hpp"
+
+namespace quadloop {
+
+namespace {
+
+bool is_in_root(const Lattice& lattice, const Quadrant& q) {
+  const std::int64_t width = std::int64_t{lattice.trees_x()} << Quadrant::unit_level,
+                     height = std::int64_t{lattice.trees_y()} << Quadrant::unit_level;
+  return q.x >= 0 && q.y >= 0 && q.x < width && q.y < height;
+}
+
+Quadrant parent_of(const Quadrant& q) {
+  const std::int64_t mask = ~(2 * q.size() - 1);
+  return {q.x & mask, q.y & mask, q.level - 1};
+}
+
+/// A quadrant to be split, by its place along the curve.
+struct Placed {
+  CurveKey key;
+  Quadrant quadrant;
+  friend bool operator<(const Placed& a, const Placed& b) {
+    return std::tie(a.key, a.quadrant.level) < std::tie(b.key, b.quadrant.level);
+  }
+  friend bool operator==(const Placed& a, const Placed& b) { return a.quadrant == b.quadrant; }
+};
+
+void keep_one_of_each(std::vector<Placed>& quadrants) {
+  std::ranges::sort(quadrants, std::less<>{});
+  const auto twice = std::ranges::unique(quadrants);
+  quadrants.erase(twice.begin(), twice.end());
+}
+
+}  // namespace
+
+bool OutsideSplits::is_outside(const Quadrant& q) {
+  if (whole_ && whole_->contains(q)) {
+    is_cut_ = false;
+    return is_whole_outside_;
+  }
+  is_cut_ = !cursor_.segments_in(q).empty();
+  if (is_cut_) return false;
+  whole_ = q;
+  const std::int64_t half = q.size() / 2;
+  return is_whole_outside_ = !inside_.contains(sizes_.lattice().corner(q.x + half, q.y + half));
+}
+
+void OutsideSplits::note_split(const Quadrant& q) {
+  if (is_cut_) cut_[q.level].push_back(q);
+}
+
+/// A leaf that touches a child of q is as large as q at most, so that all quadrants of q's size round q are
+/// there, and their parents are split: of nine such four, q's own and those that meet it in q's corner of it.
+/// No outline goes through a lattice corner, so those of them that it does not go through lie where the
+/// corner does.
+void OutsideSplits::add_parents_round(const Quadrant& q, bool is_cut, std::vector<Quadrant>& above) {
+  const std::int64_t s = q.size();
+  const Quadrant parent = parent_of(q);
+  const bool at_left = parent.x == q.x, at_bottom = parent.y == q.y;
+  if (is_cut && inside_.contains(sizes_.lattice().corner(at_left ? q.x : q.x + s, at_bottom ? q.y : q.y + s)))
+    return;
+  const std::int64_t to_x = at_left ? -2 * s : 2 * s, to_y = at_bottom ? -2 * s : 2 * s;
+  for (const std::int64_t y : {parent.y, parent.y + to_y}) {
+    for (const std::int64_t x : {parent.x, parent.x + to_x}) {
+      const Quadrant round{x, y, parent.level};
+      if (!is_in_root(sizes_.lattice(), round) || (!above.empty() && above.back() == round)) continue;
+      if (cursor_.segments_in(round).empty()) above.push_back(round);
+    }
+  }
+}
+
+void OutsideSplits::split(const Communicator& comm, Forest& forest) {
+  const CurveOwners owners = forest.owners();
+  Outbox<Placed> to_owners;
+  std::vector<Quadrant> above;
+  std::vector<Placed> split;  // outside, of one level
+  for (int level = Quadrant::unit_level; level > 1; --level) {
+    above.clear();
+    for (const Quadrant& q : cut_[level]) add_parents_round(q, true, above);
+    for (const Placed& q : split) add_parents_round(q.quadrant, false, above);
+    split.clear();
+    for (const Quadrant& q : above) split.push_back({owners.key_at(q.x, q.y), q});
+    keep_one_of_each(split);
+    for (const Placed& q : split) to_owners.add(owners.rank_of(q.key), q);
+  }
+  std::vector<Placed> wanted = to_owners.deliver(comm);
+  keep_one_of_each(wanted);
+  auto next = wanted.cbegin();
+  forest.refine(
+      [&](const Quadrant& q) {
+        if (next == wanted.cend() || next->quadrant != q) return false;
+        ++next;
+        return true;
+      },
+      sizes_.finest_level());
+}
+
+}  // namespace quadloop
