@@ -4,6 +4,7 @@
 #include <functional>
 #include <tuple>
 
+#include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop {
@@ -39,20 +40,16 @@ void keep_one_of_each(std::vector<Placed>& quadrants) {
 
 }  // namespace
 
-bool OutsideSplits::is_outside(const Quadrant& q) {
-  if (whole_ && whole_->contains(q)) {
-    is_cut_ = false;
-    return is_whole_outside_;
+bool OutsideSplits::is_split_by_size(const Quadrant& q) {
+  if (whole_ && whole_->contains(q)) return !is_whole_outside_;
+  if (!cursor_.segments_in(q).empty()) {
+    cut_[q.level].push_back(q);
+    return true;
   }
-  is_cut_ = !cursor_.segments_in(q).empty();
-  if (is_cut_) return false;
   whole_ = q;
   const std::int64_t half = q.size() / 2;
-  return is_whole_outside_ = !inside_.contains(sizes_.lattice().corner(q.x + half, q.y + half));
-}
-
-void OutsideSplits::note_split(const Quadrant& q) {
-  if (is_cut_) cut_[q.level].push_back(q);
+  is_whole_outside_ = !inside_.contains(sizes_.lattice().corner(q.x + half, q.y + half));
+  return !is_whole_outside_;
 }
 
 /// A leaf that touches a child of q is as large as q at most, so that all quadrants of q's size round q are
@@ -99,6 +96,7 @@ void OutsideSplits::split(const Communicator& comm, Forest& forest) {
         return true;
       },
       sizes_.finest_level());
+  QUADLOOP_REQUIRE(next == wanted.cend(), "what is to be split outside is a leaf, or becomes one");
 }
 
 }  // namespace quadloop

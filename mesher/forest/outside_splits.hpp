@@ -19,11 +19,10 @@ class OutsideSplits {
   OutsideSplits(const SizeTree& sizes, const Interior& inside)
       : sizes_{sizes}, inside_{inside}, cursor_{sizes} {}
 
-  /// Whether the quadrant lies outside; constant time on average where they come in the order of the curve.
-  bool is_outside(const Quadrant& q);
-  /// To be called for each quadrant that is split and of which it was asked last whether it is outside.
-  void note_split(const Quadrant& q);
-  /// Splits what has to be split outside. *Collective.*
+  /// Whether a quadrant that sizes ask to split is split for it: not where it lies outside. To be asked once
+  /// of each; constant time on average in the order of the curve.
+  bool is_split_by_size(const Quadrant& q);
+  /// Once sizes split nothing more: splits what that asks for outside. *Collective.*
   void split(const Communicator& comm, Forest& forest);
 
  private:
@@ -34,8 +33,8 @@ class OutsideSplits {
   SizeCursor cursor_;
   std::optional<Quadrant> whole_;  ///< last found through which no outline goes
   bool is_whole_outside_ = false;
-  bool is_cut_ = false;  ///< whether the outline goes through the one last asked of
-  std::array<std::vector<Quadrant>, Quadrant::unit_level + 1> cut_;  ///< split, by level
+  std::array<std::vector<Quadrant>, Quadrant::unit_level + 1>
+      cut_;  ///< by level: split ones through which the outline goes
 };
 
 }  // namespace quadloop

@@ -77,11 +77,7 @@ class SizedSplits {
  public:
   SizedSplits(const SizeTree& sizes, const Interior& inside) : gradation_{sizes}, outside_{sizes, inside} {}
 
-  bool must_split(const Quadrant& q) {
-    if (!gradation_.must_split(q) || outside_.is_outside(q)) return false;
-    outside_.note_split(q);
-    return true;
-  }
+  bool must_split(const Quadrant& q) { return gradation_.must_split(q) && outside_.is_split_by_size(q); }
   void split_outside(const Communicator& comm, Forest& forest) { outside_.split(comm, forest); }
 
  private:
