@@ -12,7 +12,6 @@
 #include "app/command_line.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
-#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
@@ -72,9 +71,8 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   if (settings.partitions > 0)
     prepared.part_files =
         part_file_names(settings.output_prefix, settings.partitions, part_formats(settings.formats));
-  for (const auto* files : {&prepared.files, &prepared.part_files}) {
-    for (const std::string& file : *files) require_possible_output(file);
-  }
+  require_possible_outputs(prepared.files);
+  require_possible_outputs(prepared.part_files);
   return prepared;
 }
 

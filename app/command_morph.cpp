@@ -18,7 +18,6 @@
 #include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
 #include "app/report/summary.hpp"
-#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/input/point_table.hpp"
@@ -88,7 +87,7 @@ void require_other_outputs(const MorphArguments& arguments) {
                        "named for two things, and would be written over; give the output another name");
   };
   for (const std::string& output : {mesh, table}) {
-    if (!output.empty()) require_possible_output(output);
+    if (!output.empty()) require_possible_outputs({output});
     for (const std::string& input :
          {arguments.geometry, arguments.from, arguments.direction, arguments.nodal_gradient})
       require_other(output, input);

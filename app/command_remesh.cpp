@@ -16,7 +16,6 @@
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
-#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/parts/part_output.hpp"
@@ -161,8 +160,8 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
       problem.parts = {prefix, settings.partitions, part_formats(settings.formats)};
       problem.part_files = part_file_names(prefix, settings.partitions, problem.parts.formats);
     }
-    for (const std::string& file : with_files_beside(problem.files)) require_possible_output(file);
-    for (const std::string& file : problem.part_files) require_possible_output(file);
+    require_possible_outputs(with_files_beside(problem.files));
+    require_possible_outputs(problem.part_files);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
   return problem;

@@ -14,7 +14,6 @@
 #include "app/report/refusals.hpp"
 #include "app/report/smooth_report.hpp"
 #include "app/report/summary.hpp"
-#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/loaded/interface_nodes.hpp"
@@ -95,7 +94,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     require_writable_suffix(arguments.output);
     if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
-    require_possible_output(arguments.output);
+    require_possible_outputs({arguments.output});
     loaded.whole = read_mesh(arguments.input);
     tidy_mesh(loaded.whole, arguments.input);
     require_sound_topology(loaded.whole, arguments.input);

@@ -17,7 +17,6 @@
 #include "flow/euler/shortfall.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/wall_table.hpp"
-#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/text/text_output.hpp"
@@ -92,7 +91,7 @@ Problem load(const CommandContext& context, const SolveArguments& arguments) {
                        "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
-    require_possible_output(arguments.output);
+    require_possible_outputs({arguments.output});
     problem.whole = read_mesh(arguments.input);
     problem.warnings = problem.whole.warnings;
     problem.order = order_for_parts(problem.whole.mesh);

@@ -10,6 +10,7 @@
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
+#include "io/files/output_path.hpp"
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_solid_file.hpp"
 #include "io/foam/foam_file.hpp"
@@ -277,6 +278,13 @@ const FileFormat* format_of(const std::string& path) {
     return is_suffix || (format.is_folder && name == format.name);
   });
   return found == file_formats().end() ? nullptr : &*found;
+}
+
+void require_possible_outputs(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const FileFormat* const format = format_of(file);
+    format != nullptr && format->is_folder ? require_possible_folder(file) : require_possible_output(file);
+  }
 }
 
 std::vector<std::string> with_files_beside(const std::vector<std::string>& files, const std::string& format) {

@@ -94,6 +94,10 @@ const FileFormat* format_of(const std::string& path);
 std::vector<std::string> with_files_beside(const std::vector<std::string>& files,
                                            const std::string& format = {});
 
+/// Refuses those that cannot become a file, or a folder, of their format; what has no format is a file. Found
+/// out before an hour of work goes into them. Throws OutputError.
+void require_possible_outputs(const std::vector<std::string>& files);
+
 /// The first row: the program's own, which keeps mesh and solution to the bit.
 const FileFormat& native_format();
 

@@ -100,6 +100,14 @@ std::string output_target(const std::string& path) {
 
 void require_possible_output(const std::string& path) { output_target(path); }
 
+void require_possible_folder(const std::string& path) {
+  std::error_code unknown;
+  const bool there = std::filesystem::exists(path, unknown);
+  if (there && !std::filesystem::is_directory(path, unknown))
+    throw OutputError(path + ": is no folder; choose another name");
+  require_folder(there ? path : folder_of(path), path);
+}
+
 void bring_to_disk(const std::string& path, const std::string& shown) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0 && errno == EACCES) return;  // what somebody else left for himself alone

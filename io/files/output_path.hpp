@@ -16,6 +16,9 @@ std::string output_target(const std::string& path);
 /// Refuses what output_target() refuses: found out before an hour of work goes into the output.
 void require_possible_output(const std::string& path);
 
+/// The same for an output that is a folder: one there, or none, and leave to write to it or to make it.
+void require_possible_folder(const std::string& path);
+
 /// The folder of a file; "." where the path names none.
 std::string folder_of(const std::string& path);
 

@@ -259,6 +259,19 @@ class Places(FilesTest):
                 self.assertEqual(self.names(), ["a.mesh"])
                 os.rmdir(self.out / "a.mesh") if says == "is a folder" else os.unlink(self.out / "a.mesh")
 
+    def test_a_folder_of_files_is_replaced_too(self):
+        formats = ("--set", 'output.formats=["mesh", "polyMesh"]')
+        self.done("mesh", "case.toml", "-o", "fine", "--set", "spacing.max=0.25", *formats[1:])
+        for spacing in (0.5, 0.25):
+            self.done("mesh", "case.toml", "-o", "a", "--set", f"spacing.max={spacing}", *formats[1:])
+        self.done("smooth", "a.mesh", "-o", "smooth.polyMesh")
+        self.done("smooth", "a.mesh", "-o", "smooth.polyMesh")
+        for name in os.listdir(self.folder / "fine.polyMesh"):
+            self.assertEqual((self.folder / "a.polyMesh" / name).read_bytes(), (self.folder / "fine.polyMesh" / name).read_bytes())
+        (self.out / "a.polyMesh").write_text("precious")
+        self.expect_refusal(self.ended(self.mesh(*formats)), 4, "out/a.polyMesh", "is no folder")
+        self.assertEqual(self.names(), ["a.polyMesh"])
+
     def test_a_stream_of_the_process_is_no_output(self):
         self.done("mesh", "case.toml", "-o", "a", "--quiet")
         with open(self.folder / "redirected", "w") as out:  # a file that a rename would replace
