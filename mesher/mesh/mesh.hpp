@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -49,6 +50,16 @@ struct StripLayers {
 };
 
 using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
+
+template <class Nodes>
+bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
+  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
+}
+
+template <class Nodes>
+void flag_all(const Nodes& nodes, NodeFlags& flags) {
+  for (const NodeId node : nodes) flags[node] = 1;
+}
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
 /// one rank each and numbered over all ranks in the order of ranks: this rank's owned nodes come first, in

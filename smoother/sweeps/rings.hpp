@@ -1,20 +1,8 @@
 #pragma once
 
-#include <algorithm>
-
 #include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {
-
-template <class Nodes>
-bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
-}
-
-template <class Nodes>
-void flag_all(const Nodes& nodes, NodeFlags& flags) {
-  for (const NodeId node : nodes) flags[node] = 1;
-}
 
 /// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
 /// are right for all. *Collective.*

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace quadloop {
 
@@ -20,59 +21,64 @@ Point centroid(const StarHalo& halo, const std::array<std::int32_t, 3>& nodes) {
   return 1.0 / 3 * (at(0) + at(1) + at(2));
 }
 
-/// A triangle that is gone.
-struct Gone {
-  std::array<std::int32_t, 3> nodes;
-  FreedTriangle triangle;
-  Point centroid;
-};
-
-template <class Triangle>
-std::pair<Triangle, std::int32_t> nodes_and_block(const std::pair<Triangle, FreedTriangle>& before) {
-  return {before.first, before.second.block};
-}
-template <class Triangle>
-const std::pair<Triangle, std::int32_t>& nodes_and_block(const std::pair<Triangle, std::int32_t>& after) {
-  return after;
-}
-
-/// The triangles that are gone around each node.
-class GoneTriangles {
+/// The triangles of the slots that have changed, as they were, around each node.
+class TrianglesBefore {
  public:
-  GoneTriangles(std::size_t nodes, std::span<const Gone> gone)
-      : gone_{gone}, starts_(nodes + 2, 0), around_(3 * gone.size()) {
-    for (const Gone& g : gone) {
-      for (const std::int32_t node : g.nodes) ++starts_[node + std::size_t{2}];
+  TrianglesBefore(const StarHalo& halo, std::span<const RegionTriangulation::Before> triangles)
+      : triangles_{triangles}, starts_(halo.points().size() + 2, 0), around_(3 * triangles.size()) {
+    for (const auto& before : triangles) {
+      for (const std::int32_t node : before.nodes) ++starts_[node + std::size_t{2}];
+      centroids_.push_back(centroid(halo, before.nodes));
     }
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-    for (std::int32_t i = 0; i < std::ssize(gone); ++i) {
-      for (const std::int32_t node : gone[i].nodes) around_[starts_[node + std::size_t{1}]++] = i;
+    for (std::int32_t i = 0; i < std::ssize(triangles); ++i) {
+      for (const std::int32_t node : triangles[i].nodes) around_[starts_[node + std::size_t{1}]++] = i;
     }
+    stays_.resize(triangles.size(), 0);
   }
 
-  /// The number of the one of a block around the node that is nearest to a point; of several as near the
-  /// lowest.
-  std::int64_t nearest(std::size_t node, Point p, std::int32_t block) const {
+  bool stays(std::size_t i) const { return stays_[i] != 0; }
+
+  /// Whether a triangle was there before, in whichever slot; it then is none that is gone.
+  bool find_again(const RegionTriangulation::After& after) {
+    for (const std::int32_t i : around(after.nodes[0])) {
+      if (triangles_[i].nodes != after.nodes || triangles_[i].freed.block != after.block) continue;
+      stays_[i] = 1;
+      return true;
+    }
+    return false;
+  }
+
+  /// The number of the one that is gone, of a block and around the node, that is nearest to a point; of
+  /// several as near the lowest.
+  std::int64_t nearest_gone(std::int32_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
-    for (std::int32_t at = starts_[node]; at < starts_[node + 1]; ++at) {
-      const auto& [nodes, triangle, centroid] = gone_[around_[at]];
-      const Point off = centroid - p;
-      if (triangle.block == block) best = std::min(best, {dot(off, off), triangle.number});
+    for (const std::int32_t i : around(node)) {
+      if (stays(i) || triangles_[i].freed.block != block) continue;
+      const Point off = centroids_[i] - p;
+      best = std::min(best, {dot(off, off), triangles_[i].freed.number});
     }
     return best.second;
   }
 
  private:
-  std::span<const Gone> gone_;
+  std::span<const std::int32_t> around(std::int32_t node) const {
+    const std::int32_t begin = starts_[node], end = starts_[node + std::size_t{1}];
+    return std::span(around_).subspan(begin, end - begin);
+  }
+
+  std::span<const RegionTriangulation::Before> triangles_;
   std::vector<std::int32_t> starts_;  ///< of each node, in around_
-  std::vector<std::int32_t> around_;  ///< indices of those that are gone
+  std::vector<std::int32_t> around_;  ///< indices of triangles
+  std::vector<Point> centroids_;
+  std::vector<char> stays_;  ///< a flag for each triangle: it came back
 };
 
 }  // namespace
 
 RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of) {
-  const Changes changes = flip(halo, rank_of);
-  if (!uncertain_) compare(halo, changes);
+  Changes changes = flip(halo, rank_of);
+  if (!uncertain_) compare(halo, std::move(changes));
 }
 
 /// The patch, which is large, is gone before the changes are looked at.
@@ -110,46 +116,31 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
     put_smallest_first(halo, after);
     const std::int32_t block = halo.blocks().empty() ? 0 : halo.blocks()[i];
     changes.before.push_back({before, {halo.number(i), block}});
-    changes.after.emplace_back(after, block);
+    changes.after.push_back({after, block});
     if (!halo.owns(after[0]) ||
         !patch.has_single_edge(i, [&](std::int32_t node) { return !halo.is_core(node); }))
       continue;
     for (const std::int32_t node : after) outgrown_.push_back(halo.global(node));
   }
-  std::sort(changes.before.begin(), changes.before.end());
-  std::sort(changes.after.begin(), changes.after.end());
   return changes;
 }
 
 /// A triangle may come back in another slot of the patch.
-void RegionTriangulation::compare(const StarHalo& halo, const Changes& changes) {
-  const auto& [before, after] = changes;
-  const auto goes_first = [](const auto& a, const auto& b) {
-    return nodes_and_block(a) < nodes_and_block(b);
-  };
-  std::vector<std::pair<Triangle, FreedTriangle>> lost;
-  std::vector<std::pair<Triangle, std::int32_t>> made;
-  std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost),
-                      goes_first);
-  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(made),
-                      goes_first);
-  std::vector<Gone> gone;
-  gone.reserve(lost.size());
-  freed_.reserve(lost.size());
-  for (const auto& [nodes, freed] : lost) {
-    gone.push_back({nodes, freed, centroid(halo, nodes)});
-    if (halo.owns(nodes[0])) freed_.push_back(freed);
+void RegionTriangulation::compare(const StarHalo& halo, Changes changes) {
+  TrianglesBefore before(halo, changes.before);
+  std::erase_if(changes.after, [&](const After& after) { return before.find_again(after); });
+  for (std::size_t i = 0; i < changes.before.size(); ++i) {
+    if (!before.stays(i) && halo.owns(changes.before[i].nodes[0])) freed_.push_back(changes.before[i].freed);
   }
-  const GoneTriangles gone_triangles(halo.points().size(), gone);
-  made_.reserve(made.size());
-  for (const auto& [t, block] : made) {
-    if (!halo.owns(t[0])) continue;
-    MadeTriangle triangle{gone_triangles.nearest(t[0], centroid(halo, t), block), {}, {}, block};
+  made_.reserve(changes.after.size());
+  for (const auto& [nodes, block] : changes.after) {
+    if (!halo.owns(nodes[0])) continue;
+    MadeTriangle made{before.nearest_gone(nodes[0], centroid(halo, nodes), block), {}, {}, block};
     for (std::size_t k = 0; k < 3; ++k) {
-      triangle.nodes[k] = halo.global(t[k]);
-      triangle.points[k] = halo.points()[t[k]];
+      made.nodes[k] = halo.global(nodes[k]);
+      made.points[k] = halo.points()[nodes[k]];
     }
-    made_.push_back(triangle);
+    made_.push_back(made);
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <compare>
 #include <functional>
-#include <utility>
+#include <vector>
 
 #include "mesher/delaunay/delaunay_patch.hpp"
 #include "mesher/delaunay/restore/star_halo.hpp"
@@ -40,18 +40,28 @@ class RegionTriangulation {
   /// Nodes of new triangles at the region's border: the triangles beyond it may no longer be Delaunay.
   const std::vector<GlobalNodeId>& outgrown() const { return outgrown_; }
 
+  /// What the triangle in a slot of the patch was, and what it is now; the smallest node first.
+  struct Before {
+    DelaunayPatch::Triangle nodes;
+    FreedTriangle freed;
+  };
+  struct After {
+    DelaunayPatch::Triangle nodes;
+    std::int32_t block;
+  };
+
  private:
   using Triangle = DelaunayPatch::Triangle;
-  /// What triangles in some slots of the patch were, and what they are now; the smallest node first.
+  /// Of the slots that have changed.
   struct Changes {
-    std::vector<std::pair<Triangle, FreedTriangle>> before;
-    std::vector<std::pair<Triangle, std::int32_t>> after;  ///< with their blocks
+    std::vector<Before> before;
+    std::vector<After> after;
   };
 
   Changes flip(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
   static bool is_uncertain(const StarHalo& halo, const DelaunayPatch& patch);
   Changes find_changes(const StarHalo& halo, const DelaunayPatch& patch);
-  void compare(const StarHalo& halo, const Changes& changes);
+  void compare(const StarHalo& halo, Changes changes);
 
   bool uncertain_ = false;
   std::vector<MadeTriangle> made_;

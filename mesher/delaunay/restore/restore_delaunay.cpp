@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/delaunay/restore/blunt_edges.hpp"
 #include "mesher/delaunay/restore/region_triangulation.hpp"
 #include "mesher/mesh/node_table.hpp"
 
@@ -34,20 +35,21 @@ class Region {
     exchange_.update(core_, [&](std::int32_t node) { return core_[NodeId{node}] != 0; });
   }
 
-  /// The nodes of this rank's triangles that have an edge which may be wrong after moves: both ends are nodes
-  /// of triangles with a moved node, and the angle opposite is not acute. *Collective.*
+  /// The nodes of this rank's triangles that have an edge which is wrong after moves, or may be, as the
+  /// triangle across it is another rank's. *Collective.*
   std::vector<GlobalNodeId> nodes_at_doubtful_edges() const {
     const NodeFlags near = near_moved();
+    BluntEdges blunt(mesh_, near);
     std::vector<GlobalNodeId> nodes;
-    for (const auto& t : mesh_.triangles) {
-      const auto is_doubtful = [&](std::size_t k) {
-        const NodeId apex = t[k], from = t[(k + 1) % 3], to = t[(k + 2) % 3];
-        return near[from] != 0 && near[to] != 0 &&
-               !surely_acute(mesh_.point(from), mesh_.point(apex), mesh_.point(to));
-      };
-      if (!is_doubtful(0) && !is_doubtful(1) && !is_doubtful(2)) continue;
-      for (const NodeId node : t) nodes.push_back(mesh_.global(node));
-    }
+    const auto add = [&](std::initializer_list<NodeId> some) {
+      for (const NodeId node : some) nodes.push_back(mesh_.global(node));
+    };
+    blunt.for_each_pair([&](NodeId a, NodeId b, NodeId c, NodeId d) {
+      if (any_flagged(known_.moved, std::array{a, b, c, d}) &&
+          in_circle(mesh_.point(a), mesh_.point(b), mesh_.point(c), mesh_.point(d)) >= 0)
+        add({a, b, c, d});
+    });
+    blunt.for_each_single([&](NodeId a, NodeId b, NodeId c) { add({a, b, c}); });
     return nodes;
   }
 
@@ -70,8 +72,7 @@ class Region {
     QUADLOOP_REQUIRE(known_.moved.size() == mesh_.points.size(), "a flag for each point");
     NodeFlags near(mesh_.points.size(), 0);
     for (const auto& t : mesh_.triangles) {
-      if (std::none_of(t.begin(), t.end(), [&](NodeId node) { return known_.moved[node] != 0; })) continue;
-      for (const NodeId node : t) near[node] = 1;
+      if (any_flagged(known_.moved, t)) flag_all(t, near);
     }
     std::vector<GlobalNodeId> of_others;
     for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes}, NodeId{size32(near)})) {

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mesher/delaunay/flipper.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// Edges opposite angles that are not acute, between nodes near moved ones: all others are right. No triangle
+/// has more than one, but for rounding.
+class BluntEdges {
+ public:
+  BluntEdges(const Mesh& mesh, const NodeFlags& near) : mesh_{mesh}, last_low_(mesh.points.size(), none) {
+    for (const auto& t : mesh.triangles) {
+      for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
+        if (near[from] == 0 || near[to] == 0 ||
+            surely_acute(mesh.point(from), mesh.point(apex), mesh.point(to)))
+          return;
+        std::int32_t& last = last_low_[std::min(from, to)];
+        edges_.push_back({from, to, apex, std::exchange(last, size32(edges_)), true});
+      });
+    }
+  }
+
+  /// Calls `visit(a, b, c, d)` for those between two triangles a b c and b a d, for some twice. To be called
+  /// before for_each_single.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) {
+    for (const auto& t : mesh_.triangles) {
+      for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
+        for (std::int32_t e = last_low_[std::min(from, to)]; e != none; e = edges_[e].next) {
+          Edge& edge = edges_[e];
+          if (edge.from != to || edge.to != from) continue;
+          edge.is_single = false;
+          visit(edge.from, edge.to, edge.apex, apex);
+        }
+      });
+    }
+  }
+
+  /// Calls `visit(a, b, c)` for those of one triangle a b c on this rank.
+  template <class Visit>
+  void for_each_single(const Visit& visit) const {
+    for (const Edge& edge : edges_) {
+      if (edge.is_single) visit(edge.from, edge.to, edge.apex);
+    }
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  struct Edge {
+    NodeId from, to, apex;
+    std::int32_t next;  ///< of the same lower node
+    bool is_single;
+  };
+  template <class Visit>
+  static void for_each_edge(const std::array<NodeId, 3>& t, const Visit& visit) {
+    for (std::size_t k = 0; k < 3; ++k) visit(t[(k + 1) % 3], t[(k + 2) % 3], t[k]);
+  }
+
+  const Mesh& mesh_;
+  std::vector<Edge> edges_;
+  IdVector<NodeId, std::int32_t> last_low_;  ///< of each node, the last edge with it as the lower end
+};
+
+}  // namespace quadloop
