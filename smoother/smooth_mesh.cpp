@@ -12,7 +12,7 @@
 #include "smoother/binary_unit.hpp"
 #include "smoother/even_widths.hpp"
 #include "smoother/fit_to_layers.hpp"
-#include "smoother/level_lines.hpp"
+#include "smoother/level_lines/level_lines.hpp"
 #include "smoother/objective/cost_limit.hpp"
 #include "smoother/smooth_mirrored.hpp"
 #include "smoother/sweeps/rings.hpp"
@@ -250,6 +250,13 @@ bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& sl
   return fit_to_layers(comm, halo, slide, heights) || evened;
 }
 
+/// *Collective.*
+bool move_level_lines(const Communicator& comm, HaloMesh& halo, const Survey& surveyed, bool has_quads,
+                      const SmoothOptions& options) {
+  return has_quads ? move_square_lines(comm, halo, options.pinned, options.bad)
+                   : move_triangle_lines(comm, halo, surveyed.bad, options.pinned, options.threshold);
+}
+
 /// What sweeps have made of a mesh.
 struct Swept {
   WorstCell before, after;
@@ -268,9 +275,8 @@ Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   Survey surveyed = survey(comm, halo, targets, options.threshold);
   const WorstCell before = surveyed.worst;
-  const bool may_move_lines = options.level_lines && options.sweeps > 0 && !any_targets &&
-                              comm.any(!mesh.quads.empty());  // the lines are theirs
-  if (may_move_lines && move_level_lines(comm, halo, options.pinned, options.bad))
+  if (options.level_lines && options.sweeps > 0 && !any_targets &&
+      move_level_lines(comm, halo, surveyed, comm.any(!mesh.quads.empty()), options))
     surveyed = survey(comm, halo, targets, options.threshold);
   sweep_in_rounds(comm, halo, slide, targets, surveyed, options, report);
   const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);

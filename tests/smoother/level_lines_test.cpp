@@ -1,6 +1,6 @@
 // Lines where squares of two sizes meet move as a whole: better corners at hanging nodes, and parallelograms
 // beside them.
-#include "smoother/level_lines.hpp"
+#include "smoother/level_lines/level_lines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vect
                       double limit = no_limit) {
   Mesh part = scatter_mesh(world(), whole, order);
   HaloMesh halo(world(), part);
-  move_level_lines(world(), halo, NodeFlags{scatter_nodes(world(), pinned, order)}, limit);
+  move_square_lines(world(), halo, NodeFlags{scatter_nodes(world(), pinned, order)}, limit);
   std::copy_n(halo.points().begin(), part.points.size(), part.points.begin());
   return part;
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop {
@@ -16,6 +14,13 @@ namespace quadloop {
 /// division on the other, and it is neither pinned (a flag for each owned node, or none at all) nor of a cell
 /// that would come to cost more than it does and than `limit`, Eq. 3.2. The copies move too. Returns whether
 /// any node was moved on any rank. *Collective.*
-bool move_level_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit);
+bool move_square_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit);
+
+/// The same in a mesh of triangles, where the squares are halved too, for owned nodes flagged `near`. Hanging
+/// nodes, the others of the line, and those at the larger squares' far side each move by a share of their
+/// own, where their triangles are those of a straight line. Edges that were Delaunay stay so.
+/// *Collective.*
+bool move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
+                         const NodeFlags& pinned, double limit);
 
 }  // namespace quadloop

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+
+#include "mesher/mesh/halo_mesh.hpp"
+
+namespace quadloop {
+
+/// Finds the nodes of lines where squares of two sizes meet, among those that this rank owns: nodes whose cells are
+/// two equal squares on one side of the line and the triangles of a division at hanging nodes on the other.
+class SquareLines {
+ public:
+  explicit SquareLines(const HaloMesh& mesh);
+
+  /// By how much an owned node is to move; nothing where it is of no level line.
+  Point move_of(NodeId node) const;
+
+ private:
+  /// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
+  /// counter-clockwise).
+  struct Surroundings {
+    double edge = 0;  ///< of the squares
+    unsigned quadrants = 0;
+    unsigned line_ends = 0;  ///< bit 0, 1: triangles reach the node's neighbour on the line, on either side
+  };
+
+  void exclude(NodeId node);
+  void look_at_squares(const std::array<NodeId, 4>& nodes);
+  void look_at_squares(const std::array<NodeId, 3>&) {}
+  void look_at_triangles(const std::array<NodeId, 3>& nodes);
+  void look_at_triangles(const std::array<NodeId, 4>&) {}
+
+  const HaloMesh& mesh_;
+  IdVector<NodeId, Surroundings> round_;
+};
+
+}  // namespace quadloop
