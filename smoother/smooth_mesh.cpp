@@ -70,12 +70,12 @@ struct WorstCell {
   }
 };
 
-/// What has to be known before the first sweep: the worst cell, and the nodes that may come to move.
+/// What has to be known before the first sweep.
 struct Survey {
-  WorstCell worst;
-  NodeFlags bad;       ///< of cells above the threshold; right for owned nodes
-  NodeFlags near;      ///< the same, and some rings round those
-  NodeFlags parallel;  ///< of parallelograms; right for owned nodes
+  bool tangled;        ///< whether there are inverted cells
+  NodeFlags bad;       ///< nodes of cells above the threshold; right for owned nodes
+  NodeFlags near;      ///< the same, and some rings round those: they may come to move
+  NodeFlags parallel;  ///< nodes of parallelograms; right for owned nodes
 };
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
@@ -85,45 +85,44 @@ WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
 bool is_parallelogram(const std::array<Point, 4>& p) { return is_square(p) || skew_of(p) <= parallel_skew; }
 bool is_parallelogram(const std::array<Point, 3>&) { return false; }
 
-NodeFlags nodes_of_parallelograms(const HaloMesh& mesh) {
-  NodeFlags parallel(mesh.points().size(), 0);
+void flag_nodes_of_parallelograms(const HaloMesh& mesh, NodeFlags& parallel) {
   mesh.for_each_cell([&](const auto& nodes) {
     if (is_parallelogram(corners_of(mesh, nodes))) flag_all(nodes, parallel);
   });
-  return parallel;
 }
 
+/// Of the worst cell and of cells above a threshold.
+struct BadCells {
+  WorstCell worst;
+  NodeFlags nodes;  ///< of those above the threshold; right for owned nodes
+};
+
 /// *Collective.*
-Survey survey(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-              double threshold) {
-  Survey result;
-  WorstCell& worst = result.worst;
-  result.bad.resize(mesh.points().size(), 0);
+BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
+                        double threshold) {
+  BadCells bad{{}, NodeFlags(mesh.points().size(), 0)};
   const CostLimit limit(threshold);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
-    const double cost = cost_of(mesh, nodes, targets, number++, worst.cost < threshold ? worst.limit : limit);
-    worst.include(cost, mesh.owns(nodes[0]));  // other ranks may have the cell, too
-    if (cost > threshold) flag_all(nodes, result.bad);
+    const double cost =
+        cost_of(mesh, nodes, targets, number++, bad.worst.cost < threshold ? bad.worst.limit : limit);
+    bad.worst.include(cost, mesh.owns(nodes[0]));  // other ranks may have the cell, too
+    if (cost > threshold) flag_all(nodes, bad.nodes);
   });
-  result.parallel = targets.empty() ? nodes_of_parallelograms(mesh) : NodeFlags(mesh.points().size(), 0);
-  result.near = result.bad;
-  grow(mesh, result.near, free_rings);
-  result.worst = over_ranks(comm, result.worst);
-  return result;
+  bad.worst = over_ranks(comm, bad.worst);
+  return bad;
 }
 
-/// Flags the nodes of cells that cost more than `bad`; only those with a node near are looked at. Right for
-/// owned nodes.
+/// Flags the nodes of cells that cost more than `bad`; only those with a node flagged in `among` are looked
+/// at. Right for owned nodes.
 NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-                             const Survey& surveyed, double bad) {
+                             const NodeFlags& among, double bad) {
   NodeFlags flags(mesh.points().size(), 0);
   const CostLimit limit(bad);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t cell = number++;
-    if (any_flagged(surveyed.near, nodes) && cost_of(mesh, nodes, targets, cell, limit) > bad)
-      flag_all(nodes, flags);
+    if (any_flagged(among, nodes) && cost_of(mesh, nodes, targets, cell, limit) > bad) flag_all(nodes, flags);
   });
   return flags;
 }
@@ -225,16 +224,15 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   std::size_t settled = 0;
   for (int round = 0; round <= last_round; ++round) {
     const double threshold = round == 0 ? options.threshold : options.bad;
-    if (round > 0) bad = nodes_of_bad_cells(halo, targets, surveyed, threshold);
+    if (round > 0) bad = nodes_of_bad_cells(halo, targets, surveyed.near, threshold);
     if (round > 0) look_again_at_slides(halo, slide, bad, stale);
     if (round > 0) yield(halo, bad, round - 1, yielding);
     std::vector<NodeId> free = free_nodes(surveyed, halo, slide, yielding);
     if (!comm.any(free.size() > settled)) return;
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
-    const bool tangled = surveyed.worst.inverted > 0;
     const Sweeper::Rule rule{options.method, options.objective, threshold,
-                             tangled,        targets.empty(),   even_up_to(round, options, !targets.empty())};
+                             surveyed.tangled, targets.empty(),   even_up_to(round, options, !targets.empty())};
     Sweeper sweeper(comm, halo, stars, slide, rule, bad, stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
@@ -250,11 +248,22 @@ bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& sl
   return fit_to_layers(comm, halo, slide, heights) || evened;
 }
 
+/// Moves level lines, after which fewer nodes are bad. *Collective.*
+void move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads, const SmoothOptions& options,
+                      NodeFlags& bad) {
+  halo.exchange().update(bad);
+  const bool moved = has_quads
+                         ? move_square_lines(comm, halo, options.pinned, options.bad)
+                         : move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
+  if (moved) bad = nodes_of_bad_cells(halo, {}, bad, options.threshold);
+}
+
 /// *Collective.*
-bool move_level_lines(const Communicator& comm, HaloMesh& halo, const Survey& surveyed, bool has_quads,
-                      const SmoothOptions& options) {
-  return has_quads ? move_square_lines(comm, halo, options.pinned, options.bad)
-                   : move_triangle_lines(comm, halo, surveyed.bad, options.pinned, options.threshold);
+Survey survey(const HaloMesh& halo, const BadCells& bad, bool any_targets) {
+  Survey surveyed{bad.worst.inverted > 0, bad.nodes, bad.nodes, NodeFlags(halo.points().size(), 0)};
+  grow(halo, surveyed.near, free_rings);
+  if (!any_targets) flag_nodes_of_parallelograms(halo, surveyed.parallel);
+  return surveyed;
 }
 
 /// What sweeps have made of a mesh.
@@ -273,15 +282,13 @@ Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   const std::vector<CellTarget> targets =
       any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
-  Survey surveyed = survey(comm, halo, targets, options.threshold);
-  const WorstCell before = surveyed.worst;
-  if (options.level_lines && options.sweeps > 0 && !any_targets &&
-      move_level_lines(comm, halo, surveyed, comm.any(!mesh.quads.empty()), options))
-    surveyed = survey(comm, halo, targets, options.threshold);
-  sweep_in_rounds(comm, halo, slide, targets, surveyed, options, report);
+  BadCells bad = find_bad_cells(comm, halo, targets, options.threshold);
+  if (options.level_lines && options.sweeps > 0 && !any_targets)
+    move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
+  sweep_in_rounds(comm, halo, slide, targets, survey(halo, bad, any_targets), options, report);
   const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);
   const WorstCell after = worst_cell(comm, halo, targets);
-  return {before, after, report.moves > 0 || fitted, take_positions(halo, mesh)};
+  return {bad.worst, after, report.moves > 0 || fitted, take_positions(halo, mesh)};
 }
 
 /// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
