@@ -98,8 +98,8 @@ struct BadCells {
 };
 
 /// *Collective.*
-BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets,
-                        double threshold) {
+BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh,
+                        const std::vector<CellTarget>& targets, double threshold) {
   BadCells bad{{}, NodeFlags(mesh.points().size(), 0)};
   const CostLimit limit(threshold);
   std::size_t number = 0;
@@ -231,30 +231,29 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
     if (!comm.any(free.size() > settled)) return;
     settled = free.size();
     const NodeStars stars(halo, std::move(free), targets);
-    const Sweeper::Rule rule{options.method, options.objective, threshold,
-                             surveyed.tangled, targets.empty(),   even_up_to(round, options, !targets.empty())};
+    const Sweeper::Rule rule{options.method,  options.objective,
+                             threshold,       surveyed.tangled,
+                             targets.empty(), even_up_to(round, options, !targets.empty())};
     Sweeper sweeper(comm, halo, stars, slide, rule, bad, stale);
     sweep_until_settled(sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }
 }
 
-/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. Returns whether any
-/// node has moved. *Collective.*
-bool fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. *Collective.*
+void fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                std::span<const double> heights) {
-  if (!comm.any(!heights.empty())) return false;
-  const bool evened = even_widths(comm, halo, slide, heights, most_even_sweeps);
-  return fit_to_layers(comm, halo, slide, heights) || evened;
+  if (!comm.any(!heights.empty())) return;
+  even_widths(comm, halo, slide, heights, most_even_sweeps);
+  fit_to_layers(comm, halo, slide, heights);
 }
 
 /// Moves level lines, after which fewer nodes are bad. *Collective.*
 void move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads, const SmoothOptions& options,
                       NodeFlags& bad) {
   halo.exchange().update(bad);
-  const bool moved = has_quads
-                         ? move_square_lines(comm, halo, options.pinned, options.bad)
-                         : move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
+  const bool moved = has_quads ? move_square_lines(comm, halo, options.pinned, options.bad)
+                               : move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
   if (moved) bad = nodes_of_bad_cells(halo, {}, bad, options.threshold);
 }
 
@@ -266,15 +265,16 @@ Survey survey(const HaloMesh& halo, const BadCells& bad, bool any_targets) {
   return surveyed;
 }
 
-/// What sweeps have made of a mesh.
-struct Swept {
-  WorstCell before, after;
+/// What moves have made of a mesh.
+struct Moved {
+  WorstCell before;
+  WorstCell after;         ///< not looked for where flips follow
   bool any_moved = false;  ///< on any rank
   NodeFlags moved;         ///< of the mesh's points
 };
 
 /// Moves the nodes, without flips. *Collective.*
-Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& options, SmoothReport& report) {
+Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& options, SmoothReport& report) {
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
@@ -286,9 +286,12 @@ Swept move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   if (options.level_lines && options.sweeps > 0 && !any_targets)
     move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
   sweep_in_rounds(comm, halo, slide, targets, survey(halo, bad, any_targets), options, report);
-  const bool fitted = options.sweeps > 0 && fit_front(comm, halo, slide, options.front_heights);
-  const WorstCell after = worst_cell(comm, halo, targets);
-  return {bad.worst, after, report.moves > 0 || fitted, take_positions(halo, mesh)};
+  if (options.sweeps > 0) fit_front(comm, halo, slide, options.front_heights);
+  NodeFlags moved = take_positions(halo, mesh);
+  const bool any_moved = comm.any(std::ranges::find(moved, 1) != moved.end());
+  const bool flips_follow = options.delaunay && any_moved && bad.worst.inverted == 0;
+  return {bad.worst, flips_follow ? WorstCell{} : worst_cell(comm, halo, targets), any_moved,
+          std::move(moved)};
 }
 
 /// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*

@@ -6,8 +6,9 @@
 
 namespace quadloop {
 
-/// Finds the nodes of lines where squares of two sizes meet, among those that this rank owns: nodes whose cells are
-/// two equal squares on one side of the line and the triangles of a division at hanging nodes on the other.
+/// Finds the nodes of lines where squares of two sizes meet, among those that this rank owns: nodes whose
+/// cells are two equal squares on one side of the line and the triangles of a division at hanging nodes on
+/// the other.
 class SquareLines {
  public:
   explicit SquareLines(const HaloMesh& mesh);

@@ -42,23 +42,34 @@ constexpr std::array<Role, 15> roles{{
     {{{{-2, -1}, {0, -2}, {2, 0}, {0, 2}, {-2, 0}}}, {-0.36, -0.11}},
 }};
 
-/// A triangle from one of its corners on, counter-clockwise: where the corners lie in its box, at the lower
-/// end, in the middle (1) or at the upper end (2), and whether the box is twice as high as wide, square (1)
-/// or twice as wide as high (2).
+/// A triangle, counter-clockwise: of each corner 3 i + j, where i and j are 0, 1 or 2 as it lies at the lower
+/// end of the triangle's box, in the middle or at the upper end, both ways; and whether the box is twice as
+/// high as wide (0), square (1) or twice as wide as high (2).
 struct Shape {
-  std::array<int, 3> x, y;
-  int aspect;
+  std::array<unsigned, 3> places;
+  unsigned aspect;
 };
 
-/// A number that stands for the shape, as seen from its k-th corner. Sums of a few tell these apart.
-constexpr std::uint64_t number_of(const Shape& shape, std::size_t k) {
-  std::uint64_t number = static_cast<std::uint64_t>(shape.aspect) + 1;
-  for (std::size_t i = k; i < k + 3; ++i)
-    number = 9 * number + static_cast<std::uint64_t>(3 * shape.x[i % 3] + shape.y[i % 3]);
-  number = (number ^ (number << 32U)) * 0xbf58476d1ce4e5b9U;  // mixed as by SplitMix64
-  number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
-  return number ^ (number >> 31U);
+/// The shape as seen from its k-th corner.
+constexpr std::size_t code_of(const Shape& shape, std::size_t k) {
+  std::size_t code = shape.aspect;
+  for (std::size_t i = k; i < k + 3; ++i) code = 9 * code + shape.places[i % 3];
+  return code;
 }
+
+/// Numbers that stand for the codes. Sums of a few tell these apart.
+consteval auto all_numbers() {
+  std::array<std::uint64_t, 3 * 9 * 9 * 9> numbers{};
+  std::uint64_t state = 0;
+  for (std::uint64_t& number : numbers) {  // SplitMix64
+    number = state += 0x9e3779b97f4a7c15U;
+    number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9U;
+    number = (number ^ (number >> 27U)) * 0x94d049bb133111ebU;
+    number ^= number >> 31U;
+  }
+  return numbers;
+}
+constexpr auto numbers = all_numbers();
 
 constexpr Shape shape_of(const std::array<Step, 3>& corners) {
   Shape shape{};
@@ -70,10 +81,9 @@ constexpr Shape shape_of(const std::array<Step, 3>& corners) {
     }
   }
   const int width = high[0] - low[0], height = high[1] - low[1];
-  for (std::size_t k = 0; k < 3; ++k) {
-    shape.x[k] = 2 * (corners[k][0] - low[0]) / width;
-    shape.y[k] = 2 * (corners[k][1] - low[1]) / height;
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    shape.places[k] =
+        static_cast<unsigned>(6 * (corners[k][0] - low[0]) / width + 2 * (corners[k][1] - low[1]) / height);
   shape.aspect = width == height ? 1 : width > height ? 2 : 0;
   return shape;
 }
@@ -100,7 +110,7 @@ constexpr std::uint64_t sum_round(const Role& role, int image) {
   std::uint64_t sum = 0;
   for (std::size_t k = 0; k < size; ++k) {
     const Step a = image_of(role.neighbours[k], image), b = image_of(role.neighbours[(k + 1) % size], image);
-    sum += number_of(image < 4 ? shape_of({{{}, a, b}}) : shape_of({{{}, b, a}}), 0);
+    sum += numbers[code_of(image < 4 ? shape_of({{{}, a, b}}) : shape_of({{{}, b, a}}), 0)];
   }
   return sum;
 }
@@ -118,9 +128,11 @@ constexpr auto patterns = all_patterns();
 
 /// Of a box: coordinates that went through a file are on the lattice nearly.
 constexpr double rounding = 1e-6;
+constexpr double least = 1e-300;  ///< length of a box's side
 
 bool near(double a, double b) { return std::abs(a - b) <= rounding; }
 
+/// From the least of three coordinates to the largest.
 struct Extent {
   double low, length;
 };
@@ -129,22 +141,20 @@ Extent extent_of(double a, double b, double c) {
   return {low, std::max({a, b, c}) - low};
 }
 
-/// Returns whether a coordinate is at one of the ends of an extent or in its middle.
-bool find_step(double at, const Extent& extent, int& step) {
-  const double steps = 2 * (at - extent.low) / extent.length;
-  step = static_cast<int>(steps + 0.5);
-  return near(steps, step);
-}
-
 std::optional<Shape> shape_of(const std::array<Point, 3>& p, const Extent& x, const Extent& y) {
   const double aspect = 2 * x.length / y.length;
-  if (!(near(aspect, 1) || near(aspect, 2) || near(aspect, 4)) || !(x.length > 0)) return std::nullopt;
+  if (!(near(aspect, 1) || near(aspect, 2) || near(aspect, 4)) || !(x.length > least)) return std::nullopt;
   Shape shape;
-  shape.aspect = static_cast<int>(aspect / 2 + 0.25);
+  shape.aspect = static_cast<unsigned>(aspect / 2 + 0.25);
+  const double in_width = 2 / x.length, in_height = 2 / y.length;
+  double off = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!find_step(p[k].x, x, shape.x[k]) || !find_step(p[k].y, y, shape.y[k])) return std::nullopt;
+    const double i = in_width * (p[k].x - x.low), j = in_height * (p[k].y - y.low);
+    const auto column = static_cast<unsigned>(i + 0.5), row = static_cast<unsigned>(j + 0.5);
+    shape.places[k] = 3 * column + row;
+    off = std::max({off, std::abs(i - column), std::abs(j - row)});
   }
-  return shape;
+  return off <= rounding ? std::optional(shape) : std::nullopt;
 }
 
 }  // namespace
@@ -170,7 +180,7 @@ void TriangleLines::look_at(const std::array<NodeId, 3>& nodes) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!is_asked(nodes[k])) continue;
     Surroundings& s = round_[nodes[k]];
-    s.sum += shape ? number_of(*shape, k) : 1;
+    s.sum += shape ? numbers[code_of(*shape, k)] : 1;
     s.edge = std::max(s.edge, shape && shape->aspect != 1 ? std::min(x.length, y.length) : 0);
   }
 }

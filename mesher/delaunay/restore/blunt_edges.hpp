@@ -11,15 +11,20 @@
 
 namespace quadloop {
 
-/// Edges opposite angles that are not acute, between nodes near moved ones: all others are right. No triangle
-/// has more than one, but for rounding.
+/// Edges that may have become wrong where nodes moved: opposite angles that are not acute, between nodes near
+/// moved ones. Those of right angles in halved squares that stayed are left out: such an edge is wrong only
+/// if the angle opposite it on the other side is not acute either, and then that one's triangle has it. No
+/// triangle has more than one, but for rounding.
 class BluntEdges {
  public:
-  BluntEdges(const Mesh& mesh, const NodeFlags& near) : mesh_{mesh}, last_low_(mesh.points.size(), none) {
+  BluntEdges(const Mesh& mesh, const NodeFlags& moved, const NodeFlags& near)
+      : mesh_{mesh}, last_low_(mesh.points.size(), none) {
     for (const auto& t : mesh.triangles) {
+      if (near[t[0]] + near[t[1]] + near[t[2]] < 2) continue;
+      const bool stayed = !any_flagged(moved, t);
       for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
-        if (near[from] == 0 || near[to] == 0 ||
-            surely_acute(mesh.point(from), mesh.point(apex), mesh.point(to)))
+        const Point a = mesh.point(from), p = mesh.point(apex), b = mesh.point(to);
+        if (near[from] == 0 || near[to] == 0 || surely_acute(a, p, b) || (stayed && is_right(a, p, b)))
           return;
         std::int32_t& last = last_low_[std::min(from, to)];
         edges_.push_back({from, to, apex, std::exchange(last, size32(edges_)), true});
@@ -58,6 +63,10 @@ class BluntEdges {
     std::int32_t next;  ///< of the same lower node
     bool is_single;
   };
+  /// Exactly, of an angle at p between the ways to a and b along x and y.
+  static bool is_right(Point a, Point p, Point b) {
+    return (a.x == p.x && b.y == p.y) || (a.y == p.y && b.x == p.x);
+  }
   template <class Visit>
   static void for_each_edge(const std::array<NodeId, 3>& t, const Visit& visit) {
     for (std::size_t k = 0; k < 3; ++k) visit(t[(k + 1) % 3], t[(k + 2) % 3], t[k]);

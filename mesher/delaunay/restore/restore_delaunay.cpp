@@ -39,7 +39,7 @@ class Region {
   /// triangle across it is another rank's. *Collective.*
   std::vector<GlobalNodeId> nodes_at_doubtful_edges() const {
     const NodeFlags near = near_moved();
-    BluntEdges blunt(mesh_, near);
+    BluntEdges blunt(mesh_, known_.moved, near);
     std::vector<GlobalNodeId> nodes;
     const auto add = [&](std::initializer_list<NodeId> some) {
       for (const NodeId node : some) nodes.push_back(mesh_.global(node));

@@ -38,8 +38,8 @@ struct Found {
   std::set<Nodes> pairs, singles;
 };
 
-Found look(const Mesh& mesh, const NodeFlags& near) {
-  BluntEdges edges(mesh, near);
+Found look(const Mesh& mesh, const NodeFlags& near, const Nodes& moved = {0, 1, 2, 3, 4}) {
+  BluntEdges edges(mesh, flags(mesh, moved), near);
   Found found;
   edges.for_each_pair([&](NodeId a, NodeId b, NodeId c, NodeId d) {
     found.pairs.insert({a.value(), b.value(), c.value(), d.value()});
@@ -70,6 +70,24 @@ TEST(BluntEdges, OnlyBetweenNodesNear) {
   const Found found = look(mesh, flags(mesh, {0, 2, 3, 4}));
   EXPECT_TRUE(found.pairs.empty());
   EXPECT_EQ(found.singles, (std::set<Nodes>{{4, 2, 1}}));
+}
+
+/// Three corners of a square, whose diagonal 0-1 has node 3 beyond it.
+Mesh half_square(Point p3) {
+  Mesh mesh;
+  mesh.points = {{1, 0}, {0, 1}, {0, 0}, p3, {5, 5}};
+  mesh.owned_nodes = size32(mesh.points);
+  mesh.triangles = {{NodeId{0}, NodeId{1}, NodeId{2}}, {NodeId{1}, NodeId{0}, NodeId{3}}};
+  return mesh;
+}
+
+TEST(BluntEdges, ARightAngleThatStayedIsLeftToTheTriangleAcross) {
+  for (const Point& p3 : {Point{1.1, 1.1}, Point{0.9, 0.9}}) {
+    const Mesh mesh = half_square(p3);
+    const NodeFlags near = flags(mesh, {0, 1, 2, 3});
+    EXPECT_EQ(look(mesh, near, {3}).pairs.size(), p3.x < 1 ? 1U : 0U);  // inside the circle, by its own angle
+    EXPECT_EQ(look(mesh, near, {2, 3}).pairs.size(), p3.x < 1 ? 2U : 1U);
+  }
 }
 
 }  // namespace
