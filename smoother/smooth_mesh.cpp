@@ -127,11 +127,15 @@ NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>
   return flags;
 }
 
+void flag_those_of(const NodeFlags& some, NodeFlags& flags) {
+  for (const NodeId node : flags.ids()) flags[node] |= some[node];
+}
+
 /// Flags the bad nodes and those in so many rings round them, beside the ones that are flagged already.
 /// *Collective.*
 void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) {
   grow(mesh, bad, rings);
-  for (const NodeId node : bad.ids()) yielding[node] |= bad[node];
+  flag_those_of(bad, yielding);
 }
 
 /// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
@@ -248,13 +252,16 @@ void fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& sl
   fit_to_layers(comm, halo, slide, heights);
 }
 
-/// Moves level lines, after which fewer nodes are bad. *Collective.*
-void move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads, const SmoothOptions& options,
-                      NodeFlags& bad) {
+/// Moves level lines, after which fewer nodes are bad. Returns flags of those near edges that may not be
+/// Delaunay for that, or none. *Collective.*
+NodeFlags move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads,
+                           const SmoothOptions& options, NodeFlags& bad) {
   halo.exchange().update(bad);
-  const bool moved = has_quads ? move_square_lines(comm, halo, options.pinned, options.bad)
-                               : move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
-  if (moved) bad = nodes_of_bad_cells(halo, {}, bad, options.threshold);
+  NodeFlags doubtful;
+  if (has_quads) move_square_lines(comm, halo, options.pinned, options.bad);
+  if (!has_quads) doubtful = move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
+  bad = nodes_of_bad_cells(halo, {}, bad, options.threshold);
+  return doubtful;
 }
 
 /// *Collective.*
@@ -270,7 +277,7 @@ struct Moved {
   WorstCell before;
   WorstCell after;         ///< not looked for where flips follow
   bool any_moved = false;  ///< on any rank
-  NodeFlags moved;         ///< of the mesh's points
+  NodeFlags moved;         ///< of the mesh's points: those near which edges may not be Delaunay any more
 };
 
 /// Moves the nodes, without flips. *Collective.*
@@ -283,11 +290,14 @@ Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
       any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   BadCells bad = find_bad_cells(comm, halo, targets, options.threshold);
+  NodeFlags doubtful;
   if (options.level_lines && options.sweeps > 0 && !any_targets)
-    move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
+    doubtful = move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
+  take_positions(halo, mesh);
   sweep_in_rounds(comm, halo, slide, targets, survey(halo, bad, any_targets), options, report);
   if (options.sweeps > 0) fit_front(comm, halo, slide, options.front_heights);
   NodeFlags moved = take_positions(halo, mesh);
+  if (!doubtful.empty()) flag_those_of(doubtful, moved);
   const bool any_moved = comm.any(std::ranges::find(moved, 1) != moved.end());
   const bool flips_follow = options.delaunay && any_moved && bad.worst.inverted == 0;
   return {bad.worst, flips_follow ? WorstCell{} : worst_cell(comm, halo, targets), any_moved,

@@ -29,6 +29,11 @@ inline bool surely_acute(Point a, Point p, Point b) {
   return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
 }
 
+/// Whether the ways from p to a and to b lie along x and y: a right angle, exactly.
+inline bool is_right_along_axes(Point a, Point p, Point b) {
+  return (a.x == p.x && b.y == p.y) || (a.y == p.y && b.x == p.x);
+}
+
 /// Whether the edge a-b between the triangles a b c and b a d should give way to c-d. Of four points on one
 /// circle that with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of a, b, c, d.
 /// Exact; never where a new triangle would not be positive.

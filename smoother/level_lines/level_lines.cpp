@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <utility>
 
+#include "mesher/delaunay/flipper.hpp"
 #include "smoother/level_lines/square_lines.hpp"
 #include "smoother/level_lines/triangle_lines.hpp"
 #include "smoother/objective/condition_number.hpp"
@@ -31,59 +33,80 @@ void share(HaloMesh& mesh, NodeFlags& moved) {
   mesh.exchange().update(moved);
 }
 
+/// What becomes of lines that have been moved.
+struct Lines {
+  NodeFlags moved;     ///< nodes whose cells are to be looked at
+  NodeFlags doubtful;  ///< those of triangles with edges that may not be Delaunay
+};
+
+/// Flags the moved nodes of a triangle that is neither acute nor one of a halved square: edges opposite the
+/// angles of others are Delaunay.
+void doubt(const std::array<NodeId, 3>& nodes, const std::array<Point, 3>& p, const NodeFlags& moved,
+           NodeFlags& doubtful) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point &before = p[(k + 2) % 3], &at = p[k], &after = p[(k + 1) % 3];
+    if (surely_acute(before, at, after) || is_right_along_axes(before, at, after)) continue;
+    for (const NodeId node : nodes) doubtful[node] |= moved[node];
+    return;
+  }
+}
+void doubt(const std::array<NodeId, 4>&, const std::array<Point, 4>&, const NodeFlags&, NodeFlags&) {}
+
 /// Looks at the cells with a node that is flagged as moved. Puts owned nodes of those that have become too
 /// bad back, which are then the ones that are flagged. Returns whether there are any over all ranks.
 /// *Collective.*
 bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, Point>& before, double limit,
-               NodeFlags& moved) {
+               Lines& lines) {
   std::vector<NodeId> back;
   const CostLimit cost_limit(limit);
   const auto now = [&](NodeId n) { return mesh.point(n); };
   const auto then = [&](NodeId n) { return before[n]; };
   mesh.for_each_cell([&](const auto& nodes) {
-    if (!any_flagged(moved, nodes)) return;
+    if (!any_flagged(lines.moved, nodes)) return;
     const auto corners = corners_of(nodes, now);
+    doubt(nodes, corners, lines.moved, lines.doubtful);
     if (cost_limit.surely_kept_by(corners)) return;
     const double cost = ideal_cost(corners);
     if (cost <= limit || cost <= ideal_cost(corners_of(nodes, then))) return;
     std::ranges::copy_if(nodes, std::back_inserter(back),
                          [&](NodeId n) { return mesh.owns(n) && now(n) != then(n); });
   });
-  moved = NodeFlags(moved.size(), 0);
+  lines.moved = NodeFlags(lines.moved.size(), 0);
   for (const NodeId node : back) {
     mesh.points()[node.value()] = before[node];
-    moved[node] = 1;
+    lines.moved[node] = 1;
   }
-  share(mesh, moved);
+  share(mesh, lines.moved);
   return comm.any(!back.empty());
 }
 
-/// *Collective.*
-template <class Lines>
-bool move_lines(const Communicator& comm, HaloMesh& mesh, const Lines& lines, const NodeFlags& pinned,
-                double limit) {
+/// Returns the doubtful nodes, or none at all where nothing has moved. *Collective.*
+template <class Finder>
+NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& finder, const NodeFlags& pinned,
+                     double limit) {
   const IdVector<NodeId, Point> before(mesh.points());
-  NodeFlags moved(mesh.points().size(), 0);
+  Lines lines{NodeFlags(before.size(), 0), NodeFlags(before.size(), 0)};
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
     if (!pinned.empty() && pinned[node] != 0) continue;
-    mesh.points()[node.value()] = before[node] + lines.move_of(node);
-    moved[node] = mesh.point(node) != before[node] ? 1 : 0;
+    mesh.points()[node.value()] = before[node] + finder.move_of(node);
+    lines.moved[node] = mesh.point(node) != before[node] ? 1 : 0;
   }
-  if (!comm.any(std::ranges::any_of(moved, [](char flag) { return flag != 0; }))) return false;
-  share(mesh, moved);
-  while (take_back(comm, mesh, before, limit, moved)) {
+  if (!comm.any(std::ranges::find(lines.moved, 1) != lines.moved.end())) return {};
+  share(mesh, lines.moved);
+  while (take_back(comm, mesh, before, limit, lines)) {
   }
-  return true;
+  mesh.exchange().update(lines.doubtful);
+  return std::move(lines.doubtful);
 }
 
 }  // namespace
 
 bool move_square_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit) {
-  return move_lines(comm, mesh, SquareLines(mesh), pinned, limit);
+  return !move_lines(comm, mesh, SquareLines(mesh), pinned, limit).empty();
 }
 
-bool move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
-                         const NodeFlags& pinned, double limit) {
+NodeFlags move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
+                              const NodeFlags& pinned, double limit) {
   return move_lines(comm, mesh, TriangleLines(mesh, near), pinned, limit);
 }
 

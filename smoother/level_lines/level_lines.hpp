@@ -16,11 +16,11 @@ namespace quadloop {
 /// any node was moved on any rank. *Collective.*
 bool move_square_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& pinned, double limit);
 
-/// The same in a mesh of triangles, where the squares are halved too, for owned nodes flagged `near`. Hanging
-/// nodes, the others of the line, and those at the larger squares' far side each move by a share of their
-/// own, where their triangles are those of a straight line. Edges that were Delaunay stay so.
-/// *Collective.*
-bool move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
-                         const NodeFlags& pinned, double limit);
+/// The same in a mesh of triangles, where the squares are halved too, for owned nodes flagged `near`: each
+/// node of the triangles at a line goes where its place in the pattern of such lines asks for. Returns
+/// flags of those that moved and have edges round them that may be Delaunay no more; no flags at all where
+/// nothing was moved on any rank. *Collective.*
+NodeFlags move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
+                              const NodeFlags& pinned, double limit);
 
 }  // namespace quadloop

@@ -126,6 +126,25 @@ consteval auto all_patterns() {
 }
 constexpr auto patterns = all_patterns();
 
+/// Sums are spread evenly: those of each 256th of all numbers begin there among the patterns.
+constexpr unsigned shift = 56;
+consteval auto all_starts() {
+  std::array<std::uint8_t, 257> starts{};
+  for (const Pattern& pattern : patterns) ++starts[(pattern.sum >> shift) + 1];
+  for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  return starts;
+}
+constexpr auto starts = all_starts();
+
+/// The move that belongs to the sum, or none.
+Point move_for(std::uint64_t sum) {
+  const std::size_t part = sum >> shift;
+  for (std::size_t i = starts[part]; i < starts[part + 1]; ++i) {
+    if (patterns[i].sum == sum) return patterns[i].move;
+  }
+  return {};
+}
+
 /// Of a box: coordinates that went through a file are on the lattice nearly.
 constexpr double rounding = 1e-6;
 constexpr double least = 1e-300;  ///< length of a box's side
@@ -187,9 +206,7 @@ void TriangleLines::look_at(const std::array<NodeId, 3>& nodes) {
 
 Point TriangleLines::move_of(NodeId node) const {
   const Surroundings& s = round_[node];
-  if (s.edge == 0) return {};
-  const auto found = std::ranges::lower_bound(patterns, s.sum, {}, &Pattern::sum);
-  return found != patterns.end() && found->sum == s.sum ? s.edge * found->move : Point{};
+  return s.edge == 0 ? Point{} : s.edge * move_for(s.sum);
 }
 
 }  // namespace quadloop

@@ -17,14 +17,16 @@ namespace quadloop {
 /// triangle has more than one, but for rounding.
 class BluntEdges {
  public:
+  /// Mesh and `near` must outlive it.
   BluntEdges(const Mesh& mesh, const NodeFlags& moved, const NodeFlags& near)
-      : mesh_{mesh}, last_low_(mesh.points.size(), none) {
+      : mesh_{mesh}, near_{near}, last_low_(mesh.points.size(), none) {
     for (const auto& t : mesh.triangles) {
-      if (near[t[0]] + near[t[1]] + near[t[2]] < 2) continue;
+      if (!has_edge_near(t)) continue;
       const bool stayed = !any_flagged(moved, t);
       for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
         const Point a = mesh.point(from), p = mesh.point(apex), b = mesh.point(to);
-        if (near[from] == 0 || near[to] == 0 || surely_acute(a, p, b) || (stayed && is_right(a, p, b)))
+        if (near[from] == 0 || near[to] == 0 || surely_acute(a, p, b) ||
+            (stayed && is_right_along_axes(a, p, b)))
           return;
         std::int32_t& last = last_low_[std::min(from, to)];
         edges_.push_back({from, to, apex, std::exchange(last, size32(edges_)), true});
@@ -37,6 +39,7 @@ class BluntEdges {
   template <class Visit>
   void for_each_pair(const Visit& visit) {
     for (const auto& t : mesh_.triangles) {
+      if (!has_edge_near(t)) continue;
       for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
         for (std::int32_t e = last_low_[std::min(from, to)]; e != none; e = edges_[e].next) {
           Edge& edge = edges_[e];
@@ -63,9 +66,8 @@ class BluntEdges {
     std::int32_t next;  ///< of the same lower node
     bool is_single;
   };
-  /// Exactly, of an angle at p between the ways to a and b along x and y.
-  static bool is_right(Point a, Point p, Point b) {
-    return (a.x == p.x && b.y == p.y) || (a.y == p.y && b.x == p.x);
+  bool has_edge_near(const std::array<NodeId, 3>& t) const {
+    return near_[t[0]] + near_[t[1]] + near_[t[2]] > 1;
   }
   template <class Visit>
   static void for_each_edge(const std::array<NodeId, 3>& t, const Visit& visit) {
@@ -73,6 +75,7 @@ class BluntEdges {
   }
 
   const Mesh& mesh_;
+  const NodeFlags& near_;
   std::vector<Edge> edges_;
   IdVector<NodeId, std::int32_t> last_low_;  ///< of each node, the last edge with it as the lower end
 };
