@@ -87,13 +87,13 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");
-  const LeafEstimate leaves = estimate_leaves(sizes, domain.inside);
+  const LeafEstimate leaves = estimate_leaves(sizes);
   result.report.estimate = estimate_mesh(geometry, options.type, domain, leaves);
   require_within(result.report.estimate, geometry, options, demanded);
   tell(result.report.estimate, geometry, options, comm.size(), demanded.empty());
 
   times.begin("refinement");
-  const LeafGraph graph = refine_forest(comm, sizes, domain.inside, leaves);
+  const LeafGraph graph = refine_forest(comm, sizes, leaves);
 
   times.begin("cutting");
   CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);

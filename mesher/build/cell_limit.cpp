@@ -61,7 +61,7 @@ class Relaxation {
   double share_with(const SizeSettings& settings) const {
     const Geometry geometry = with_boundaries(geometry_, settings.boundaries);
     SizedDomain domain(geometry, settings.size, demanded_);
-    const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
+    const LeafEstimate leaves = estimate_leaves(domain.sizes);
     return share_of(limit_, estimate_mesh(geometry, type_, domain, leaves));
   }
   bool fits(const SizeSettings& settings) const { return share_with(settings) <= margin; }
@@ -136,7 +136,7 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
         text_of_cells(estimate.layer_cells));
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
-    const LeafEstimate leaves = estimate_leaves(domain.sizes, domain.inside);
+    const LeafEstimate leaves = estimate_leaves(domain.sizes);
     const bool fits = share_of(limit, estimate_mesh(geometry, options.type, domain, leaves)) <= margin;
     if (fits && demanded.for_layers())
       return "the leaves that the case asks for are too large for its layers to stand on, and smaller ones "

@@ -75,7 +75,7 @@ MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
   const SizedDomain domain(geometry, options.size, demanded);
-  return estimate_mesh(geometry, options.type, domain, estimate_leaves(domain.sizes, domain.inside));
+  return estimate_mesh(geometry, options.type, domain, estimate_leaves(domain.sizes));
 }
 
 double share_of(const MeshLimit& limit, const MeshEstimate& estimate) {

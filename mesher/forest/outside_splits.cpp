@@ -22,6 +22,9 @@ Quadrant parent_of(const Quadrant& q) {
   return {q.x & mask, q.y & mask, q.level - 1};
 }
 
+/// The corner that a quadrant and its parent share.
+Corner corner_of_parent(const Quadrant& q) { return quarter_at(q.x, q.y, q.level - 1); }
+
 /// A quadrant to be split, by its place along the curve.
 struct Placed {
   CurveKey key;
@@ -41,28 +44,19 @@ void keep_one_of_each(std::vector<Placed>& quadrants) {
 }  // namespace
 
 bool OutsideSplits::is_split_by_size(const Quadrant& q) {
-  if (whole_ && whole_->contains(q)) return !is_whole_outside_;
-  if (!cursor_.segments_in(q).empty()) {
-    cut_[q.level].push_back(q);
-    return true;
-  }
-  whole_ = q;
-  const std::int64_t half = q.size() / 2;
-  is_whole_outside_ = !inside_.contains(sizes_.lattice().corner(q.x + half, q.y + half));
-  return !is_whole_outside_;
+  if (cursor_.segments_in(q).empty()) return cursor_.is_inside(q, Corner::south_west);
+  if (!cursor_.is_inside(q, corner_of_parent(q))) cut_[q.level].push_back(q);
+  return true;
 }
 
 /// A leaf that touches a child of q is as large as q at most, so that all quadrants of q's size round q are
 /// there, and their parents are split: of nine such four, q's own and those that meet it in q's corner of it.
 /// No outline goes through a lattice corner, so those of them that it does not go through lie where the
-/// corner does.
-void OutsideSplits::add_parents_round(const Quadrant& q, bool is_cut, std::vector<Quadrant>& above) {
-  const std::int64_t s = q.size();
+/// corner does, here outside.
+void OutsideSplits::add_parents_round(const Quadrant& q, std::vector<Quadrant>& above) {
   const Quadrant parent = parent_of(q);
-  const bool at_left = parent.x == q.x, at_bottom = parent.y == q.y;
-  if (is_cut && inside_.contains(sizes_.lattice().corner(at_left ? q.x : q.x + s, at_bottom ? q.y : q.y + s)))
-    return;
-  const std::int64_t to_x = at_left ? -2 * s : 2 * s, to_y = at_bottom ? -2 * s : 2 * s;
+  const Halves corner = halves_of(site_of(corner_of_parent(q)));
+  const std::int64_t to_x = (corner.x - 1) * parent.size(), to_y = (corner.y - 1) * parent.size();
   for (const std::int64_t y : {parent.y, parent.y + to_y}) {
     for (const std::int64_t x : {parent.x, parent.x + to_x}) {
       const Quadrant round{x, y, parent.level};
@@ -79,8 +73,8 @@ void OutsideSplits::split(const Communicator& comm, Forest& forest) {
   std::vector<Placed> split;  // outside, of one level
   for (int level = Quadrant::unit_level; level > 1; --level) {
     above.clear();
-    for (const Quadrant& q : cut_[level]) add_parents_round(q, true, above);
-    for (const Placed& q : split) add_parents_round(q.quadrant, false, above);
+    for (const Quadrant& q : cut_[level]) add_parents_round(q, above);
+    for (const Placed& q : split) add_parents_round(q.quadrant, above);
     split.clear();
     for (const Quadrant& q : above) split.push_back({owners.key_at(q.x, q.y), q});
     keep_one_of_each(split);

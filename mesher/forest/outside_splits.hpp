@@ -1,11 +1,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "mesher/forest/forest.hpp"
-#include "mesher/geometry/interior.hpp"
 #include "mesher/sizes/size_cursor.hpp"
 
 namespace quadloop {
@@ -15,9 +13,8 @@ namespace quadloop {
 /// the quadrants outside follows when all of it is known.
 class OutsideSplits {
  public:
-  /// Both must outlive it.
-  OutsideSplits(const SizeTree& sizes, const Interior& inside)
-      : sizes_{sizes}, inside_{inside}, cursor_{sizes} {}
+  /// `sizes` must outlive it.
+  explicit OutsideSplits(const SizeTree& sizes) : sizes_{sizes}, cursor_{sizes} {}
 
   /// Whether a quadrant that sizes ask to split is split for it: not where it lies outside. To be asked once
   /// of each; constant time on average in the order of the curve.
@@ -26,15 +23,13 @@ class OutsideSplits {
   void split(const Communicator& comm, Forest& forest);
 
  private:
-  void add_parents_round(const Quadrant& q, bool is_cut, std::vector<Quadrant>& above);
+  void add_parents_round(const Quadrant& q, std::vector<Quadrant>& above);
 
   const SizeTree& sizes_;
-  const Interior& inside_;
   SizeCursor cursor_;
-  std::optional<Quadrant> whole_;  ///< last found through which no outline goes
-  bool is_whole_outside_ = false;
-  std::array<std::vector<Quadrant>, Quadrant::unit_level + 1>
-      cut_;  ///< by level: split ones through which the outline goes
+  /// By level: split ones through which the outline goes, and whose corner in the middle of those that they
+  /// ask for lies outside.
+  std::array<std::vector<Quadrant>, Quadrant::unit_level + 1> cut_;
 };
 
 }  // namespace quadloop

@@ -75,7 +75,7 @@ class SqueezedLeaves {
 /// Which quadrants are split by their sizes: those that reach into the domain.
 class SizedSplits {
  public:
-  SizedSplits(const SizeTree& sizes, const Interior& inside) : gradation_{sizes}, outside_{sizes, inside} {}
+  explicit SizedSplits(const SizeTree& sizes) : gradation_{sizes}, outside_{sizes} {}
 
   bool must_split(const Quadrant& q) { return gradation_.must_split(q) && outside_.is_split_by_size(q); }
   void split_outside(const Communicator& comm, Forest& forest) { outside_.split(comm, forest); }
@@ -117,9 +117,8 @@ void share_out_leaves(const SizeTree& sizes, Forest& forest) {
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const Interior& inside,
-                        const LeafEstimate& expected) {
-  SizedSplits splits(sizes, inside);
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
+  SizedSplits splits(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
   if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, splits, forest);

@@ -2,7 +2,6 @@
 
 #include "mesher/forest/forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"
-#include "mesher/geometry/interior.hpp"
 #include "mesher/sizes/leaf_estimate.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
@@ -18,7 +17,6 @@ constexpr int weight_uncut = 1, weight_cut = 16;
 /// leaves are shared out by weight. Returns the leaves of this rank and those around them. *Collective.*
 /// `expected` is for the line of progress, and for shares of the work before the leaves are there; no leaf
 /// depends on it, and there may be none.
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const Interior& inside,
-                        const LeafEstimate& expected = {});
+LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected = {});
 
 }  // namespace quadloop

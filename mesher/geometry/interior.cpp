@@ -6,12 +6,8 @@ bool Interior::contains(Point p) const {
   const Geometry& g = outline_->geometry();
   if (!segments_) segments_.emplace(g);
   int winding = 0;
-  const auto count = [&](std::int32_t s) {
-    const bool up = outline_->beyond_y(g.next(s), p.y);
-    if (up == outline_->beyond_y(s, p.y)) return;
-    if (outline_->has_left(s, p) != up) winding += up ? -1 : 1;  // the ray meets it to the left of p
-  };
-  segments_->for_each_meeting({{g.box().low.x, p.y}, p}, count);
+  segments_->for_each_meeting({{g.box().low.x, p.y}, p},
+                              [&](std::int32_t s) { winding += outline_->winding_at(s, p); });
   return winding > 0;
 }
 

@@ -62,8 +62,8 @@ std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, Si
 
 class LeafCount {
  public:
-  LeafCount(const SizeTree& sizes, const Interior& inside)
-      : sizes_{sizes}, inside_{inside}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
+  explicit LeafCount(const SizeTree& sizes)
+      : sizes_{sizes}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
 
   LeafEstimate count() {
     std::vector<Sampled> level;
@@ -109,14 +109,11 @@ class LeafCount {
     sampled_.push_back({leaf.quadrant, leaf.weight + outside});
   }
 
-  Sampled::Side side_of(const Quadrant& q) const {
-    const std::int64_t half = q.size() / 2;
-    const Point centre = sizes_.lattice().corner(q.x + half, q.y + half);
-    return inside_.contains(centre) ? Sampled::Side::inside : Sampled::Side::outside;
+  Sampled::Side side_of(const Quadrant& q) {
+    return cursor_.is_inside(q, Corner::south_west) ? Sampled::Side::inside : Sampled::Side::outside;
   }
 
   const SizeTree& sizes_;
-  const Interior& inside_;
   SizeCursor cursor_;
   Gradation gradation_;
   LeavesAhead ahead_;
@@ -126,8 +123,6 @@ class LeafCount {
 
 }  // namespace
 
-LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside) {
-  return LeafCount(sizes, inside).count();
-}
+LeafEstimate estimate_leaves(const SizeTree& sizes) { return LeafCount(sizes).count(); }
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "mesher/geometry/interior.hpp"
 #include "mesher/sizes/leaf_sample.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
@@ -20,6 +19,6 @@ struct LeafEstimate {
 /// expected, each for as many others as its chance says. A forest with fewer is counted, but for what is
 /// split outside the domain, which is guessed by the cut leaves. Time grows with the levels, not with the
 /// leaves. The same on any number of ranks; not collective.
-LeafEstimate estimate_leaves(const SizeTree& sizes, const Interior& inside);
+LeafEstimate estimate_leaves(const SizeTree& sizes);
 
 }  // namespace quadloop

@@ -28,6 +28,21 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
   return found_;
 }
 
+/// From the lower left corner of the node along its bottom, then up.
+bool SizeCursor::is_inside(const Quadrant& q, Corner corner) {
+  const SizeTree::Node& node = tree_.node(deepest_node_at(q));
+  const ShiftedOutline& outline = tree_.rules().outline();
+  const LatticePoint place = q.at(site_of(corner));
+  const Lattice& lattice = tree_.lattice();
+  int winding = node.winding;
+  for (const std::int32_t s : tree_.segments_of(node)) {
+    const Point from = lattice.corner(node.quadrant.x, node.quadrant.y), to = lattice.corner(place),
+                turn{to.x, from.y};
+    winding += outline.winding_between(s, from, turn) + outline.winding_between(s, turn, to);
+  }
+  return winding > 0;
+}
+
 int SizeCursor::wanted_level(const Quadrant& leaf) {
   return std::min(leaf.level,
                   std::max(tree_.node(deepest_node_at(leaf)).quadrant.level, tree_.coarsest_level()));

@@ -17,6 +17,8 @@ class SizeCursor {
 
   /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
   std::span<const std::int32_t> segments_in(const Quadrant& q);
+  /// Whether a corner of the quadrant lies in the domain.
+  bool is_inside(const Quadrant& q, Corner corner);
   /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
   int wanted_level(const Quadrant& leaf);
 

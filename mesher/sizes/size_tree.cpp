@@ -1,27 +1,35 @@
 #include "mesher/sizes/size_tree.hpp"
 
-#include <tuple>
+#include <array>
 #include <utility>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/sizes/quartered_square.hpp"
 
 namespace quadloop {
 
 SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
     : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
-  Node whole;
-  whole.segments_end = outline.geometry().size();
+  const std::int32_t all = outline.geometry().size();
   constexpr std::size_t levels = 6;  // with all segments on each; room that is not filled takes no memory
-  segments_.reserve(levels * outline.geometry().size());
+  segments_.reserve(levels * all);
+  Node whole;
   whole.corners_end = size32(corners_);
   for (int ty = 0; ty < lattice.trees_y(); ++ty) {
     for (int tx = 0; tx < lattice.trees_x(); ++tx) {
       Node root;
       root.quadrant = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
       root.demanded = demanded.root(tx, ty);
+      const Box box = lattice.box_of(root.quadrant);
+      root.segments_begin = size32(segments_);
+      for (std::int32_t s = 0; s < all; ++s) {
+        root.winding = static_cast<std::int16_t>(root.winding + outline.winding_at(s, box.low));
+        if (outline.meets(s, box)) segments_.push_back(s);
+      }
+      root.segments_end = size32(segments_);
       roots_.push_back(size());
-      add(root, whole);
+      add(root, box, whole);
     }
   }
 }
@@ -38,53 +46,56 @@ bool SizeTree::is_split(std::int32_t n) const {
 
 void SizeTree::grow(std::int32_t n) const {
   const Node parent = node(n);
-  if (!rules_.wants_split(sized(parent))) {
+  const QuarteredSquare square(rules_.outline(), lattice(), parent.quadrant);
+  if (!rules_.wants_split(sized(parent, square.box()))) {
     nodes_[n].children = Node::leaf;
     return;
   }
   nodes_[n].children = size();
+  std::array<int, 4> winding{};
+  passed_.clear();
+  for (const std::int32_t s : segments_of(parent)) {
+    const QuarteredSquare::Passage passage = square.passage_of(s);
+    passed_.push_back(static_cast<std::uint8_t>(passage.quarters));
+    for (std::size_t k = 0; k < winding.size(); ++k) winding[k] += passage.winding[k];
+  }
   for (const Corner quarter : corners_along_curve) {
+    const int k = curve_index(quarter);
     Node child;
     child.quadrant = parent.quadrant.child(quarter);
     child.parent = n;
+    child.winding = static_cast<std::int16_t>(parent.winding + winding[k]);
     if (parent.demanded != DemandedSplits::none) child.demanded = demanded().child(parent.demanded, quarter);
-    add(child, parent);
+    child.segments_begin = size32(segments_);
+    for (std::size_t i = 0; i < passed_.size(); ++i) {
+      if ((passed_[i] >> k & 1) != 0) segments_.push_back(segments_[parent.segments_begin + i]);
+    }
+    child.segments_end = size32(segments_);
+    add(child, square.box_of(quarter), parent);
   }
   for (std::int32_t above = n; above >= 0 && node(above).deepest_split < parent.quadrant.level;
        above = node(above).parent)
     nodes_[above].deepest_split = parent.quadrant.level;
 }
 
-/// Takes over what the node holds of its parent's segments and corners; a root, of all segments, whose
-/// numbers stand in no list. A corner on a lattice line touches the leaves on both its sides, so that mirror
-/// images agree.
-void SizeTree::add(Node child, const Node& parent) const {
-  const Box box = lattice().box_of(child.quadrant);
-  const ShiftedOutline& outline = rules_.outline();
-  const auto take = [](std::vector<std::int32_t>& all, std::int32_t begin, std::int32_t end, bool listed,
-                       const auto& holds) {
-    const auto first = size32(all);
-    for (std::int32_t i = begin; i < end; ++i) {
-      const std::int32_t number = listed ? all[i] : i;
-      if (holds(number)) all.push_back(number);
-    }
-    return std::pair(first, size32(all));
-  };
-  std::tie(child.segments_begin, child.segments_end) =
-      take(segments_, parent.segments_begin, parent.segments_end, child.parent >= 0,
-           [&](std::int32_t s) { return outline.meets(s, box); });
-  std::tie(child.corners_begin, child.corners_end) =
-      take(corners_, parent.corners_begin, parent.corners_end, true,
-           [&](std::int32_t v) { return box.contains(outline.geometry().point(v)); });
-  const SizeRules::Judgement said = rules_.judge(sized(child));
-  child.plain = said.plain;
-  child.finest = static_cast<std::int8_t>(said.finest);
-  nodes_.push_back(child);
+/// Takes over what the node holds of its parent's corners; a root, of all. A corner on a lattice line touches
+/// the leaves on both its sides, so that mirror images agree.
+void SizeTree::add(Node node, const Box& box, const Node& parent) const {
+  node.corners_begin = size32(corners_);
+  for (std::int32_t i = parent.corners_begin; i < parent.corners_end; ++i) {
+    const std::int32_t vertex = corners_[i];
+    if (box.contains(rules_.outline().geometry().point(vertex))) corners_.push_back(vertex);
+  }
+  node.corners_end = size32(corners_);
+  const SizeRules::Judgement said = rules_.judge(sized(node, box));
+  node.plain = said.plain;
+  node.finest = static_cast<std::int8_t>(said.finest);
+  nodes_.push_back(node);
 }
 
-SizedQuadrant SizeTree::sized(const Node& node) const {
+SizedQuadrant SizeTree::sized(const Node& node, const Box& box) const {
   return {node.quadrant,
-          lattice().box_of(node.quadrant),
+          box,
           segments_of(node),
           part(corners_, node.corners_begin, node.corners_end),
           node.demanded == DemandedSplits::none ? 0 : demanded().finest_level_in(node.demanded),

@@ -23,6 +23,7 @@ class SizeTree {
     std::int32_t corners_begin = 0, corners_end = 0;
     bool plain = false;                            ///< as in SizeRules::Judgement
     std::int8_t finest = 0;                        ///< as there
+    std::int16_t winding = 0;                      ///< number of the outline round the lower left corner
     std::int32_t demanded = DemandedSplits::none;  ///< its number there
     std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
@@ -57,15 +58,17 @@ class SizeTree {
                                             std::int32_t end) {
     return {all.data() + begin, all.data() + end};
   }
-  SizedQuadrant sized(const Node& node) const;
+  SizedQuadrant sized(const Node& node, const Box& box) const;
   void grow(std::int32_t node) const;
-  void add(Node child, const Node& parent) const;
+  void add(Node node, const Box& box, const Node& parent) const;
 
   SizeRules rules_;
   std::vector<std::int32_t> roots_;
   mutable std::vector<Node> nodes_;
   mutable std::vector<std::int32_t> segments_;
   mutable std::vector<std::int32_t> corners_;
+  mutable std::vector<std::uint8_t>
+      passed_;  ///< of the node that grows: by segment, the quarters that it meets
 };
 
 }  // namespace quadloop

@@ -53,7 +53,7 @@ struct CutSquare {
         geometry{geometry_of(scaled(loops, scale), (sources.empty() ? finest : 1) * scale)},
         sizes{outline, lattice, sizes_from(finest * scale, scale, sources),
               [](const Quadrant&, std::span<const std::int32_t>) { return false; }, demanded},
-        graph{refine_forest(test::world(), sizes, inside)},
+        graph{refine_forest(test::world(), sizes)},
         cut{cut_forest(test::world(), graph, sizes, outline, inside, snap)} {}
 
   template <class Visit>

@@ -34,7 +34,7 @@ struct Tree {
         demanded{test::world(), demands},
         sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
               demanded},
-        graph{refine_forest(test::world(), sizes, inside)} {
+        graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
     for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
     leaves = test::world().all_gather_values(std::span<const Quadrant>(local));
@@ -75,7 +75,7 @@ std::int64_t nodes_of_all(const SizeTree& sizes) {
 TEST(RefineForest, RanksShareAnOutlineInOneQuarterOfTheRoot) {
   const test::DiamondSizes domain({{0.5, 0.5}, 0.3}, 0.0005, 0.00025, 0.0078125);
   const SizeTree sizes = domain.tree();
-  refine_forest(test::world(), sizes, domain.inside, estimate_leaves(domain.tree(), domain.inside));
+  refine_forest(test::world(), sizes, estimate_leaves(domain.tree()));
   const auto most = static_cast<double>(test::world().maximum(std::int64_t{sizes.size()}));
   EXPECT_LT(most / static_cast<double>(nodes_of_all(domain.tree())), 1.0 / test::world().size() + 0.38);
 }

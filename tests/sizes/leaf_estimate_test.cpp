@@ -29,7 +29,7 @@ LeafEstimate counted(const Sizes& sizes) {
 
 TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
   const Sizes sizes(0.06);
-  const LeafEstimate estimate = estimate_leaves(sizes.tree(), sizes.inside), expected = counted(sizes);
+  const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
   EXPECT_EQ(estimate.cut, expected.cut);
   EXPECT_EQ(estimate.inside, expected.inside);
   EXPECT_NEAR(estimate.outside / expected.outside, 1, 0.4);
@@ -39,14 +39,14 @@ TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
 TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
   const Sizes sizes(0.0015);
   const SizeTree tree = sizes.tree();
-  const double first = estimate_leaves(tree, sizes.inside).all();
-  EXPECT_EQ(estimate_leaves(tree, sizes.inside).all(), first) << "the tree has grown since";
+  const double first = estimate_leaves(tree).all();
+  EXPECT_EQ(estimate_leaves(tree).all(), first) << "the tree has grown since";
 }
 
 TEST(LeafEstimate, OfEachKindIsNearItsNumberAtEverySpacing) {
   for (const double spacing : {0.004, 0.002, 0.001}) {
     const Sizes sizes(spacing);
-    const LeafEstimate estimate = estimate_leaves(sizes.tree(), sizes.inside), expected = counted(sizes);
+    const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
     EXPECT_NEAR(estimate.cut / expected.cut, 1, 0.2);
     EXPECT_NEAR(estimate.inside / expected.inside, 1, 0.2);
     EXPECT_NEAR(estimate.outside / expected.outside, 1, 0.4);

@@ -57,7 +57,7 @@ TEST(LeafSample, CountsBelowAQuadrantAndAtIt) {
 TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
   const Sizes sizes(0.06);
   const SizeTree tree = sizes.tree();
-  const LeafSample sample = estimate_leaves(tree, sizes.inside).sample;
+  const LeafSample sample = estimate_leaves(tree).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
   SizeCursor cursor(tree);
   int inside = 0;
@@ -67,12 +67,12 @@ TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
     ++inside;
   }
   EXPECT_GT(inside, 5);
-  EXPECT_EQ(sample.leaves(), estimate_leaves(tree, sizes.inside).all());
+  EXPECT_EQ(sample.leaves(), estimate_leaves(tree).all());
 }
 
 TEST(LeafSample, OfManyTellsHalvesAboutRight) {
   const Sizes sizes(0.001);
-  const LeafSample sample = estimate_leaves(sizes.tree(), sizes.inside).sample;
+  const LeafSample sample = estimate_leaves(sizes.tree()).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
   for (const Quadrant& q : quadrants_of(1))
     EXPECT_NEAR(sample.leaves_in(q) / counted(q, leaves), 1, 0.3) << q.x << " " << q.y;
