@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
@@ -169,6 +170,70 @@ TEST(LeavesAhead, IsMostWhereMostLeavesAre) {
   EXPECT_GE(guess_of_most, most_guessed / 2) << "most leaves are looked for where most are";
   EXPECT_GE(guess, truth / 5);
   EXPECT_LE(guess, truth * 5);
+}
+
+/// Round the middle of a square of edge 8, whose lattice lines all its vertices lie on; a void, or the
+/// domain.
+Geometry star_on_lattice(std::mt19937& random, bool is_void) {
+  constexpr double middle = 4;
+  std::uniform_int_distribution<int> place(-7, 7);
+  const auto angle = [](Point p) { return std::atan2(p.y - middle, p.x - middle); };
+  std::vector<Point> points{{2, 2}, {6, 2}, {6, 6}, {2, 6}};
+  while (points.size() < 12) {
+    const Point p{middle + 0.5 * place(random), middle + 0.5 * place(random)};
+    const bool twice =
+        std::ranges::any_of(points, [&](Point q) { return std::abs(angle(p) - angle(q)) < 1e-6; });
+    if (!twice && p != Point{middle, middle}) points.push_back(p);
+  }
+  std::ranges::sort(points, {}, angle);
+  if (is_void) std::ranges::reverse(points);
+  points.insert(points.begin(), {{0, 0}, {8, 0}, {8, 8}, {0, 8}});
+  std::vector<std::int32_t> loops{0, 4, size32(points)};
+  if (!is_void) {
+    points.erase(points.begin(), points.begin() + 4);
+    loops = {0, size32(points)};
+  }
+  return {{{"wall", 0.3, 30, "wall"}}, points, loops, std::vector<BoundaryId>(points.size(), BoundaryId{0})};
+}
+
+/// Below a node, against what outline and interior say of each quadrant alone.
+void expect_outline_at(const SizeTree& tree, const Interior& inside, std::int32_t n) {
+  const SizeTree::Node node = tree.node(n);
+  const Box box = tree.lattice().box_of(node.quadrant);
+  std::vector<std::int32_t> expected;
+  for (std::int32_t s = 0; s < tree.rules().outline().geometry().size(); ++s) {
+    if (tree.rules().outline().meets(s, box)) expected.push_back(s);
+  }
+  const auto segments = tree.segments_of(node);
+  EXPECT_EQ(std::vector<std::int32_t>(segments.begin(), segments.end()), expected);
+  EXPECT_EQ(node.winding, inside.contains(box.low) ? 1 : 0);
+  SizeCursor cursor(tree);
+  for (const Corner corner : corners_along_curve) {
+    for (const Quadrant& q : {node.quadrant, node.quadrant.child(corner)}) {
+      const Point at = tree.lattice().corner(q.at(site_of(corner)));
+      EXPECT_EQ(cursor.is_inside(q, corner), inside.contains(at));
+    }
+  }
+  if (!tree.is_split(n)) return;
+  for (std::int32_t k = 0; k < 4; ++k) expect_outline_at(tree, inside, tree.node(n).children + k);
+}
+
+TEST(SizeTree, KnowsSegmentsAndSidesAlsoWhereVerticesLieOnTheLattice) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Geometry geometry = star_on_lattice(random, trial % 2 == 0);
+    const ShiftedOutline outline(geometry);
+    const Interior inside(outline);
+    const Lattice lattice(Box{{0, 0}, {8, 8}}, 1, 1);
+    const DemandedSplits demanded;
+    SizeOptions options;
+    options.min = 0.2;
+    options.max = 2;
+    const SizeTree tree(
+        outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+        demanded);
+    expect_outline_at(tree, inside, tree.roots().front());
+  }
 }
 
 }  // namespace
