@@ -46,7 +46,7 @@ struct Numbered {
       : geometry{given},
         demanded{test::world(), {}},
         domain{geometry, options, demanded},
-        graph{refine_forest(test::world(), domain.sizes, domain.inside)},
+        graph{refine_forest(test::world(), domain.sizes)},
         cut{cut_forest(test::world(), graph, domain.sizes, domain.outline, domain.inside, 0.4)},
         numbers{test::world(), domain.lattice, graph, cut} {}
 
