@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/geometry/predicates.hpp"
-
 namespace quadloop {
 
 namespace {
@@ -28,9 +26,6 @@ std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other,
       -in_along);  // passes through a peak on the line: both answers give the same crossing
 }
 
-/// A bound on the rounding error of the orientation determinant (Shewchuk 1997, Section 4.1, first stage).
-constexpr double orientation_error = 3.3306690738754716e-16;
-
 using Wide =
     long double;  // 11 bits more than the result has; each operation is the same for mirrored arguments
 
@@ -47,16 +42,6 @@ ShiftedOutline::Shift ShiftedOutline::shift_of(std::int32_t vertex) const {
   const int in_x = sign(here.x - before.x), in_y = sign(here.y - before.y);
   const int out_x = sign(after.x - here.x), out_y = sign(after.y - here.y);
   return {mitre_sign(in_x, in_y, out_x, out_y, turn, -1), mitre_sign(in_y, in_x, out_y, out_x, turn, +1)};
-}
-
-bool ShiftedOutline::has_left(std::int32_t segment, Point p) const {
-  const Point a = geometry_->point(segment), b = geometry_->point(geometry_->next(segment));
-  const double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x);
-  const double determinant = left - right;
-  const double bound = orientation_error * (std::abs(left) + std::abs(right));
-  if (determinant > bound) return true;
-  if (determinant < -bound) return false;
-  return orientation(a, b, p) > 0;  // a point on the line is right of the shifted one
 }
 
 bool ShiftedOutline::meets(std::int32_t segment, const Box& box) const {

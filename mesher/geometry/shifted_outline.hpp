@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
 
@@ -33,8 +34,11 @@ class ShiftedOutline {
     return at != y ? at > y : shift_[vertex].y > 0;
   }
 
-  /// Whether p lies to the left of the (infinite) line through the segment.
-  bool has_left(std::int32_t segment, Point p) const;
+  /// Whether p lies to the left of the (infinite) line through the segment; a point on the outline's own line
+  /// is right of the shifted one.
+  bool has_left(std::int32_t segment, Point p) const {
+    return orientation(geometry_->point(segment), geometry_->point(geometry_->next(segment)), p) > 0;
+  }
 
   /// Whether the segment meets the inside of the box, whose sides are lattice lines.
   bool meets(std::int32_t segment, const Box& box) const;
