@@ -95,7 +95,11 @@ class LeafCutter {
   SiteNodes add_side_nodes();
   void name_snaps(const SiteNodes& site_nodes);
   void name_absorbed_stops();
-  const LeafSnap* absorbing_snap(const Crossing& crossing) const;
+  std::int32_t absorbing_snap(const Crossing& crossing) const;
+  /// The snap that takes the crossing; null for none.
+  const LeafSnap* snap_of(std::int32_t crossing) const {
+    return crossing_snap_[crossing] < 0 ? nullptr : &input_.snaps[crossing_snap_[crossing]];
+  }
   std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
   bool walk_sides();
   bool status_at_start(bool& inside) const;
@@ -116,8 +120,9 @@ class LeafCutter {
   CutLeaf leaf_;
   std::vector<Stop> stops_;
   std::vector<std::int32_t> stop_node_, crossing_node_, snap_node_;
-  std::vector<CutLeaf::Edge> edges_;       ///< of the loops: chords and sides
-  std::vector<CutLeaf::Edge> bare_sides_;  ///< parts of sides outside the domain
+  std::vector<std::int32_t> crossing_snap_;  ///< the snap that takes each crossing; -1 for none
+  std::vector<CutLeaf::Edge> edges_;         ///< of the loops: chords and sides
+  std::vector<CutLeaf::Edge> bare_sides_;    ///< parts of sides outside the domain
   /// A point of a piece: its entry, a vertex, a hanging node put onto it, its exit.
   struct RunPoint {
     Point position;

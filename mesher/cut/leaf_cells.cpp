@@ -89,14 +89,13 @@ bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf,
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
   ranks_.clear();
   leaf_ = {&q, &box, &leaf};
-  std::vector<std::span<const std::int32_t>> loops;
-  bool holes = false;
-  for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
-    loops.push_back(leaf.loop(i));
-    holes = holes || winding_of(leaf, leaf.loop(i)) < 0;
-  }
-  if (holes) return triangulate(loops, cells);
-  for (const auto& loop : loops) {
+  loops_.clear();
+  for (std::size_t i = 0; i < leaf.loop_count(); ++i) loops_.push_back(leaf.loop(i));
+  const bool holes = loops_.size() > 1 && std::any_of(loops_.begin(), loops_.end(), [&](const auto& loop) {
+                       return winding_of(leaf, loop) < 0;
+                     });
+  if (holes) return triangulate(loops_, cells);
+  for (const auto& loop : loops_) {
     if (loop.size() == 4 && is_well_shaped(leaf, loop, is_whole(leaf, loop) ? whole_cosine : cut_cosine)) {
       cells.quads.push_back({loop[0], loop[1], loop[2], loop[3]});
     } else if (!triangulate(std::span(&loop, 1), cells)) {

@@ -39,6 +39,7 @@ class LeafCellMaker {
   Leaf leaf_;
   double smallest_sine_ = 1;
   std::vector<Point> points_;
+  std::vector<std::span<const std::int32_t>> loops_;
   std::vector<TieRank> ranks_;  ///< of the leaf's nodes; none before they are asked for
 };
 

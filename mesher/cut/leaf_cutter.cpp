@@ -64,10 +64,10 @@ void LeafCutter::gather_stops() {
   for (const Side side : all_sides) {
     add_stop(side, corner[index_of(start_of(side))], start_of(side), -1);
     if (input_.hanging.contains(side)) add_stop(side, middle[index_of(side)], middle_of(side), -1);
-  }
-  for (std::int32_t c = 0; c < std::ssize(input_.trace.crossings); ++c) {
-    const Crossing& crossing = input_.trace.crossings[c];
-    add_stop(crossing.side, crossing.position, elsewhere_on(crossing.side), c);
+    for (std::int32_t c = 0; c < std::ssize(input_.trace.crossings); ++c) {
+      const Crossing& crossing = input_.trace.crossings[c];
+      if (crossing.side == side) add_stop(side, crossing.position, elsewhere_on(side), c);
+    }
   }
   for (std::int32_t s = 0; s < std::ssize(input_.snaps); ++s) {
     const Site site = input_.snaps[s].site;
@@ -85,20 +85,23 @@ void LeafCutter::gather_stops() {
   name_stops();
 }
 
-/// The snap that takes the crossing; null for none.
-const LeafSnap* LeafCutter::absorbing_snap(const Crossing& crossing) const {
+/// The number of the snap that takes the crossing; -1 for none.
+std::int32_t LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
     const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
-    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end()) return &s;
+    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end())
+      return static_cast<std::int32_t>(&s - input_.snaps.data());
   }
-  return nullptr;
+  return -1;
 }
 
 /// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs. In
 /// this order: a node is moved by its snap once all who share it have found it.
 void LeafCutter::name_stops() {
+  crossing_snap_.clear();
+  for (const Crossing& crossing : input_.trace.crossings) crossing_snap_.push_back(absorbing_snap(crossing));
   stop_node_.assign(stops_.size(), -1);
   name_snaps(add_side_nodes());
   name_absorbed_stops();
@@ -116,9 +119,7 @@ LeafCutter::SiteNodes LeafCutter::add_side_nodes() {
   SiteNodes site_nodes{};
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const Stop& stop = stops_[i];
-    const bool absorbed =
-        stop.crossing >= 0 && absorbing_snap(input_.trace.crossing(stop.crossing)) != nullptr;
-    if (absorbed) continue;
+    if (stop.crossing >= 0 && crossing_snap_[stop.crossing] >= 0) continue;
     const bool at_last = i > 0 && stops_[i - 1].position == stop.position && stop_node_[i - 1] >= 0;
     if (!at_last) leaf_.nodes.push_back({stop.position, stop.site});
     stop_node_[i] = size32(leaf_.nodes) - 1;
@@ -143,8 +144,7 @@ void LeafCutter::name_absorbed_stops() {
   for (std::size_t i = 0; i < stops_.size(); ++i) {
     const std::int32_t c = stops_[i].crossing;
     if (c < 0 || stop_node_[i] >= 0) continue;
-    const auto snap = absorbing_snap(input_.trace.crossing(c)) - input_.snaps.data();
-    stop_node_[i] = snap_node_[snap];
+    stop_node_[i] = snap_node_[crossing_snap_[c]];
   }
 }
 
@@ -213,8 +213,7 @@ void LeafCutter::add_chords(Detail detail) {
 void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   const bool closed = piece.entry < 0;
   if (!closed) {
-    const LeafSnap *entry = absorbing_snap(input_.trace.crossing(piece.entry)),
-                   *exit = absorbing_snap(input_.trace.crossing(piece.exit));
+    const LeafSnap *entry = snap_of(piece.entry), *exit = snap_of(piece.exit);
     if (entry != nullptr && exit != nullptr && entry->snap == exit->snap) return;
   }
   list_points(piece, trimmed_vertices(piece));
@@ -238,10 +237,10 @@ std::span<const std::int32_t> LeafCutter::trimmed_vertices(const Piece& piece) c
   const auto vanishes = [&](const LeafSnap& s, std::int32_t v) {
     return length(outline_->geometry().point(v) - s.snap->centre) < s.snap->radius;
   };
-  if (const LeafSnap* entry = absorbing_snap(input_.trace.crossing(piece.entry))) {
+  if (const LeafSnap* entry = snap_of(piece.entry)) {
     while (!vertices.empty() && vanishes(*entry, vertices.front())) vertices = vertices.subspan(1);
   }
-  if (const LeafSnap* exit = absorbing_snap(input_.trace.crossing(piece.exit))) {
+  if (const LeafSnap* exit = snap_of(piece.exit)) {
     while (!vertices.empty() && vanishes(*exit, vertices.back()))
       vertices = vertices.first(vertices.size() - 1);
   }

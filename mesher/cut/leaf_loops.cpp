@@ -43,7 +43,8 @@ std::size_t next_edge(Edges edges, const CutLeaf& leaf, const std::vector<char>&
 
 /// Cuts off each closed part of the walk as a loop of its own.
 void split_into_loops(const std::vector<std::int32_t>& walk, CutLeaf& leaf) {
-  std::vector<std::int32_t> open;
+  thread_local std::vector<std::int32_t> open;
+  open.clear();
   for (const std::int32_t node : walk) {
     const auto again = std::find(open.begin(), open.end(), node);
     if (again != open.end()) {
@@ -62,7 +63,7 @@ bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::
     return false;
   }
   const auto folds = [](Point hub, Point p, Point q) {
-    return orientation(hub, p, q) == 0 && dot(p - hub, q - hub) > 0;
+    return dot(p - hub, q - hub) > 0 && orientation(hub, p, q) == 0;
   };
   if (e.to == f.from && e.from == f.to) return true;
   if (e.to == f.from) return folds(b, a, d);
@@ -116,8 +117,9 @@ bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards
 }  // namespace
 
 bool trace_loops(Edges edges, CutLeaf& leaf) {
-  std::vector<char> used(edges.size(), 0);
-  std::vector<std::int32_t> walk;
+  thread_local std::vector<char> used;
+  thread_local std::vector<std::int32_t> walk;
+  used.assign(edges.size(), 0);
   for (std::size_t start = 0; start < edges.size(); ++start) {
     if (used[start] != 0) continue;
     walk.assign(1, edges[start].from);
@@ -142,13 +144,13 @@ bool trace_loops(Edges edges, CutLeaf& leaf) {
 }
 
 int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
-  std::size_t lowest = 0;
-  for (std::size_t i = 1; i < loop.size(); ++i) {
-    if (at(leaf, loop[i]) < at(leaf, loop[lowest])) lowest = i;
-  }
-  const std::size_t n = loop.size();
-  return orientation(at(leaf, loop[(lowest + n - 1) % n]), at(leaf, loop[lowest]),
-                     at(leaf, loop[(lowest + 1) % n]));
+  const auto lowest = std::min_element(loop.begin(), loop.end(), [&](std::int32_t a, std::int32_t b) {
+    const Point &p = leaf.nodes[a].position, &q = leaf.nodes[b].position;
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+  });
+  const std::int32_t before = lowest == loop.begin() ? loop.back() : lowest[-1];
+  const std::int32_t after = lowest + 1 == loop.end() ? loop.front() : lowest[1];
+  return orientation(at(leaf, before), at(leaf, *lowest), at(leaf, after));
 }
 
 bool loops_are_sound(Edges edges, const CutLeaf& leaf) {
@@ -175,7 +177,8 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
       if (edges_conflict(leaf, bare_sides[i], bare_sides[j])) return false;
     }
   }
-  std::vector<std::int32_t> round(leaf.side_nodes);
+  thread_local std::vector<std::int32_t> round;
+  round.resize(leaf.side_nodes);
   std::iota(round.begin(), round.end(), 0);
   for (const CutLeaf::Edge& e : leaf.outline) {
     if (e.from < leaf.side_nodes && !starts_inwards(leaf, e.from, e.to)) return false;

@@ -54,7 +54,9 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
   }
   const auto received = out.deliver(comm);
   chords.insert(chords.end(), received.begin(), received.end());
-  std::sort(chords.begin(), chords.end());
+  std::sort(chords.begin(), chords.end(), [](const SideChord& a, const SideChord& b) {
+    return a.low.x != b.low.x ? a.low.x < b.low.x : a < b;  // which tells most
+  });
   for (std::size_t i = 0; i + 1 < chords.size(); ++i) {
     const SideChord &a = chords[i], &b = chords[i + 1];
     if (a.low != b.low || a.high != b.high || a.rising == b.rising) continue;

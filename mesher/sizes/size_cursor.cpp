@@ -4,12 +4,15 @@
 
 namespace quadloop {
 
-/// From the node last found up to one that holds q, and down again, but not into a plain one.
-std::int32_t SizeCursor::deepest_node_at(const Quadrant& q) {
+/// From the node last found up to one that holds q, and down again, but not into a plain one or one that need
+/// not be entered.
+template <class Enter>
+std::int32_t SizeCursor::deepest_node_at(const Quadrant& q, const Enter& enter) {
   std::int32_t n = last_;
   while (n >= 0 && !tree_.node(n).quadrant.contains(q)) n = tree_.node(n).parent;
   if (n < 0) n = tree_.root_of(q);
-  while (tree_.node(n).quadrant.level < q.level && !tree_.node(n).plain && tree_.is_split(n)) {
+  while (tree_.node(n).quadrant.level < q.level && !tree_.node(n).plain && enter(tree_.node(n)) &&
+         tree_.is_split(n)) {
     const SizeTree::Node& at = tree_.node(n);
     n = at.children + curve_index(quarter_at(q.x, q.y, at.quadrant.level));
   }
@@ -17,7 +20,8 @@ std::int32_t SizeCursor::deepest_node_at(const Quadrant& q) {
 }
 
 std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
-  const SizeTree::Node& node = tree_.node(deepest_node_at(q));
+  const auto holds_geometry = [&](const SizeTree::Node& n) { return !tree_.segments_of(n).empty(); };
+  const SizeTree::Node& node = tree_.node(deepest_node_at(q, holds_geometry));
   const std::span<const std::int32_t> inside = tree_.segments_of(node);
   if (inside.empty() || node.quadrant == q) return inside;
   found_.clear();
@@ -44,8 +48,9 @@ bool SizeCursor::is_inside(const Quadrant& q, Corner corner) {
 }
 
 int SizeCursor::wanted_level(const Quadrant& leaf) {
+  const auto always = [](const SizeTree::Node&) { return true; };
   return std::min(leaf.level,
-                  std::max(tree_.node(deepest_node_at(leaf)).quadrant.level, tree_.coarsest_level()));
+                  std::max(tree_.node(deepest_node_at(leaf, always)).quadrant.level, tree_.coarsest_level()));
 }
 
 }  // namespace quadloop

@@ -23,7 +23,8 @@ class SizeCursor {
   int wanted_level(const Quadrant& leaf);
 
  private:
-  std::int32_t deepest_node_at(const Quadrant& q);
+  template <class Enter>
+  std::int32_t deepest_node_at(const Quadrant& q, const Enter& enter);
 
   const SizeTree& tree_;
   std::int32_t last_ = -1;  ///< node last found

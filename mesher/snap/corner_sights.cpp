@@ -1,7 +1,6 @@
 #include "mesher/snap/corner_sights.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesher/snap/leaf_edge.hpp"
 
@@ -31,7 +30,7 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
-  sights.reserve(2 * traced.traces.crossings());
+  sights.reserve(traced.traces.crossings());
   for (const LeafId leaf : graph.all()) {
     const std::int32_t trace = traced.trace_of[leaf.value()];
     if (trace < 0) continue;
@@ -42,13 +41,15 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
       for (const std::int32_t c : {piece.entry, piece.exit}) {
         const Crossing& crossing = view.crossing(c);
         const LeafEdge edge = leaf_edge_near(graph, lattice, leaf, crossing.side, crossing.position);
-        const auto see = [&](std::int64_t end, Direction direction) {
-          const double distance = std::abs(edge.along(crossing.position) - edge.at(lattice, end));
-          sights.push_back({edge.point(end), distance, edge.length(lattice), crossing.segment, trace, p,
-                            direction, c == piece.entry});
+        const double from = edge.at(lattice, edge.from), to = edge.at(lattice, edge.to), length = to - from;
+        const double at = edge.along(crossing.position);
+        const auto see = [&](std::int64_t end, double distance, Direction direction) {
+          if (distance > sight_reach * length) return;
+          sights.push_back(
+              {edge.point(end), distance, length, crossing.segment, trace, p, direction, c == piece.entry});
         };
-        see(edge.from, edge.vertical() ? Direction::north : Direction::east);
-        see(edge.to, edge.vertical() ? Direction::south : Direction::west);
+        see(edge.from, at - from, edge.vertical() ? Direction::north : Direction::east);
+        see(edge.to, to - at, edge.vertical() ? Direction::south : Direction::west);
       }
     }
   }

@@ -34,10 +34,11 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
     (enters ? passage.entry : passage.exit) = size32(crossings) - first;
     crossings.push_back({s, side, enters, position});
   };
-  const auto crosses = [&](bool a_beyond, bool b_beyond, Point from, Point to) {
-    return a_beyond != b_beyond && outline.has_left(s, from) != outline.has_left(s, to);
+  const auto crosses = [&](bool a_beyond, bool b_beyond, bool from_left, bool to_left) {
+    return a_beyond != b_beyond && from_left != to_left;
   };
-  const Point sw = box.low, se{box.high.x, box.low.y}, ne = box.high, nw{box.low.x, box.high.y};
+  const bool sw = outline.has_left(s, box.low), se = outline.has_left(s, {box.high.x, box.low.y});
+  const bool ne = outline.has_left(s, box.high), nw = outline.has_left(s, {box.low.x, box.high.y});
   const bool above_low = outline.beyond_y(end, box.low.y), above_high = outline.beyond_y(end, box.high.y);
   const bool past_low = outline.beyond_x(end, box.low.x), past_high = outline.beyond_x(end, box.high.x);
   if (crosses(outline.beyond_y(s, box.low.y), above_low, sw, se)) {

@@ -48,6 +48,7 @@ class LeafTraces {
   std::int32_t add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments);
 
   LeafTrace operator[](std::int32_t trace) const;
+  std::size_t size() const { return begins_.size(); }
   /// How many crossings all traces have.
   std::size_t crossings() const { return crossings_.size(); }
   void clear();

@@ -1,6 +1,7 @@
 #include "mesher/snap/snap.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "mesher/forest/leaf_finder.hpp"
 
@@ -16,10 +17,26 @@ Site site_in(const Quadrant& leaf, Corner direction, const Snap& snap) {
   return elsewhere_on(towards.y == 0 ? Side::top : Side::bottom);
 }
 
+/// By counting those of each leaf, and those of one leaf by their sites.
+std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<LeafSnap>& snaps) {
+  std::vector<std::int32_t> begin_of(graph.local_size() + 1,
+                                     0);  // of each leaf's snaps among the sorted ones
+  for (const LeafSnap& s : snaps) ++begin_of[graph.local_index(s.leaf) + 1];
+  std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
+  std::vector<LeafSnap> sorted(snaps.size());
+  for (const LeafSnap& s : snaps) sorted[begin_of[graph.local_index(s.leaf)]++] = s;
+  for (auto begin = sorted.begin(), end = begin; begin != sorted.end(); begin = end) {
+    while (end != sorted.end() && end->leaf == begin->leaf) ++end;
+    std::sort(begin, end, [](const LeafSnap& a, const LeafSnap& b) { return a.site < b.site; });
+  }
+  return sorted;
+}
+
 }  // namespace
 
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
   std::vector<LeafSnap> result;
+  result.reserve(4 * snaps.size());
   LeafFinder finder(graph);
   for (const Snap& snap : snaps) {
     const std::array<LeafId, 4> round = finder.leaves_round(snap.corner);
@@ -32,10 +49,7 @@ std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<
         result.push_back({leaf, site_in(graph.leaf(leaf), direction, snap), &snap});
     }
   }
-  std::sort(result.begin(), result.end(), [](const LeafSnap& a, const LeafSnap& b) {
-    return a.leaf != b.leaf ? a.leaf < b.leaf : a.site < b.site;
-  });
-  return result;
+  return sorted_by_leaf(graph, result);
 }
 
 }  // namespace quadloop

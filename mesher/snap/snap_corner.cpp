@@ -1,8 +1,11 @@
 #include "mesher/snap/snap_corner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <memory_resource>
 #include <utility>
 
 #include "mesher/geometry/nearest_on_segment.hpp"
@@ -16,7 +19,7 @@ constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanish
 
 /// Sights of crossings that the outline passes one after another near the corner: the same crossing, and the
 /// two ends of one piece, belong to one run. Of each sight the number of its run, or `none`.
-using Runs = std::vector<std::int32_t>;
+using Runs = std::pmr::vector<std::int32_t>;
 constexpr std::int32_t none = -1;
 
 /// One of them.
@@ -50,8 +53,10 @@ struct Claim {
 
 /// What vanishes in a corner that takes a run.
 struct Swallowed {
-  std::vector<std::int32_t> vertices;
-  std::vector<Point> goes_on;  ///< where the outline goes on from the corner: nowhere for an island round it
+  explicit Swallowed(std::pmr::memory_resource* memory) : vertices(memory), goes_on(memory) {}
+  std::pmr::vector<std::int32_t> vertices;
+  /// Where the outline goes on from the corner: nowhere for an island round it.
+  std::pmr::vector<Point> goes_on;
 };
 
 /// The steps of one corner's decision; none changes anything.
@@ -110,7 +115,7 @@ class CornerDecision {
   /// The runs among the crossings that claim the corner and, if asked, those that are at least nearer to it
   /// than to the far end of their edge: the corner there is farther, and never takes them.
   Runs runs_among(bool whole_run) const {
-    Runs runs(sights_.size(), none);
+    Runs runs(sights_.size(), none, &memory_);
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       const bool nearer = 2 * sights_[i].distance < sights_[i].edge;
       if (!claims(sights_[i]) && !(whole_run && nearer)) continue;
@@ -229,7 +234,7 @@ class CornerDecision {
 
   /// A piece with both ends in the run vanishes whole.
   Swallowed swallowed_by(const Run& run) const {
-    Swallowed swallowed;
+    Swallowed swallowed(&memory_);
     const auto swallow = [&](std::int32_t v) { swallowed.vertices.push_back(v); };
     run.for_each([&](std::size_t i) {
       const Sight& s = sights_[i];
@@ -251,7 +256,7 @@ class CornerDecision {
   /// two kept points would vanish, or what lies too far off, or a whole loop.
   std::optional<Point> target_of(const Claim& claim) const {
     Swallowed swallowed = swallowed_by(claim.run);
-    std::vector<std::int32_t>& vertices = swallowed.vertices;
+    auto& vertices = swallowed.vertices;
     Point target = claim.nearest;
     for (const std::int32_t v : vertices) {
       if (geometry_.kept(v)) target = geometry_.point(v);
@@ -299,6 +304,9 @@ class CornerDecision {
   const SightedCorner& corner_;
   std::span<const Sight> sights_;
   double share_;
+  /// For the lists of a decision, which are short.
+  mutable std::array<std::byte, 1024> room_;
+  mutable std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 
 /// Forgets the crossings that bent edges have taken.
 void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
+  if (edges.empty()) return;
   std::set<std::tuple<bool, std::int64_t, std::int32_t>> taken;  // vertical, line, segment
   for (const Snap& edge : edges) {
     for (const Snap::Absorbed& a : edge.absorbed)
@@ -24,20 +25,22 @@ void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
   });
 }
 
-/// Whether any crossing can be near enough: the edges at a corner differ by a factor of two at most.
+/// Whether any crossing can be near enough: the shortest edge at a corner is no longer than a sight's, but
+/// for rounding.
 bool may_claim(std::span<const Sight> sights, double share) {
-  const double reach = share * sights.front().edge * 2;
-  return std::any_of(sights.begin(), sights.end(), [&](const Sight& s) { return s.distance < reach; });
+  constexpr double rounding = 1.02;
+  return std::any_of(sights.begin(), sights.end(),
+                     [&](const Sight& s) { return s.distance < rounding * share * s.edge; });
 }
 
-/// Adds those whose place is not taken.
-void add_hanging(std::vector<Snap> hanging, std::vector<Snap>& snaps) {
-  std::vector<LatticePoint> taken;
-  for (const Snap& s : snaps) taken.push_back(s.corner);
-  std::sort(taken.begin(), taken.end(), comes_earlier);
+/// Adds those whose place no snapped corner has; these, in their order, come after `edges` snaps of edges, in
+/// whose middle no node hangs.
+void add_hanging(std::vector<Snap> hanging, std::size_t edges, std::vector<Snap>& snaps) {
+  const std::size_t count = snaps.size();
   std::set<LatticePoint> added;
   for (Snap& s : hanging) {
-    const bool free = !std::binary_search(taken.begin(), taken.end(), s.corner, comes_earlier);
+    const auto corners = std::span(snaps).first(count).subspan(edges);
+    const bool free = !std::ranges::binary_search(corners, s.corner, comes_earlier, &Snap::corner);
     if (free && added.insert(s.corner).second) snaps.push_back(std::move(s));
   }
 }
@@ -50,6 +53,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
   Captures captures = capture_points(graph, lattice, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
+  const std::size_t edges = snaps.size();
   LeafFinder finder(graph);
   auto captured = captures.corners.begin();
   for (std::size_t begin = 0, end = 0; begin < sights.size() || captured != captures.corners.end();
@@ -67,7 +71,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
                             : snap_corner(geometry, traced.traces, sighted, share);
     if (snap) snaps.push_back(std::move(*snap));
   }
-  add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), snaps);
+  add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), edges, snaps);
   return snaps;
 }
 

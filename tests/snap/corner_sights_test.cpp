@@ -14,8 +14,8 @@ namespace {
 
 using test::TracedLeaves;
 
-/// The domain above y = 1.125, in leaves of edge 1.
-Geometry above() { return test::loops_of({{{-1, 1.125}, {5, 1.125}, {5, 9}, {-1, 9}}}); }
+/// The domain above a height, in leaves of edge 1.
+Geometry above(double y = 1.125) { return test::loops_of({{{-1, y}, {5, y}, {5, 9}, {-1, 9}}}); }
 
 LatticePoint at(std::int64_t x, std::int64_t y) { return {x * TracedLeaves::unit, y * TracedLeaves::unit}; }
 
@@ -26,7 +26,7 @@ std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corn
   return own;
 }
 
-TEST(CornerSights, BothEndsOfAnEdgeSeeItsCrossingThroughBothLeaves) {
+TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
   const TracedLeaves leaves(above());
   const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
   EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
@@ -44,11 +44,24 @@ TEST(CornerSights, BothEndsOfAnEdgeSeeItsCrossingThroughBothLeaves) {
     }
   }
   for (std::int64_t x = 0; x <= 4; ++x) {
-    for (const Sight& s : seen_from(sights, at(x, 2))) {
-      EXPECT_EQ(s.direction, Direction::south);
-      EXPECT_EQ(s.distance, 0.875);
-    }
+    EXPECT_TRUE(seen_from(sights, at(x, 2)).empty());
     EXPECT_TRUE(seen_from(sights, at(x, 3)).empty());
+  }
+}
+
+TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
+  const TracedLeaves leaves(above(1.5));
+  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  for (std::int64_t x = 0; x <= 4; ++x) {
+    for (const std::int64_t y : {1, 2}) {
+      if (!leaves.at_local_leaf(at(x, y))) continue;
+      const auto own = seen_from(sights, at(x, y));
+      EXPECT_FALSE(own.empty());
+      for (const Sight& s : own) {
+        EXPECT_EQ(s.direction, y == 1 ? Direction::north : Direction::south);
+        EXPECT_EQ(s.distance, 0.5);
+      }
+    }
   }
 }
 
