@@ -35,19 +35,23 @@ class Assembler {
  private:
   void add_inside(LeafId leaf) {
     const SideSet hanging = graph_.around(leaf).finer;
-    const auto node = [&](Site site) { return numbers_.of_leaf(leaf, site); };
+    const NodeNumbering::SiteNodes nodes = numbers_.of_leaf(leaf);
     if (hanging.empty()) {
-      add_quad(leaf, {node(Site::south_west), node(Site::south_east), node(Site::north_east),
-                      node(Site::north_west)});
+      add_quad(leaf, {nodes[0], nodes[1], nodes[2], nodes[3]});
       return;
     }
     for (const SiteTriangle& t : hanging_template(hanging))
-      mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
+      mesh_.triangles.push_back({nodes[index_of(t[0])], nodes[index_of(t[1])], nodes[index_of(t[2])]});
   }
 
   void add_cut(LeafId leaf, std::size_t entry) {
     const CutForest::Offsets &begin = cut_.entries[entry].begin, &end = cut_.entries[entry].end;
-    const auto node = [&](std::int32_t n) { return numbers_.of_cut(leaf, begin.nodes + n); };
+    found_.assign(end.nodes - begin.nodes, NodeId{});
+    const auto node = [&](std::int32_t n) {
+      NodeId& found = found_[n];
+      if (!found.valid()) found = numbers_.of_cut(leaf, begin.nodes + n);
+      return found;
+    };
     for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
     }
@@ -69,9 +73,11 @@ class Assembler {
     if (!triangles_alone_) {
       mesh_.quads.push_back(nodes);
     } else if (rising) {
-      mesh_.triangles.insert(mesh_.triangles.end(), {{a, b, c}, {a, c, d}});
+      mesh_.triangles.push_back({a, b, c});
+      mesh_.triangles.push_back({a, c, d});
     } else {
-      mesh_.triangles.insert(mesh_.triangles.end(), {{a, b, d}, {b, c, d}});
+      mesh_.triangles.push_back({a, b, d});
+      mesh_.triangles.push_back({b, c, d});
     }
   }
 
@@ -82,6 +88,7 @@ class Assembler {
   bool triangles_alone_;
   Mesh& mesh_;
   std::vector<std::vector<std::int32_t>>& edge_leaves_;
+  std::vector<NodeId> found_;  ///< of a cut leaf's nodes, those that were asked for
 };
 
 LeafRecord record_of(const Quadrant& q, int wanted) {

@@ -1,6 +1,7 @@
 #include "mesher/build/number_nodes.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "mesher/base/error.hpp"
 #include "mesher/forest/leaf_finder.hpp"
@@ -11,28 +12,39 @@ namespace {
 
 constexpr std::int32_t unused = -1, used = -2;
 
-/// What leaves own beside their cut nodes, in the order of its numbers: leaves on the root's lower or left
-/// side the former too.
-constexpr std::array border_sites{Site::south_west, Site::south_east, Site::north_west};
-constexpr std::array owned_sites{Site::north_east, Site::right_middle, Site::top_middle};
+/// Where leaves own nodes beside their cut ones, in the order of their numbers; the first three only on the
+/// root's lower or left side.
+constexpr std::array owned_sites{Site::south_west, Site::south_east,   Site::north_west,
+                                 Site::north_east, Site::right_middle, Site::top_middle};
 
-std::size_t index_in(const std::array<Site, 3>& sites, Site site) {
-  return std::find(sites.begin(), sites.end(), site) - sites.begin();
+constexpr std::uint8_t bit_of(Site site) {
+  constexpr std::array<std::uint8_t, lattice_sites.size()> bits{1, 2, 8, 4, 0, 16, 32, 0};
+  return bits[index_of(site)];
 }
+static_assert(bit_of(Site::north_west) == 1 << 2 && bit_of(Site::top_middle) == 1 << 5);
+
+/// Of a set of owned sites; the processor's own count is not to be had everywhere.
+constexpr auto sizes_of_sets = [] {
+  std::array<std::uint8_t, 1 << owned_sites.size()> sizes{};
+  for (std::size_t set = 0; set < sizes.size(); ++set)
+    sizes[set] = static_cast<std::uint8_t>(std::popcount(set));
+  return sizes;
+}();
 
 }  // namespace
 
 NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
                              const CutForest& cut)
-    : lattice_{&lattice}, graph_{&graph}, cut_{&cut} {
-  for (const LeafId leaf : graph.local()) {
-    if (graph.leaf(leaf).x == 0 || graph.leaf(leaf).y == 0) border_leaves_.push_back(leaf);
-  }
-  slots_.assign(border_slot(border_leaves_.size()) + cut.nodes.size(), unused);
+    : lattice_{&lattice},
+      graph_{&graph},
+      cut_{&cut},
+      used_sites_(cut.states.size(), 0),
+      first_(cut.states.size()),
+      listed_(cut.nodes.size(), unused) {
   use_nodes_of_cells();
   const Exchange exchange(comm, ranks_wanted());
   const auto asked = exchange.deliver(wanted_);
-  for (const Request& request : asked) slot_at(home_of(request)) = used;
+  for (const Request& request : asked) use_local(home_of(request));
   number_owned();
   place_moved();
   first_node_ = comm.exclusive_sum(owned_);
@@ -86,35 +98,40 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::
   return {owner != LeafGraph::none ? owner : leaf, Site::inside, node.position};
 }
 
-std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
-  const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
+std::int32_t NodeNumbering::listed_node(const Home& home) const {
+  const std::int32_t entry = cut_->entry_of[graph_->local_index(home.leaf)];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
   const CutForest::Entry& e = cut_->entries[entry];
   for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
-    if (cut_->nodes[n].position == position) return n;
+    if (cut_->nodes[n].position == home.position) return n;
   }
   throw Fault("two leaves disagree on a node of their common side");
 }
 
-std::size_t NodeNumbering::listed_slot(std::int32_t node) const {
-  return border_slot(border_leaves_.size()) + node;
-}
-
-std::size_t NodeNumbering::slot_of(const Home& home) const {
-  if (home.site == Site::inside) return listed_slot(listed_node(home.leaf, home.position));
-  const std::size_t owned = index_in(owned_sites, home.site);
-  if (owned < owned_sites.size()) return std::size_t{3} * graph_->local_index(home.leaf) + owned;
-  const auto at = std::lower_bound(border_leaves_.begin(), border_leaves_.end(), home.leaf);
-  QUADLOOP_REQUIRE(at != border_leaves_.end() && *at == home.leaf,
-                   "a leaf off the root's border owns a lower corner");
-  return border_slot(at - border_leaves_.begin()) + index_in(border_sites, home.site);
-}
-
 void NodeNumbering::use(const Home& home) {
   if (graph_->is_local(home.leaf)) {
-    slot_at(home) = used;
+    use_local(home);
   } else {
     wanted_.push_back(request_of(home));
+  }
+}
+
+void NodeNumbering::use_local(const Home& home) {
+  if (home.site == Site::inside) {
+    listed_[listed_node(home)] = used;
+  } else {
+    used_sites_[graph_->local_index(home.leaf)] |= bit_of(home.site);
+  }
+}
+
+/// A node of CutForest::nodes that the leaf has.
+void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
+  if (listed_[node] == used) return;
+  const Home home = home_of_cut_node(leaf, cut_->nodes[node]);
+  if (home.leaf == leaf && home.site == Site::inside) {
+    listed_[node] = used;
+  } else {
+    use(home);
   }
 }
 
@@ -125,15 +142,16 @@ bool NodeNumbering::uses_its_own(LeafId leaf) const {
 
 void NodeNumbering::use_nodes_of_inside(LeafId leaf) {
   const LeafGraph::Around& around = graph_->around(leaf);
-  slot_at({leaf, Site::north_east, {}}) = used;
-  if (graph_->has_hanging(leaf, Side::right)) slot_at({leaf, Site::right_middle, {}}) = used;
-  if (graph_->has_hanging(leaf, Side::top)) slot_at({leaf, Site::top_middle, {}}) = used;
+  std::uint8_t& own = used_sites_[graph_->local_index(leaf)];
+  own |= bit_of(Site::north_east);
+  if (around.finer.contains(Side::right)) own |= bit_of(Site::right_middle);
+  if (around.finer.contains(Side::top)) own |= bit_of(Site::top_middle);
   if (!uses_its_own(around.south_west)) use(home_of_site(leaf, Site::south_west));
   if (!uses_its_own(around.south)) use(home_of_site(leaf, Site::south_east));
   if (!uses_its_own(around.west)) use(home_of_site(leaf, Site::north_west));
-  if (graph_->has_hanging(leaf, Side::bottom) && !uses_its_own(around.south_half))
+  if (around.finer.contains(Side::bottom) && !uses_its_own(around.south_half))
     use(home_of_site(leaf, Site::bottom_middle));
-  if (graph_->has_hanging(leaf, Side::left) && !uses_its_own(around.west_half))
+  if (around.finer.contains(Side::left) && !uses_its_own(around.west_half))
     use(home_of_site(leaf, Site::left_middle));
 }
 
@@ -147,7 +165,7 @@ void NodeNumbering::use_nodes_of_cells() {
     }
     const std::size_t entry = cut_->entry_of[local];
     const CutForest::Offsets &begin = cut_->entries[entry].begin, &end = cut_->entries[entry].end;
-    const auto use_node = [&](std::int32_t n) { use(home_of_cut_node(leaf, cut_->nodes[begin.nodes + n])); };
+    const auto use_node = [&](std::int32_t n) { use_cut(leaf, begin.nodes + n); };
     for (const auto& triangle : CutForest::part(cut_->triangles, begin.triangles, end.triangles))
       std::for_each(triangle.begin(), triangle.end(), use_node);
     for (const auto& quad : CutForest::part(cut_->quads, begin.quads, end.quads))
@@ -167,50 +185,42 @@ std::vector<int> NodeNumbering::ranks_wanted() {
   return ranks;
 }
 
-void NodeNumbering::number_slot(std::size_t slot, Point position) {
-  if (slots_[slot] != used) return;
-  slots_[slot] = owned_++;
-  points_.push_back(position);
-}
-
 void NodeNumbering::number_owned() {
-  points_.reserve(std::count(slots_.begin(), slots_.end(), used) + cut_->nodes.size());
-  std::size_t border = 0;
+  std::size_t count = std::count(listed_.begin(), listed_.end(), used);
+  for (const std::uint8_t sites : used_sites_) count += sizes_of_sets[sites];
+  points_.reserve(count + wanted_.size());
   for (const LeafId leaf : graph_->local()) {
+    const std::size_t local = graph_->local_index(leaf);
     const Quadrant& q = graph_->leaf(leaf);
-    const auto number = [&](std::size_t first, const std::array<Site, 3>& sites) {
-      for (std::size_t i = 0; i < sites.size(); ++i) {
-        if (slots_[first + i] == used) number_slot(first + i, lattice_->corner(q.at(sites[i])));
-      }
-    };
-    if (border < border_leaves_.size() && border_leaves_[border] == leaf)
-      number(border_slot(border++), border_sites);
-    number(3 * static_cast<std::size_t>(graph_->local_index(leaf)), owned_sites);
-    const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
+    first_[local] = size32(points_);
+    for (unsigned sites = used_sites_[local]; sites != 0; sites &= sites - 1)
+      points_.push_back(lattice_->corner(q.at(owned_sites[std::countr_zero(sites)])));
+    const std::int32_t entry = cut_->entry_of[local];
     if (entry < 0) continue;
     const CutForest::Entry& e = cut_->entries[entry];
-    for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n)
-      number_slot(listed_slot(n), cut_->nodes[n].position);
+    for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
+      if (listed_[n] != used) continue;
+      listed_[n] = size32(points_);
+      points_.push_back(cut_->nodes[n].position);
+    }
   }
+  owned_ = size32(points_);
 }
 
 /// Snapped corners are not where the lattice has them.
 void NodeNumbering::place_moved() {
   LeafFinder finder(*graph_);
-  for (const CutForest::Moved& m : cut_->moved) {
-    const auto [before, below, after, left] = finder.leaves_round(m.corner);
-    Home home{after, Site::south_west, {}};
-    if (m.corner.x > 0 && m.corner.y > 0) {
-      if (before == LeafGraph::none) continue;
-      home = corner_home(before, m.corner);
-    } else if (m.corner.x > 0) {
-      home = {left, Site::south_east, {}};
-    } else if (m.corner.y > 0) {
-      home = {below, Site::north_west, {}};
-    }
-    if (!graph_->is_local(home.leaf)) continue;
-    const std::int32_t node = slot_at(home);
-    if (node >= 0) points_[node] = m.position;
+  for (const auto& [corner, position] : cut_->moved) {
+    const bool on_left = corner.x == 0, on_bottom = corner.y == 0;
+    const LeafId owner =
+        finder.leaf_at(on_left ? corner.x : corner.x - 1, on_bottom ? corner.y : corner.y - 1);
+    if (!graph_->is_local(owner)) continue;
+    const Home home = on_left && on_bottom ? Home{owner, Site::south_west, {}}
+                      : on_bottom          ? Home{owner, Site::south_east, {}}
+                      : on_left            ? Home{owner, Site::north_west, {}}
+                                           : corner_home(owner, corner);
+    const bool is_node = (used_sites_[graph_->local_index(owner)] & bit_of(home.site)) != 0;
+    if (is_node) points_[number_at(home)] = position;
   }
 }
 
@@ -221,7 +231,7 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
   };
   std::vector<Answer> answers;
   for (const Request& request : asked) {
-    const std::int32_t node = slot_at(home_of(request));
+    const std::int32_t node = number_at(home_of(request));
     answers.push_back({first_node_ + node, points_[node]});
   }
   for (const Answer& answer : exchange.answer(answers)) {
@@ -230,16 +240,33 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
   }
 }
 
+/// The number of a local node.
+std::int32_t NodeNumbering::number_at(const Home& home) const {
+  if (home.site == Site::inside) return listed_[listed_node(home)];
+  const std::size_t local = graph_->local_index(home.leaf);
+  const int before = used_sites_[local] & (bit_of(home.site) - 1);
+  return first_[local] + sizes_of_sets[before];
+}
+
 NodeId NodeNumbering::find(const Home& home) const {
-  if (graph_->is_local(home.leaf)) return NodeId{slots_[slot_of(home)]};
+  if (graph_->is_local(home.leaf)) return NodeId{number_at(home)};
   const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), request_of(home));
   return NodeId{owned_ + static_cast<std::int32_t>(at - wanted_.begin())};
 }
 
-NodeId NodeNumbering::of_leaf(LeafId leaf, Site site) const { return find(home_of_site(leaf, site)); }
+NodeNumbering::SiteNodes NodeNumbering::of_leaf(LeafId leaf) const {
+  SiteNodes nodes;
+  const SideSet hanging = graph_->around(leaf).finer;
+  for (const Site site : lattice_sites) {
+    if (is_corner(site) || hanging.contains(side_of(site)))
+      nodes[index_of(site)] = find(home_of_site(leaf, site));
+  }
+  return nodes;
+}
 
 NodeId NodeNumbering::of_cut(LeafId leaf, std::int32_t node) const {
-  return find(home_of_cut_node(leaf, cut_->nodes[node]));
+  const Home home = home_of_cut_node(leaf, cut_->nodes[node]);
+  return home.leaf == leaf && home.site == Site::inside ? NodeId{listed_[node]} : find(home);
 }
 
 void NodeNumbering::fill(Mesh& mesh) && {

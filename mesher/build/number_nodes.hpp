@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -17,8 +21,9 @@ class NodeNumbering {
 
   /// How many nodes this rank owns.
   std::int32_t owned() const { return owned_; }
-  /// The node at a lattice site of an inside leaf.
-  NodeId of_leaf(LeafId leaf, Site site) const;
+  /// The nodes at the lattice sites of an inside leaf, none in the middle of a side where nothing hangs.
+  using SiteNodes = std::array<NodeId, lattice_sites.size()>;
+  SiteNodes of_leaf(LeafId leaf) const;
   /// A node of a cut leaf, from its number in CutForest::nodes.
   NodeId of_cut(LeafId leaf, std::int32_t node) const;
 
@@ -45,25 +50,22 @@ class NodeNumbering {
   Home home_of_site(LeafId leaf, Site site) const;
   Home home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const;
   Home corner_home(LeafId owner, LatticePoint p) const;
-  std::size_t slot_of(const Home& home) const;
-  std::size_t border_slot(std::size_t border_leaf) const { return 3 * (cut_->states.size() + border_leaf); }
-  std::size_t listed_slot(std::int32_t node) const;
-  /// The slot of a local node.
-  std::int32_t& slot_at(const Home& home) { return slots_[slot_of(home)]; }
-  std::int32_t listed_node(LeafId leaf, Point position) const;
+  Home home_of(const Request& asked) const {
+    return {graph_->from_local(asked.leaf), asked.site, asked.position};
+  }
+  std::int32_t listed_node(const Home& home) const;
+  std::int32_t number_at(const Home& home) const;
   NodeId find(const Home& home) const;
 
   void use(const Home& home);
+  void use_local(const Home& home);
+  void use_cut(LeafId leaf, std::int32_t node);
   void use_nodes_of_cells();
   void use_nodes_of_inside(LeafId leaf);
   bool uses_its_own(LeafId leaf) const;
   std::vector<int> ranks_wanted();
-  Home home_of(const Request& asked) const {
-    return {graph_->from_local(asked.leaf), asked.site, asked.position};
-  }
   void number_owned();
   void place_moved();
-  void number_slot(std::size_t slot, Point position);
   void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
   Request request_of(const Home& home) const {
     const LeafGraph::Owner owner = graph_->owner_of(home.leaf);
@@ -73,11 +75,11 @@ class NodeNumbering {
   const Lattice* lattice_;
   const LeafGraph* graph_;
   const CutForest* cut_;
-  std::vector<LeafId> border_leaves_;  ///< on the root's lower or left side, in ascending order
-  /// The nodes' numbers: three slots for each local leaf, three for each border leaf, one for each of
-  /// CutForest::nodes.
-  std::vector<std::int32_t> slots_;
-  std::vector<Request> wanted_;  ///< from other ranks, sorted: the copies
+  std::vector<std::uint8_t> used_sites_;  ///< of each local leaf, a bit for each node that it owns, but
+                                          ///< listed ones
+  std::vector<std::int32_t> first_;       ///< of each local leaf, the number of the first node that it owns
+  std::vector<std::int32_t> listed_;      ///< the numbers of CutForest::nodes
+  std::vector<Request> wanted_;           ///< from other ranks, sorted: the copies
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

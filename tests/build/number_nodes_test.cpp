@@ -120,11 +120,13 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   for (const LeafId leaf : graph.local()) {
     if (numbered.cut.states[graph.local_index(leaf)] != CutForest::State::inside) continue;
     const Quadrant& q = graph.leaf(leaf);
+    const NodeNumbering::SiteNodes nodes = numbered.numbers.of_leaf(leaf);
     for (const Site site : lattice_sites) {
-      if (is_middle(site) && !graph.has_hanging(leaf, side_of(site))) continue;
+      EXPECT_EQ(nodes[index_of(site)].valid(), is_corner(site) || graph.has_hanging(leaf, side_of(site)));
+      if (!nodes[index_of(site)].valid()) continue;
       hanging += is_middle(site) ? 1 : 0;
       const auto at = moved.find(q.at(site));
-      expected.push_back({numbered.numbers.of_leaf(leaf, site),
+      expected.push_back({nodes[index_of(site)],
                           at != moved.end() ? at->second : numbered.domain.lattice.corner(q.at(site))});
     }
   }
