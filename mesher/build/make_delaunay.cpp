@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/delaunay/flipper.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -12,40 +13,75 @@ namespace quadloop {
 
 namespace {
 
-/// The nodes of the cells of cut leaves and of those with a snapped corner: both ends of any edge between
-/// cells that may not be Delaunay, those without squares' diagonals.
-std::vector<GlobalNodeId> nodes_of_cut_leaves(const CutForest& cut, const Mesh& mesh,
-                                              const std::vector<LeafRecord>& leaves) {
-  std::vector<GlobalNodeId> nodes;
-  NodeFlags named(mesh.points.size(), 0);
-  auto triangle = mesh.triangles.cbegin();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const auto end = triangle + leaves[i].triangles;
-    if (cut.entry_of[i] < 0) triangle = end;
-    for (; triangle != end; ++triangle) {
-      for (const NodeId node : *triangle) {
-        if (std::exchange(named[node], 1) == 0) nodes.push_back(mesh.global(node));
-      }
-    }
-  }
-  return nodes;
-}
+/// A local leaf that is cut or has a snapped corner, or one that touches such a leaf.
+struct IrregularLeaf {
+  std::int32_t index = 0;     ///< local
+  std::int32_t triangle = 0;  ///< the first of its own, before any moves to another leaf
+  bool cut = false;           ///< or with a snapped corner
+};
 
-/// Flags the local leaves that are cut or have a snapped corner, and all around such leaves. *Collective.*
-std::vector<char> irregular_leaves(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
-  std::vector<char> is_cut(graph.size(), 0);
-  for (std::int32_t i = 0; i < std::ssize(cut.entry_of); ++i) {
-    is_cut[graph.from_local(i).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
-  }
-  GhostExchange(comm, graph).update(is_cut);
+/// A flag for each leaf of the graph that is irregular. *Collective.*
+std::vector<char> flag_irregular(const LeafGraph& graph, const std::vector<char>& is_cut) {
   std::vector<char> irregular = is_cut;
   LeafFinder finder(graph);
   for (const LeafId leaf : graph.all()) {
     if (is_cut[leaf.value()] == 0) continue;
     for_touching_leaves(finder, leaf, [&](LeafId other) { irregular[other.value()] = 1; });
   }
-  const auto first = irregular.begin() + graph.local_begin();
-  return {first, first + graph.local_size()};
+  return irregular;
+}
+
+/// In ascending order. *Collective.*
+std::vector<IrregularLeaf> irregular_leaves(const Communicator& comm, const LeafGraph& graph,
+                                            const CutForest& cut, const std::vector<LeafRecord>& leaves) {
+  std::vector<char> is_cut(graph.size(), 0);
+  for (std::int32_t i = 0; i < std::ssize(cut.entry_of); ++i) {
+    is_cut[graph.from_local(i).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
+  }
+  GhostExchange(comm, graph).update(is_cut);
+  const std::vector<char> is_irregular = flag_irregular(graph, is_cut);
+  std::vector<IrregularLeaf> irregular;
+  std::int32_t triangle = 0;
+  for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
+    if (is_irregular[graph.from_local(i).value()] != 0)
+      irregular.push_back({i, triangle, cut.entry_of[i] >= 0});
+    triangle += leaves[i].triangles;
+  }
+  return irregular;
+}
+
+/// Flips the edges between this rank's triangles in irregular leaves until they are Delaunay. Edges of leaves
+/// that are not cut are right but for those to cut ones. Returns the nodes at edges to other ranks'
+/// triangles: each is a copy on one of them.
+std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>& rank_of,
+                                             const std::vector<IrregularLeaf>& irregular,
+                                             const std::vector<LeafRecord>& leaves, Mesh& mesh) {
+  std::vector<std::int32_t> slots;
+  std::vector<Flipper::Triangle> triangles;
+  std::vector<GlobalNodeId> shared;
+  const auto list = [&](bool cut) {
+    for (const IrregularLeaf& leaf : irregular) {
+      if (leaf.cut != cut) continue;
+      for (std::int32_t t = leaf.triangle; t < leaf.triangle + leaves[leaf.index].triangles; ++t) {
+        const auto& nodes = mesh.triangles[t];
+        slots.push_back(t);
+        triangles.push_back({nodes[0].value(), nodes[1].value(), nodes[2].value()});
+        for (const NodeId node : nodes) {
+          if (!mesh.owns(node)) shared.push_back(mesh.global(node));
+        }
+      }
+    }
+  };
+  list(true);
+  const std::size_t of_cut_leaves = triangles.size();
+  list(false);
+  Flipper().flip_first(
+      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut_leaves);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    mesh.triangles[slots[i]] = {NodeId{a}, NodeId{b}, NodeId{c}};
+  }
+  return shared;
 }
 
 using GlobalNodes = std::array<GlobalNodeId, 3>;
@@ -71,14 +107,11 @@ class LeafTriangles {
       : lattice_{lattice}, graph_{graph}, finder_{graph}, mesh_{mesh} {}
 
   /// *Collective.*
-  void share_out(const Communicator& comm, const std::vector<char>& irregular,
+  void share_out(const Communicator& comm, const std::vector<IrregularLeaf>& irregular,
                  const std::vector<LeafRecord>& leaves) {
-    std::int32_t triangle = 0;
-    for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
-      const std::int32_t end = triangle + leaves[i].triangles;
-      if (irregular[i] != 0) send_strangers(graph_.from_local(i), triangle, end);
-      triangle = end;
-    }
+    for (const IrregularLeaf& leaf : irregular)
+      send_strangers(graph_.from_local(leaf.index), leaf.triangle,
+                     leaf.triangle + leaves[leaf.index].triangles);
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const Point p = centroid(t.points);
@@ -91,33 +124,32 @@ class LeafTriangles {
   }
 
   /// Puts them there. In irregular leaves all are sorted by the numbers of their nodes.
-  void put_back(const std::vector<char>& irregular, std::vector<LeafRecord>& leaves) const {
+  void put_back(const std::vector<IrregularLeaf>& irregular, std::vector<LeafRecord>& leaves) const {
     const auto before = std::exchange(mesh_.triangles, {});
-    mesh_.triangles.reserve(before.size());
+    mesh_.triangles.reserve(before.size() + arrived_.size() - strangers_.size());
     auto arrival = arrived_.cbegin();
     auto stranger = strangers_.cbegin();
+    auto next = before.cbegin();  // of those that are not there yet
     std::vector<PlacedTriangle> here;
-    std::int32_t triangle = 0;
-    for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
-      const std::int32_t begin = size32(mesh_.triangles), end = triangle + leaves[i].triangles;
+    for (const auto& [i, first, cut] : irregular) {
+      const auto begin = before.begin() + first, end = begin + leaves[i].triangles;
+      mesh_.triangles.insert(mesh_.triangles.end(), next, begin);
       here.clear();
-      if (irregular[i] == 0)
-        mesh_.triangles.insert(mesh_.triangles.end(), before.begin() + triangle, before.begin() + end);
-      for (std::int32_t t = triangle; t < end && irregular[i] != 0; ++t) {
-        if (stranger != strangers_.end() && *stranger == t) {
+      for (next = begin; next != end; ++next) {
+        if (stranger != strangers_.end() && *stranger == next - before.begin()) {
           ++stranger;
         } else {
-          here.push_back(placed(i, before[t]));
+          here.push_back(placed(i, *next));
         }
       }
-      triangle = end;
       for (; arrival != arrived_.end() && arrival->leaf == i; ++arrival) here.push_back(*arrival);
       std::sort(here.begin(), here.end());
       for (const PlacedTriangle& t : here) mesh_.triangles.push_back(t.nodes);
-      leaves[i].triangles = size32(mesh_.triangles) - begin;
+      leaves[i].triangles = size32(here);
       leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
     }
-    QUADLOOP_REQUIRE(arrival == arrived_.end(), "the centroid of each triangle lies in a leaf");
+    mesh_.triangles.insert(mesh_.triangles.end(), next, before.end());
+    QUADLOOP_REQUIRE(arrival == arrived_.end(), "the centroid of each triangle lies in an irregular leaf");
   }
 
  private:
@@ -169,8 +201,8 @@ class LeafTriangles {
 void make_delaunay(const Communicator& comm, const Lattice& lattice,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves) {
-  restore_delaunay_at(comm, mesh, nodes_of_cut_leaves(cut, mesh, leaves), rank_of);
-  const std::vector<char> irregular = irregular_leaves(comm, graph, cut);
+  const std::vector<IrregularLeaf> irregular = irregular_leaves(comm, graph, cut, leaves);
+  restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, leaves, mesh), rank_of);
   LeafTriangles triangles(lattice, graph, mesh);
   triangles.share_out(comm, irregular, leaves);
   triangles.put_back(irregular, leaves);

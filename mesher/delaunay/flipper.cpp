@@ -13,7 +13,23 @@ void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank
   close(open);
   list_firm(moved);
   list_blunt();
-  for (Edge e = 0; e < edges(); ++e) {  // what flips make wrong is looked at by flip_from()
+  flip_below(edges(), rank_of);
+}
+
+void Flipper::flip_first(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
+                         std::size_t count) {
+  points_ = points;
+  triangles_ = triangles;
+  join({});
+  close({});
+  list_firm({});
+  list_blunt();
+  flip_below(static_cast<Edge>(3 * count), rank_of);
+}
+
+/// Makes right the edges that are numbered below `end`, and what this makes wrong.
+void Flipper::flip_below(Edge end, const RankOf& rank_of) {
+  for (Edge e = 0; e < end; ++e) {  // what flips make wrong is looked at by flip_from()
     if (across(e) > e && (blunt_[e] != 0 || blunt_[across(e)] != 0) && !is_firm(e)) flip_from(e, rank_of);
   }
 }

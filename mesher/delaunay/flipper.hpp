@@ -66,6 +66,10 @@ class Flipper {
                         std::span<const char> open = {}, std::span<const std::int32_t> blocks = {},
                         std::span<const char> moved = {});
 
+  /// The same where all edges that may be wrong are those of the first `count` triangles.
+  void flip_first(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
+                  std::size_t count);
+
   /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }
   static std::size_t triangle_of(Edge e) { return e / 3; }
@@ -83,6 +87,7 @@ class Flipper {
   bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
   std::array<std::size_t, 4> nodes_of_both(Edge e) const;
   bool is_wrong(Edge e, const RankOf& rank_of) const;
+  void flip_below(Edge end, const RankOf& rank_of);
   void flip_from(Edge e, const RankOf& rank_of);
   void flip(Edge e);
   void set_across(Edge e, Edge other);

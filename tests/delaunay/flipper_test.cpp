@@ -97,6 +97,24 @@ TEST(Flipper, OneResultFromAnyDiagonals) {
   }
 }
 
+/// Squares come row by row, and each keeps its two places.
+TEST(Flipper, LooksAtEdgesOfTheFirstTrianglesAlone) {
+  const Grid grid(12);
+  Triangles all = grid.split(1);
+  Flipper().flip_to_delaunay(grid.points, ranked(grid.ranks), all);
+  const std::size_t rows = 5, first = rows * 2 * 12;
+  const Triangles wrong = grid.split(1);
+  ASSERT_NE(sorted(wrong), sorted(all));
+  Triangles mixed = all;
+  std::copy_n(wrong.begin(), first, mixed.begin());
+  ASSERT_NE(sorted(mixed), sorted(all));
+  Flipper().flip_first(grid.points, ranked(grid.ranks), mixed, first);
+  EXPECT_EQ(sorted(mixed), sorted(all)) << "no others were wrong";
+  mixed = wrong;
+  Flipper().flip_first(grid.points, ranked(grid.ranks), mixed, first);
+  EXPECT_TRUE(std::equal(wrong.begin() + first, wrong.end(), mixed.begin() + first));
+}
+
 TEST(Flipper, RemembersNothingOfTheLastTriangulation) {
   const Grid large(9, 0.2), small(3, 0.2);
   Flipper used, fresh;
