@@ -4,38 +4,60 @@
 
 namespace quadloop {
 
+namespace {
+
+constexpr std::int32_t unnumbered = -1;
+
+}  // namespace
+
 StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, const Mesh& mesh,
                    const NodeFlags& core, const Known& known)
     : comm_{comm},
       owners_{owners},
       mesh_{mesh},
       known_{known},
-      points_{mesh.points},
-      copies_{mesh.copies},
-      table_(mesh.first_node, mesh.owned_nodes, points_, copies_),
-      core_{core},
-      moved_{known.moved},
-      stars_(mesh.points.size(), Star::unknown) {
-  gather_stars();
+      number_of_owned_(mesh.owned_nodes, unnumbered) {
+  gather_stars(core);
 }
 
 /// Each triangle goes to the owners of its nodes.
-void StarHalo::gather_stars() {
+void StarHalo::gather_stars(const NodeFlags& core) {
   const std::int64_t first = comm_.exclusive_sum(std::ssize(mesh_.triangles));
-  const auto in_region = [&](const auto& nodes) {
-    return std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return core_[node] != 0; });
-  };
-  const auto count = std::count_if(mesh_.triangles.begin(), mesh_.triangles.end(), in_region);
-  triangles_.reserve(count);
-  numbers_.reserve(count);
+  std::vector<std::int32_t> region;
+  for (std::int32_t i = 0; i < std::ssize(mesh_.triangles); ++i) {
+    if (any_flagged(core, mesh_.triangles[i])) region.push_back(i);
+  }
+  triangles_.reserve(region.size());
+  numbers_.reserve(region.size());
   Outbox<Travelling> to_owners;
-  for (std::int64_t i = 0; i < std::ssize(mesh_.triangles); ++i) {
-    const auto& nodes = mesh_.triangles[i];
-    if (!in_region(nodes)) continue;
+  for (const std::int32_t i : region) {
+    Triangle nodes;
+    for (std::size_t k = 0; k < 3; ++k) nodes[k] = number_node(mesh_.triangles[i][k], core);
     const std::int32_t block = known_.triangle_to_block.empty() ? 0 : known_.triangle_to_block[i];
-    share({nodes[0].value(), nodes[1].value(), nodes[2].value()}, first + i, block, to_owners);
+    share(nodes, first + i, block, to_owners);
   }
   for (const Travelling& triangle : to_owners.deliver(comm_)) add(triangle);
+}
+
+/// Of one of the mesh's nodes.
+std::int32_t StarHalo::number_node(NodeId node, const NodeFlags& core) {
+  if (mesh_.owns(node) && number_of_owned_[node.value()] != unnumbered) return number_of_owned_[node.value()];
+  return number_node(mesh_.global(node), mesh_.point(node), core[node],
+                     known_.moved.empty() ? 1 : known_.moved[node]);
+}
+
+std::int32_t StarHalo::number_node(GlobalNodeId node, Point point, char core, char moved) {
+  const bool is_own = owns(node);
+  std::int32_t& number = is_own ? number_of_owned_[node.value() - mesh_.first_node]
+                                : number_of_other_.try_emplace(node, unnumbered).first->second;
+  if (number != unnumbered) return number;
+  number = size32(nodes_);
+  nodes_.push_back(node);
+  points_.push_back(point);
+  core_.push_back(core);
+  if (!known_.moved.empty()) moved_.push_back(moved);
+  stars_.push_back(is_own ? Star::here : Star::unknown);
+  return number;
 }
 
 /// One of this rank's triangles.
@@ -56,21 +78,16 @@ void StarHalo::add(const Triangle& nodes, std::int64_t number, std::int32_t bloc
   numbers_.push_back(number);
   if (!known_.triangle_to_block.empty()) blocks_.push_back(block);
   for (const std::int32_t node : nodes) {
-    if (owns(node) || stars_[NodeId{node}] != Star::unknown) continue;
-    stars_[NodeId{node}] = Star::missing;
+    if (stars_[node] != Star::unknown) continue;
+    stars_[node] = Star::missing;
     frontier_.push_back(node);
   }
 }
 
 void StarHalo::add(const Travelling& triangle) {
   Triangle nodes;
-  for (std::size_t k = 0; k < 3; ++k) {
-    nodes[k] = table_.local(triangle.nodes[k], triangle.points[k]).value();
-    if (static_cast<std::size_t>(nodes[k]) < stars_.size()) continue;
-    stars_.push_back(Star::unknown);
-    core_.push_back(triangle.core[k]);
-    if (!moved_.empty()) moved_.push_back(triangle.moved[k]);
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    nodes[k] = number_node(triangle.nodes[k], triangle.points[k], triangle.core[k], triangle.moved[k]);
   add(nodes, triangle.number, triangle.block);
 }
 
@@ -78,22 +95,24 @@ StarHalo::Travelling StarHalo::travelling(const Triangle& nodes, std::int64_t nu
                                           std::int32_t block) const {
   Travelling t{number, {}, {}, block, {}, {}};
   for (std::size_t k = 0; k < 3; ++k) {
-    const NodeId node{nodes[k]};
     t.nodes[k] = global(nodes[k]);
     t.points[k] = points_[nodes[k]];
-    t.core[k] = core_[node];
-    t.moved[k] = moved_.empty() ? 1 : moved_[node];
+    t.core[k] = core_[nodes[k]];
+    t.moved[k] = known_.moved.empty() ? 1 : moved_[nodes[k]];
   }
   return t;
 }
 
 /// The triangles around these nodes, which this rank owns, each once.
 void StarHalo::answer(int rank, std::span<const GlobalNodeId> nodes, Outbox<Travelling>& answers) const {
-  NodeFlags asked(mesh_.owned_nodes, 0);
-  for (const GlobalNodeId node : nodes) asked[owners_.local(node)] = 1;
+  std::vector<char> asked(nodes_.size(), 0);
+  for (const GlobalNodeId node : nodes) {
+    const std::int32_t number = number_of_owned_[owners_.local(node).value()];
+    if (number != unnumbered) asked[number] = 1;
+  }
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const auto& t = triangles_[i];
-    const auto is_asked = [&](std::int32_t node) { return owns(node) && asked[NodeId{node}] != 0; };
+    const auto is_asked = [&](std::int32_t node) { return asked[node] != 0; };
     if (std::any_of(t.begin(), t.end(), is_asked))
       answers.add(rank, travelling(t, numbers_[i], blocks_.empty() ? 0 : blocks_[i]));
   }
@@ -106,7 +125,7 @@ void StarHalo::grow(bool wanted) {
     for (const std::int32_t node : frontier_) {
       nodes.push_back(global(node));
       owners.push_back(owners_.rank_of(nodes.back()));
-      stars_[NodeId{node}] = Star::here;
+      stars_[node] = Star::here;
     }
     frontier_.clear();
   }

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "mesher/delaunay/flipper.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
-#include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
 
@@ -48,12 +48,10 @@ class StarHalo {
   bool complete() const { return frontier_.empty(); }
 
   std::span<const Point> points() const { return points_; }
-  bool owns(std::int32_t node) const { return mesh_.owns(NodeId{node}); }
-  GlobalNodeId global(std::int32_t node) const {
-    return owns(node) ? mesh_.global(NodeId{node}) : copies_[node - mesh_.owned_nodes];
-  }
+  bool owns(std::int32_t node) const { return owns(global(node)); }
+  GlobalNodeId global(std::int32_t node) const { return nodes_[node]; }
   /// Whether no triangle around the node is missing from the region.
-  bool is_core(std::int32_t node) const { return core_[NodeId{node}] != 0; }
+  bool is_core(std::int32_t node) const { return core_[node] != 0; }
   /// A flag for each node, or none where all may have moved.
   std::span<const char> moved() const { return moved_; }
 
@@ -66,26 +64,33 @@ class StarHalo {
     std::int32_t block = 0;
     std::array<char, 3> core{}, moved{};
   };
-  enum class Star : char { unknown, missing, here };  ///< the triangles around a node of another rank
+  enum class Star : char { unknown, missing, here };  ///< the triangles around a node
 
-  void gather_stars();
+  bool owns(GlobalNodeId node) const {
+    const std::int64_t offset = node.value() - mesh_.first_node;
+    return 0 <= offset && offset < mesh_.owned_nodes;
+  }
+  void gather_stars(const NodeFlags& core);
+  std::int32_t number_node(NodeId node, const NodeFlags& core);
+  std::int32_t number_node(GlobalNodeId node, Point point, char core, char moved);
   void share(const Triangle& nodes, std::int64_t number, std::int32_t block, Outbox<Travelling>& to_owners);
   void add(const Triangle& nodes, std::int64_t number, std::int32_t block);
   void add(const Travelling& triangle);
   Travelling travelling(const Triangle& nodes, std::int64_t number, std::int32_t block) const;
   void answer(int rank, std::span<const GlobalNodeId> nodes, Outbox<Travelling>& answers) const;
   bool has_owned(const Triangle& t) const { return owns(t[0]) || owns(t[1]) || owns(t[2]); }
-  bool is_known(std::int32_t node) const { return owns(node) || stars_[NodeId{node}] == Star::here; }
+  bool is_known(std::int32_t node) const { return stars_[node] == Star::here; }
 
   const Communicator& comm_;
   const NodeOwners& owners_;
   const Mesh& mesh_;
   const Known known_;
+  std::vector<std::int32_t> number_of_owned_;  ///< of each owned node its number here, if it is at hand
+  std::unordered_map<GlobalNodeId, std::int32_t> number_of_other_;
+  std::vector<GlobalNodeId> nodes_;  ///< those at hand
   std::vector<Point> points_;
-  std::vector<GlobalNodeId> copies_;  ///< the nodes that others own
-  NodeTable table_;
-  NodeFlags core_, moved_;
-  IdVector<NodeId, Star> stars_;
+  std::vector<char> core_, moved_;
+  std::vector<Star> stars_;
   std::vector<Triangle> triangles_;
   std::vector<std::int64_t> numbers_;
   std::vector<std::int32_t> blocks_;

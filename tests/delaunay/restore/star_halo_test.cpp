@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "mesher/mesh/node_table.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
