@@ -45,6 +45,8 @@ class HaloMesh {
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
+  bool has_quads() const { return !(quads_before_.empty() && mesh_->quads.empty() && quads_after_.empty()); }
+
   /// Calls `visit(nodes)` for each cell, an array of three or four nodes: triangles, then quads.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {

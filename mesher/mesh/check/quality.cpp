@@ -23,6 +23,11 @@ double quality_of_corner(Point previous, Point p, Point next) {
   return edges > 0 ? 2 * cross(next - p, previous - p) / edges : 0;
 }
 
+/// As std::llround, which is a function call; above 1 half a unit more is told exactly.
+std::int64_t nearest_whole(double value) {
+  return value >= 1 ? static_cast<std::int64_t>(value + 0.5) : std::llround(value);
+}
+
 /// What one rank adds up.
 struct Tally {
   CornerRange angles;
@@ -40,7 +45,7 @@ struct Tally {
       }
       const double quality = quality_of(cell);
       worst = std::min(worst, quality);
-      sum += std::llround(quality * fixed_point);
+      sum += nearest_whole(quality * fixed_point);
     }
   }
 };

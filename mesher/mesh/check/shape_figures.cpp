@@ -67,51 +67,75 @@ NodeFlags boundary_nodes(const HaloMesh& mesh) {
   return flags;
 }
 
+/// The largest and the smallest area of the cells round a node.
+struct AreaRange {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  double ratio() const { return area_ratio(largest, smallest); }
+};
+using AreaRanges = IdVector<NodeId, AreaRange>;
+
+/// Of the owned nodes.
+AreaRanges areas_round_nodes(const HaloMesh& mesh) {
+  AreaRanges ranges(mesh.owned_nodes());
+  mesh.for_each_cell([&](const auto& nodes) {
+    const double area = area_of(mesh, nodes);
+    for (const NodeId node : nodes) {
+      if (!mesh.owns(node)) continue;
+      AreaRange& range = ranges[node];
+      range = {std::min(range.smallest, area), std::max(range.largest, area)};
+    }
+  });
+  return ranges;
+}
+
 enum Ring : std::int32_t { triangles = 1, parallelograms = 2, others = 4 };
 
-/// What a cell brings to the rings of its nodes. Corners of parallelograms are exact each, those of triangles
-/// together. The skew that is let pass is far below what makes a node inexact, also where a cell is very
-/// long; cells without area are looked at with the others.
+/// What a cell of positive area brings to the rings of its nodes. Corners of parallelograms are exact each,
+/// those of triangles together. The skew that is let pass is far below what makes a node inexact, also where
+/// a cell is very long.
 template <class Nodes>
 std::int32_t kind_of(const HaloMesh& mesh, const Nodes& nodes) {
   constexpr double least_skew = 1e-7;
-  const double area = area_of(mesh, nodes);
-  if (!(area > 0)) return Ring::others;
   if constexpr (std::tuple_size_v<Nodes> == 3) return Ring::triangles;
   const Point gap =
       mesh.point(nodes[0]) - mesh.point(nodes[1]) + mesh.point(nodes[2]) - mesh.point(nodes.back());
-  return dot(gap, gap) <= least_skew * least_skew * area ? Ring::parallelograms : Ring::others;
+  return dot(gap, gap) <= least_skew * least_skew * area_of(mesh, nodes) ? Ring::parallelograms
+                                                                         : Ring::others;
 }
 
-/// Of the inner nodes whose ring is neither of triangles nor of parallelograms alone, which are few: for each
-/// its place among them, -1 for all other nodes.
-IdVector<NodeId, std::int32_t> places_of_doubtful_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary) {
+/// Of the inner nodes whose ring is neither of triangles nor of parallelograms alone, all with an area, which
+/// are few: for each its place among them, -1 for all other nodes.
+IdVector<NodeId, std::int32_t> places_of_doubtful_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary,
+                                                        const AreaRanges& areas) {
   IdVector<NodeId, std::int32_t> places(mesh.owned_nodes(), 0);
-  mesh.for_each_cell([&](const auto& nodes) {
-    const std::int32_t kind = kind_of(mesh, nodes);
-    for (const NodeId node : nodes) {
-      if (mesh.owns(node)) places[node] |= kind;
-    }
-  });
+  if (mesh.has_quads()) {
+    mesh.for_each_cell([&](const auto& nodes) {
+      const std::int32_t kind = kind_of(mesh, nodes);
+      for (const NodeId node : nodes) {
+        if (mesh.owns(node)) places[node] |= kind;
+      }
+    });
+  }
   std::int32_t count = 0;
   for (const NodeId node : places.ids()) {
-    const bool doubtful = places[node] > Ring::parallelograms && on_boundary[node] == 0;
-    places[node] = doubtful ? count++ : -1;
+    const bool plain = places[node] <= Ring::parallelograms && areas[node].smallest > 0;
+    places[node] = plain || on_boundary[node] != 0 ? -1 : count++;
   }
   return places;
 }
 
-void count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary, ShapeFigures& figures) {
-  const IdVector<NodeId, std::int32_t> places = places_of_doubtful_nodes(mesh, on_boundary);
+/// How many there are on this rank.
+std::int64_t count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary,
+                                 const AreaRanges& areas) {
+  const IdVector<NodeId, std::int32_t> places = places_of_doubtful_nodes(mesh, on_boundary, areas);
   std::vector<DualSum> sums(std::ranges::count_if(places, [](std::int32_t place) { return place >= 0; }));
+  if (sums.empty()) return 0;
   mesh.for_each_cell([&](const auto& nodes) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (mesh.owns(nodes[k]) && places[nodes[k]] >= 0) add_corner(mesh, nodes, k, sums[places[nodes[k]]]);
     }
   });
-  const auto owned = on_boundary.begin() + mesh.owned_nodes();
-  figures.inner_nodes = std::count(on_boundary.begin(), owned, 0);
-  figures.inexact_nodes = std::ranges::count_if(sums, [](const DualSum& sum) { return !sum.is_exact(); });
+  return std::ranges::count_if(sums, [](const DualSum& sum) { return !sum.is_exact(); });
 }
 
 void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
@@ -123,15 +147,9 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
   figures.quads = std::ssize(mesh.quads);
 }
 
-/// The largest and the smallest area of the cells round a node.
-struct AreaRange {
-  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  double ratio() const { return area_ratio(largest, smallest); }
-};
-
 /// The largest ratio at edges between nodes round which the areas differ by `least` or more, as far as this
 /// rank knows: of owned nodes.
-double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ranges, double least) {
+double largest_ratio(const HaloMesh& mesh, const AreaRanges& ranges, double least) {
   struct Side {
     NodeId node, other;
     double area;
@@ -164,16 +182,7 @@ double largest_ratio(const HaloMesh& mesh, const IdVector<NodeId, AreaRange>& ra
 
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
-double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh) {
-  IdVector<NodeId, AreaRange> ranges(mesh.owned_nodes());
-  mesh.for_each_cell([&](const auto& nodes) {
-    const double area = area_of(mesh, nodes);
-    for (const NodeId node : nodes) {
-      if (!mesh.owns(node)) continue;
-      AreaRange& range = ranges[node];
-      range = {std::min(range.smallest, area), std::max(range.largest, area)};
-    }
-  });
+double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh, const AreaRanges& ranges) {
   double bound = 1;
   for (const AreaRange& range : ranges) bound = std::max(bound, range.largest > 0 ? range.ratio() : 1);
   bound = comm.maximum(bound);
@@ -254,12 +263,12 @@ ShapeFigures shape_figures(const Communicator& comm, const Mesh& mesh) {
   const HaloMesh halo(comm, mesh);
   const NodeFlags on_boundary = boundary_nodes(halo);
   count_parallelograms(mesh, figures);
-  count_inexact_nodes(halo, on_boundary, figures);
+  const AreaRanges areas = areas_round_nodes(halo);
   figures.quads = comm.sum(figures.quads);
   figures.parallelograms = comm.sum(figures.parallelograms);
-  figures.inner_nodes = comm.sum(figures.inner_nodes);
-  figures.inexact_nodes = comm.sum(figures.inexact_nodes);
-  figures.area_ratio_max = largest_area_ratio(comm, halo);
+  figures.inner_nodes = comm.sum(std::count(on_boundary.begin(), on_boundary.begin() + mesh.owned_nodes, 0));
+  figures.inexact_nodes = comm.sum(count_inexact_nodes(halo, on_boundary, areas));
+  figures.area_ratio_max = largest_area_ratio(comm, halo, areas);
   figures.passage_cells = comm.sum(count_passage_cells(halo, on_boundary));
   return figures;
 }
