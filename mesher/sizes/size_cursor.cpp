@@ -19,9 +19,13 @@ std::int32_t SizeCursor::deepest_node_at(const Quadrant& q, const Enter& enter) 
   return last_ = n;
 }
 
+/// Or the one above that where geometry ends.
+std::int32_t SizeCursor::deepest_with_geometry(const Quadrant& q) {
+  return deepest_node_at(q, [&](const SizeTree::Node& n) { return !tree_.segments_of(n).empty(); });
+}
+
 std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
-  const auto holds_geometry = [&](const SizeTree::Node& n) { return !tree_.segments_of(n).empty(); };
-  const SizeTree::Node& node = tree_.node(deepest_node_at(q, holds_geometry));
+  const SizeTree::Node& node = tree_.node(deepest_with_geometry(q));
   const std::span<const std::int32_t> inside = tree_.segments_of(node);
   if (inside.empty() || node.quadrant == q) return inside;
   found_.clear();
@@ -34,7 +38,7 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
 
 /// From the lower left corner of the node along its bottom, then up.
 bool SizeCursor::is_inside(const Quadrant& q, Corner corner) {
-  const SizeTree::Node& node = tree_.node(deepest_node_at(q));
+  const SizeTree::Node& node = tree_.node(deepest_with_geometry(q));
   const ShiftedOutline& outline = tree_.rules().outline();
   const LatticePoint place = q.at(site_of(corner));
   const Lattice& lattice = tree_.lattice();

@@ -25,6 +25,7 @@ class SizeCursor {
  private:
   template <class Enter>
   std::int32_t deepest_node_at(const Quadrant& q, const Enter& enter);
+  std::int32_t deepest_with_geometry(const Quadrant& q);
 
   const SizeTree& tree_;
   std::int32_t last_ = -1;  ///< node last found
