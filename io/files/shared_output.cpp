@@ -15,6 +15,8 @@ namespace quadloop {
 
 namespace {
 
+constexpr std::int64_t bytes_to_begin_with = std::int64_t{1} << 22;  // on the disk, while more is made
+
 /// -1, and errno, where this rank cannot.
 int open_staged(const std::string& temporary) {
   return ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
@@ -57,12 +59,20 @@ void SharedOutput::write_at(std::int64_t offset, std::string_view bytes) {
     if (written < 0) refuse_output(path_, errno);
     bytes.remove_prefix(written);
     offset += written;
+    waiting_ += written;
   }
+  if (waiting_ >= bytes_to_begin_with) begin_on_disk();
+}
+
+/// Without waiting; where it cannot, later.
+void SharedOutput::begin_on_disk() {
+  ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
+  waiting_ = 0;
 }
 
 void SharedOutput::close() {
   if (descriptor_ >= 0) {
-    ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);  // without waiting; where it cannot, later
+    begin_on_disk();
     outputs_.take_over(std::exchange(descriptor_, -1), path_);
   }
   outputs_.communicator().barrier();

@@ -25,16 +25,18 @@ class SharedOutput {
   /// By a writer; not collective: call it within Communicator::together(). No two ranks write the same byte.
   void write_at(std::int64_t offset, std::string_view bytes);
 
-  /// No rank writes any more. The disk begins with what there is; the set, which `outputs` must be until
+  /// No rank writes any more. The disk has begun with what there is; the set, which `outputs` must be until
   /// then, waits for it when it is committed. *Collective.*
   void close();
 
  private:
   SharedOutput(OutputSet& outputs, std::string path);
+  void begin_on_disk();
 
   OutputSet& outputs_;
   std::string path_;  ///< as messages name it
   int descriptor_ = -1;
+  std::int64_t waiting_ = 0;  ///< bytes of this rank that the disk was not told of
 };
 
 /// Whether all ranks could write the staged file: their machines share the folder. *Collective.*
