@@ -79,17 +79,32 @@ struct TreeSplits {
   std::int32_t leaves = 0;  ///< of flags that are not set
 };
 
-using NextFlag = std::vector<bool>::const_iterator;
-
-/// Visits the leaves below a quadrant in the order of the curve.
-template <class Visit>
-void for_leaves_below(const Quadrant& q, NextFlag& next, const Visit& visit) {
-  if (!*next++) {
-    visit(q);
-    return;
+/// To what follows along the curve after all of this quadrant; whether that is still inside the one of level
+/// `top` that holds it.
+bool to_next(Quadrant& q, int top) {
+  for (; q.level > top; --q.level) {
+    const std::int64_t size = q.size();
+    const bool east = (q.x & size) != 0, north = (q.y & size) != 0;
+    q.x += east ? -size : size;
+    if (!east) return true;
+    q.y += north ? -size : size;
+    if (!north) return true;
   }
-  for (const Corner quarter : corners_along_curve) for_leaves_below(q.child(quarter), next, visit);
+  return false;
 }
+
+/// Visits the leaves below a quadrant in the order of the curve. `is_split` is asked of each quadrant, before
+/// those below it.
+template <class IsSplit, class Visit>
+void for_leaves_below(Quadrant q, const IsSplit& is_split, const Visit& visit) {
+  const int top = q.level;
+  do {
+    while (is_split(q)) ++q.level;  // the first child
+    visit(q);
+  } while (to_next(q, top));
+}
+
+using Flag = std::vector<bool>::const_iterator;
 
 /// Makes one tree's flags anew, from those that it had.
 class SplitFlags {
@@ -100,31 +115,26 @@ class SplitFlags {
     made_.flags.reserve(before.size());
   }
 
-  /// Of what was a quadrant of p4est, or has come from one since.
-  void add_known(const Quadrant& q) {
-    if (!*next_++) {
-      add(q);
-      return;
-    }
-    made_.flags.push_back(true);
-    for (const Corner quarter : corners_along_curve) add_known(q.child(quarter));
+  /// Of one of p4est's quadrants.
+  void add(const Quadrant& q) {
+    for_leaves_below(
+        q, [&](const Quadrant& below) { return add_flag(below); }, [&](const Quadrant&) { ++made_.leaves; });
   }
 
   TreeSplits made() && { return std::move(made_); }
 
  private:
-  /// Of what was a leaf, or comes from one.
-  void add(const Quadrant& q) {
-    const bool is_split = q.level < deepest_level_ && split_(q);
+  bool add_flag(const Quadrant& q) {
+    const bool is_known = q.level <= known_, was_split = is_known && *next_++;
+    if (is_known) known_ = was_split ? Quadrant::unit_level : q.level;
+    const bool is_split = was_split || (q.level < deepest_level_ && split_(q));
     made_.flags.push_back(is_split);
-    if (!is_split) {
-      ++made_.leaves;
-      return;
-    }
-    for (const Corner quarter : corners_along_curve) add(q.child(quarter));
+    return is_split;
   }
 
-  NextFlag next_;
+  Flag next_;
+  int known_ =
+      Quadrant::unit_level;  ///< of the leaf that was, or now is no more: below it there are no flags
   const std::function<bool(const Quadrant&)>& split_;
   int deepest_level_;
   TreeSplits made_;
@@ -153,8 +163,9 @@ struct Forest::Impl {
   }
   template <class Visit>
   void for_leaves(p4est_topidx_t t, const Visit& visit) const {
-    NextFlag next = splits[t].flags.begin();
-    for_quadrants(t, [&](const Quadrant& q) { for_leaves_below(q, next, visit); });
+    Flag next = splits[t].flags.begin();
+    const auto is_split = [&](const Quadrant&) { return bool{*next++}; };
+    for_quadrants(t, [&](const Quadrant& q) { for_leaves_below(q, is_split, visit); });
   }
 
   void take_quadrants();
@@ -225,7 +236,7 @@ void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepe
   for (const p4est_topidx_t t : impl_->local_trees()) {
     const std::vector<bool> before = std::exchange(impl_->splits[t].flags, {});
     SplitFlags flags(before, split, deepest_level);
-    impl_->for_quadrants(t, [&](const Quadrant& q) { flags.add_known(q); });
+    impl_->for_quadrants(t, [&](const Quadrant& q) { flags.add(q); });
     impl_->splits[t] = std::move(flags).made();
   }
 }
