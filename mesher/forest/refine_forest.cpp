@@ -118,6 +118,7 @@ void share_out_leaves(const SizeTree& sizes, Forest& forest) {
 }  // namespace
 
 LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
+  sizes.expect_cut_leaves(expected.cut / comm.size());
   SizedSplits splits(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
