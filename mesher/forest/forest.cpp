@@ -117,6 +117,7 @@ class SplitFlags {
 
   /// Of one of p4est's quadrants.
   void add(const Quadrant& q) {
+    known_ = Quadrant::unit_level;
     for_leaves_below(
         q, [&](const Quadrant& below) { return add_flag(below); }, [&](const Quadrant&) { ++made_.leaves; });
   }

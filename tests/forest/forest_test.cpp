@@ -58,6 +58,15 @@ TEST(Forest, IsRefinedInTheOrderOfTheCurve) {
   EXPECT_EQ(all.size(), expected);
 }
 
+TEST(Forest, IsRefinedFurtherOnceItIsSharedOut) {
+  Forest forest(test::world(), brick);
+  for (const int deepest : {3, 4, 6}) {  // leaves of many levels are shared out, and split
+    forest.refine(near_point, deepest);
+    if (deepest < 6) forest.partition();
+  }
+  EXPECT_EQ(all_leaves(forest), all_leaves(graded_brick()));
+}
+
 TEST(Forest, SplitsWhatIsMarkedOnce) {
   Forest forest(test::world(), brick);
   std::vector<char> marked;
