@@ -134,8 +134,7 @@ class SplitFlags {
   }
 
   Flag next_;
-  int known_ =
-      Quadrant::unit_level;  ///< of the leaf that was, or now is no more: below it there are no flags
+  int known_ = Quadrant::unit_level;  ///< of the leaf last met: what is below it has no flags yet
   const std::function<bool(const Quadrant&)>& split_;
   int deepest_level_;
   TreeSplits made_;
