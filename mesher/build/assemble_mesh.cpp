@@ -91,7 +91,7 @@ class Assembler {
   std::vector<NodeId> found_;  ///< of a cut leaf's nodes, those that were asked for
 };
 
-LeafRecord record_of(const Quadrant& q, int wanted) {
+LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
   constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
   LeafRecord record;
   record.tree_x = static_cast<std::int32_t>(q.x >> Quadrant::unit_level);
@@ -99,14 +99,26 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
   record.x = static_cast<std::int32_t>(q.x & within);
   record.y = static_cast<std::int32_t>(q.y & within);
   record.level = static_cast<std::int8_t>(q.level);
-  record.wanted = static_cast<std::int8_t>(wanted);
+  record.wanted = wanted;
   return record;
+}
+
+/// Of each local leaf, as SizeCursor::wanted_level.
+std::vector<std::int8_t> wanted_levels(const SizeTree& sizes, const LeafGraph& graph) {
+  std::vector<std::int8_t> levels;
+  levels.reserve(graph.local_size());
+  SizeCursor cursor(sizes);
+  for (const LeafId leaf : graph.local())
+    levels.push_back(static_cast<std::int8_t>(cursor.wanted_level(graph.leaf(leaf))));
+  return levels;
 }
 
 }  // namespace
 
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result) {
+  const std::vector<std::int8_t> wanted = wanted_levels(sizes, graph);
+  sizes.forget();
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
   const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
@@ -115,7 +127,6 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
                          cut.triangles.size());  // room that is not filled takes no memory
   Assembler assembler(geometry, graph, cut, numbers, triangles_alone, result);
   DemandPath demands(sizes.demanded());
-  SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
   progress::Stage stage("cells", graph.local_size(), "leaves");
@@ -123,7 +134,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
     stage.advance(graph.local_index(leaf));
     const std::int32_t triangles = size32(mesh.triangles), quads = size32(mesh.quads);
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
+    LeafRecord record = record_of(graph.leaf(leaf), wanted[graph.local_index(leaf)]);
     record.triangles = size32(mesh.triangles) - triangles;
     record.quads = size32(mesh.quads) - quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));

@@ -83,7 +83,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
                     fmt::format("is smaller than spacing.min = {}", options.size.min));
   }
   SizedDomain domain(geometry, options.size, demanded);
-  const SizeTree& sizes = domain.sizes;
+  SizeTree& sizes = domain.sizes;
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iterator>
 #include <new>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -70,45 +71,73 @@ int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q
   return (*weights.weight)(quadrant_of(*weights.tree_corners, tree, *q));
 }
 
-/// Makes one tree's leaves anew, from those that it had.
-class TreeRefiner {
- public:
-  TreeRefiner(p4est_tree_t& tree, const Quadrant& corner, const std::function<bool(const Quadrant&)>& split,
-              int deepest_level)
-      : tree_{tree}, corner_{corner}, split_{split}, deepest_level_{deepest_level} {}
+/// Which of p4est's quadrants of a tree have been split since p4est got them: a flag for each, followed by
+/// those of its children where it is, and so on. So a forest grows by a bit for each quadrant, and p4est gets
+/// the leaves, in arrays of the right length, only where it is to move them.
+struct TreeSplits {
+  std::vector<bool> flags;
+  std::int32_t leaves = 0;  ///< of flags that are not set
+};
 
-  void refine() {
-    sc_array_t before = tree_.quadrants;
-    sc_array_init_count(&tree_.quadrants, sizeof(p4est_quadrant_t), before.elem_count);
-    sc_array_truncate(&tree_.quadrants);
-    const std::unique_ptr<sc_array_t, Releaser<sc_array_reset>> released(&before);
-    std::fill(std::begin(tree_.quadrants_per_level), std::end(tree_.quadrants_per_level), 0);
-    for (std::size_t i = 0; i < before.elem_count; ++i) add(*p4est_quadrant_array_index(&before, i));
+/// To what follows along the curve after all of this quadrant; whether that is still inside the one of level
+/// `top` that holds it.
+bool to_next(Quadrant& q, int top) {
+  for (; q.level > top; --q.level) {
+    const std::int64_t size = q.size();
+    const bool east = (q.x & size) != 0, north = (q.y & size) != 0;
+    q.x += east ? -size : size;
+    if (!east) return true;
+    q.y += north ? -size : size;
+    if (!north) return true;
   }
+  return false;
+}
+
+/// Visits the leaves below a quadrant in the order of the curve. `is_split` is asked of each quadrant, before
+/// those below it.
+template <class IsSplit, class Visit>
+void for_leaves_below(Quadrant q, const IsSplit& is_split, const Visit& visit) {
+  const int top = q.level;
+  do {
+    while (is_split(q)) ++q.level;  // the first child
+    visit(q);
+  } while (to_next(q, top));
+}
+
+using Flag = std::vector<bool>::const_iterator;
+
+/// Makes one tree's flags anew, from those that it had.
+class SplitFlags {
+ public:
+  SplitFlags(const std::vector<bool>& before, const std::function<bool(const Quadrant&)>& split,
+             int deepest_level)
+      : next_{before.begin()}, split_{split}, deepest_level_{deepest_level} {
+    made_.flags.reserve(before.size());
+  }
+
+  /// Of one of p4est's quadrants.
+  void add(const Quadrant& q) {
+    known_ = Quadrant::unit_level;
+    for_leaves_below(
+        q, [&](const Quadrant& below) { return add_flag(below); }, [&](const Quadrant&) { ++made_.leaves; });
+  }
+
+  TreeSplits made() && { return std::move(made_); }
 
  private:
-  /// The quadrant, or what it is split into.
-  void add(const p4est_quadrant_t& q) {
-    if (q.level >= deepest_level_ || !split_({corner_.x + q.x, corner_.y + q.y, q.level})) {
-      *p4est_quadrant_array_push(&tree_.quadrants) = q;
-      ++tree_.quadrants_per_level[q.level];
-      tree_.maxlevel = std::max(tree_.maxlevel, q.level);
-      return;
-    }
-    p4est_quadrant_t child = q;
-    ++child.level;
-    const p4est_qcoord_t size = P4EST_QUADRANT_LEN(child.level);
-    for (int k = 0; k < P4EST_CHILDREN; ++k) {
-      child.x = q.x + (k % 2) * size;
-      child.y = q.y + (k / 2) * size;
-      add(child);
-    }
+  bool add_flag(const Quadrant& q) {
+    const bool is_known = q.level <= known_, was_split = is_known && *next_++;
+    if (is_known) known_ = was_split ? Quadrant::unit_level : q.level;
+    const bool is_split = was_split || (q.level < deepest_level_ && split_(q));
+    made_.flags.push_back(is_split);
+    return is_split;
   }
 
-  p4est_tree_t& tree_;
-  const Quadrant& corner_;
+  Flag next_;
+  int known_ = Quadrant::unit_level;  ///< of the leaf last met: what is below it has no flags yet
   const std::function<bool(const Quadrant&)>& split_;
   int deepest_level_;
+  TreeSplits made_;
 };
 
 }  // namespace
@@ -119,8 +148,70 @@ struct Forest::Impl {
   std::unique_ptr<p4est_t, Releaser<p4est_destroy>> forest;
   std::vector<Quadrant> tree_corners;
   std::vector<std::int32_t> tree_numbers;  ///< row by row
+  std::vector<TreeSplits> splits;          ///< of each tree
   int trees_x = 1;
+
+  /// Trees with quadrants on this rank.
+  auto local_trees() const { return std::views::iota(forest->first_local_tree, forest->last_local_tree + 1); }
+  p4est_tree_t& tree(p4est_topidx_t t) const { return *p4est_tree_array_index(forest->trees, t); }
+  /// Those of p4est.
+  template <class Visit>
+  void for_quadrants(p4est_topidx_t t, const Visit& visit) const {
+    sc_array_t& quadrants = tree(t).quadrants;
+    for (std::size_t i = 0; i < quadrants.elem_count; ++i)
+      visit(quadrant_of(tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
+  }
+  template <class Visit>
+  void for_leaves(p4est_topidx_t t, const Visit& visit) const {
+    Flag next = splits[t].flags.begin();
+    const auto is_split = [&](const Quadrant&) { return bool{*next++}; };
+    for_quadrants(t, [&](const Quadrant& q) { for_leaves_below(q, is_split, visit); });
+  }
+
+  void take_quadrants();
+  void give_leaves();
+  void give_leaves_of(p4est_topidx_t t) const;
 };
+
+/// What p4est has are the leaves.
+void Forest::Impl::take_quadrants() {
+  splits.assign(connectivity->num_trees, {});
+  for (const p4est_topidx_t t : local_trees()) {
+    const std::size_t leaves = tree(t).quadrants.elem_count;
+    splits[t] = {std::vector<bool>(leaves), static_cast<std::int32_t>(leaves)};
+  }
+}
+
+/// p4est gets the leaves. *Collective.*
+void Forest::Impl::give_leaves() {
+  p4est_locidx_t leaves = 0;
+  for (p4est_topidx_t t = std::max(forest->first_local_tree, 0); t < connectivity->num_trees; ++t) {
+    if (t <= forest->last_local_tree) give_leaves_of(t);
+    tree(t).quadrants_offset = leaves;
+    leaves += splits[t].leaves;
+  }
+  forest->local_num_quadrants = leaves;
+  p4est_comm_count_quadrants(forest.get());
+}
+
+void Forest::Impl::give_leaves_of(p4est_topidx_t t) const {
+  p4est_tree_t& whole = tree(t);
+  sc_array_t all;
+  sc_array_init_count(&all, sizeof(p4est_quadrant_t), splits[t].leaves);
+  std::fill(std::begin(whole.quadrants_per_level), std::end(whole.quadrants_per_level), 0);
+  std::size_t next = 0;
+  for_leaves(t, [&](const Quadrant& q) {
+    p4est_quadrant_t leaf{};
+    leaf.x = static_cast<p4est_qcoord_t>(q.x - tree_corners[t].x);
+    leaf.y = static_cast<p4est_qcoord_t>(q.y - tree_corners[t].y);
+    leaf.level = static_cast<std::int8_t>(q.level);
+    *p4est_quadrant_array_index(&all, next++) = leaf;
+    ++whole.quadrants_per_level[leaf.level];
+    whole.maxlevel = std::max(whole.maxlevel, leaf.level);
+  });
+  sc_array_reset(&whole.quadrants);
+  whole.quadrants = all;
+}
 
 Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::make_unique<Impl>()} {
   set_up_p4est();
@@ -135,24 +226,19 @@ Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::ma
     impl_->tree_numbers[row * lattice.trees_x() + column] = t;
   }
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
+  impl_->take_quadrants();
 }
 
 Forest::~Forest() = default;
 Forest::Forest(Forest&&) noexcept = default;
 
-/// As p4est_refine_ext, which takes twice the time: it keeps lists of quadrants that are yet to be asked
-/// about.
 void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepest_level) {
-  p4est_t& forest = *impl_->forest;
-  p4est_locidx_t leaves = 0;
-  for (p4est_topidx_t t = std::max(forest.first_local_tree, 0); t < forest.connectivity->num_trees; ++t) {
-    p4est_tree_t& tree = *p4est_tree_array_index(forest.trees, t);
-    if (t <= forest.last_local_tree) TreeRefiner(tree, impl_->tree_corners[t], split, deepest_level).refine();
-    tree.quadrants_offset = leaves;
-    leaves += static_cast<p4est_locidx_t>(tree.quadrants.elem_count);
+  for (const p4est_topidx_t t : impl_->local_trees()) {
+    const std::vector<bool> before = std::exchange(impl_->splits[t].flags, {});
+    SplitFlags flags(before, split, deepest_level);
+    impl_->for_quadrants(t, [&](const Quadrant& q) { flags.add(q); });
+    impl_->splits[t] = std::move(flags).made();
   }
-  forest.local_num_quadrants = leaves;
-  p4est_comm_count_quadrants(&forest);
 }
 
 void Forest::split_marked(const std::vector<char>& marked) {
@@ -170,27 +256,32 @@ void Forest::split_marked(const std::vector<char>& marked) {
   refine(split, P4EST_QMAXLEVEL);
 }
 
-void Forest::partition() { p4est_partition_ext(impl_->forest.get(), 0, nullptr); }
+void Forest::partition() {
+  impl_->give_leaves();
+  p4est_partition_ext(impl_->forest.get(), 0, nullptr);
+  impl_->take_quadrants();
+}
 
 void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
+  impl_->give_leaves();
   Weights weights{&impl_->tree_corners, &weight};
   impl_->forest->user_pointer = &weights;
   p4est_partition_ext(impl_->forest.get(), 0,
                       weight_by_function);  // on every rank, also on one without leaves
+  impl_->take_quadrants();
 }
 
-std::int32_t Forest::local_leaves() const { return impl_->forest->local_num_quadrants; }
-std::int64_t Forest::global_leaves() const { return impl_->forest->global_num_quadrants; }
+std::int32_t Forest::local_leaves() const {
+  std::int32_t leaves = 0;
+  for (const TreeSplits& tree : impl_->splits) leaves += tree.leaves;
+  return leaves;
+}
 
 std::vector<Quadrant> Forest::leaves(std::size_t room) const {
   std::vector<Quadrant> leaves;
   leaves.reserve(local_leaves() + room);
-  p4est_t& forest = *impl_->forest;
-  for (p4est_topidx_t t = forest.first_local_tree; t <= forest.last_local_tree; ++t) {
-    sc_array_t& quadrants = p4est_tree_array_index(forest.trees, t)->quadrants;
-    for (std::size_t i = 0; i < quadrants.elem_count; ++i)
-      leaves.push_back(quadrant_of(impl_->tree_corners, t, *p4est_quadrant_array_index(&quadrants, i)));
-  }
+  for (const p4est_topidx_t t : impl_->local_trees())
+    impl_->for_leaves(t, [&](const Quadrant& q) { leaves.push_back(q); });
   return leaves;
 }
 

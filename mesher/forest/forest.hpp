@@ -32,7 +32,6 @@ class Forest {
   void partition(const std::function<int(const Quadrant&)>& weight);
 
   std::int32_t local_leaves() const;
-  std::int64_t global_leaves() const;
   /// This rank's leaves in the order of the curve, with room for so many more.
   std::vector<Quadrant> leaves(std::size_t room = 0) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <tuple>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
@@ -60,10 +61,18 @@ void OutsideSplits::add_parents_round(const Quadrant& q, std::vector<Quadrant>& 
   for (const std::int64_t y : {parent.y, parent.y + to_y}) {
     for (const std::int64_t x : {parent.x, parent.x + to_x}) {
       const Quadrant round{x, y, parent.level};
-      if (!is_in_root(sizes_.lattice(), round) || (!above.empty() && above.back() == round)) continue;
-      if (cursor_.segments_in(round).empty()) above.push_back(round);
+      if (is_in_root(sizes_.lattice(), round) && is_new(round) && cursor_.segments_in(round).empty())
+        above.push_back(round);
     }
   }
+}
+
+/// Not so where it was looked at lately: most are, from many sides.
+bool OutsideSplits::is_new(const Quadrant& q) {
+  const int shift = Quadrant::unit_level - q.level;
+  const std::int64_t column = q.x >> shift, row = q.y >> shift;
+  Quadrant& place = lately_[row % window * window + column % window];
+  return std::exchange(place, q) != q;
 }
 
 void OutsideSplits::split(const Communicator& comm, Forest& forest) {

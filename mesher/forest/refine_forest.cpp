@@ -24,9 +24,10 @@ constexpr int weight_unfinished = 64;  ///< of a leaf that may yet be split, dow
 /// split.
 class SqueezedLeaves {
  public:
-  explicit SqueezedLeaves(const LeafGraph& graph) : graph_{graph} {
+  explicit SqueezedLeaves(const LeafGraph& graph) : graph_{graph}, marked_(graph.local_size()) {
+    const auto is_squeezed = [&](LeafId leaf) { return graph.around(leaf).finer.has_opposites(); };
+    if (std::ranges::none_of(graph.local(), is_squeezed)) return;
     for (const LeafId leaf : graph.local()) finer_.push_back(graph.around(leaf).finer);
-    marked_.assign(finer_.size(), 0);
     for (const LeafId leaf : graph.local()) mark(leaf);
     while (!waiting_.empty()) {
       const LeafId leaf = waiting_.back();
@@ -66,8 +67,8 @@ class SqueezedLeaves {
   }
 
   const LeafGraph& graph_;
-  std::vector<SideSet> finer_;
   std::vector<char> marked_;
+  std::vector<SideSet> finer_;  ///< as each local leaf's neighbours will be
   std::vector<LeafId> waiting_;
   bool any_ = false;
 };
@@ -118,6 +119,7 @@ void share_out_leaves(const SizeTree& sizes, Forest& forest) {
 }  // namespace
 
 LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
+  sizes.expect_cut_leaves(expected.cut / comm.size());
   SizedSplits splits(sizes);
   Forest forest(comm, sizes.lattice());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -66,11 +67,9 @@ constexpr Corner quarter_at(std::int64_t x, std::int64_t y, int level) {
 
 /// The largest of the two distances along the axes between the closed squares; 0 where they touch.
 constexpr std::int64_t chebyshev_gap(const Quadrant& a, const Quadrant& b) {
-  const std::int64_t left = a.x - (b.x + b.size()), right = b.x - (a.x + a.size());
-  const std::int64_t below = a.y - (b.y + b.size()), above = b.y - (a.y + a.size());
-  std::int64_t gap = 0;
-  for (const std::int64_t d : {left, right, below, above}) gap = d > gap ? d : gap;
-  return gap;
+  const std::int64_t in_x = std::max(a.x - (b.x + b.size()), b.x - (a.x + a.size())),
+                     in_y = std::max(a.y - (b.y + b.size()), b.y - (a.y + a.size()));
+  return std::max(std::max(in_x, in_y), std::int64_t{0});
 }
 
 /// Where the lattice lines lie. Every coordinate is one double, computed the same way wherever it is needed;

@@ -1,22 +1,28 @@
 #include "mesher/sizes/size_cursor.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace quadloop {
 
-/// From the node last found up to one that holds q, and down again, but not into a plain one or one that need
-/// not be entered.
+/// From the last node of the way kept that holds q down, but not into a plain one or one that need not be
+/// entered.
 template <class Enter>
 std::int32_t SizeCursor::deepest_node_at(const Quadrant& q, const Enter& enter) {
-  std::int32_t n = last_;
-  while (n >= 0 && !tree_.node(n).quadrant.contains(q)) n = tree_.node(n).parent;
-  if (n < 0) n = tree_.root_of(q);
-  while (tree_.node(n).quadrant.level < q.level && !tree_.node(n).plain && enter(tree_.node(n)) &&
-         tree_.is_split(n)) {
-    const SizeTree::Node& at = tree_.node(n);
-    n = at.children + curve_index(quarter_at(q.x, q.y, at.quadrant.level));
+  const auto differing = static_cast<std::uint64_t>((q.x ^ x_) | (q.y ^ y_));
+  int level = std::min({depth_, q.level, Quadrant::unit_level - static_cast<int>(std::bit_width(differing))});
+  if (level < 0) {  // in another tree
+    level = 0;
+    path_[0] = tree_.root_of(q);
   }
-  return last_ = n;
+  std::int32_t n = path_[level];
+  for (; level < q.level && !tree_.node(n).plain && enter(tree_.node(n)) && tree_.is_split(n);
+       path_[++level] = n)
+    n = tree_.node(n).children + curve_index(quarter_at(q.x, q.y, level));
+  x_ = q.x;
+  y_ = q.y;
+  depth_ = level;
+  return n;
 }
 
 /// Or the one above that where geometry ends.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace quadloop {
 
 /// Looks quadrants up in the wanted tree; few steps each where they come in the order of the curve, as it
-/// remembers the last one.
+/// remembers the way down to the last one.
 class SizeCursor {
  public:
   /// `tree` must outlive it.
@@ -28,7 +29,9 @@ class SizeCursor {
   std::int32_t deepest_with_geometry(const Quadrant& q);
 
   const SizeTree& tree_;
-  std::int32_t last_ = -1;  ///< node last found
+  std::int64_t x_ = -1, y_ = -1;  ///< the corner of the quadrant last looked up, or one outside the root
+  int depth_ = 0;                 ///< level of the node that was found for it
+  std::array<std::int32_t, Quadrant::unit_level + 1> path_{};  ///< from the root down to that
   std::vector<std::int32_t> found_;
 };
 

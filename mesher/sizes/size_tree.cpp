@@ -39,6 +39,23 @@ std::int32_t SizeTree::root_of(const Quadrant& q) const {
   return roots_[ty * lattice().trees_x() + tx];
 }
 
+void SizeTree::expect_cut_leaves(double leaves) const {
+  constexpr double nodes_of_leaf = 4;
+  nodes_.reserve(nodes_.size() + static_cast<std::size_t>(nodes_of_leaf * leaves));
+}
+
+void SizeTree::forget() {
+  nodes_.resize(roots_.size());  // those came first
+  for (Node& root : nodes_) {
+    root.children = Node::unknown;
+    root.deepest_split = -1;
+  }
+  segments_.resize(nodes_.back().segments_end);
+  corners_.resize(nodes_.back().corners_end);
+  nodes_.shrink_to_fit();
+  segments_.shrink_to_fit();
+}
+
 bool SizeTree::is_split(std::int32_t n) const {
   if (node(n).children == Node::unknown) grow(n);
   return node(n).children >= 0;

@@ -48,6 +48,12 @@ class SizeTree {
   bool is_split(std::int32_t node) const;
   const Node& node(std::int32_t n) const { return nodes_[n]; }
   std::int32_t size() const { return size32(nodes_); }
+  /// Makes room for the nodes that a forest with about so many cut leaves asks for: without it all nodes are
+  /// copied each time their number doubles. Room that is not filled takes no memory.
+  void expect_cut_leaves(double leaves) const;
+  /// Gives up all nodes but the roots, and their memory. They grow again where they are asked for: objects
+  /// that ask are to be made anew.
+  void forget();
   /// The segments that meet the inside of the node, in ascending order.
   std::span<const std::int32_t> segments_of(const Node& node) const {
     return part(segments_, node.segments_begin, node.segments_end);

@@ -58,6 +58,14 @@ TEST(Forest, IsRefinedInTheOrderOfTheCurve) {
   EXPECT_EQ(all.size(), expected);
 }
 
+TEST(Forest, IsRefinedFurtherOnceItIsSharedOut) {
+  Forest forest(test::world(), brick);
+  forest.refine(near_point, 3);
+  forest.partition();
+  for (const int deepest : {4, 6}) forest.refine(near_point, deepest);  // among leaves of many levels
+  EXPECT_EQ(all_leaves(forest), all_leaves(graded_brick()));
+}
+
 TEST(Forest, SplitsWhatIsMarkedOnce) {
   Forest forest(test::world(), brick);
   std::vector<char> marked;

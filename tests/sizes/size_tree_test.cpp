@@ -146,6 +146,24 @@ TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
   EXPECT_GT(holding, 20);
 }
 
+TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
+  const Sizes sizes;
+  SizeTree tree = sizes.tree();
+  const auto answers = [&] {
+    SizeCursor cursor(tree);
+    std::vector<std::pair<int, std::size_t>> found;
+    for (const Quadrant& q : all_of_level(7))
+      found.emplace_back(cursor.wanted_level(q), cursor.segments_in(q).size());
+    return found;
+  };
+  const auto before = answers();
+  const std::int32_t grown = tree.size();
+  tree.forget();
+  EXPECT_EQ(tree.size(), 1);
+  EXPECT_EQ(answers(), before);
+  EXPECT_EQ(tree.size(), grown);
+}
+
 TEST(LeavesAhead, IsMostWhereMostLeavesAre) {
   const Sizes sizes;
   const SizeTree tree = sizes.tree();
