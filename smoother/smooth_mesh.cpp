@@ -142,10 +142,10 @@ void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) 
 std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
                                const NodeFlags& yielding) {
   std::vector<NodeId> free;
-  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    const bool may_move = surveyed.near[node] != 0 && (surveyed.parallel[node] == 0 || yielding[node] != 0);
+  for_each_flagged(surveyed.near, [&](NodeId node) {
+    const bool may_move = mesh.owns(node) && (surveyed.parallel[node] == 0 || yielding[node] != 0);
     if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
-  }
+  });
   return free;
 }
 

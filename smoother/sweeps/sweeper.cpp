@@ -1,6 +1,9 @@
 #include "smoother/sweeps/sweeper.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "smoother/node/untangle.hpp"
 
@@ -20,50 +23,81 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
   if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
-  count_bad_near(NodeFlags(bad_.size(), 0));
+  for (const std::int32_t i : stars.all()) {
+    if (bad_[node(i)] != 0) count_turned(i);
+  }
+  for (const NodeId copy : copies()) {
+    if (bad_[copy] != 0) count_turned_copy(copy);
+  }
+  waiting_.assign(stars.all().begin(), stars.all().end());
 }
 
 std::int64_t Sweeper::sweep() {
-  update_bad();
+  if (done_ > 0) update_bad();
   ++done_;
-  return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[node(i)] > 0; },
-                                 [&](std::size_t i) { return better_place(i); },
-                                 [&](std::span<const std::int32_t> order, std::size_t k) {
-                                   slide_.fetch_ahead(stars_.nodes(), order, k);
-                                 }));
+  return comm_.sum(sweeps_.sweep(
+      waiting_, [&](std::size_t i) { return bad_near_[node(i)] > 0; },
+      [&](std::size_t i) { return better_place(i); },
+      [&](std::span<const std::int32_t> order, std::size_t k) {
+        slide_.fetch_ahead(stars_.nodes(), order, k);
+      }));
 }
 
-/// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all
-/// has stayed since keeps its flag, even where something moved in the sweep before it was visited; after the
-/// open sweeps it loses that.
+/// Flags the nodes of cells above the threshold, of other ranks too. Stars that are stale have changed, or
+/// were near no bad node before.
 void Sweeper::update_bad() {
-  const NodeFlags before = bad_;
-  doubtful_.clear();
-  for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
-    const bool changed = sweeps_.take_changed(i);
-    if (done_ == open_sweeps || (changed && sweeps_.is_stale(i))) doubtful_.push_back(i);
-  }
-  for (std::size_t k = 0; k < doubtful_.size(); ++k) {
-    stars_.fetch_ahead(doubtful_, k);
-    const std::int32_t i = doubtful_[k];
-    bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+  const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
+  const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
+  std::vector<std::int32_t> turned;
+  for (std::size_t k = 0; k < doubtful.size(); ++k) {
+    stars_.fetch_ahead(doubtful, k);
+    const std::int32_t i = doubtful[k];
+    const char is_bad = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+    if (std::exchange(bad_[node(i)], is_bad) != is_bad) turned.push_back(i);
   }
   mesh_.exchange().update(bad_);
-  count_bad_near(before);
+  near_new_.clear();
+  for (const std::int32_t i : turned) count_turned(i);
+  for (const NodeId copy : copies()) {
+    if (bad_[copy] != copies_before[copy.value() - mesh_.owned_nodes()]) count_turned_copy(copy);
+  }
+  std::sort(near_new_.begin(), near_new_.end());
+  near_new_.erase(std::unique(near_new_.begin(), near_new_.end()), near_new_.end());
+  waiting_.clear();
+  std::ranges::set_union(changed, near_new_, std::back_inserter(waiting_));
 }
 
-/// Nodes have become bad, or good.
-void Sweeper::count_bad_near(const NodeFlags& before) {
-  for (std::size_t i = 0; i < stars_.size(); ++i) {
-    const std::int32_t more = bad_[node(i)] - before[node(i)];
-    if (more == 0) continue;
-    bad_near_[node(i)] += more;
-    stars_.for_each_neighbour(i, [&](NodeId other) { bad_near_[other] += more; });
+/// The stars whose flags are to be looked at. One that was visited and round which all has stayed since keeps
+/// its flag, even where something moved in the sweep before it was visited; after the open sweeps it loses
+/// that. Where there are quadrilaterals all do then: lines that have moved may have made some bad unnoticed,
+/// and a bad one is not seen from the node across its bad corner.
+std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t>& changed) {
+  if (done_ == open_sweeps && mesh_.has_quads()) return {stars_.all().begin(), stars_.all().end()};
+  std::vector<std::int32_t> doubtful;
+  for (const std::int32_t i : changed) (sweeps_.is_stale(i) ? doubtful : passed_over_).push_back(i);
+  if (done_ == open_sweeps) doubtful.insert(doubtful.end(), passed_over_.begin(), passed_over_.end());
+  return doubtful;
+}
+
+/// A node of this rank has become bad, or good.
+void Sweeper::count_turned(std::size_t i) {
+  const std::int32_t more = bad_[node(i)] != 0 ? 1 : -1;
+  count_near(node(i), more);
+  stars_.for_each_neighbour(i, [&](NodeId other) { count_near(other, more); });
+}
+
+/// Another rank's node has.
+void Sweeper::count_turned_copy(NodeId copy) {
+  const std::int32_t more = bad_[copy] != 0 ? 1 : -1;
+  stars_.for_each_star_round(copy, [&](std::size_t i) { count_near(node(i), more); });
+}
+
+void Sweeper::count_near(NodeId node, std::int32_t more) {
+  std::int32_t& count = bad_near_[node];
+  if (count == 0) {
+    if (const std::int32_t star = stars_.star_of(node); star >= 0) near_new_.push_back(star);
   }
-  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
-    const std::int32_t more = bad_[copy] - before[copy];
-    if (more != 0) stars_.for_each_star_round(copy, [&](std::size_t i) { bad_near_[node(i)] += more; });
-  }
+  count += more;
 }
 
 std::optional<Point> Sweeper::better_place(std::size_t i) {

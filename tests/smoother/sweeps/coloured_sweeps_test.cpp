@@ -29,7 +29,7 @@ struct Sweeps {
   /// How many are visited over all ranks; the node of a global number goes a little to the right.
   std::int64_t visits(ColouredSweeps& sweeps, std::int64_t moving = -1) {
     std::int64_t count = 0;
-    sweeps.sweep([](std::size_t) { return true; },
+    sweeps.sweep(stars.all(), [](std::size_t) { return true; },
                  [&](std::size_t i) -> std::optional<Point> {
                    ++count;
                    const NodeId node = stars.nodes()[i];
