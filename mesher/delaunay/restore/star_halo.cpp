@@ -64,6 +64,7 @@ std::int32_t StarHalo::number_node(GlobalNodeId node, Point point, char core, ch
 void StarHalo::share(const Triangle& nodes, std::int64_t number, std::int32_t block,
                      Outbox<Travelling>& to_owners) {
   if (has_owned(nodes)) add(nodes, number, block);
+  if (std::ranges::all_of(nodes, [&](std::int32_t node) { return owns(node); })) return;
   std::array<int, 3> ranks{};
   for (std::size_t k = 0; k < 3; ++k) {
     ranks[k] = owns(nodes[k]) ? comm_.rank() : owners_.rank_of(global(nodes[k]));
