@@ -29,6 +29,13 @@ inline bool surely_acute(Point a, Point p, Point b) {
   return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
 }
 
+/// A bit for each corner of a triangle, the lowest for a, whose angle may not be acute. Which one that is
+/// cannot be foreseen: so no branch hangs on it.
+inline unsigned blunt_corners(Point a, Point b, Point c) {
+  return unsigned{!surely_acute(b, a, c)} | unsigned{!surely_acute(c, b, a)} << 1U |
+         unsigned{!surely_acute(a, c, b)} << 2U;
+}
+
 /// Whether the ways from p to a and to b lie along x and y: a right angle, exactly.
 inline bool is_right_along_axes(Point a, Point p, Point b) {
   return (a.x == p.x && b.y == p.y) || (a.y == p.y && b.x == p.x);

@@ -24,7 +24,8 @@ class BluntEdges {
     for (const auto& t : mesh.triangles) {
       if (!has_edge_between(near, t)) continue;
       const bool stayed = !any_flagged(moved, t);
-      for (unsigned blunt = blunt_corners(t); blunt != 0; blunt &= blunt - 1) {
+      unsigned blunt = blunt_corners(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
+      for (; blunt != 0; blunt &= blunt - 1) {
         const auto [from, to, apex] = edge_opposite(t, std::countr_zero(blunt));
         const bool is_right = is_right_along_axes(mesh.point(from), mesh.point(apex), mesh.point(to));
         if (near[from] != 0 && near[to] != 0 && !(stayed && is_right)) add(from, to, apex);
@@ -71,12 +72,6 @@ class BluntEdges {
   /// Its ends, counter-clockwise, and the node opposite it.
   static std::array<NodeId, 3> edge_opposite(const std::array<NodeId, 3>& t, int corner) {
     return {t[(corner + 1) % 3], t[(corner + 2) % 3], t[corner]};
-  }
-  /// A bit for each corner. Which one it is cannot be foreseen: so no branch hangs on it.
-  unsigned blunt_corners(const std::array<NodeId, 3>& t) const {
-    const Point &a = mesh_.point(t[0]), &b = mesh_.point(t[1]), &c = mesh_.point(t[2]);
-    return (surely_acute(b, a, c) ? 0U : 1U) | (surely_acute(c, b, a) ? 0U : 2U) |
-           (surely_acute(a, c, b) ? 0U : 4U);
   }
   void add(NodeId from, NodeId to, NodeId apex) {
     std::int32_t& last = last_low_[std::min(from, to)];
