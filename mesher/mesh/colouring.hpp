@@ -74,17 +74,25 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
   for (const NodeId node : nodes) colours[node] = waiting;
   std::vector<std::size_t> order =
       order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
-  const auto choose = [&](std::size_t i) {
+  const auto must_wait = [&](std::size_t i) {
     const ColouringPriority own = priority(nodes[i]);
-    std::uint64_t taken = 0;
-    bool must_wait = false;
-    for_each_neighbour(i, [&](NodeId other) {
+    bool must = false;
+    for_each_neighbour(i, [&](NodeId other) {  // this rank's that wait come later
       const std::int8_t colour = colours[other];
-      if (colour >= 0) taken |= std::uint64_t{1} << colour;  // so it went before: it has not waited
       if (colour == passed_over || (colour == waiting && !mesh.owns(other)))
-        must_wait = must_wait || priority(other) > own;  // this rank's others come later
+        must = must || priority(other) > own;
     });
-    if (must_wait) {
+    return must;
+  };
+  const auto choose = [&](std::size_t i) {
+    std::uint64_t taken = 0;
+    bool may_wait = false;
+    for_each_neighbour(i, [&](NodeId other) {  // no branch hangs on colours, which cannot be foreseen
+      const std::int8_t colour = colours[other];
+      taken |= std::uint64_t{colour >= 0} << (colour & 63);  // so it went before: it has not waited
+      may_wait = may_wait | (colour == passed_over) | !mesh.owns(other);
+    });
+    if (may_wait && must_wait(i)) {
       colours[nodes[i]] = passed_over;
       return false;
     }
@@ -97,9 +105,9 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
     std::erase_if(order, choose);
     mesh.exchange().update(colours);
   } while (comm.any(!order.empty()));
-  const auto largest = std::max_element(colours.begin(), colours.end());
-  colouring.count = static_cast<std::int8_t>(
-      comm.maximum(std::int64_t{largest == colours.end() ? Colouring::none : *largest}) + 1);
+  std::int8_t largest = Colouring::none;
+  for (const NodeId node : nodes) largest = std::max(largest, colours[node]);
+  colouring.count = static_cast<std::int8_t>(comm.maximum(std::int64_t{largest}) + 1);
   return colouring;
 }
 

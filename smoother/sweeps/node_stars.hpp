@@ -29,8 +29,8 @@ class NodeStars {
   /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
   bool costs_more(std::size_t i, double limit) const;
 
-  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, whose cells are one fan; for
-  /// some more than once.
+  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, whose cells are one fan;
+  /// for some more than once.
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
     std::int64_t open = 0;  // the first neighbour of a fan of triangles less the last one

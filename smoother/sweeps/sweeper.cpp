@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
-#include <utility>
 
 #include "smoother/node/untangle.hpp"
 
@@ -19,52 +18,41 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       solver_{make_node_solver(rule.method)},
       sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
-      bad_near_(mesh.points().size(), 0) {
+      waiting_(stars.all().begin(), stars.all().end()) {
   if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
-  for (const std::int32_t i : stars.all()) {
-    if (bad_[node(i)] != 0) count_turned(i);
-  }
-  for (const NodeId copy : copies()) {
-    if (bad_[copy] != 0) count_turned_copy(copy);
-  }
-  waiting_.assign(stars.all().begin(), stars.all().end());
 }
 
 std::int64_t Sweeper::sweep() {
   if (done_ > 0) update_bad();
   ++done_;
   return comm_.sum(sweeps_.sweep(
-      waiting_, [&](std::size_t i) { return bad_near_[node(i)] > 0; },
-      [&](std::size_t i) { return better_place(i); },
+      waiting_, [&](std::size_t i) { return is_near_bad(i); }, [&](std::size_t i) { return better_place(i); },
       [&](std::span<const std::int32_t> order, std::size_t k) {
         slide_.fetch_ahead(stars_.nodes(), order, k);
       }));
 }
 
-/// Flags the nodes of cells above the threshold, of other ranks too. Stars that are stale have changed, or
-/// were near no bad node before.
+/// Flags the nodes of cells above the threshold, of other ranks too. Stars that are stale and near a bad node
+/// have changed, or the node was good before.
 void Sweeper::update_bad() {
   const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
   const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
-  std::vector<std::int32_t> turned;
+  std::vector<NodeId> turned_bad;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
     stars_.fetch_ahead(doubtful, k);
-    const std::int32_t i = doubtful[k];
-    const char is_bad = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
-    if (std::exchange(bad_[node(i)], is_bad) != is_bad) turned.push_back(i);
+    const NodeId node = this->node(doubtful[k]);
+    const bool was_bad = bad_[node] != 0, is_bad = stars_.costs_more(doubtful[k], rule_.threshold);
+    bad_[node] = is_bad ? 1 : 0;
+    if (is_bad && !was_bad) turned_bad.push_back(node);
   }
   mesh_.exchange().update(bad_);
-  near_new_.clear();
-  for (const std::int32_t i : turned) count_turned(i);
-  for (const NodeId copy : copies()) {
-    if (bad_[copy] != copies_before[copy.value() - mesh_.owned_nodes()]) count_turned_copy(copy);
+  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
+    if (bad_[copy] != 0 && copies_before[copy.value() - mesh_.owned_nodes()] == 0) turned_bad.push_back(copy);
   }
-  std::sort(near_new_.begin(), near_new_.end());
-  near_new_.erase(std::unique(near_new_.begin(), near_new_.end()), near_new_.end());
   waiting_.clear();
-  std::ranges::set_union(changed, near_new_, std::back_inserter(waiting_));
+  std::ranges::set_union(changed, stars_near(turned_bad), std::back_inserter(waiting_));
 }
 
 /// The stars whose flags are to be looked at. One that was visited and round which all has stayed since keeps
@@ -79,25 +67,29 @@ std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t
   return doubtful;
 }
 
-/// A node of this rank has become bad, or good.
-void Sweeper::count_turned(std::size_t i) {
-  const std::int32_t more = bad_[node(i)] != 0 ? 1 : -1;
-  count_near(node(i), more);
-  stars_.for_each_neighbour(i, [&](NodeId other) { count_near(other, more); });
-}
-
-/// Another rank's node has.
-void Sweeper::count_turned_copy(NodeId copy) {
-  const std::int32_t more = bad_[copy] != 0 ? 1 : -1;
-  stars_.for_each_star_round(copy, [&](std::size_t i) { count_near(node(i), more); });
-}
-
-void Sweeper::count_near(NodeId node, std::int32_t more) {
-  std::int32_t& count = bad_near_[node];
-  if (count == 0) {
-    if (const std::int32_t star = stars_.star_of(node); star >= 0) near_new_.push_back(star);
+/// Those of the nodes themselves and of nodes that share a cell with one, ascending.
+std::vector<std::int32_t> Sweeper::stars_near(const std::vector<NodeId>& turned_bad) const {
+  std::vector<std::int32_t> near;
+  const auto add = [&](std::int32_t star) {
+    if (star >= 0) near.push_back(star);
+  };
+  for (const NodeId node : turned_bad) {
+    if (!mesh_.owns(node)) {
+      stars_.for_each_star_round(node, add);
+      continue;
+    }
+    add(stars_.star_of(node));
+    stars_.for_each_neighbour(stars_.star_of(node), [&](NodeId other) { add(stars_.star_of(other)); });
   }
-  count += more;
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+bool Sweeper::is_near_bad(std::size_t i) const {
+  char near = bad_[node(i)];
+  stars_.for_each_neighbour(i, [&](NodeId other) { near |= bad_[other]; });
+  return near != 0;
 }
 
 std::optional<Point> Sweeper::better_place(std::size_t i) {

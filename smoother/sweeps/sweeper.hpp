@@ -36,12 +36,10 @@ class Sweeper {
 
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
-  auto copies() const { return ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)}); }
   void update_bad();
   std::vector<std::int32_t> doubtful_among(const std::vector<std::int32_t>& changed);
-  void count_turned(std::size_t i);
-  void count_turned_copy(NodeId copy);
-  void count_near(NodeId node, std::int32_t more);
+  std::vector<std::int32_t> stars_near(const std::vector<NodeId>& turned_bad) const;
+  bool is_near_bad(std::size_t i) const;
   std::optional<Point> better_place(std::size_t i);
 
   const Communicator& comm_;
@@ -51,10 +49,7 @@ class Sweeper {
   Rule rule_;
   std::unique_ptr<NodeSolver> solver_;
   ColouredSweeps sweeps_;
-  NodeFlags bad_;  ///< free nodes of cells above the threshold, other ranks' too
-  /// Of each node: bad ones, itself too, as often as they are met; right for free nodes.
-  IdVector<NodeId, std::int32_t> bad_near_;
-  std::vector<std::int32_t> near_new_;     ///< stars round which there was no bad node before
+  NodeFlags bad_;                          ///< free nodes of cells above the threshold, other ranks' too
   std::vector<std::int32_t> waiting_;      ///< stars among which are those to be visited
   std::vector<std::int32_t> passed_over_;  ///< stars whose flags may be out of date
   Star star_;
