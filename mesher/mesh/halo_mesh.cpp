@@ -51,6 +51,7 @@ void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners,
   std::vector<TravellingCell<width>> out;
   const std::int32_t cells = size32(own);
   for (std::int32_t i = 0; i < cells; ++i) {
+    if (std::ranges::all_of(own[i], [&](NodeId node) { return owns(node); })) continue;
     for (const int rank : other_owners(*mesh_, owners, own[i])) {
       TravellingCell<width>& cell = out.emplace_back();
       for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(own[i][k]), mesh_->point(own[i][k])};
