@@ -86,13 +86,11 @@ NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& fin
                      double limit) {
   const IdVector<NodeId, Point> before(mesh.points());
   Lines lines{NodeFlags(before.size(), 0), NodeFlags(before.size(), 0)};
-  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    if (!pinned.empty() && pinned[node] != 0) continue;
-    const Point move = finder.move_of(node);
-    if (move == Point{}) continue;
+  finder.for_each_move([&](NodeId node, Point move) {
+    if (!pinned.empty() && pinned[node] != 0) return;
     mesh.points()[node.value()] = before[node] + move;
     lines.moved[node] = mesh.point(node) != before[node] ? 1 : 0;
-  }
+  });
   if (!comm.any(std::ranges::find(lines.moved, 1) != lines.moved.end())) return {};
   share(mesh, lines.moved);
   while (take_back(comm, mesh, before, limit, lines)) {

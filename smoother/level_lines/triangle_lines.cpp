@@ -221,9 +221,10 @@ void TriangleLines::look_at(const std::array<NodeId, 3>& nodes) {
   }
 }
 
+/// Nothing where the node is of no level line.
 Point TriangleLines::move_of(NodeId node) const {
   const Surroundings& s = round_[node];
-  return s.edge == 0 || near_[node] == 0 ? Point{} : s.edge * move_for(s.sum);
+  return s.edge * move_for(s.sum);
 }
 
 }  // namespace quadloop
