@@ -29,6 +29,8 @@ void StarHalo::gather_stars(const NodeFlags& core) {
   }
   triangles_.reserve(region.size());
   numbers_.reserve(region.size());
+  nodes_.reserve(region.size());
+  points_.reserve(region.size());
   Outbox<Travelling> to_owners;
   for (const std::int32_t i : region) {
     Triangle nodes;
