@@ -22,6 +22,11 @@ struct Colouring {
   static constexpr std::int8_t none = -1;
 };
 
+/// Where what is visited needs little.
+struct NothingToFetch {
+  void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
+};
+
 /// Who chooses first: blocks of 2^`block_bits` numbers in a scattered order, so that no long chain of nodes
 /// waits one for the next over many ranks; in a block the higher number.
 class ColouringPriority {
@@ -39,20 +44,20 @@ class ColouringPriority {
 };
 
 /// The indices of `nodes`, which ascend, those that choose first in front.
-inline std::vector<std::size_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
-                                                int block_bits) {
+inline std::vector<std::int32_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
+                                                 int block_bits) {
   const auto priority = [&](std::size_t i) { return ColouringPriority(mesh.global(nodes[i]), block_bits); };
-  std::vector<std::pair<std::uint64_t, std::size_t>> blocks;  // with the index of the first node
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> blocks;  // with the index of the first node
+  for (std::int32_t i = 0; i < std::ssize(nodes); ++i) {
     const std::uint64_t block = priority(i).block();
     if (blocks.empty() || blocks.back().first != block) blocks.emplace_back(block, i);
   }
   std::sort(blocks.begin(), blocks.end(), std::greater{});
-  std::vector<std::size_t> order;
+  std::vector<std::int32_t> order;
   order.reserve(nodes.size());
   for (const auto& [block, first] : blocks) {
-    std::size_t end = first;
-    while (end < nodes.size() && priority(end).block() == block) ++end;
+    std::int32_t end = first;
+    while (end < std::ssize(nodes) && priority(end).block() == block) ++end;
     while (end > first) order.push_back(--end);
   }
   return order;
@@ -62,17 +67,19 @@ inline std::vector<std::size_t> order_of_choice(const HaloMesh& mesh, std::span<
 /// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited, ascending;
 /// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
 /// allowed. `block_bits` as in ColouringPriority: with some, nodes close by choose one after the other, which
-/// is faster. *Collective.*
-template <class ForEachNeighbour>
+/// is faster. `fetch_ahead(order, k)` comes before the neighbours of nodes[order[k]] are asked for.
+/// *Collective.*
+template <class ForEachNeighbour, class FetchAhead = NothingToFetch>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
-                       const ForEachNeighbour& for_each_neighbour, int block_bits = 0) {
+                       const ForEachNeighbour& for_each_neighbour, int block_bits = 0,
+                       const FetchAhead& fetch_ahead = {}) {
   constexpr std::int8_t waiting = -2, passed_over = -3;
   Colouring colouring;
   auto& colours = colouring.colour_of;
   colours.resize(mesh.points().size(), Colouring::none);
   const auto priority = [&](NodeId node) { return ColouringPriority(mesh.global(node), block_bits); };
   for (const NodeId node : nodes) colours[node] = waiting;
-  std::vector<std::size_t> order =
+  std::vector<std::int32_t> order =
       order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
   const auto must_wait = [&](std::size_t i) {
     const ColouringPriority own = priority(nodes[i]);
@@ -102,7 +109,12 @@ Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span
   };
   mesh.exchange().update(colours);
   do {
-    std::erase_if(order, choose);
+    std::size_t waiting_now = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      fetch_ahead(order, k);
+      if (!choose(order[k])) order[waiting_now++] = order[k];
+    }
+    order.resize(waiting_now);
     mesh.exchange().update(colours);
   } while (comm.any(!order.empty()));
   std::int8_t largest = Colouring::none;

@@ -11,11 +11,6 @@
 
 namespace quadloop {
 
-/// For visits that need little beside the star.
-struct NothingToFetch {
-  void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
-};
-
 /// Sweeps over the nodes that may move, colour by colour; a node is visited where something in its star has
 /// moved since it was visited last.
 class ColouredSweeps {
@@ -33,7 +28,7 @@ class ColouredSweeps {
 
   /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`; those that are
   /// stale now are among `stars`, which ascend. Returns the number of nodes moved on this rank.
-  /// `fetch_ahead(order, k)` comes before `place(order[k])`, as NodeStars::fetch_ahead. *Collective.*
+  /// `fetch_ahead(order, k)` comes before `place(order[k])`, as NodeStars::fetch_corners_ahead. *Collective.*
   template <class Stars, class IsActive, class Place, class FetchAhead = NothingToFetch>
   std::int64_t sweep(const Stars& stars, const IsActive& is_active, const Place& place,
                      const FetchAhead& fetch_ahead = {}) {
@@ -45,7 +40,8 @@ class ColouredSweeps {
     for (colour_ = 0; colour_ < colouring_.count; ++colour_) {
       const auto& visits = by_colour_[colour_];
       for (std::size_t k = 0; k < visits.size(); ++k) {
-        stars_.fetch_ahead(visits, k);
+        stars_.fetch_corners_ahead(visits, k);
+        stars_.fetch_points_ahead(visits, k);
         fetch_ahead(visits, k);
         const std::int32_t i = visits[k];
         stale_[stars_.nodes()[i]] = 0;

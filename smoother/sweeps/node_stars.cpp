@@ -42,13 +42,13 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
     seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
   number_stars();
-  find_starts();
+  const std::vector<char> touched = find_starts();
   corners_.resize(starts_.back());
   if (!targets.empty() || mesh.has_quads()) seen_of_.resize(corners_.size());
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
-    add_cell(cell, targets.empty() ? CellTarget{} : targets[number]);
-    ++number;
+    const std::size_t cell_number = number++;
+    if (touched[cell_number] != 0) add_cell(cell, targets.empty() ? CellTarget{} : targets[cell_number]);
   });
   starts_.pop_back();
   list_stars_round_copies();
@@ -59,18 +59,25 @@ void NodeStars::number_stars() {
   for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
 }
 
-/// Shifted by one: a star's start stands in the place of the next one's until its corners are added.
-void NodeStars::find_starts() {
+/// Shifted by one: a star's start stands in the place of the next one's until its corners are added. Returns
+/// for each cell whether it has a free node.
+std::vector<char> NodeStars::find_starts() {
+  std::vector<char> touched;
+  touched.reserve(mesh_.cell_count());
   starts_.assign(nodes_.size() + 2, 0);
   mesh_.for_each_cell([&](const auto& cell) {
+    bool any = false;
     for (const NodeId node : cell) {
       const std::int32_t star = star_of_[node];
-      if (star >= 0)
-        starts_[star + std::size_t{2}] +=
-            corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+      if (star < 0) continue;
+      any = true;
+      starts_[star + std::size_t{2}] +=
+          corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
     }
+    touched.push_back(any ? 1 : 0);
   });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  return touched;
 }
 
 /// Copies are few and lie at the borders of ranks.
@@ -114,7 +121,7 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
     const std::int32_t star = star_of_[cell[k]];
     if (star < 0) continue;
     std::size_t& end = starts_[star + std::size_t{1}];
-    if (seen < 0) seen = first_seen<width>(target);
+    if (seen < 0 && !seen_of_.empty()) seen = first_seen<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
     const std::int32_t own = seen + per_node * k;
     for (std::int32_t c = 0; c < per_node && !seen_of_.empty(); ++c) seen_of_[end + c] = own + c;
@@ -137,8 +144,8 @@ bool NodeStars::costs_more(std::size_t i, double limit) const {
   return false;
 }
 
-void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const {
-  constexpr std::size_t far = 16, near = 8, line = 64 / sizeof(Corner);
+void NodeStars::fetch_corners_ahead(std::span<const std::int32_t> order, std::size_t k) const {
+  constexpr std::size_t far = 16, line = 64 / sizeof(Corner);
   if (k + 2 * far < order.size()) {
     __builtin_prefetch(&starts_[order[k + 2 * far]]);
     __builtin_prefetch(&nodes_[order[k + 2 * far]]);
@@ -147,6 +154,10 @@ void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) 
     const auto corners = corners_of(order[k + far]);
     for (std::size_t c = 0; c < corners.size(); c += line) __builtin_prefetch(&corners[c]);
   }
+}
+
+void NodeStars::fetch_points_ahead(std::span<const std::int32_t> order, std::size_t k) const {
+  constexpr std::size_t near = 8;
   if (k + near < order.size()) {
     for (const Corner& c : corners_of(order[k + near])) __builtin_prefetch(&mesh_.point(c.q));
   }

@@ -24,8 +24,10 @@ class NodeStars {
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
-  /// Asks the processor for what gather() will need of the stars a little after `order[k]`.
-  void fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const;
+  /// Asks the processor for what for_each_neighbour() will need of the stars a little after `order[k]`.
+  void fetch_corners_ahead(std::span<const std::int32_t> order, std::size_t k) const;
+  /// The same for what gather() will need beside.
+  void fetch_points_ahead(std::span<const std::int32_t> order, std::size_t k) const;
   /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
   bool costs_more(std::size_t i, double limit) const;
 
@@ -61,7 +63,7 @@ class NodeStars {
   /// What the k-th of all corners should be.
   const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
   void number_stars();
-  void find_starts();
+  std::vector<char> find_starts();
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target);
   template <std::size_t width>

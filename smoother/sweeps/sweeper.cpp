@@ -41,7 +41,8 @@ void Sweeper::update_bad() {
   const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
   std::vector<NodeId> turned_bad;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
-    stars_.fetch_ahead(doubtful, k);
+    stars_.fetch_corners_ahead(doubtful, k);
+    stars_.fetch_points_ahead(doubtful, k);
     const NodeId node = this->node(doubtful[k]);
     const bool was_bad = bad_[node] != 0, is_bad = stars_.costs_more(doubtful[k], rule_.threshold);
     bad_[node] = is_bad ? 1 : 0;
