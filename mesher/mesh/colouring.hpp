@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/error.hpp"
@@ -63,6 +64,66 @@ inline std::vector<std::int32_t> order_of_choice(const HaloMesh& mesh, std::span
   return order;
 }
 
+/// Nodes choose the first colour that no neighbour before them has.
+template <class ForEachNeighbour>
+class ColourChoices {
+ public:
+  /// All as for colour_nodes(); they must outlive it.
+  ColourChoices(const HaloMesh& mesh, std::span<const NodeId> nodes,
+                const ForEachNeighbour& for_each_neighbour, int block_bits)
+      : mesh_{mesh},
+        nodes_{nodes},
+        for_each_neighbour_{for_each_neighbour},
+        block_bits_{block_bits},
+        colours_(mesh.points().size(), Colouring::none) {
+    for (const NodeId node : nodes) colours_[node] = waiting;
+  }
+
+  /// Whether the i-th node chooses now: none that goes before it has still to choose.
+  bool choose(std::size_t i) {
+    std::uint64_t taken = 0;
+    bool may_wait = false;
+    for_each_neighbour_(i, [&](NodeId other) {  // no branch hangs on colours, which cannot be foreseen
+      const std::int8_t colour = colours_[other];
+      taken |= std::uint64_t{colour >= 0} << (colour & 63);  // so it went before: it has not waited
+      may_wait = may_wait | (colour == passed_over) | !mesh_.owns(other);
+    });
+    const bool waits = may_wait && must_wait(i);
+    QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
+    colours_[nodes_[i]] = waits ? passed_over : static_cast<std::int8_t>(std::countr_one(taken));
+    return !waits;
+  }
+  /// *Collective.*
+  void share() { mesh_.exchange().update(colours_); }
+  /// Once all have chosen. *Collective.*
+  Colouring colouring(const Communicator& comm) {
+    std::int8_t largest = Colouring::none;
+    for (const NodeId node : nodes_) largest = std::max(largest, colours_[node]);
+    const std::int64_t last = comm.maximum(std::int64_t{largest});
+    return {std::move(colours_), static_cast<std::int8_t>(last + 1)};
+  }
+
+ private:
+  static constexpr std::int8_t waiting = -2, passed_over = -3;
+  ColouringPriority priority(NodeId node) const { return {mesh_.global(node), block_bits_}; }
+  bool must_wait(std::size_t i) const {
+    const ColouringPriority own = priority(nodes_[i]);
+    bool must = false;
+    for_each_neighbour_(i, [&](NodeId other) {  // this rank's that wait come later
+      const std::int8_t colour = colours_[other];
+      const bool undecided = colour == passed_over || (colour == waiting && !mesh_.owns(other));
+      must = must || (undecided && priority(other) > own);
+    });
+    return must;
+  }
+
+  const HaloMesh& mesh_;
+  std::span<const NodeId> nodes_;
+  const ForEachNeighbour& for_each_neighbour_;
+  int block_bits_;
+  IdVector<NodeId, std::int8_t> colours_;
+};
+
 /// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
 /// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited, ascending;
 /// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
@@ -73,54 +134,20 @@ template <class ForEachNeighbour, class FetchAhead = NothingToFetch>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
                        const ForEachNeighbour& for_each_neighbour, int block_bits = 0,
                        const FetchAhead& fetch_ahead = {}) {
-  constexpr std::int8_t waiting = -2, passed_over = -3;
-  Colouring colouring;
-  auto& colours = colouring.colour_of;
-  colours.resize(mesh.points().size(), Colouring::none);
-  const auto priority = [&](NodeId node) { return ColouringPriority(mesh.global(node), block_bits); };
-  for (const NodeId node : nodes) colours[node] = waiting;
+  ColourChoices choices(mesh, nodes, for_each_neighbour, block_bits);
   std::vector<std::int32_t> order =
       order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
-  const auto must_wait = [&](std::size_t i) {
-    const ColouringPriority own = priority(nodes[i]);
-    bool must = false;
-    for_each_neighbour(i, [&](NodeId other) {  // this rank's that wait come later
-      const std::int8_t colour = colours[other];
-      if (colour == passed_over || (colour == waiting && !mesh.owns(other)))
-        must = must || priority(other) > own;
-    });
-    return must;
-  };
-  const auto choose = [&](std::size_t i) {
-    std::uint64_t taken = 0;
-    bool may_wait = false;
-    for_each_neighbour(i, [&](NodeId other) {  // no branch hangs on colours, which cannot be foreseen
-      const std::int8_t colour = colours[other];
-      taken |= std::uint64_t{colour >= 0} << (colour & 63);  // so it went before: it has not waited
-      may_wait = may_wait | (colour == passed_over) | !mesh.owns(other);
-    });
-    if (may_wait && must_wait(i)) {
-      colours[nodes[i]] = passed_over;
-      return false;
-    }
-    QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
-    colours[nodes[i]] = static_cast<std::int8_t>(std::countr_one(taken));
-    return true;
-  };
-  mesh.exchange().update(colours);
+  choices.share();
   do {
-    std::size_t waiting_now = 0;
+    std::size_t still_waiting = 0;
     for (std::size_t k = 0; k < order.size(); ++k) {
       fetch_ahead(order, k);
-      if (!choose(order[k])) order[waiting_now++] = order[k];
+      if (!choices.choose(order[k])) order[still_waiting++] = order[k];
     }
-    order.resize(waiting_now);
-    mesh.exchange().update(colours);
+    order.resize(still_waiting);
+    choices.share();
   } while (comm.any(!order.empty()));
-  std::int8_t largest = Colouring::none;
-  for (const NodeId node : nodes) largest = std::max(largest, colours[node]);
-  colouring.count = static_cast<std::int8_t>(comm.maximum(std::int64_t{largest}) + 1);
-  return colouring;
+  return choices.colouring(comm);
 }
 
 }  // namespace quadloop

@@ -26,9 +26,10 @@ class ColouredSweeps {
   /// last; ascending.
   std::vector<std::int32_t> take_changed();
 
-  /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`; those that are
-  /// stale now are among `stars`, which ascend. Returns the number of nodes moved on this rank.
-  /// `fetch_ahead(order, k)` comes before `place(order[k])`, as NodeStars::fetch_corners_ahead. *Collective.*
+  /// Asks `place(i)` for a new place, or none, of each node for which `is_active(i)`: of those among `stars`
+  /// that are stale, and of those that become so before their colour's turn. Returns the number of nodes
+  /// moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
+  /// NodeStars::fetch_corners_ahead. *Collective.*
   template <class Stars, class IsActive, class Place, class FetchAhead = NothingToFetch>
   std::int64_t sweep(const Stars& stars, const IsActive& is_active, const Place& place,
                      const FetchAhead& fetch_ahead = {}) {

@@ -16,6 +16,7 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       slide_{slide},
       rule_{rule},
       solver_{make_node_solver(rule.method)},
+      any_quads_{comm.any(mesh.has_quads())},
       sweeps_(comm, mesh, stars, stale),
       bad_(mesh.points().size(), 0),
       waiting_(stars.all().begin(), stars.all().end()) {
@@ -61,7 +62,7 @@ void Sweeper::update_bad() {
 /// that. Where there are quadrilaterals all do then: lines that have moved may have made some bad unnoticed,
 /// and a bad one is not seen from the node across its bad corner.
 std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t>& changed) {
-  if (done_ == open_sweeps && mesh_.has_quads()) return {stars_.all().begin(), stars_.all().end()};
+  if (done_ == open_sweeps && any_quads_) return {stars_.all().begin(), stars_.all().end()};
   std::vector<std::int32_t> doubtful;
   for (const std::int32_t i : changed) (sweeps_.is_stale(i) ? doubtful : passed_over_).push_back(i);
   if (done_ == open_sweeps) doubtful.insert(doubtful.end(), passed_over_.begin(), passed_over_.end());

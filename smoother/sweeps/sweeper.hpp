@@ -48,6 +48,7 @@ class Sweeper {
   const BoundarySlide& slide_;
   Rule rule_;
   std::unique_ptr<NodeSolver> solver_;
+  bool any_quads_;  ///< on any rank
   ColouredSweeps sweeps_;
   NodeFlags bad_;                          ///< free nodes of cells above the threshold, other ranks' too
   std::vector<std::int32_t> waiting_;      ///< stars among which are those to be visited
