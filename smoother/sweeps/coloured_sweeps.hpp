@@ -30,8 +30,8 @@ class ColouredSweeps {
   /// that are stale, and of those that become so before their colour's turn. Returns the number of nodes
   /// moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
   /// NodeStars::fetch_corners_ahead. *Collective.*
-  template <class Stars, class IsActive, class Place, class FetchAhead = NothingToFetch>
-  std::int64_t sweep(const Stars& stars, const IsActive& is_active, const Place& place,
+  template <class IsActive, class Place, class FetchAhead = NothingToFetch>
+  std::int64_t sweep(std::span<const std::int32_t> stars, const IsActive& is_active, const Place& place,
                      const FetchAhead& fetch_ahead = {}) {
     std::int64_t moves = 0;
     for (auto& visits : by_colour_) visits.clear();

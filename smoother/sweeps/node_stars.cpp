@@ -54,6 +54,12 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
   list_stars_round_copies();
 }
 
+std::vector<std::int32_t> NodeStars::all() const {
+  std::vector<std::int32_t> stars(nodes_.size());
+  std::iota(stars.begin(), stars.end(), 0);
+  return stars;
+}
+
 void NodeStars::number_stars() {
   star_of_.resize(mesh_.points().size(), -1);
   for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;

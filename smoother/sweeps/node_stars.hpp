@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -18,7 +17,8 @@ class NodeStars {
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
-  auto all() const { return std::views::iota(std::int32_t{0}, size32(nodes_)); }
+  /// 0, 1, ...: each of them.
+  std::vector<std::int32_t> all() const;
   /// Which of the free nodes this is; -1 for all others.
   std::int32_t star_of(NodeId node) const { return star_of_[node]; }
 

@@ -18,26 +18,27 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       solver_{make_node_solver(rule.method)},
       any_quads_{comm.any(mesh.has_quads())},
       sweeps_(comm, mesh, stars, stale),
-      bad_(mesh.points().size(), 0),
-      waiting_(stars.all().begin(), stars.all().end()) {
+      bad_(mesh.points().size(), 0) {
   if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
 }
 
 std::int64_t Sweeper::sweep() {
-  if (done_ > 0) update_bad();
-  ++done_;
-  return comm_.sum(sweeps_.sweep(
-      waiting_, [&](std::size_t i) { return is_near_bad(i); }, [&](std::size_t i) { return better_place(i); },
-      [&](std::span<const std::int32_t> order, std::size_t k) {
-        slide_.fetch_ahead(stars_.nodes(), order, k);
-      }));
+  const auto visit = [&](const std::vector<std::int32_t>& stars) {
+    return comm_.sum(sweeps_.sweep(
+        stars, [&](std::size_t i) { return is_near_bad(i); }, [&](std::size_t i) { return better_place(i); },
+        [&](std::span<const std::int32_t> order, std::size_t k) {
+          slide_.fetch_ahead(stars_.nodes(), order, k);
+        }));
+  };
+  if (done_++ == 0) return visit(stars_.all());
+  return visit(update_bad());
 }
 
-/// Flags the nodes of cells above the threshold, of other ranks too. Stars that are stale and near a bad node
-/// have changed, or the node was good before.
-void Sweeper::update_bad() {
+/// Flags the nodes of cells above the threshold, of other ranks too. Returns the stars among which those are
+/// that are stale and near a bad node: either they have changed, or the node was good before.
+std::vector<std::int32_t> Sweeper::update_bad() {
   const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
   const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
   std::vector<NodeId> turned_bad;
@@ -53,8 +54,9 @@ void Sweeper::update_bad() {
   for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
     if (bad_[copy] != 0 && copies_before[copy.value() - mesh_.owned_nodes()] == 0) turned_bad.push_back(copy);
   }
-  waiting_.clear();
-  std::ranges::set_union(changed, stars_near(turned_bad), std::back_inserter(waiting_));
+  std::vector<std::int32_t> waiting;
+  std::ranges::set_union(changed, stars_near(turned_bad), std::back_inserter(waiting));
+  return waiting;
 }
 
 /// The stars whose flags are to be looked at. One that was visited and round which all has stayed since keeps
@@ -62,10 +64,11 @@ void Sweeper::update_bad() {
 /// that. Where there are quadrilaterals all do then: lines that have moved may have made some bad unnoticed,
 /// and a bad one is not seen from the node across its bad corner.
 std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t>& changed) {
-  if (done_ == open_sweeps && any_quads_) return {stars_.all().begin(), stars_.all().end()};
+  const bool are_over = done_ == open_sweeps + 1;
+  if (are_over && any_quads_) return stars_.all();
   std::vector<std::int32_t> doubtful;
   for (const std::int32_t i : changed) (sweeps_.is_stale(i) ? doubtful : passed_over_).push_back(i);
-  if (done_ == open_sweeps) doubtful.insert(doubtful.end(), passed_over_.begin(), passed_over_.end());
+  if (are_over) doubtful.insert(doubtful.end(), passed_over_.begin(), passed_over_.end());
   return doubtful;
 }
 

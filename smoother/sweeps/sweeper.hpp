@@ -36,7 +36,7 @@ class Sweeper {
 
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
-  void update_bad();
+  std::vector<std::int32_t> update_bad();
   std::vector<std::int32_t> doubtful_among(const std::vector<std::int32_t>& changed);
   std::vector<std::int32_t> stars_near(const std::vector<NodeId>& turned_bad) const;
   bool is_near_bad(std::size_t i) const;
@@ -51,10 +51,9 @@ class Sweeper {
   bool any_quads_;  ///< on any rank
   ColouredSweeps sweeps_;
   NodeFlags bad_;                          ///< free nodes of cells above the threshold, other ranks' too
-  std::vector<std::int32_t> waiting_;      ///< stars among which are those to be visited
   std::vector<std::int32_t> passed_over_;  ///< stars whose flags may be out of date
   Star star_;
-  int done_ = 0;  ///< sweeps
+  int done_ = 0;  ///< sweeps, the one under way too
 };
 
 }  // namespace quadloop
