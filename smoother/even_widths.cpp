@@ -19,11 +19,12 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& 
   Star star;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     const std::vector<Point> fixed = slide.widths_at_fixed(heights);
-    moves += coloured.sweep([](std::size_t) { return true; },
-                            [&](std::size_t i) {
-                              stars.gather(i, star);
-                              return slide.towards_middle(stars.nodes()[i], star, fixed);
-                            });
+    moves += coloured.sweep(
+        stars.all(), [](std::size_t) { return true; },
+        [&](std::size_t i) {
+          stars.gather(i, star);
+          return slide.towards_middle(stars.nodes()[i], star, fixed);
+        });
   }
   return comm.any(moves > 0);
 }

@@ -87,11 +87,12 @@ class LayerFit {
     bool moved = true, moved_ever = false;
     for (int sweep = 0; sweep < most_sweeps && moved; ++sweep) {
       fixed_ = slide_.widths_at_fixed(heights_);
-      moved = comm_.any(coloured.sweep([](std::size_t) { return true; },
-                                       [&](std::size_t i) {
-                                         stars.gather(i, star_);
-                                         return better_place(i);
-                                       }) > 0);
+      moved = comm_.any(coloured.sweep(
+                            stars.all(), [](std::size_t) { return true; },
+                            [&](std::size_t i) {
+                              stars.gather(i, star_);
+                              return better_place(i);
+                            }) > 0);
       moved_ever = moved_ever || moved;
     }
     return moved_ever;

@@ -46,16 +46,42 @@ bool is_square(const std::array<Point, 4>& p) {
 }
 bool is_square(const std::array<Point, 3>&) { return false; }
 
+/// The shape that a cell should have, by its number in the halo mesh.
+bool is_ideal(const std::vector<CellTarget>& targets, std::size_t number) {
+  return targets.empty() || targets[number].ideal();
+}
+
 /// The cost of a cell by its number in the halo mesh; 0 where it surely is below the limit.
 template <std::size_t width>
 double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
                const std::vector<CellTarget>& targets, std::size_t number, const CostLimit& limit) {
-  const bool ideal = targets.empty() || targets[number].ideal();
   const auto corners = corners_of(mesh, nodes);
-  if (!ideal) return cell_cost(corners, stretched_targets<width>(targets[number].w1, targets[number].w2));
+  if (!is_ideal(targets, number))
+    return cell_cost(corners, stretched_targets<width>(targets[number].w1, targets[number].w2));
   if (is_square(corners) || limit.surely_kept_by(corners)) return 0;
   return cell_cost(corners, ideal_targets<width>());
 }
+
+/// Tells which cells cost more than a threshold.
+class BadCellTest {
+ public:
+  BadCellTest(const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold)
+      : mesh_{mesh}, targets_{targets}, threshold_{threshold}, limit_{threshold} {}
+
+  template <std::size_t width>
+  bool is_bad(const std::array<NodeId, width>& nodes, std::size_t number) const {
+    const auto corners = corners_of(mesh_, nodes);
+    if (!is_ideal(targets_, number)) return cost_of(mesh_, nodes, targets_, number, limit_) > threshold_;
+    if (is_square(corners) || limit_.surely_kept_by(corners)) return false;
+    return limit_.surely_missed_by(corners) || cell_cost(corners, ideal_targets<width>()) > threshold_;
+  }
+
+ private:
+  const HaloMesh& mesh_;
+  const std::vector<CellTarget>& targets_;
+  double threshold_;
+  CostLimit limit_;
+};
 
 struct WorstCell {
   double cost = 0;
@@ -101,13 +127,15 @@ struct BadCells {
 BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh,
                         const std::vector<CellTarget>& targets, double threshold) {
   BadCells bad{{}, NodeFlags(mesh.points().size(), 0)};
-  const CostLimit limit(threshold);
+  const BadCellTest test(mesh, targets, threshold);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
-    const double cost =
-        cost_of(mesh, nodes, targets, number++, bad.worst.cost < threshold ? bad.worst.limit : limit);
+    const std::size_t cell = number++;
+    const bool is_bad = test.is_bad(nodes, cell);
+    if (is_bad) flag_all(nodes, bad.nodes);
+    if (!is_bad && bad.worst.cost >= threshold) return;
+    const double cost = cost_of(mesh, nodes, targets, cell, bad.worst.limit);
     bad.worst.include(cost, mesh.owns(nodes[0]));  // other ranks may have the cell, too
-    if (cost > threshold) flag_all(nodes, bad.nodes);
   });
   bad.worst = over_ranks(comm, bad.worst);
   return bad;
@@ -118,11 +146,11 @@ BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh,
 NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
                              const NodeFlags& among, double bad) {
   NodeFlags flags(mesh.points().size(), 0);
-  const CostLimit limit(bad);
+  const BadCellTest test(mesh, targets, bad);
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t cell = number++;
-    if (any_flagged(among, nodes) && cost_of(mesh, nodes, targets, cell, limit) > bad) flag_all(nodes, flags);
+    if (any_flagged(among, nodes) && test.is_bad(nodes, cell)) flag_all(nodes, flags);
   });
   return flags;
 }
@@ -142,10 +170,10 @@ void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) 
 std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
                                const NodeFlags& yielding) {
   std::vector<NodeId> free;
-  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    const bool may_move = surveyed.near[node] != 0 && (surveyed.parallel[node] == 0 || yielding[node] != 0);
+  for_each_flagged(surveyed.near, [&](NodeId node) {
+    const bool may_move = mesh.owns(node) && (surveyed.parallel[node] == 0 || yielding[node] != 0);
     if (may_move && slide.freedom(node) != NodeFreedom::fixed) free.push_back(node);
-  }
+  });
   return free;
 }
 

@@ -30,7 +30,7 @@ void Flipper::flip_first(std::span<const Point> points, const RankOf& rank_of, s
 /// Makes right the edges that are numbered below `end`, and what this makes wrong.
 void Flipper::flip_below(Edge end, const RankOf& rank_of) {
   for (Edge e = 0; e < end; ++e) {  // what flips make wrong is looked at by flip_from()
-    if (across(e) > e && (blunt_[e] != 0 || blunt_[across(e)] != 0) && !is_firm(e)) flip_from(e, rank_of);
+    if (across(e) > e && (is_blunt(e) || is_blunt(across(e))) && !is_firm(e)) flip_from(e, rank_of);
   }
 }
 
@@ -85,10 +85,10 @@ void Flipper::list_firm(std::span<const char> moved) {
 }
 
 void Flipper::list_blunt() {
-  blunt_.clear();
-  for (const auto& [i, j, k] : triangles_) {
-    const Point &a = points_[i], &b = points_[j], &c = points_[k];
-    blunt_.insert(blunt_.end(), {!surely_acute(b, a, c), !surely_acute(c, b, a), !surely_acute(a, c, b)});
+  blunt_.resize(triangles_.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [i, j, k] = triangles_[t];
+    blunt_[t] = static_cast<std::uint8_t>(blunt_corners(points_[i], points_[j], points_[k]));
   }
 }
 

@@ -29,6 +29,13 @@ inline bool surely_acute(Point a, Point p, Point b) {
   return along_x + along_y > rounding * (std::abs(along_x) + std::abs(along_y)) + underflow;
 }
 
+/// A bit for each corner of a triangle, the lowest for a, whose angle may not be acute. Which one that is
+/// cannot be foreseen: so no branch hangs on it.
+inline unsigned blunt_corners(Point a, Point b, Point c) {
+  return unsigned{!surely_acute(b, a, c)} | unsigned{!surely_acute(c, b, a)} << 1U |
+         unsigned{!surely_acute(a, c, b)} << 2U;
+}
+
 /// Whether the ways from p to a and to b lie along x and y: a right angle, exactly.
 inline bool is_right_along_axes(Point a, Point p, Point b) {
   return (a.x == p.x && b.y == p.y) || (a.y == p.y && b.x == p.x);
@@ -89,6 +96,7 @@ class Flipper {
   void close(std::span<const char> open);
   void list_firm(std::span<const char> moved);
   void list_blunt();
+  bool is_blunt(Edge e) const { return (blunt_[triangle_of(e)] >> corner_of(e, 0) & 1U) != 0; }
   bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
   std::array<std::size_t, 4> nodes_of_both(Edge e) const;
   bool is_wrong(Edge e, const RankOf& rank_of) const;
@@ -101,9 +109,9 @@ class Flipper {
   std::span<const Point> points_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
-  std::vector<char> firm_;      ///< a flag for each edge that gives way to no tie; or none
-  std::vector<char> moved_;     ///< a flag for each triangle with a moved node
-  std::vector<char> blunt_;     ///< a flag for each edge whose opposite angle was not acute before the flips
+  std::vector<char> firm_;           ///< a flag for each edge that gives way to no tie; or none
+  std::vector<char> moved_;          ///< a flag for each triangle with a moved node
+  std::vector<std::uint8_t> blunt_;  ///< the blunt_corners of each triangle before the flips
   std::vector<Edge> last_low_;  ///< of each node, the last edge with it as the lower end and one triangle
   std::vector<Edge> waiting_;
 };

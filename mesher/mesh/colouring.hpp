@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/error.hpp"
@@ -20,6 +21,11 @@ struct Colouring {
   IdVector<NodeId, std::int8_t> colour_of;
   std::int8_t count = 0;  ///< over all ranks
   static constexpr std::int8_t none = -1;
+};
+
+/// Where what is visited needs little.
+struct NothingToFetch {
+  void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
 };
 
 /// Who chooses first: blocks of 2^`block_bits` numbers in a scattered order, so that no long chain of nodes
@@ -39,68 +45,109 @@ class ColouringPriority {
 };
 
 /// The indices of `nodes`, which ascend, those that choose first in front.
-inline std::vector<std::size_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
-                                                int block_bits) {
+inline std::vector<std::int32_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
+                                                 int block_bits) {
   const auto priority = [&](std::size_t i) { return ColouringPriority(mesh.global(nodes[i]), block_bits); };
-  std::vector<std::pair<std::uint64_t, std::size_t>> blocks;  // with the index of the first node
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> blocks;  // with the index of the first node
+  for (std::int32_t i = 0; i < std::ssize(nodes); ++i) {
     const std::uint64_t block = priority(i).block();
     if (blocks.empty() || blocks.back().first != block) blocks.emplace_back(block, i);
   }
   std::sort(blocks.begin(), blocks.end(), std::greater{});
-  std::vector<std::size_t> order;
+  std::vector<std::int32_t> order;
   order.reserve(nodes.size());
   for (const auto& [block, first] : blocks) {
-    std::size_t end = first;
-    while (end < nodes.size() && priority(end).block() == block) ++end;
+    std::int32_t end = first;
+    while (end < std::ssize(nodes) && priority(end).block() == block) ++end;
     while (end > first) order.push_back(--end);
   }
   return order;
 }
 
+/// Nodes choose the first colour that no neighbour before them has.
+template <class ForEachNeighbour>
+class ColourChoices {
+ public:
+  /// All as for colour_nodes(); they must outlive it.
+  ColourChoices(const HaloMesh& mesh, std::span<const NodeId> nodes,
+                const ForEachNeighbour& for_each_neighbour, int block_bits)
+      : mesh_{mesh},
+        nodes_{nodes},
+        for_each_neighbour_{for_each_neighbour},
+        block_bits_{block_bits},
+        colours_(mesh.points().size(), Colouring::none) {
+    for (const NodeId node : nodes) colours_[node] = waiting;
+  }
+
+  /// Whether the i-th node chooses now: none that goes before it has still to choose.
+  bool choose(std::size_t i) {
+    std::uint64_t taken = 0;
+    bool may_wait = false;
+    for_each_neighbour_(i, [&](NodeId other) {  // no branch hangs on colours, which cannot be foreseen
+      const std::int8_t colour = colours_[other];
+      taken |= std::uint64_t{colour >= 0} << (colour & 63);  // so it went before: it has not waited
+      may_wait = may_wait | (colour == passed_over) | !mesh_.owns(other);
+    });
+    const bool waits = may_wait && must_wait(i);
+    QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
+    colours_[nodes_[i]] = waits ? passed_over : static_cast<std::int8_t>(std::countr_one(taken));
+    return !waits;
+  }
+  /// *Collective.*
+  void share() { mesh_.exchange().update(colours_); }
+  /// Once all have chosen. *Collective.*
+  Colouring colouring(const Communicator& comm) {
+    std::int8_t largest = Colouring::none;
+    for (const NodeId node : nodes_) largest = std::max(largest, colours_[node]);
+    const std::int64_t last = comm.maximum(std::int64_t{largest});
+    return {std::move(colours_), static_cast<std::int8_t>(last + 1)};
+  }
+
+ private:
+  static constexpr std::int8_t waiting = -2, passed_over = -3;
+  ColouringPriority priority(NodeId node) const { return {mesh_.global(node), block_bits_}; }
+  bool must_wait(std::size_t i) const {
+    const ColouringPriority own = priority(nodes_[i]);
+    bool must = false;
+    for_each_neighbour_(i, [&](NodeId other) {  // this rank's that wait come later
+      const std::int8_t colour = colours_[other];
+      const bool undecided = colour == passed_over || (colour == waiting && !mesh_.owns(other));
+      must = must || (undecided && priority(other) > own);
+    });
+    return must;
+  }
+
+  const HaloMesh& mesh_;
+  std::span<const NodeId> nodes_;
+  const ForEachNeighbour& for_each_neighbour_;
+  int block_bits_;
+  IdVector<NodeId, std::int8_t> colours_;
+};
+
 /// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
 /// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited, ascending;
 /// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
 /// allowed. `block_bits` as in ColouringPriority: with some, nodes close by choose one after the other, which
-/// is faster. *Collective.*
-template <class ForEachNeighbour>
+/// is faster. `fetch_ahead(order, k)` comes before the neighbours of nodes[order[k]] are asked for.
+/// *Collective.*
+template <class ForEachNeighbour, class FetchAhead = NothingToFetch>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
-                       const ForEachNeighbour& for_each_neighbour, int block_bits = 0) {
-  constexpr std::int8_t waiting = -2, passed_over = -3;
-  Colouring colouring;
-  auto& colours = colouring.colour_of;
-  colours.resize(mesh.points().size(), Colouring::none);
-  const auto priority = [&](NodeId node) { return ColouringPriority(mesh.global(node), block_bits); };
-  for (const NodeId node : nodes) colours[node] = waiting;
-  std::vector<std::size_t> order =
+                       const ForEachNeighbour& for_each_neighbour, int block_bits = 0,
+                       const FetchAhead& fetch_ahead = {}) {
+  ColourChoices choices(mesh, nodes, for_each_neighbour, block_bits);
+  std::vector<std::int32_t> order =
       order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
-  const auto choose = [&](std::size_t i) {
-    const ColouringPriority own = priority(nodes[i]);
-    std::uint64_t taken = 0;
-    bool must_wait = false;
-    for_each_neighbour(i, [&](NodeId other) {
-      const std::int8_t colour = colours[other];
-      if (colour >= 0) taken |= std::uint64_t{1} << colour;  // so it went before: it has not waited
-      if (colour == passed_over || (colour == waiting && !mesh.owns(other)))
-        must_wait = must_wait || priority(other) > own;  // this rank's others come later
-    });
-    if (must_wait) {
-      colours[nodes[i]] = passed_over;
-      return false;
-    }
-    QUADLOOP_REQUIRE(~taken != 0, "a node has fewer than 64 neighbours of different colours");
-    colours[nodes[i]] = static_cast<std::int8_t>(std::countr_one(taken));
-    return true;
-  };
-  mesh.exchange().update(colours);
+  choices.share();
   do {
-    std::erase_if(order, choose);
-    mesh.exchange().update(colours);
+    std::size_t still_waiting = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      fetch_ahead(order, k);
+      if (!choices.choose(order[k])) order[still_waiting++] = order[k];
+    }
+    order.resize(still_waiting);
+    choices.share();
   } while (comm.any(!order.empty()));
-  const auto largest = std::max_element(colours.begin(), colours.end());
-  colouring.count = static_cast<std::int8_t>(
-      comm.maximum(std::int64_t{largest == colours.end() ? Colouring::none : *largest}) + 1);
-  return colouring;
+  return choices.colouring(comm);
 }
 
 }  // namespace quadloop

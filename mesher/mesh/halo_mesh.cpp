@@ -49,8 +49,10 @@ template <std::size_t width>
 void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
                              NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent) {
   std::vector<TravellingCell<width>> out;
-  const std::int32_t cells = size32(own);
+  const bool any_shared = !mesh_->copies.empty();  // else no cell touches a node of another rank
+  const std::int32_t cells = any_shared ? size32(own) : 0;
   for (std::int32_t i = 0; i < cells; ++i) {
+    if (std::ranges::all_of(own[i], [&](NodeId node) { return owns(node); })) continue;
     for (const int rank : other_owners(*mesh_, owners, own[i])) {
       TravellingCell<width>& cell = out.emplace_back();
       for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(own[i][k]), mesh_->point(own[i][k])};

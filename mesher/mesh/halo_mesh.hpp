@@ -47,6 +47,12 @@ class HaloMesh {
 
   bool has_quads() const { return !(quads_before_.empty() && mesh_->quads.empty() && quads_after_.empty()); }
 
+  /// Of those that for_each_cell() visits.
+  std::size_t cell_count() const {
+    return triangles_before_.size() + mesh_->triangles.size() + triangles_after_.size() +
+           quads_before_.size() + mesh_->quads.size() + quads_after_.size();
+  }
+
   /// Calls `visit(nodes)` for each cell, an array of three or four nodes: triangles, then quads.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,26 @@ using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
 template <class Nodes>
 bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
+}
+
+/// Calls `visit(node)` for each flagged node, which ascend; it may change the flag. Quick where few are.
+template <class Visit>
+void for_each_flagged(const NodeFlags& flags, const Visit& visit) {
+  std::int32_t i = 0;
+  const auto visit_below = [&](std::int32_t end) {
+    for (; i < end; ++i) {
+      if (flags.data()[i] != 0) visit(NodeId{i});
+    }
+  };
+  constexpr std::int32_t at_once = sizeof(std::uint64_t);
+  for (const std::int32_t size = size32(flags); i < size;) {
+    std::uint64_t some = 1;
+    if (i + at_once <= size) std::memcpy(&some, flags.data() + i, at_once);
+    if (some == 0)
+      i += at_once;
+    else
+      visit_below(std::min(i + at_once, size));
+  }
 }
 
 template <class Nodes>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <iterator>
 #include <utility>
 
@@ -43,11 +44,10 @@ struct Lines {
 /// angles of others are Delaunay.
 void doubt(const std::array<NodeId, 3>& nodes, const std::array<Point, 3>& p, const NodeFlags& moved,
            NodeFlags& doubtful) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point &before = p[(k + 2) % 3], &at = p[k], &after = p[(k + 1) % 3];
-    if (surely_acute(before, at, after) || is_right_along_axes(before, at, after)) continue;
+  for (unsigned blunt = blunt_corners(p[0], p[1], p[2]); blunt != 0; blunt &= blunt - 1) {
+    const int k = std::countr_zero(blunt);
+    if (is_right_along_axes(p[(k + 2) % 3], p[k], p[(k + 1) % 3])) continue;
     for (const NodeId node : nodes) doubtful[node] |= moved[node];
-    return;
   }
 }
 void doubt(const std::array<NodeId, 4>&, const std::array<Point, 4>&, const NodeFlags&, NodeFlags&) {}
@@ -86,11 +86,11 @@ NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& fin
                      double limit) {
   const IdVector<NodeId, Point> before(mesh.points());
   Lines lines{NodeFlags(before.size(), 0), NodeFlags(before.size(), 0)};
-  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
-    if (!pinned.empty() && pinned[node] != 0) continue;
-    mesh.points()[node.value()] = before[node] + finder.move_of(node);
+  finder.for_each_move([&](NodeId node, Point move) {
+    if (!pinned.empty() && pinned[node] != 0) return;
+    mesh.points()[node.value()] = before[node] + move;
     lines.moved[node] = mesh.point(node) != before[node] ? 1 : 0;
-  }
+  });
   if (!comm.any(std::ranges::find(lines.moved, 1) != lines.moved.end())) return {};
   share(mesh, lines.moved);
   while (take_back(comm, mesh, before, limit, lines)) {

@@ -55,7 +55,6 @@ SquareLines::SquareLines(const HaloMesh& mesh) : mesh_{mesh}, round_(mesh.owned_
 
 Point SquareLines::move_of(NodeId node) const {
   const Surroundings& s = round_[node];
-  if (s.line_ends != 0b11) return {};
   return -step * s.edge * into_squares(s.quadrants);
 }
 

@@ -13,8 +13,13 @@ class SquareLines {
  public:
   explicit SquareLines(const HaloMesh& mesh);
 
-  /// By how much an owned node is to move; nothing where it is of no level line.
-  Point move_of(NodeId node) const;
+  /// Calls `visit(node, move)` for owned nodes that are to move.
+  template <class Visit>
+  void for_each_move(const Visit& visit) const {
+    for (const NodeId node : round_.ids()) {
+      if (round_[node].line_ends == 0b11) visit(node, move_of(node));
+    }
+  }
 
  private:
   /// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
@@ -25,6 +30,7 @@ class SquareLines {
     unsigned line_ends = 0;  ///< bit 0, 1: triangles reach the node's neighbour on the line, on either side
   };
 
+  Point move_of(NodeId node) const;
   void exclude(NodeId node);
   void look_at_squares(const std::array<NodeId, 4>& nodes);
   void look_at_squares(const std::array<NodeId, 3>&) {}

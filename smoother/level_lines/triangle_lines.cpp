@@ -51,11 +51,13 @@ struct Shape {
   unsigned aspect;
 };
 
-/// The shape as seen from its k-th corner.
-constexpr std::size_t code_of(const Shape& shape, std::size_t k) {
-  std::size_t code = shape.aspect;
-  for (std::size_t i = k; i < k + 3; ++i) code = 9 * code + shape.places[i % 3];
-  return code;
+/// The shape as seen from each of its corners.
+constexpr std::array<std::size_t, 3> codes_of(const Shape& shape) {
+  const auto& [a, b, c] = shape.places;
+  const auto code = [&](unsigned own, unsigned next, unsigned previous) {
+    return ((std::size_t{shape.aspect} * 9 + own) * 9 + next) * 9 + previous;
+  };
+  return {code(a, b, c), code(b, c, a), code(c, a, b)};
 }
 
 /// Numbers that stand for the codes. Sums of a few tell these apart.
@@ -111,7 +113,7 @@ constexpr std::uint64_t sum_round(const Role& role, int image) {
   std::uint64_t sum = 0;
   for (std::size_t k = 0; k < size; ++k) {
     const Step a = image_of(role.neighbours[k], image), b = image_of(role.neighbours[(k + 1) % size], image);
-    sum += numbers[code_of(image < 4 ? shape_of({{{}, a, b}}) : shape_of({{{}, b, a}}), 0)];
+    sum += numbers[codes_of(image < 4 ? shape_of({{{}, a, b}}) : shape_of({{{}, b, a}}))[0]];
   }
   return sum;
 }
@@ -150,31 +152,43 @@ Point move_for(std::uint64_t sum) {
 constexpr double rounding = 1e-6;
 constexpr double least = 1e-300;  ///< length of a box's side
 
-bool near(double a, double b) { return std::abs(a - b) <= rounding; }
+bool near(double a, double b, double whole) { return std::abs(a - b) <= rounding * whole; }
 
 /// From the least of three coordinates to the largest.
 struct Extent {
   double low, length;
 };
 Extent extent_of(double a, double b, double c) {
-  const double low = std::min({a, b, c});
-  return {low, std::max({a, b, c}) - low};
+  const double low = std::min(std::min(a, b), c);
+  return {low, std::max(std::max(a, b), c) - low};
 }
 
-std::optional<Shape> shape_of(const std::array<Point, 3>& p, const Extent& x, const Extent& y) {
-  const double aspect = 2 * x.length / y.length;
-  if (!(near(aspect, 1) || near(aspect, 2) || near(aspect, 4)) || !(x.length > least)) return std::nullopt;
+/// A triangle's shape, or that which is nearest to it. Without branches, as no two triangles in a row are
+/// alike: `fits` is found by products and sums of comparisons.
+struct FittedShape {
   Shape shape;
-  shape.aspect = static_cast<unsigned>(aspect / 2 + 0.25);
-  const double in_width = 2 / x.length, in_height = 2 / y.length;
-  double off = 0;
+  bool fits;
+};
+
+/// 0, 1 or 2: at the lower end of the extent, in its middle or at its upper end, whichever is nearest.
+unsigned nearest_place(double from_low, const Extent& extent) {
+  return unsigned{4 * from_low >= extent.length} + unsigned{4 * from_low >= 3 * extent.length};
+}
+
+FittedShape shape_of(const std::array<Point, 3>& p, const Extent& x, const Extent& y) {
+  FittedShape found{{{}, unsigned{4 * x.length >= 3 * y.length} + unsigned{2 * x.length >= 3 * y.length}},
+                    false};
+  unsigned fits = unsigned{x.length > least} &
+                  unsigned{near(2 * x.length, (1U << found.shape.aspect) * y.length, y.length)};
   for (std::size_t k = 0; k < 3; ++k) {
-    const double i = in_width * (p[k].x - x.low), j = in_height * (p[k].y - y.low);
-    const auto column = static_cast<unsigned>(i + 0.5), row = static_cast<unsigned>(j + 0.5);
-    shape.places[k] = 3 * column + row;
-    off = std::max({off, std::abs(i - column), std::abs(j - row)});
+    const double right = p[k].x - x.low, up = p[k].y - y.low;
+    const unsigned column = nearest_place(right, x), row = nearest_place(up, y);
+    found.shape.places[k] = 3 * column + row;
+    fits &= unsigned{near(2 * right, column * x.length, x.length)} &
+            unsigned{near(2 * up, row * y.length, y.length)};
   }
-  return off <= rounding ? std::optional(shape) : std::nullopt;
+  found.fits = fits != 0;
+  return found;
 }
 
 }  // namespace
@@ -191,23 +205,26 @@ TriangleLines::TriangleLines(const HaloMesh& mesh, const NodeFlags& near)
   }
 }
 
+/// What it adds to nodes that are not near is of no use.
 void TriangleLines::look_at(const std::array<NodeId, 3>& nodes) {
-  const auto is_asked = [&](NodeId node) { return mesh_.owns(node) && near_[node] != 0; };
-  if (std::none_of(nodes.begin(), nodes.end(), is_asked)) return;
+  if (!any_flagged(near_, nodes)) return;
   const std::array<Point, 3> p{mesh_.point(nodes[0]), mesh_.point(nodes[1]), mesh_.point(nodes[2])};
   const Extent x = extent_of(p[0].x, p[1].x, p[2].x), y = extent_of(p[0].y, p[1].y, p[2].y);
-  const std::optional<Shape> shape = shape_of(p, x, y);
+  const auto [shape, fits] = shape_of(p, x, y);
+  const std::array<std::size_t, 3> codes = codes_of(shape);
+  const double edge = fits && shape.aspect != 1 ? std::min(x.length, y.length) : 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!is_asked(nodes[k])) continue;
+    if (!mesh_.owns(nodes[k])) continue;
     Surroundings& s = round_[nodes[k]];
-    s.sum += shape ? numbers[code_of(*shape, k)] : 1;
-    s.edge = std::max(s.edge, shape && shape->aspect != 1 ? std::min(x.length, y.length) : 0);
+    s.sum += fits ? numbers[codes[k]] : 1;
+    s.edge = std::max(s.edge, edge);
   }
 }
 
+/// Nothing where the node is of no level line.
 Point TriangleLines::move_of(NodeId node) const {
   const Surroundings& s = round_[node];
-  return s.edge == 0 ? Point{} : s.edge * move_for(s.sum);
+  return s.edge * move_for(s.sum);
 }
 
 }  // namespace quadloop

@@ -14,8 +14,13 @@ class TriangleLines {
   /// Looks at owned nodes that are flagged `near`. Both must outlive it.
   TriangleLines(const HaloMesh& mesh, const NodeFlags& near);
 
-  /// By how much an owned node is to move; nothing where it is of no level line.
-  Point move_of(NodeId node) const;
+  /// Calls `visit(node, move)` for owned nodes that are to move.
+  template <class Visit>
+  void for_each_move(const Visit& visit) const {
+    for_each_flagged(near_, [&](NodeId node) {
+      if (mesh_.owns(node) && round_[node].edge > 0) visit(node, move_of(node));
+    });
+  }
 
  private:
   struct Surroundings {
@@ -23,6 +28,7 @@ class TriangleLines {
     double edge = 0;        ///< of the smaller squares; nothing where all are of one size
   };
   void look_at(const std::array<NodeId, 3>& nodes);
+  Point move_of(NodeId node) const;
 
   const HaloMesh& mesh_;
   const NodeFlags& near_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <tuple>
 
 #include "smoother/node/untangle.hpp"
 
@@ -57,9 +56,10 @@ std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) 
 
 void BoundarySlide::find_tight_segments(const Communicator& comm) {
   std::vector<std::int32_t> own;
+  OutlinePath::Segments near;
   for (const HaloEdge& edge : mesh_.boundary_edges()) {
     if (!is_outlined(edge.boundary)) continue;
-    const auto near = outline_->segments_near(box_of(point(edge.from), point(edge.to)));
+    outline_->find_segments_near(box_of(point(edge.from), point(edge.to)), near);
     for (const NodeId node : {edge.from, edge.to}) {
       if (nodes_[slot_[node]].located.boundary < 0) remember(node, point(node), edge.boundary, near);
     }
@@ -77,64 +77,56 @@ void BoundarySlide::find_tight_segments(const Communicator& comm) {
 }
 
 bool BoundarySlide::is_tight(const Places& places) const {
-  const auto segments = outline_->segments_between(places.before, places.after);
-  return segments.empty() || std::any_of(segments.begin(), segments.end(), [&](std::int32_t s) {
-           return std::binary_search(tight_segments_.begin(), tight_segments_.end(), s);
-         });
+  bool found = false;
+  const bool few = outline_->walk(places.before, places.after, [&](std::int32_t s) {
+    found = found || std::binary_search(tight_segments_.begin(), tight_segments_.end(), s);
+  });
+  return found || !few;
 }
 
 namespace {
 
-/// A boundary edge as its node at one end sees it.
-struct EdgeEnd {
-  NodeId node, other;
-  std::int32_t boundary;
-  bool leaves;  ///< the node
-  auto key() const { return std::tie(node, leaves, boundary, other); }
+/// The boundary edges at a node that this rank owns.
+struct EdgesAt {
+  HaloEdge in, out;  ///< one that leads to it, one that leaves it
+  int ins = 0, outs = 0;
+
+  bool is_through() const { return ins == 1 && outs == 1 && in.boundary == out.boundary; }
+  /// The boundary comes back there: its place on the outline is only one of two.
+  bool is_pinched() const { return ins + outs > 2; }
 };
-
-/// Those at owned nodes, sorted.
-std::vector<EdgeEnd> edge_ends(const HaloMesh& mesh) {
-  std::vector<EdgeEnd> ends;
-  for (const auto& [from, to, boundary] : mesh.boundary_edges()) {
-    if (mesh.owns(from)) ends.push_back({from, to, boundary, true});
-    if (mesh.owns(to)) ends.push_back({to, from, boundary, false});
-  }
-  std::sort(ends.begin(), ends.end(), [](const EdgeEnd& a, const EdgeEnd& b) { return a.key() < b.key(); });
-  return ends;
-}
-
-/// Calls `visit(ends)` for the ends at each owned boundary node.
-template <class Visit>
-void for_each_boundary_node(const std::vector<EdgeEnd>& ends, const Visit& visit) {
-  for (std::size_t begin = 0, end = 0; begin < ends.size(); begin = end) {
-    while (end < ends.size() && ends[end].node == ends[begin].node) ++end;
-    visit(std::span(ends).subspan(begin, end - begin));
-  }
-}
 
 }  // namespace
 
 void BoundarySlide::find_rails(const NodeFlags& pinned) {
-  for (const NodeId node : freedom_.ids()) {
-    if (!pinned.empty() && pinned[node] != 0) freedom_[node] = NodeFreedom::fixed;
+  std::vector<EdgesAt> edges_at(nodes_.size());
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    EdgesAt &at_from = edges_at[slot_[edge.from]], &at_to = edges_at[slot_[edge.to]];
+    at_from.out = edge;
+    at_to.in = edge;
+    ++at_from.outs;
+    ++at_to.ins;
   }
-  const std::vector<EdgeEnd> ends = edge_ends(mesh_);
-  NodeFlags pinched(mesh_.points().size(),
-                    0);  // the boundary comes back there: its place on the outline is only one of two
-  for_each_boundary_node(ends,
-                         [&](std::span<const EdgeEnd> at) { pinched[at[0].node] = at.size() > 2 ? 1 : 0; });
+  NodeFlags pinched(mesh_.points().size(), 0);
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    for (const NodeId node : {edge.from, edge.to}) {
+      if (!mesh_.owns(node)) continue;
+      freedom_[node] = NodeFreedom::fixed;
+      pinched[node] = edges_at[slot_[node]].is_pinched() ? 1 : 0;
+    }
+  }
   mesh_.exchange().update(pinched);
-  for_each_boundary_node(ends, [&](std::span<const EdgeEnd> at) {
-    const EdgeEnd &in = at.front(), &out = at.back();
-    NodeFreedom& freedom = freedom_[in.node];
-    const bool through = at.size() == 2 && !in.leaves && out.leaves && in.boundary == out.boundary &&
-                         pinched[in.other] == 0 && pinched[out.other] == 0;
-    const Rail rail{in.node, in.other, out.other, in.boundary};
-    const bool slides = freedom == NodeFreedom::interior && through && may_slide(rail);
-    freedom = slides ? NodeFreedom::sliding : NodeFreedom::fixed;
-    if (slides) nodes_[slot_[in.node]].rail = rail;
-  });
+  for_each_flagged(pinned, [&](NodeId node) { freedom_[node] = NodeFreedom::fixed; });
+  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+    const NodeId node = edge.to;
+    if (!mesh_.owns(node) || (!pinned.empty() && pinned[node] != 0)) continue;
+    const EdgesAt& at = edges_at[slot_[node]];
+    const Rail rail{node, at.in.from, at.out.to, edge.boundary};
+    if (!at.is_through() || pinched[rail.before] != 0 || pinched[rail.after] != 0 || !may_slide(rail))
+      continue;
+    freedom_[node] = NodeFreedom::sliding;
+    nodes_[slot_[node]].rail = rail;
+  }
 }
 
 bool BoundarySlide::is_straight(const Rail& rail) const {

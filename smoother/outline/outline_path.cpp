@@ -11,9 +11,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
-constexpr std::size_t usually_near = 16;     ///< no more segments than this
-constexpr int short_walk = 8;                ///< in segments: what lies farther off is searched
+constexpr std::size_t usually_near = 16;  ///< no more segments than this
+constexpr int short_walk = 8;             ///< in segments: what lies farther off is searched
 
 Box widened(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
 
@@ -67,8 +66,13 @@ void OutlinePath::points_at(const OutlinePlace& from, std::span<const double> st
 OutlinePath::Segments OutlinePath::segments_near(Box box) const {
   Segments segments;
   segments.reserve(usually_near);
-  segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { segments.push_back(s); });
+  find_segments_near(box, segments);
   return segments;
+}
+
+void OutlinePath::find_segments_near(Box box, Segments& near) const {
+  near.clear();
+  segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { near.push_back(s); });
 }
 
 /// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
@@ -131,9 +135,11 @@ OutlinePath::Part OutlinePath::part_of(const Chord& chord) const {
   return part;
 }
 
-/// Whether a segment is of the part that the chord stands for, or touches the chord's ends there.
-bool OutlinePath::belongs(std::int32_t segment, const Chord& chord, const Part& part) const {
+/// Whether a segment is of the part that the chord stands for, or touches the chord's ends there. Most that
+/// are asked for hold an end.
+bool OutlinePath::belongs(std::int32_t segment, const Chord& chord) const {
   if (segment == chord.from.segment || segment == chord.to.segment) return true;
+  const Part part = part_of(chord);
   if (segment == part.before || segment == part.after) return true;
   const std::int32_t loop = chord.from.loop;
   return geometry_.loop_of(segment) == loop && within(loop, arc_[segment] - chord.from.arc) <= part.way;
@@ -142,10 +148,9 @@ bool OutlinePath::belongs(std::int32_t segment, const Chord& chord, const Part& 
 OutlinePath::Segments OutlinePath::met_elsewhere(const Chord& chord,
                                                  std::span<const std::int32_t> near) const {
   Segments met;
-  const Part part = part_of(chord);
   const Box around = box_of(chord.a, chord.b);
   for (const std::int32_t s : near) {
-    if (box_of_segment(s).meets(around) && !belongs(s, chord, part) &&
+    if (box_of_segment(s).meets(around) && !belongs(s, chord) &&
         segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
       met.push_back(s);
   }
@@ -155,10 +160,9 @@ OutlinePath::Segments OutlinePath::met_elsewhere(const Chord& chord,
 bool OutlinePath::sweeps_over(const Chord& chord, Point apex, std::span<const std::int32_t> near) const {
   const Point a = chord.a, b = chord.b, c = apex;
   const Box around = box_round(chord, apex);
-  const Part part = part_of(chord);
   return std::ranges::any_of(near, [&](std::int32_t s) {
     const Point v = geometry_.point(s);
-    if (!around.contains(v) || belongs(s, chord, part)) return false;
+    if (!around.contains(v) || belongs(s, chord)) return false;
     const std::array<int, 3> turns{orientation(a, b, v), orientation(b, c, v), orientation(c, a, v)};
     const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
     return *least * *most >= 0 && (*least != 0 || *most != 0);
@@ -167,13 +171,8 @@ bool OutlinePath::sweeps_over(const Chord& chord, Point apex, std::span<const st
 
 OutlinePath::Segments OutlinePath::segments_between(const OutlinePlace& from, const OutlinePlace& to) const {
   Segments segments;
-  // On the way over the loop's first vertex, perhaps back to the segment where it begins.
-  const bool goes_round = to.arc < from.arc;
-  for (std::int32_t s = from.segment; segments.size() < most_vertices; s = geometry_.next(s)) {
-    segments.push_back(s);
-    if (s == to.segment && !(goes_round && segments.size() == 1)) return segments;
-  }
-  return {};
+  if (!walk(from, to, [&](std::int32_t s) { segments.push_back(s); })) segments.clear();
+  return segments;
 }
 
 }  // namespace quadloop

@@ -32,6 +32,8 @@ class OutlinePath {
   /// The segments that may lie as near to a box as `on_outline` of the outline's extent: all that questions
   /// within it have to look at.
   Segments segments_near(Box box) const;
+  /// The same in a list that is at hand.
+  void find_segments_near(Box box, Segments& near) const;
 
   /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
   /// invalid one where it does not. `near`: the segments near a box that holds the point.
@@ -99,8 +101,12 @@ class OutlinePath {
 
   /// The segments from one place to another of the same loop, in order; none where there are more than a few.
   Segments segments_between(const OutlinePlace& from, const OutlinePlace& to) const;
+  /// Calls `visit(segment)` for the same; returns false, after a few, where there are more.
+  template <class Visit>
+  bool walk(const OutlinePlace& from, const OutlinePlace& to, const Visit& visit) const;
 
  private:
+  static constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
   struct Nearest {
     std::int32_t segment = -1;
     double distance = 0;
@@ -137,7 +143,7 @@ class OutlinePath {
     double way = 0;                        ///< its length
   };
   Part part_of(const Chord& chord) const;
-  bool belongs(std::int32_t segment, const Chord& chord, const Part& part) const;
+  bool belongs(std::int32_t segment, const Chord& chord) const;
   bool is_of(std::int32_t segment, const std::string& boundary) const {
     return geometry_.boundary(geometry_.boundary_of(segment)).name == boundary;
   }
@@ -148,5 +154,17 @@ class OutlinePath {
   double tolerance_ = 0;
   SegmentTree segments_;
 };
+
+template <class Visit>
+bool OutlinePath::walk(const OutlinePlace& from, const OutlinePlace& to, const Visit& visit) const {
+  // On the way over the loop's first vertex, perhaps back to the segment where it begins.
+  const bool goes_round = to.arc < from.arc;
+  std::int32_t s = from.segment;
+  for (std::size_t walked = 0; walked < most_vertices; ++walked, s = geometry_.next(s)) {
+    visit(s);
+    if (s == to.segment && !(goes_round && walked == 0)) return true;
+  }
+  return false;
+}
 
 }  // namespace quadloop

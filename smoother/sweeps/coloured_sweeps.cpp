@@ -9,12 +9,25 @@ ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const N
     : mesh_{mesh},
       stars_{stars},
       stale_{stale},
+      colouring_{colour_stars(comm, mesh, stars)},
+      by_colour_(colouring_.count),
       changed_(mesh.points().size(), 0),
-      moved_(mesh.points().size(), 0) {
-  const Colouring colouring = colour_stars(comm, mesh, stars);
-  by_colour_.resize(colouring.count);
-  colours_.reserve(stars.size());
-  for (const NodeId node : stars.nodes()) colours_.push_back(colouring.colour_of[node]);
+      moved_(mesh.points().size(), 0) {}
+
+std::vector<std::int32_t> ColouredSweeps::take_changed() {
+  std::vector<std::int32_t> stars;
+  for_each_flagged(changed_, [&](NodeId node) {
+    changed_[node] = 0;
+    if (const std::int32_t star = stars_.star_of(node); star >= 0) stars.push_back(star);
+  });
+  return stars;
+}
+
+void ColouredSweeps::look_again(NodeId node) {
+  changed_[node] = 1;
+  const bool was_stale = std::exchange(stale_[node], 1) != 0;
+  if (!was_stale && colouring_.colour_of[node] > colour_ && mesh_.owns(node))
+    woken_.push_back(stars_.star_of(node));
 }
 
 /// Who sees the node is to be visited again, itself among them.

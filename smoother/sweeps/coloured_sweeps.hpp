@@ -6,14 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/mesh/colouring.hpp"
 #include "smoother/sweeps/node_stars.hpp"
 
 namespace quadloop {
-
-/// For visits that need little beside the star.
-struct NothingToFetch {
-  void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
-};
 
 /// Sweeps over the nodes that may move, colour by colour; a node is visited where something in its star has
 /// moved since it was visited last.
@@ -26,23 +22,27 @@ class ColouredSweeps {
 
   /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
   bool is_stale(std::size_t i) const { return stale_[stars_.nodes()[i]] != 0; }
-  /// Whether one of these, other ranks' nodes too, has moved since this was asked last.
-  bool take_changed(std::size_t i) { return std::exchange(changed_[stars_.nodes()[i]], 0) != 0; }
+  /// The nodes that have moved, or share a cell with one that has, other ranks' too, since this was asked
+  /// last; ascending.
+  std::vector<std::int32_t> take_changed();
 
-  /// Asks `place(i)` for a new place, or none, of each stale node for which `is_active(i)`. Returns the
-  /// number of nodes moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
-  /// NodeStars::fetch_ahead. *Collective.*
+  /// Asks `place(i)` for a new place, or none, of each node for which `is_active(i)`: of those among `stars`
+  /// that are stale, and of those that become so before their colour's turn. Returns the number of nodes
+  /// moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
+  /// NodeStars::fetch_corners_ahead. *Collective.*
   template <class IsActive, class Place, class FetchAhead = NothingToFetch>
-  std::int64_t sweep(const IsActive& is_active, const Place& place, const FetchAhead& fetch_ahead = {}) {
+  std::int64_t sweep(std::span<const std::int32_t> stars, const IsActive& is_active, const Place& place,
+                     const FetchAhead& fetch_ahead = {}) {
     std::int64_t moves = 0;
     for (auto& visits : by_colour_) visits.clear();
-    for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
-      if (is_active(i)) by_colour_[colours_[i]].push_back(i);
+    for (const std::int32_t i : stars) {
+      if (is_stale(i) && is_active(i)) visits_of(i).push_back(i);
     }
-    for (auto& visits : by_colour_) {  // known beforehand: nodes of one colour do not see each other
-      std::erase_if(visits, [&](std::int32_t i) { return !is_stale(i); });
+    for (colour_ = 0; colour_ < colouring_.count; ++colour_) {
+      const auto& visits = by_colour_[colour_];
       for (std::size_t k = 0; k < visits.size(); ++k) {
-        stars_.fetch_ahead(visits, k);
+        stars_.fetch_corners_ahead(visits, k);
+        stars_.fetch_points_ahead(visits, k);
         fetch_ahead(visits, k);
         const std::int32_t i = visits[k];
         stale_[stars_.nodes()[i]] = 0;
@@ -52,23 +52,32 @@ class ColouredSweeps {
         ++moves;
       }
       share_moves();
+      for (const std::int32_t i : woken_) {
+        if (is_active(i)) visits_of(i).push_back(i);
+      }
+      woken_.clear();
     }
     return moves;
   }
 
  private:
+  std::vector<std::int32_t>& visits_of(std::size_t i) {
+    return by_colour_[colouring_.colour_of[stars_.nodes()[i]]];
+  }
   void move(std::size_t i, Point to);
   void share_moves();
-  void look_again(NodeId node) { stale_[node] = changed_[node] = 1; }
+  void look_again(NodeId node);
 
   HaloMesh& mesh_;
   const NodeStars& stars_;
-  std::vector<std::int8_t> colours_;                  ///< of each star
-  std::vector<std::vector<std::int32_t>> by_colour_;  ///< those to be visited
   NodeFlags& stale_;
-  NodeFlags changed_;              ///< what take_changed() will give
-  NodeFlags moved_;                ///< this rank's nodes that have moved in this colour
-  std::vector<NodeId> own_moves_;  ///< the same
+  Colouring colouring_;
+  std::vector<std::vector<std::int32_t>> by_colour_;  ///< those to be visited
+  std::int8_t colour_ = 0;                            ///< whose nodes are visited
+  NodeFlags changed_;                                 ///< what take_changed() will give
+  std::vector<std::int32_t> woken_;                   ///< those of later colours that have become stale
+  NodeFlags moved_;                                   ///< this rank's nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;                     ///< the same
 };
 
 }  // namespace quadloop

@@ -10,7 +10,8 @@ inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, co
   constexpr int block_bits = 6;
   return colour_nodes(
       comm, mesh, stars.nodes(),
-      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); }, block_bits);
+      [&](std::size_t i, const auto& visit) { stars.for_each_neighbour(i, visit); }, block_bits,
+      [&](std::span<const std::int32_t> order, std::size_t k) { stars.fetch_corners_ahead(order, k); });
 }
 
 }  // namespace quadloop

@@ -41,40 +41,49 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
   for (const auto& seen : {seen_targets<3>(ideal_targets<3>()), seen_targets<4>(ideal_targets<4>())}) {
     seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
-  Ends ends = find_starts();
+  number_stars();
+  const std::vector<char> touched = find_starts();
   corners_.resize(starts_.back());
-  if (!targets.empty() || has_quads()) seen_of_.resize(corners_.size());
+  if (!targets.empty() || mesh.has_quads()) seen_of_.resize(corners_.size());
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
-    add_cell(cell, targets.empty() ? CellTarget{} : targets[number], ends);
-    ++number;
+    const std::size_t cell_number = number++;
+    if (touched[cell_number] != 0) add_cell(cell, targets.empty() ? CellTarget{} : targets[cell_number]);
   });
+  starts_.pop_back();
   list_stars_round_copies();
 }
 
-/// Returns where each free node's first corner goes.
-NodeStars::Ends NodeStars::find_starts() {
-  Ends corners(mesh_.points().size(), 0);
-  mesh_.for_each_cell([&](const auto& cell) {
-    for (const NodeId node : cell)
-      corners[node] += corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
-  });
-  Ends ends(corners.size(), no_star);
-  starts_.reserve(nodes_.size() + 1);
-  starts_.push_back(0);
-  for (const NodeId node : nodes_) {
-    ends[node] = starts_.back();
-    starts_.push_back(starts_.back() + corners[node]);
-  }
-  return ends;
+std::vector<std::int32_t> NodeStars::all() const {
+  std::vector<std::int32_t> stars(nodes_.size());
+  std::iota(stars.begin(), stars.end(), 0);
+  return stars;
 }
 
-bool NodeStars::has_quads() const {
-  bool found = false;
+void NodeStars::number_stars() {
+  star_of_.resize(mesh_.points().size(), -1);
+  for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
+}
+
+/// Shifted by one: a star's start stands in the place of the next one's until its corners are added. Returns
+/// for each cell whether it has a free node.
+std::vector<char> NodeStars::find_starts() {
+  std::vector<char> touched;
+  touched.reserve(mesh_.cell_count());
+  starts_.assign(nodes_.size() + 2, 0);
   mesh_.for_each_cell([&](const auto& cell) {
-    found = found || std::tuple_size_v<std::remove_cvref_t<decltype(cell)>> == 4;
+    bool any = false;
+    for (const NodeId node : cell) {
+      const std::int32_t star = star_of_[node];
+      if (star < 0) continue;
+      any = true;
+      starts_[star + std::size_t{2}] +=
+          corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
+    }
+    touched.push_back(any ? 1 : 0);
   });
-  return found;
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  return touched;
 }
 
 /// Copies are few and lie at the borders of ranks.
@@ -111,13 +120,14 @@ std::int32_t NodeStars::first_seen(const CellTarget& target) {
 }
 
 template <std::size_t width>
-void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends) {
+void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget& target) {
   constexpr std::int32_t nodes{width}, per_node{corners_of_cell<width>};
   std::int32_t seen = -1;
   for (std::int32_t k = 0; k < nodes; ++k) {
-    std::size_t& end = ends[cell[k]];
-    if (end == no_star) continue;
-    if (seen < 0) seen = first_seen<width>(target);
+    const std::int32_t star = star_of_[cell[k]];
+    if (star < 0) continue;
+    std::size_t& end = starts_[star + std::size_t{1}];
+    if (seen < 0 && !seen_of_.empty()) seen = first_seen<width>(target);
     const NodeId next = cell[(k + 1) % width], previous = cell[(k + width - 1) % width];
     const std::int32_t own = seen + per_node * k;
     for (std::int32_t c = 0; c < per_node && !seen_of_.empty(); ++c) seen_of_[end + c] = own + c;
@@ -140,8 +150,8 @@ bool NodeStars::costs_more(std::size_t i, double limit) const {
   return false;
 }
 
-void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const {
-  constexpr std::size_t far = 16, near = 8, line = 64 / sizeof(Corner);
+void NodeStars::fetch_corners_ahead(std::span<const std::int32_t> order, std::size_t k) const {
+  constexpr std::size_t far = 16, line = 64 / sizeof(Corner);
   if (k + 2 * far < order.size()) {
     __builtin_prefetch(&starts_[order[k + 2 * far]]);
     __builtin_prefetch(&nodes_[order[k + 2 * far]]);
@@ -150,6 +160,10 @@ void NodeStars::fetch_ahead(std::span<const std::int32_t> order, std::size_t k) 
     const auto corners = corners_of(order[k + far]);
     for (std::size_t c = 0; c < corners.size(); c += line) __builtin_prefetch(&corners[c]);
   }
+}
+
+void NodeStars::fetch_points_ahead(std::span<const std::int32_t> order, std::size_t k) const {
+  constexpr std::size_t near = 8;
   if (k + near < order.size()) {
     for (const Corner& c : corners_of(order[k + near])) __builtin_prefetch(&mesh_.point(c.q));
   }

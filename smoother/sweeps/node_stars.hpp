@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,20 +17,31 @@ class NodeStars {
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
+  /// 0, 1, ...: each of them.
+  std::vector<std::int32_t> all() const;
+  /// Which of the free nodes this is; -1 for all others.
+  std::int32_t star_of(NodeId node) const { return star_of_[node]; }
 
   /// The star of the i-th free node, with the nodes where they are now.
   void gather(std::size_t i, Star& star) const;
-  /// Asks the processor for what gather() will need of the stars a little after `order[k]`.
-  void fetch_ahead(std::span<const std::int32_t> order, std::size_t k) const;
+  /// Asks the processor for what for_each_neighbour() will need of the stars a little after `order[k]`.
+  void fetch_corners_ahead(std::span<const std::int32_t> order, std::size_t k) const;
+  /// The same for what gather() will need beside.
+  void fetch_points_ahead(std::span<const std::int32_t> order, std::size_t k) const;
   /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
   bool costs_more(std::size_t i, double limit) const;
 
-  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, for some more than once.
+  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, whose cells are one fan;
+  /// for some more than once.
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
+    std::int64_t open = 0;  // the first neighbour of a fan of triangles less the last one
     for (const Corner& c : corners_of(i)) {
-      for (const NodeId other : {c.q, c.r}) visit(other);  // one call, which is then inlined
+      visit(c.q);
+      open += std::int64_t{c.q.value()} - c.r.value();
     }
+    if (open == 0 && seen_of_.empty()) return;  // each neighbour is the first one of some triangle
+    for (const Corner& c : corners_of(i)) visit(c.r);
   }
   /// Calls `visit(i)` for the free nodes that share a cell with another rank's node; for each as often as
   /// for_each_neighbour(i) comes to the node.
@@ -52,13 +62,10 @@ class NodeStars {
   }
   /// What the k-th of all corners should be.
   const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
-  /// Of each node, where its next corner goes.
-  using Ends = IdVector<NodeId, std::size_t>;
-  static constexpr auto no_star = std::numeric_limits<std::size_t>::max();
-  Ends find_starts();
-  bool has_quads() const;
+  void number_stars();
+  std::vector<char> find_starts();
   template <std::size_t width>
-  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target, Ends& ends);
+  void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target);
   template <std::size_t width>
   std::int32_t first_seen(const CellTarget& target);
   template <std::size_t width>
@@ -67,6 +74,7 @@ class NodeStars {
 
   const HaloMesh& mesh_;
   std::vector<NodeId> nodes_;
+  IdVector<NodeId, std::int32_t> star_of_;
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<SeenTarget> seen_;

@@ -1,5 +1,7 @@
 #include "smoother/sweeps/sweeper.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "smoother/node/untangle.hpp"
@@ -14,56 +16,85 @@ Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& star
       slide_{slide},
       rule_{rule},
       solver_{make_node_solver(rule.method)},
+      any_quads_{comm.any(mesh.has_quads())},
       sweeps_(comm, mesh, stars, stale),
-      bad_(mesh.points().size(), 0),
-      bad_near_(mesh.points().size(), 0) {
+      bad_(mesh.points().size(), 0) {
   if (!rule.angles) star_.leave_out_angles();
   for (const NodeId free : stars.nodes()) bad_[free] = bad[free];
   mesh.exchange().update(bad_);
-  count_bad_near(NodeFlags(bad_.size(), 0));
 }
 
 std::int64_t Sweeper::sweep() {
-  update_bad();
-  ++done_;
-  return comm_.sum(sweeps_.sweep([&](std::size_t i) { return bad_near_[node(i)] > 0; },
-                                 [&](std::size_t i) { return better_place(i); },
-                                 [&](std::span<const std::int32_t> order, std::size_t k) {
-                                   slide_.fetch_ahead(stars_.nodes(), order, k);
-                                 }));
+  const auto visit = [&](const std::vector<std::int32_t>& stars) {
+    return comm_.sum(sweeps_.sweep(
+        stars, [&](std::size_t i) { return is_near_bad(i); }, [&](std::size_t i) { return better_place(i); },
+        [&](std::span<const std::int32_t> order, std::size_t k) {
+          slide_.fetch_ahead(stars_.nodes(), order, k);
+        }));
+  };
+  if (done_++ == 0) return visit(stars_.all());
+  return visit(update_bad());
 }
 
-/// Flags the nodes of cells above the threshold, of other ranks too. One that was visited and round which all
-/// has stayed since keeps its flag, even where something moved in the sweep before it was visited; after the
-/// open sweeps it loses that.
-void Sweeper::update_bad() {
-  const NodeFlags before = bad_;
-  doubtful_.clear();
-  for (std::int32_t i = 0; i < std::ssize(stars_); ++i) {
-    const bool changed = sweeps_.take_changed(i);
-    if (done_ == open_sweeps || (changed && sweeps_.is_stale(i))) doubtful_.push_back(i);
-  }
-  for (std::size_t k = 0; k < doubtful_.size(); ++k) {
-    stars_.fetch_ahead(doubtful_, k);
-    const std::int32_t i = doubtful_[k];
-    bad_[node(i)] = stars_.costs_more(i, rule_.threshold) ? 1 : 0;
+/// Flags the nodes of cells above the threshold, of other ranks too. Returns the stars among which those are
+/// that are stale and near a bad node: either they have changed, or the node was good before.
+std::vector<std::int32_t> Sweeper::update_bad() {
+  const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
+  const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
+  std::vector<NodeId> turned_bad;
+  for (std::size_t k = 0; k < doubtful.size(); ++k) {
+    stars_.fetch_corners_ahead(doubtful, k);
+    stars_.fetch_points_ahead(doubtful, k);
+    const NodeId node = this->node(doubtful[k]);
+    const bool was_bad = bad_[node] != 0, is_bad = stars_.costs_more(doubtful[k], rule_.threshold);
+    bad_[node] = is_bad ? 1 : 0;
+    if (is_bad && !was_bad) turned_bad.push_back(node);
   }
   mesh_.exchange().update(bad_);
-  count_bad_near(before);
+  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
+    if (bad_[copy] != 0 && copies_before[copy.value() - mesh_.owned_nodes()] == 0) turned_bad.push_back(copy);
+  }
+  std::vector<std::int32_t> waiting;
+  std::ranges::set_union(changed, stars_near(turned_bad), std::back_inserter(waiting));
+  return waiting;
 }
 
-/// Nodes have become bad, or good.
-void Sweeper::count_bad_near(const NodeFlags& before) {
-  for (std::size_t i = 0; i < stars_.size(); ++i) {
-    const std::int32_t more = bad_[node(i)] - before[node(i)];
-    if (more == 0) continue;
-    bad_near_[node(i)] += more;
-    stars_.for_each_neighbour(i, [&](NodeId other) { bad_near_[other] += more; });
+/// The stars whose flags are to be looked at. One that was visited and round which all has stayed since keeps
+/// its flag, even where something moved in the sweep before it was visited; after the open sweeps it loses
+/// that. Where there are quadrilaterals all do then: lines that have moved may have made some bad unnoticed,
+/// and a bad one is not seen from the node across its bad corner.
+std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t>& changed) {
+  const bool are_over = done_ == open_sweeps + 1;
+  if (are_over && any_quads_) return stars_.all();
+  std::vector<std::int32_t> doubtful;
+  for (const std::int32_t i : changed) (sweeps_.is_stale(i) ? doubtful : passed_over_).push_back(i);
+  if (are_over) doubtful.insert(doubtful.end(), passed_over_.begin(), passed_over_.end());
+  return doubtful;
+}
+
+/// Those of the nodes themselves and of nodes that share a cell with one, ascending.
+std::vector<std::int32_t> Sweeper::stars_near(const std::vector<NodeId>& turned_bad) const {
+  std::vector<std::int32_t> near;
+  const auto add = [&](std::int32_t star) {
+    if (star >= 0) near.push_back(star);
+  };
+  for (const NodeId node : turned_bad) {
+    if (!mesh_.owns(node)) {
+      stars_.for_each_star_round(node, add);
+      continue;
+    }
+    add(stars_.star_of(node));
+    stars_.for_each_neighbour(stars_.star_of(node), [&](NodeId other) { add(stars_.star_of(other)); });
   }
-  for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
-    const std::int32_t more = bad_[copy] - before[copy];
-    if (more != 0) stars_.for_each_star_round(copy, [&](std::size_t i) { bad_near_[node(i)] += more; });
-  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+bool Sweeper::is_near_bad(std::size_t i) const {
+  char near = bad_[node(i)];
+  stars_.for_each_neighbour(i, [&](NodeId other) { near |= bad_[other]; });
+  return near != 0;
 }
 
 std::optional<Point> Sweeper::better_place(std::size_t i) {

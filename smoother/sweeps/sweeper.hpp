@@ -36,8 +36,10 @@ class Sweeper {
 
  private:
   NodeId node(std::size_t i) const { return stars_.nodes()[i]; }
-  void update_bad();
-  void count_bad_near(const NodeFlags& before);
+  std::vector<std::int32_t> update_bad();
+  std::vector<std::int32_t> doubtful_among(const std::vector<std::int32_t>& changed);
+  std::vector<std::int32_t> stars_near(const std::vector<NodeId>& turned_bad) const;
+  bool is_near_bad(std::size_t i) const;
   std::optional<Point> better_place(std::size_t i);
 
   const Communicator& comm_;
@@ -46,13 +48,12 @@ class Sweeper {
   const BoundarySlide& slide_;
   Rule rule_;
   std::unique_ptr<NodeSolver> solver_;
+  bool any_quads_;  ///< on any rank
   ColouredSweeps sweeps_;
-  NodeFlags bad_;  ///< free nodes of cells above the threshold, other ranks' too
-  /// Of each node: bad ones, itself too, as often as they are met; right for free nodes.
-  IdVector<NodeId, std::int32_t> bad_near_;
-  std::vector<std::int32_t> doubtful_;  ///< stars that may have become bad, or good
+  NodeFlags bad_;                          ///< free nodes of cells above the threshold, other ranks' too
+  std::vector<std::int32_t> passed_over_;  ///< stars whose flags may be out of date
   Star star_;
-  int done_ = 0;  ///< sweeps
+  int done_ = 0;  ///< sweeps, the one under way too
 };
 
 }  // namespace quadloop

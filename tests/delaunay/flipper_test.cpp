@@ -289,5 +289,13 @@ TEST(DelaunayPatch, KnowsEdgesOfOneTriangle) {
   EXPECT_GT(both_odd, 0);
 }
 
+TEST(BluntCorners, AreNamedByBits) {
+  const Point a{0, 0}, b{1, 0}, right{0, 1}, obtuse{-1, 1}, acute{0.5, 1};
+  EXPECT_EQ(blunt_corners(a, b, acute), 0U);
+  EXPECT_EQ(blunt_corners(a, b, right), 1U);  // a right angle may be blunt
+  EXPECT_EQ(blunt_corners(obtuse, a, b), 2U);
+  EXPECT_EQ(blunt_corners(b, obtuse, a), 4U);
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -162,5 +162,22 @@ TEST(HaloMesh, ExchangeBringsOnlyWhatHasChanged) {
   });
 }
 
+TEST(NodeFlags, EachFlaggedNodeIsVisitedInOrderAndMayLoseItsFlag) {
+  for (const std::int32_t size : {0, 1, 7, 8, 9, 24, 65}) {
+    for (std::int32_t step = 1; step <= 17; step += 4) {
+      NodeFlags flags(size, 0);
+      std::vector<NodeId> expected, found;
+      for (std::int32_t i = step - 1; i < size; i += step) expected.push_back(NodeId{i});
+      flag_all(expected, flags);
+      for_each_flagged(flags, [&](NodeId node) {
+        found.push_back(node);
+        flags[node] = 0;
+      });
+      EXPECT_EQ(found, expected) << size << ' ' << step;
+      EXPECT_EQ(flags, NodeFlags(size, 0));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

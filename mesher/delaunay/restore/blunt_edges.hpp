@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -17,20 +18,18 @@ namespace quadloop {
 /// triangle has more than one, but for rounding.
 class BluntEdges {
  public:
-  /// Mesh and `near` must outlive it.
+  /// The mesh must outlive it.
   BluntEdges(const Mesh& mesh, const NodeFlags& moved, const NodeFlags& near)
-      : mesh_{mesh}, near_{near}, last_low_(mesh.points.size(), none) {
+      : mesh_{mesh}, last_low_(mesh.points.size(), none), has_edge_(mesh.points.size(), 0) {
     for (const auto& t : mesh.triangles) {
-      if (!has_edge_near(t)) continue;
+      if (!has_edge_between(near, t)) continue;
       const bool stayed = !any_flagged(moved, t);
-      for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
-        const Point a = mesh.point(from), p = mesh.point(apex), b = mesh.point(to);
-        if (near[from] == 0 || near[to] == 0 || surely_acute(a, p, b) ||
-            (stayed && is_right_along_axes(a, p, b)))
-          return;
-        std::int32_t& last = last_low_[std::min(from, to)];
-        edges_.push_back({from, to, apex, std::exchange(last, size32(edges_)), true});
-      });
+      unsigned blunt = blunt_corners(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2]));
+      for (; blunt != 0; blunt &= blunt - 1) {
+        const auto [from, to, apex] = edge_opposite(t, std::countr_zero(blunt));
+        const bool is_right = is_right_along_axes(mesh.point(from), mesh.point(apex), mesh.point(to));
+        if (near[from] != 0 && near[to] != 0 && !(stayed && is_right)) add(from, to, apex);
+      }
     }
   }
 
@@ -39,15 +38,16 @@ class BluntEdges {
   template <class Visit>
   void for_each_pair(const Visit& visit) {
     for (const auto& t : mesh_.triangles) {
-      if (!has_edge_near(t)) continue;
-      for_each_edge(t, [&](NodeId from, NodeId to, NodeId apex) {
+      if (!has_edge_between(has_edge_, t)) continue;
+      for (int k = 0; k < 3; ++k) {
+        const auto [from, to, apex] = edge_opposite(t, k);
         for (std::int32_t e = last_low_[std::min(from, to)]; e != none; e = edges_[e].next) {
           Edge& edge = edges_[e];
           if (edge.from != to || edge.to != from) continue;
           edge.is_single = false;
           visit(edge.from, edge.to, edge.apex, apex);
         }
-      });
+      }
     }
   }
 
@@ -66,18 +66,23 @@ class BluntEdges {
     std::int32_t next;  ///< of the same lower node
     bool is_single;
   };
-  bool has_edge_near(const std::array<NodeId, 3>& t) const {
-    return near_[t[0]] + near_[t[1]] + near_[t[2]] > 1;
+  static bool has_edge_between(const NodeFlags& flags, const std::array<NodeId, 3>& t) {
+    return flags[t[0]] + flags[t[1]] + flags[t[2]] > 1;
   }
-  template <class Visit>
-  static void for_each_edge(const std::array<NodeId, 3>& t, const Visit& visit) {
-    for (std::size_t k = 0; k < 3; ++k) visit(t[(k + 1) % 3], t[(k + 2) % 3], t[k]);
+  /// Its ends, counter-clockwise, and the node opposite it.
+  static std::array<NodeId, 3> edge_opposite(const std::array<NodeId, 3>& t, int corner) {
+    return {t[(corner + 1) % 3], t[(corner + 2) % 3], t[corner]};
+  }
+  void add(NodeId from, NodeId to, NodeId apex) {
+    std::int32_t& last = last_low_[std::min(from, to)];
+    edges_.push_back({from, to, apex, std::exchange(last, size32(edges_)), true});
+    has_edge_[from] = has_edge_[to] = 1;
   }
 
   const Mesh& mesh_;
-  const NodeFlags& near_;
   std::vector<Edge> edges_;
   IdVector<NodeId, std::int32_t> last_low_;  ///< of each node, the last edge with it as the lower end
+  NodeFlags has_edge_;                       ///< of each node, whether it is an end of one
 };
 
 }  // namespace quadloop

@@ -143,20 +143,25 @@ std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector
   const std::int64_t first = triangles.begin(comm.rank());
   freed = deliver(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
   made = deliver(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  std::sort(freed.begin(), freed.end());
   std::sort(made.begin(), made.end());
   std::vector<std::int32_t> standing(mesh.triangles.size(), 1);
-  for (const FreedTriangle& t : freed) standing[t.number - first] = 0;
   const auto before = std::exchange(mesh.triangles, {});
   mesh.triangles.reserve(before.size() + made.size() - freed.size());
   NodeTable nodes(mesh);
   auto next = made.begin();
-  for (std::int64_t i = 0; i < std::ssize(before); ++i) {
-    if (standing[i] == 1) mesh.triangles.push_back(before[i]);
-    for (; next != made.end() && next->near == first + i; ++next, ++standing[i]) {
+  auto stays = before.begin();
+  for (const FreedTriangle& gone : freed) {
+    const std::int64_t slot = gone.number - first;
+    mesh.triangles.insert(mesh.triangles.end(), stays, before.begin() + slot);
+    stays = before.begin() + slot + 1;
+    for (standing[slot] = 0; next != made.end() && next->near == gone.number; ++next, ++standing[slot]) {
       auto& triangle = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(next->nodes[k], next->points[k]);
     }
   }
+  QUADLOOP_REQUIRE(next == made.end(), "new triangles are near to some that are gone");
+  mesh.triangles.insert(mesh.triangles.end(), stays, before.end());
   return standing;
 }
 

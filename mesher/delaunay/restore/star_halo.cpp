@@ -29,21 +29,19 @@ void StarHalo::gather_stars(const NodeFlags& core) {
   }
   triangles_.reserve(region.size());
   numbers_.reserve(region.size());
+  nodes_.reserve(region.size());
+  points_.reserve(region.size());
   Outbox<Travelling> to_owners;
   for (const std::int32_t i : region) {
+    const auto& triangle = mesh_.triangles[i];
     Triangle nodes;
-    for (std::size_t k = 0; k < 3; ++k) nodes[k] = number_node(mesh_.triangles[i][k], core);
+    for (std::size_t k = 0; k < 3; ++k) nodes[k] = number_node(triangle[k], core);
     const std::int32_t block = known_.triangle_to_block.empty() ? 0 : known_.triangle_to_block[i];
-    share(nodes, first + i, block, to_owners);
+    const bool all_own = std::ranges::all_of(triangle, [&](NodeId node) { return mesh_.owns(node); });
+    if (all_own) add(nodes, first + i, block);
+    if (!all_own) share(nodes, first + i, block, to_owners);
   }
   for (const Travelling& triangle : to_owners.deliver(comm_)) add(triangle);
-}
-
-/// Of one of the mesh's nodes.
-std::int32_t StarHalo::number_node(NodeId node, const NodeFlags& core) {
-  if (mesh_.owns(node) && number_of_owned_[node.value()] != unnumbered) return number_of_owned_[node.value()];
-  return number_node(mesh_.global(node), mesh_.point(node), core[node],
-                     known_.moved.empty() ? 1 : known_.moved[node]);
 }
 
 std::int32_t StarHalo::number_node(GlobalNodeId node, Point point, char core, char moved) {

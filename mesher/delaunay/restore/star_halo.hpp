@@ -71,7 +71,12 @@ class StarHalo {
     return 0 <= offset && offset < mesh_.owned_nodes;
   }
   void gather_stars(const NodeFlags& core);
-  std::int32_t number_node(NodeId node, const NodeFlags& core);
+  /// Of one of the mesh's nodes, most of which have their number.
+  std::int32_t number_node(NodeId node, const NodeFlags& core) {
+    if (mesh_.owns(node) && number_of_owned_[node.value()] >= 0) return number_of_owned_[node.value()];
+    return number_node(mesh_.global(node), mesh_.point(node), core[node],
+                       known_.moved.empty() ? 1 : known_.moved[node]);
+  }
   std::int32_t number_node(GlobalNodeId node, Point point, char core, char moved);
   void share(const Triangle& nodes, std::int64_t number, std::int32_t block, Outbox<Travelling>& to_owners);
   void add(const Triangle& nodes, std::int64_t number, std::int32_t block);

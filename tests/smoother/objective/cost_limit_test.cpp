@@ -1,4 +1,4 @@
-// Cells told to cost less than a limit without their cost, against the cost.
+// Cells told to cost less than a limit, or more, without their cost, against the cost.
 #include "smoother/objective/cost_limit.hpp"
 
 #include <gtest/gtest.h>
@@ -34,6 +34,12 @@ void expect_kept_as_cost_says() {
     inverted += cost >= 1 ? 1 : 0;
     EXPECT_EQ(is_kept, cost < std::min(limit, 1.0)) << "cost " << cost << ", limit " << limit;
     EXPECT_FALSE(CostLimit(cost).surely_kept_by(cell));
+    if (limit < 1) {
+      EXPECT_EQ(CostLimit(limit).surely_missed_by(cell), cost > limit) << cost << ' ' << limit;
+    }
+    if (cost < 1) {
+      EXPECT_FALSE(CostLimit(cost).surely_missed_by(cell));
+    }
   }
   EXPECT_GT(kept, 100);
   EXPECT_GT(inverted, 100);

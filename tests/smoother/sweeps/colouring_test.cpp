@@ -102,13 +102,13 @@ TEST(Colouring, NodesChooseBlockByBlock) {
     const auto priority = [&](std::size_t i) {
       return ColouringPriority(coloured.halo.global(nodes[i]), bits);
     };
-    const std::vector<std::size_t> order = order_of_choice(coloured.halo, nodes, bits);
-    std::vector<std::size_t> indices = order;
+    const std::vector<std::int32_t> order = order_of_choice(coloured.halo, nodes, bits);
+    std::vector<std::int32_t> indices = order;
     std::sort(indices.begin(), indices.end());
     ASSERT_EQ(order.size(), nodes.size());
     int steps = 0;
     for (std::size_t k = 0; k < order.size(); ++k) {
-      EXPECT_EQ(indices[k], k);
+      EXPECT_EQ(indices[k], std::int32_t(k));
       if (k == 0) continue;
       EXPECT_GT(priority(order[k - 1]), priority(order[k]));
       steps += order[k] + 1 == order[k - 1] ? 1 : 0;

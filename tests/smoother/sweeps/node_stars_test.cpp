@@ -56,8 +56,8 @@ TEST(NodeStars, HaveACornerOfEachTriangleAndThreeOfEachQuad) {
   for (std::size_t i = 0; i < all.stars.size(); ++i) EXPECT_EQ(all.star(i).corners().size(), expected[i]);
 }
 
-TEST(NodeStars, NeighboursShareACell) {
-  const Stars all(world(), jittered_grid());
+void expect_neighbours_share_a_cell(const Mesh& mesh) {
+  const Stars all(world(), mesh);
   std::vector<std::set<NodeId>> expected(all.part.owned_nodes);
   all.halo.for_each_cell([&](const auto& cell) {
     for (const NodeId node : cell) {
@@ -70,7 +70,15 @@ TEST(NodeStars, NeighboursShareACell) {
     std::set<NodeId> found;
     all.stars.for_each_neighbour(i, [&](NodeId other) { found.insert(other); });
     EXPECT_EQ(found, expected[i]);
+    EXPECT_EQ(all.stars.star_of(all.stars.nodes()[i]), static_cast<std::int32_t>(i));
   }
+}
+
+TEST(NodeStars, NeighboursShareACell) { expect_neighbours_share_a_cell(jittered_grid()); }
+
+/// Inside such a mesh each neighbour is met once, at its border the last one of a fan is not forgotten.
+TEST(NodeStars, NeighboursShareATriangle) {
+  expect_neighbours_share_a_cell(test::Grid{.n = 6, .quads = false}.mesh());
 }
 
 /// Of each node of another rank the stars whose neighbour it is.
