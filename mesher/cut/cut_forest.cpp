@@ -23,14 +23,11 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 constexpr double thinnest_sine = 1e-11;
 
 TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
-  TracedForest traced;
+  TracedForest traced(graph.size());
   SizeCursor cursor(sizes);
-  traced.trace_of.assign(graph.size(), -1);
   for (const LeafId leaf : graph.all()) {
     const auto segments = cursor.segments_in(graph.leaf(leaf));
-    if (!segments.empty())
-      traced.trace_of[leaf.value()] =
-          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+    if (!segments.empty()) traced.add(leaf, outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }

@@ -204,9 +204,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
-  for (const LeafId leaf : graph.all()) {
-    const std::int32_t trace = traced.trace_of[leaf.value()];
-    if (trace < 0) continue;
+  for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
+    const LeafId leaf = traced.leaves[trace];
     const LeafTrace view = traced.traces[trace];
     for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       if (view.pieces[p].entry < 0) continue;
@@ -231,9 +230,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
-  for (const LeafId leaf : graph.all()) {
-    const std::int32_t trace = traced.trace_of[leaf.value()];
-    if (trace < 0) continue;
+  for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
+    const LeafId leaf = traced.leaves[trace];
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {
       if (!graph.has_hanging(leaf, side)) continue;
