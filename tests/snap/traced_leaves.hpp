@@ -29,7 +29,9 @@ class TracedLeaves {
   static constexpr std::int64_t unit = std::int64_t{1} << (Quadrant::unit_level - 2);  ///< of length 1
 
   explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
-      : geometry{std::move(given)}, outline{geometry}, graph{world(), lattice, refined(fine)},
+      : geometry{std::move(given)},
+        outline{geometry},
+        graph{world(), lattice, refined(fine)},
         traced{graph.size()} {
     for (const LeafId leaf : graph.all()) {
       const Box box = lattice.box_of(graph.leaf(leaf));
