@@ -4,7 +4,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
-#include "mesher/sizes/size_cursor.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 
@@ -91,7 +91,7 @@ class Assembler {
   std::vector<NodeId> found_;  ///< of a cut leaf's nodes, those that were asked for
 };
 
-LeafRecord record_of(const Quadrant& q, int wanted) {
+LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
   constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
   LeafRecord record;
   record.tree_x = static_cast<std::int32_t>(q.x >> Quadrant::unit_level);
@@ -99,7 +99,7 @@ LeafRecord record_of(const Quadrant& q, int wanted) {
   record.x = static_cast<std::int32_t>(q.x & within);
   record.y = static_cast<std::int32_t>(q.y & within);
   record.level = static_cast<std::int8_t>(q.level);
-  record.wanted = static_cast<std::int8_t>(wanted);
+  record.wanted = wanted;
   return record;
 }
 
@@ -115,17 +115,18 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
                          cut.triangles.size());  // room that is not filled takes no memory
   Assembler assembler(geometry, graph, cut, numbers, triangles_alone, result);
   DemandPath demands(sizes.demanded());
-  SizeCursor cursor(sizes);
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
+  std::int32_t triangles = 0, quads = 0;  // so far
   progress::Stage stage("cells", graph.local_size(), "leaves");
   for (const LeafId leaf : graph.local()) {
     stage.advance(graph.local_index(leaf));
-    const std::int32_t triangles = size32(mesh.triangles), quads = size32(mesh.quads);
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), cursor.wanted_level(graph.leaf(leaf)));
+    LeafRecord record = record_of(graph.leaf(leaf), cut.wanted_levels[graph.local_index(leaf)]);
     record.triangles = size32(mesh.triangles) - triangles;
     record.quads = size32(mesh.quads) - quads;
+    triangles += record.triangles;
+    quads += record.quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));
     record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);

@@ -197,8 +197,8 @@ class LeafTriangles {
 
   /// Whether the centroid lies so far inside a leaf that no rounding can tell otherwise.
   static bool is_surely_in(const Box& leaf, const std::array<Point, 3>& p) {
-    constexpr double rim =
-        0.125;  // of the leaf's edge, which is over 2^9 times what rounding does to the sum
+    // Of the leaf's edge: ten times what rounding does to the sum, as Lattice::finest_level has it.
+    constexpr double rim = 0.125;
     const double margin = rim * leaf.width(), x = (p[0].x + p[1].x + p[2].x) / 3,
                  y = (p[0].y + p[1].y + p[2].y) / 3;
     return leaf.low.x + margin < x && x < leaf.high.x - margin && leaf.low.y + margin < y &&

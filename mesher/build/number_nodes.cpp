@@ -260,10 +260,22 @@ NodeId NodeNumbering::find(Home home, Point position) const {
 
 NodeNumbering::SiteNodes NodeNumbering::of_leaf(LeafId leaf) const {
   SiteNodes nodes;
-  const SideSet hanging = graph_->around(leaf).finer;
-  for (const Site site : lattice_sites) {
-    if (is_corner(site) || hanging.contains(side_of(site)))
-      nodes[index_of(site)] = find(home_of_site(leaf, site));
+  const LeafGraph::Around& around = graph_->around(leaf);
+  const auto set = [&](Site site) { nodes[index_of(site)] = find(home_of_site(leaf, site)); };
+  const auto set_corner = [&](Site site, LeafId owner) {
+    if (owns_one(owner)) {
+      nodes[index_of(site)] = NodeId{first_[graph_->local_index(owner)]};
+    } else {
+      set(site);
+    }
+  };
+  set_corner(Site::south_west, around.south_west);
+  set_corner(Site::south_east, around.south);
+  set_corner(Site::north_east, leaf);
+  set_corner(Site::north_west, around.west);
+  if (around.finer.empty()) return nodes;
+  for (const Side side : all_sides) {
+    if (around.finer.contains(side)) set(middle_of(side));
   }
   return nodes;
 }

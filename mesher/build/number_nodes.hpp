@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -54,6 +55,12 @@ class NodeNumbering {
   std::int32_t number_at(Home home, Point position) const;
   std::int32_t number_at_site(Home home) const;
   NodeId find(Home home, Point position = {}) const;
+
+  /// Whether it is a local leaf with one node beside its listed ones, as most are: that need not be told from
+  /// others.
+  bool owns_one(LeafId leaf) const {
+    return graph_->is_local(leaf) && std::has_single_bit(used_sites_[graph_->local_index(leaf)]);
+  }
 
   void use(Home home, Point position = {});
   void use_local(Home home, Point position);

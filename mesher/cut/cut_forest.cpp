@@ -22,10 +22,15 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 /// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
 constexpr double thinnest_sine = 1e-11;
 
-TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
+/// On the same way through the size tree the levels that it wants are found.
+TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline,
+                          std::vector<std::int8_t>& wanted_levels) {
   TracedForest traced(graph.size());
   SizeCursor cursor(sizes);
+  wanted_levels.reserve(graph.local_size());
   for (const LeafId leaf : graph.all()) {
+    if (graph.is_local(leaf))
+      wanted_levels.push_back(static_cast<std::int8_t>(cursor.wanted_level(graph.leaf(leaf))));
     const auto segments = cursor.segments_in(graph.leaf(leaf));
     if (!segments.empty()) traced.add(leaf, outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
@@ -216,7 +221,8 @@ class ForestCutter {
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror) {
-  const TracedForest traced = trace_forest(graph, sizes, outline);
+  std::vector<std::int8_t> wanted_levels;
+  const TracedForest traced = trace_forest(graph, sizes, outline, wanted_levels);
   const std::vector<Snap> snaps =
       choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
   std::vector<const Snap*> standing;  // that no veto has taken back
@@ -240,6 +246,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const Siz
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
+  result.wanted_levels = std::move(wanted_levels);
   for (const Snap* s : standing) {
     if (!s->on_edge) result.moved.push_back({s->corner, s->position});
   }

@@ -117,10 +117,11 @@ constexpr Halves halves_of(Site s) {
 }
 /// The opposite of halves_of; the square's middle is `inside`.
 constexpr Site site_at(Halves h) {
-  for (const Site s : lattice_sites) {
-    if (halves_of(s).x == h.x && halves_of(s).y == h.y) return s;
-  }
-  return Site::inside;
+  using enum Site;
+  constexpr std::array<std::array<Site, 3>, 3> rows{{{south_west, bottom_middle, south_east},
+                                                     {left_middle, inside, right_middle},
+                                                     {north_west, top_middle, north_east}}};
+  return rows[h.y][h.x];
 }
 
 }  // namespace quadloop

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 
@@ -43,7 +44,8 @@ class PointCapture {
       if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
       const LatticePoint corner = graph_.leaf(leaf).at(site);
       const double distance = length(lattice_.corner(corner) - p);
-      if (distance >= share_ * corner_reach * shortest_edge_at(finder_, lattice_, corner) ||
+      if (distance >=
+              share_ * corner_reach * shortest_edge_of(graph_, lattice_, finder_.leaves_round(corner)) ||
           (nearest && distance > nearest->distance))
         continue;
       contested = nearest && distance == nearest->distance;

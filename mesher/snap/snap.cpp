@@ -34,15 +34,18 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 
 }  // namespace
 
+void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps) {
+  LeafFinder finder(graph);
+  for (Snap& snap : snaps) snap.leaves_round = finder.leaves_round(snap.corner);
+}
+
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
   std::vector<LeafSnap> result;
   result.reserve(4 * snaps.size());
-  LeafFinder finder(graph);
   for (const Snap& snap : snaps) {
-    const std::array<LeafId, 4> round = finder.leaves_round(snap.corner);
     const std::size_t first = result.size();
     for (const Corner direction : corners_along_curve) {
-      const LeafId leaf = round[index_of(direction)];
+      const LeafId leaf = snap.leaves_round[index_of(direction)];
       const bool seen = std::any_of(result.begin() + first, result.end(),
                                     [&](const LeafSnap& s) { return s.leaf == leaf; });
       if (graph.is_local(leaf) && !seen)
