@@ -136,30 +136,35 @@ class LeafTriangles {
 
   /// Puts them there. In irregular leaves all are sorted by the numbers of their nodes.
   void put_back(const std::vector<IrregularLeaf>& irregular, std::vector<LeafRecord>& leaves) const {
-    const auto before = std::exchange(mesh_.triangles, {});
-    mesh_.triangles.reserve(before.size() + arrived_.size() - strangers_.size());
+    auto& all = mesh_.triangles;
+    const auto room = std::ssize(arrived_) + 1;  // in front: none is written over before it was read
+    all.reserve(all.size() + room);
+    all.insert(all.begin(), room, {});
+    auto written = all.begin();
+    auto next = all.begin() + room;  // of those that are not there yet
     auto arrival = arrived_.cbegin();
     auto stranger = strangers_.cbegin();
-    auto next = before.cbegin();  // of those that are not there yet
     std::vector<PlacedTriangle> here;
-    for (const auto& [i, first, count, cut] : irregular) {
-      const auto begin = before.begin() + first, end = begin + count;
-      mesh_.triangles.insert(mesh_.triangles.end(), next, begin);
+    for (const IrregularLeaf& leaf : irregular) {
+      const auto begin = all.begin() + room + leaf.triangle;
+      written = std::copy(next, begin, written);
+      next = begin + leaf.count;
       here.clear();
-      for (next = begin; next != end; ++next) {
-        if (stranger != strangers_.end() && *stranger == next - before.begin()) {
+      for (const std::int32_t t : leaf.triangles()) {
+        if (stranger != strangers_.end() && *stranger == t) {
           ++stranger;
         } else {
-          here.push_back(placed(i, *next));
+          here.push_back(placed(leaf.index, begin[t - leaf.triangle]));
         }
       }
-      for (; arrival != arrived_.end() && arrival->leaf == i; ++arrival) here.push_back(*arrival);
+      for (; arrival != arrived_.end() && arrival->leaf == leaf.index; ++arrival) here.push_back(*arrival);
       std::sort(here.begin(), here.end());
-      for (const PlacedTriangle& t : here) mesh_.triangles.push_back(t.nodes);
-      leaves[i].triangles = size32(here);
-      leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
+      written =
+          std::transform(here.begin(), here.end(), written, [](const PlacedTriangle& t) { return t.nodes; });
+      leaves[leaf.index].triangles = size32(here);
+      leaves[leaf.index].block = here.empty() ? 0 : 1;
     }
-    mesh_.triangles.insert(mesh_.triangles.end(), next, before.end());
+    all.erase(std::copy(next, all.end(), written), all.end());
     QUADLOOP_REQUIRE(arrival == arrived_.end(), "the centroid of each triangle lies in an irregular leaf");
   }
 

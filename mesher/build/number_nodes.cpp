@@ -258,6 +258,10 @@ NodeId NodeNumbering::find(Home home, Point position) const {
   return NodeId{owned_ + static_cast<std::int32_t>(at - wanted_.begin())};
 }
 
+bool NodeNumbering::owns_one(LeafId leaf) const {
+  return graph_->is_local(leaf) && sizes_of_sets[used_sites_[graph_->local_index(leaf)]] == 1;
+}
+
 NodeNumbering::SiteNodes NodeNumbering::of_leaf(LeafId leaf) const {
   SiteNodes nodes;
   const LeafGraph::Around& around = graph_->around(leaf);

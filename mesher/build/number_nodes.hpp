@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -58,9 +57,7 @@ class NodeNumbering {
 
   /// Whether it is a local leaf with one node beside its listed ones, as most are: that need not be told from
   /// others.
-  bool owns_one(LeafId leaf) const {
-    return graph_->is_local(leaf) && std::has_single_bit(used_sites_[graph_->local_index(leaf)]);
-  }
+  bool owns_one(LeafId leaf) const;
 
   void use(Home home, Point position = {});
   void use_local(Home home, Point position);

@@ -246,6 +246,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const Siz
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
+  result.moved.reserve(standing.size());
   result.wanted_levels = std::move(wanted_levels);
   for (const Snap* s : standing) {
     if (!s->on_edge) result.moved.push_back({s->corner, s->position});

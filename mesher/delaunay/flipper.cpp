@@ -12,7 +12,7 @@ void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank
   join(blocks);
   close(open);
   list_firm(moved);
-  list_blunt(triangles.size());
+  list_blunt();
   flip_below(edges(), rank_of);
 }
 
@@ -23,15 +23,14 @@ void Flipper::flip_first(std::span<const Point> points, const RankOf& rank_of, s
   join({});
   close({});
   list_firm({});
-  list_blunt(count);
+  list_blunt();
   flip_below(static_cast<Edge>(3 * count), rank_of);
 }
 
 /// Makes right the edges that are numbered below `end`, and what this makes wrong.
 void Flipper::flip_below(Edge end, const RankOf& rank_of) {
   for (Edge e = 0; e < end; ++e) {  // what flips make wrong is looked at by flip_from()
-    if (across(e) <= e || is_firm(e)) continue;
-    if (blunt_[e] != 0 || across(e) >= end || blunt_[across(e)] != 0) flip_from(e, rank_of);
+    if (across(e) > e && (blunt_[e] != 0 || blunt_[across(e)] != 0) && !is_firm(e)) flip_from(e, rank_of);
   }
 }
 
@@ -85,10 +84,9 @@ void Flipper::list_firm(std::span<const char> moved) {
   }
 }
 
-/// Of the first `count` triangles.
-void Flipper::list_blunt(std::size_t count) {
+void Flipper::list_blunt() {
   blunt_.clear();
-  for (const auto& [i, j, k] : triangles_.first(count)) {
+  for (const auto& [i, j, k] : triangles_) {
     const Point &a = points_[i], &b = points_[j], &c = points_[k];
     blunt_.insert(blunt_.end(), {!surely_acute(b, a, c), !surely_acute(c, b, a), !surely_acute(a, c, b)});
   }

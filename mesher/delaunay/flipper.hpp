@@ -88,7 +88,7 @@ class Flipper {
   void join(std::span<const std::int32_t> blocks);
   void close(std::span<const char> open);
   void list_firm(std::span<const char> moved);
-  void list_blunt(std::size_t count);
+  void list_blunt();
   bool is_firm(Edge e) const { return !firm_.empty() && firm_[e] != 0; }
   std::array<std::size_t, 4> nodes_of_both(Edge e) const;
   bool is_wrong(Edge e, const RankOf& rank_of) const;
@@ -103,8 +103,7 @@ class Flipper {
   std::vector<Edge> across_;
   std::vector<char> firm_;      ///< a flag for each edge that gives way to no tie; or none
   std::vector<char> moved_;     ///< a flag for each triangle with a moved node
-  std::vector<char> blunt_;     ///< a flag for each edge whose opposite angle was not acute before the flips;
-                                ///< of the triangles alone with which these begin
+  std::vector<char> blunt_;     ///< a flag for each edge whose opposite angle was not acute before the flips
   std::vector<Edge> last_low_;  ///< of each node, the last edge with it as the lower end and one triangle
   std::vector<Edge> waiting_;
 };

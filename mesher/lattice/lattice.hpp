@@ -42,19 +42,13 @@ struct Quadrant {
     const std::int64_t half = size() / 2;
     return {x + halves_of(site).x * half, y + halves_of(site).y * half};
   }
-  /// The site at a lattice point that is a corner of the square, or the middle of a side.
-  constexpr Site site(LatticePoint p) const {
-    const int bits_of_half = unit_level - level - 1;
-    return site_at(
-        {static_cast<int>((p.x - x) >> bits_of_half), static_cast<int>((p.y - y) >> bits_of_half)});
-  }
   /// The lattice line that a side lies on: a column for a vertical side, else a row.
   constexpr std::int64_t line(Side side) const {
     const std::int64_t low = is_vertical(side) ? x : y;
     return side == Side::right || side == Side::top ? low + size() : low;
   }
   constexpr bool contains(const Quadrant& q) const {
-    return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
+    return level <= q.level && ((x ^ q.x) | (y ^ q.y)) >> (unit_level - level) == 0;
   }
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
