@@ -111,9 +111,9 @@ class ForestCutter {
   /// Enough for most: then nothing moves to a new place. Room that is not filled takes no memory.
   void reserve() {
     const std::size_t cut_leaves = traced_.traces.size();
-    result_.entries.reserve(cut_leaves + cut_leaves / 4);
-    result_.nodes.reserve(8 * cut_leaves);
-    result_.triangles.reserve(4 * cut_leaves);
+    result_.entries.reserve(cut_leaves + cut_leaves / 2);
+    result_.nodes.reserve(7 * cut_leaves);
+    result_.triangles.reserve(cut_leaves);
     result_.quads.reserve(cut_leaves);
     result_.outline.reserve(2 * cut_leaves);
   }

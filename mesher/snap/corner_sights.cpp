@@ -31,7 +31,8 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
-  sights.reserve(traced.traces.crossings());
+  const std::size_t crossings = traced.traces.crossings();
+  sights.reserve(crossings + crossings / 8);  // those near the middle of an edge are seen from both ends
   for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
     const LeafId leaf = traced.leaves[trace];
     const LeafTrace view = traced.traces[trace];

@@ -54,6 +54,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
   Captures captures = capture_points(graph, lattice, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
+  snaps.reserve(snaps.size() + traced.leaves.size());
   find_leaves_round(graph, snaps);
   const std::size_t edges = snaps.size();
   LeafFinder finder(graph);
