@@ -54,20 +54,9 @@ std::vector<IrregularLeaf> irregular_leaves(const Communicator& comm, const Leaf
   return irregular;
 }
 
-/// Calls `visit` for each triangle of these leaves, those of cut leaves first, and says whether it is of one.
-template <class Visit>
-void for_each_triangle(const std::vector<IrregularLeaf>& irregular, const Visit& visit) {
-  for (const bool cut : {true, false}) {
-    for (const IrregularLeaf& leaf : irregular) {
-      if (leaf.cut != cut) continue;
-      for (const std::int32_t t : leaf.triangles()) visit(t, cut);
-    }
-  }
-}
-
-std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular) {
+std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular, bool cut) {
   std::size_t count = 0;
-  for (const IrregularLeaf& leaf : irregular) count += leaf.count;
+  for (const IrregularLeaf& leaf : irregular) count += leaf.cut == cut ? leaf.count : 0;
   return count;
 }
 
@@ -76,24 +65,27 @@ std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular) {
 /// triangles: each is a copy on one of them.
 std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>& rank_of,
                                              const std::vector<IrregularLeaf>& irregular, Mesh& mesh) {
-  std::vector<Flipper::Triangle> triangles;
-  triangles.reserve(count_triangles(irregular));
+  const std::size_t of_cut = count_triangles(irregular, true);
+  std::vector<Flipper::Triangle> triangles(of_cut + count_triangles(irregular, false));
+  const auto for_each_triangle = [&](const auto& visit) {
+    std::array<std::size_t, 2> next{of_cut, 0};  // of leaves that are not cut, and of those that are
+    for (const IrregularLeaf& leaf : irregular) {
+      for (const std::int32_t t : leaf.triangles())
+        visit(mesh.triangles[t], triangles[next[leaf.cut ? 1 : 0]++]);
+    }
+  };
   std::vector<GlobalNodeId> shared;
-  std::size_t of_cut_leaves = 0;
-  for_each_triangle(irregular, [&](std::int32_t t, bool cut) {
-    const auto& nodes = mesh.triangles[t];
-    triangles.push_back({nodes[0].value(), nodes[1].value(), nodes[2].value()});
+  for_each_triangle([&](const std::array<NodeId, 3>& nodes, Flipper::Triangle& listed) {
+    listed = {nodes[0].value(), nodes[1].value(), nodes[2].value()};
     for (const NodeId node : nodes) {
       if (!mesh.owns(node)) shared.push_back(mesh.global(node));
     }
-    if (cut) ++of_cut_leaves;
   });
   Flipper().flip_first(
-      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut_leaves);
-  auto flipped = triangles.cbegin();
-  for_each_triangle(irregular, [&](std::int32_t t, bool /*cut*/) {
-    const auto& [a, b, c] = *flipped++;
-    mesh.triangles[t] = {NodeId{a}, NodeId{b}, NodeId{c}};
+      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut);
+  for_each_triangle([](std::array<NodeId, 3>& nodes, const Flipper::Triangle& flipped) {
+    const auto& [a, b, c] = flipped;
+    nodes = {NodeId{a}, NodeId{b}, NodeId{c}};
   });
   return shared;
 }

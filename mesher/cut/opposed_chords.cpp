@@ -21,8 +21,8 @@ struct SideChord {
 /// The same for chords with the same ends.
 std::uint64_t hash_of(const SideChord& chord) {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0.0 is 0.0
-  return mixed_bits(3 * bits(chord.low.x) + 5 * bits(chord.low.y) + 7 * bits(chord.high.x) +
-                    11 * bits(chord.high.y));
+  return mixed_bits(bits(chord.low.x) ^ std::rotl(bits(chord.low.y), 16) ^ std::rotl(bits(chord.high.x), 32) ^
+                    std::rotl(bits(chord.high.y), 48));
 }
 
 /// Drops most of those that none runs against: less work than to sort all.
