@@ -4,7 +4,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/build/number_nodes.hpp"
-#include "mesher/sizes/size_cursor.hpp"
+#include "mesher/sizes/size_tree.hpp"
 
 namespace quadloop {
 
@@ -103,22 +103,10 @@ LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
   return record;
 }
 
-/// Of each local leaf, as SizeCursor::wanted_level.
-std::vector<std::int8_t> wanted_levels(const SizeTree& sizes, const LeafGraph& graph) {
-  std::vector<std::int8_t> levels;
-  levels.reserve(graph.local_size());
-  SizeCursor cursor(sizes);
-  for (const LeafId leaf : graph.local())
-    levels.push_back(static_cast<std::int8_t>(cursor.wanted_level(graph.leaf(leaf))));
-  return levels;
-}
-
 }  // namespace
 
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result) {
-  const std::vector<std::int8_t> wanted = wanted_levels(sizes, graph);
-  sizes.forget();
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
   const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
@@ -129,14 +117,16 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree&
   DemandPath demands(sizes.demanded());
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
+  std::int32_t triangles = 0, quads = 0;  // so far
   progress::Stage stage("cells", graph.local_size(), "leaves");
   for (const LeafId leaf : graph.local()) {
     stage.advance(graph.local_index(leaf));
-    const std::int32_t triangles = size32(mesh.triangles), quads = size32(mesh.quads);
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), wanted[graph.local_index(leaf)]);
+    LeafRecord record = record_of(graph.leaf(leaf), cut.wanted_levels[graph.local_index(leaf)]);
     record.triangles = size32(mesh.triangles) - triangles;
     record.quads = size32(mesh.quads) - quads;
+    triangles += record.triangles;
+    quads += record.quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));
     record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);

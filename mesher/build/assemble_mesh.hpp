@@ -7,8 +7,8 @@ namespace quadloop {
 
 /// The distributed mesh and the tree record from the cut forest. For `triangles_alone` each quadrilateral is
 /// divided by one of its leaf's diagonals: through the corner that the leaf shares with its parent.
-/// The size tree forgets its nodes, whose room the mesh takes. *Collective.*
-void assemble_mesh(const Communicator& comm, const Geometry& geometry, SizeTree& sizes,
+/// *Collective.*
+void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result);
 
 }  // namespace quadloop

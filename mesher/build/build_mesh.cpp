@@ -99,6 +99,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
+  sizes.forget();  // the mesh takes the room of its nodes
   assemble_mesh(comm, geometry, sizes, graph, cut, has_triangles_alone(options.type), result);
   cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);

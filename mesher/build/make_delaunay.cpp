@@ -1,6 +1,7 @@
 #include "mesher/build/make_delaunay.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -17,7 +18,10 @@ namespace {
 struct IrregularLeaf {
   std::int32_t index = 0;     ///< local
   std::int32_t triangle = 0;  ///< the first of its own, before any moves to another leaf
+  std::int32_t count = 0;     ///< of these
   bool cut = false;           ///< or with a snapped corner
+
+  auto triangles() const { return std::views::iota(triangle, triangle + count); }
 };
 
 /// A flag for each leaf of the graph that is irregular. *Collective.*
@@ -44,43 +48,45 @@ std::vector<IrregularLeaf> irregular_leaves(const Communicator& comm, const Leaf
   std::int32_t triangle = 0;
   for (std::int32_t i = 0; i < std::ssize(leaves); ++i) {
     if (is_irregular[graph.from_local(i).value()] != 0)
-      irregular.push_back({i, triangle, cut.entry_of[i] >= 0});
+      irregular.push_back({i, triangle, leaves[i].triangles, cut.entry_of[i] >= 0});
     triangle += leaves[i].triangles;
   }
   return irregular;
+}
+
+std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular, bool cut) {
+  std::size_t count = 0;
+  for (const IrregularLeaf& leaf : irregular) count += leaf.cut == cut ? leaf.count : 0;
+  return count;
 }
 
 /// Flips the edges between this rank's triangles in irregular leaves until they are Delaunay. Edges of leaves
 /// that are not cut are right but for those to cut ones. Returns the nodes at edges to other ranks'
 /// triangles: each is a copy on one of them.
 std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>& rank_of,
-                                             const std::vector<IrregularLeaf>& irregular,
-                                             const std::vector<LeafRecord>& leaves, Mesh& mesh) {
-  std::vector<std::int32_t> slots;
-  std::vector<Flipper::Triangle> triangles;
-  std::vector<GlobalNodeId> shared;
-  const auto list = [&](bool cut) {
+                                             const std::vector<IrregularLeaf>& irregular, Mesh& mesh) {
+  const std::size_t of_cut = count_triangles(irregular, true);
+  std::vector<Flipper::Triangle> triangles(of_cut + count_triangles(irregular, false));
+  const auto for_each_triangle = [&](const auto& visit) {
+    std::array<std::size_t, 2> next{of_cut, 0};  // of leaves that are not cut, and of those that are
     for (const IrregularLeaf& leaf : irregular) {
-      if (leaf.cut != cut) continue;
-      for (std::int32_t t = leaf.triangle; t < leaf.triangle + leaves[leaf.index].triangles; ++t) {
-        const auto& nodes = mesh.triangles[t];
-        slots.push_back(t);
-        triangles.push_back({nodes[0].value(), nodes[1].value(), nodes[2].value()});
-        for (const NodeId node : nodes) {
-          if (!mesh.owns(node)) shared.push_back(mesh.global(node));
-        }
-      }
+      for (const std::int32_t t : leaf.triangles())
+        visit(mesh.triangles[t], triangles[next[leaf.cut ? 1 : 0]++]);
     }
   };
-  list(true);
-  const std::size_t of_cut_leaves = triangles.size();
-  list(false);
+  std::vector<GlobalNodeId> shared;
+  for_each_triangle([&](const std::array<NodeId, 3>& nodes, Flipper::Triangle& listed) {
+    listed = {nodes[0].value(), nodes[1].value(), nodes[2].value()};
+    for (const NodeId node : nodes) {
+      if (!mesh.owns(node)) shared.push_back(mesh.global(node));
+    }
+  });
   Flipper().flip_first(
-      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut_leaves);
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    const auto& [a, b, c] = triangles[i];
-    mesh.triangles[slots[i]] = {NodeId{a}, NodeId{b}, NodeId{c}};
-  }
+      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut);
+  for_each_triangle([](std::array<NodeId, 3>& nodes, const Flipper::Triangle& flipped) {
+    const auto& [a, b, c] = flipped;
+    nodes = {NodeId{a}, NodeId{b}, NodeId{c}};
+  });
   return shared;
 }
 
@@ -107,11 +113,8 @@ class LeafTriangles {
       : lattice_{lattice}, graph_{graph}, finder_{graph}, mesh_{mesh} {}
 
   /// *Collective.*
-  void share_out(const Communicator& comm, const std::vector<IrregularLeaf>& irregular,
-                 const std::vector<LeafRecord>& leaves) {
-    for (const IrregularLeaf& leaf : irregular)
-      send_strangers(graph_.from_local(leaf.index), leaf.triangle,
-                     leaf.triangle + leaves[leaf.index].triangles);
+  void share_out(const Communicator& comm, const std::vector<IrregularLeaf>& irregular) {
+    for (const IrregularLeaf& leaf : irregular) send_strangers(leaf);
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const Point p = centroid(t.points);
@@ -125,40 +128,48 @@ class LeafTriangles {
 
   /// Puts them there. In irregular leaves all are sorted by the numbers of their nodes.
   void put_back(const std::vector<IrregularLeaf>& irregular, std::vector<LeafRecord>& leaves) const {
-    const auto before = std::exchange(mesh_.triangles, {});
-    mesh_.triangles.reserve(before.size() + arrived_.size() - strangers_.size());
+    auto& all = mesh_.triangles;
+    const auto room = std::ssize(arrived_) + 1;  // in front: none is written over before it was read
+    all.reserve(all.size() + room);
+    all.insert(all.begin(), room, {});
+    auto written = all.begin();
+    auto next = all.begin() + room;  // of those that are not there yet
     auto arrival = arrived_.cbegin();
     auto stranger = strangers_.cbegin();
-    auto next = before.cbegin();  // of those that are not there yet
     std::vector<PlacedTriangle> here;
-    for (const auto& [i, first, cut] : irregular) {
-      const auto begin = before.begin() + first, end = begin + leaves[i].triangles;
-      mesh_.triangles.insert(mesh_.triangles.end(), next, begin);
+    for (const IrregularLeaf& leaf : irregular) {
+      const auto begin = all.begin() + room + leaf.triangle;
+      written = std::copy(next, begin, written);
+      next = begin + leaf.count;
       here.clear();
-      for (next = begin; next != end; ++next) {
-        if (stranger != strangers_.end() && *stranger == next - before.begin()) {
+      for (const std::int32_t t : leaf.triangles()) {
+        if (stranger != strangers_.end() && *stranger == t) {
           ++stranger;
         } else {
-          here.push_back(placed(i, *next));
+          here.push_back(placed(leaf.index, begin[t - leaf.triangle]));
         }
       }
-      for (; arrival != arrived_.end() && arrival->leaf == i; ++arrival) here.push_back(*arrival);
+      for (; arrival != arrived_.end() && arrival->leaf == leaf.index; ++arrival) here.push_back(*arrival);
       std::sort(here.begin(), here.end());
-      for (const PlacedTriangle& t : here) mesh_.triangles.push_back(t.nodes);
-      leaves[i].triangles = size32(here);
-      leaves[i].block = leaves[i].triangles > 0 ? 1 : 0;
+      written =
+          std::transform(here.begin(), here.end(), written, [](const PlacedTriangle& t) { return t.nodes; });
+      leaves[leaf.index].triangles = size32(here);
+      leaves[leaf.index].block = here.empty() ? 0 : 1;
     }
-    mesh_.triangles.insert(mesh_.triangles.end(), next, before.end());
+    all.erase(std::copy(next, all.end(), written), all.end());
     QUADLOOP_REQUIRE(arrival == arrived_.end(), "the centroid of each triangle lies in an irregular leaf");
   }
 
  private:
   /// Sends those of a leaf's triangles, from one to another, whose centroids lie in other leaves.
-  void send_strangers(LeafId leaf, std::int32_t begin, std::int32_t end) {
+  void send_strangers(const IrregularLeaf& from) {
+    const LeafId leaf = graph_.from_local(from.index);
     const Box box = lattice_.box_of(graph_.leaf(leaf));
-    for (std::int32_t t = begin; t < end; ++t) {
+    for (const std::int32_t t : from.triangles()) {
       const std::array<NodeId, 3>& nodes = mesh_.triangles[t];
-      const Point p = centroid({mesh_.point(nodes[0]), mesh_.point(nodes[1]), mesh_.point(nodes[2])});
+      const std::array<Point, 3> points{mesh_.point(nodes[0]), mesh_.point(nodes[1]), mesh_.point(nodes[2])};
+      if (is_surely_in(box, points)) continue;
+      const Point p = centroid(points);
       if (box.low.x <= p.x && p.x < box.high.x && box.low.y <= p.y && p.y < box.high.y) continue;
       const std::int64_t column = lattice_.column_at(p.x), row = lattice_.row_at(p.y);
       const LeafId home = finder_.leaf_at(column, row);
@@ -179,6 +190,16 @@ class LeafTriangles {
     const auto before = [&](NodeId a, NodeId b) { return mesh_.global(a) < mesh_.global(b); };
     std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), before), nodes.end());
     return {leaf, {mesh_.global(nodes[0]), mesh_.global(nodes[1]), mesh_.global(nodes[2])}, nodes};
+  }
+
+  /// Whether the centroid lies so far inside a leaf that no rounding can tell otherwise.
+  static bool is_surely_in(const Box& leaf, const std::array<Point, 3>& p) {
+    // Of the leaf's edge: ten times what rounding does to the sum, as Lattice::finest_level has it.
+    constexpr double rim = 0.125;
+    const double margin = rim * leaf.width(), x = (p[0].x + p[1].x + p[2].x) / 3,
+                 y = (p[0].y + p[1].y + p[2].y) / 3;
+    return leaf.low.x + margin < x && x < leaf.high.x - margin && leaf.low.y + margin < y &&
+           y < leaf.high.y - margin;
   }
 
   /// The nodes are added up in the order of their coordinates, for the same sum on every rank.
@@ -202,9 +223,9 @@ void make_delaunay(const Communicator& comm, const Lattice& lattice,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves) {
   const std::vector<IrregularLeaf> irregular = irregular_leaves(comm, graph, cut, leaves);
-  restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, leaves, mesh), rank_of);
+  restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, mesh), rank_of);
   LeafTriangles triangles(lattice, graph, mesh);
-  triangles.share_out(comm, irregular, leaves);
+  triangles.share_out(comm, irregular);
   triangles.put_back(irregular, leaves);
 }
 

@@ -44,7 +44,7 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
   use_nodes_of_cells();
   const Exchange exchange(comm, ranks_wanted());
   const auto asked = exchange.deliver(wanted_);
-  for (const Request& request : asked) use_local(home_of(request));
+  for (const Request& request : asked) use_local(home_of(request), request.position);
   number_owned();
   place_moved();
   first_node_ = comm.exclusive_sum(owned_);
@@ -54,7 +54,7 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
 NodeNumbering::Home NodeNumbering::corner_home(LeafId owner, LatticePoint p) const {
   const Quadrant& o = graph_->leaf(owner);
   const bool at_right = o.x + o.size() == p.x, at_top = o.y + o.size() == p.y;
-  return {owner, at_right && at_top ? Site::north_east : at_top ? Site::top_middle : Site::right_middle, {}};
+  return {owner, at_right && at_top ? Site::north_east : at_top ? Site::top_middle : Site::right_middle};
 }
 
 NodeNumbering::Home NodeNumbering::home_of_site(LeafId leaf, Site site) const {
@@ -65,19 +65,19 @@ NodeNumbering::Home NodeNumbering::home_of_site(LeafId leaf, Site site) const {
     case Site::south_west:
       if (around.south_west != none) return corner_home(around.south_west, q.at(site));
       if (around.west != none)
-        return {around.west_half != none ? around.west_half : around.west, Site::south_east, {}};
+        return {around.west_half != none ? around.west_half : around.west, Site::south_east};
       if (around.south != none)
-        return {around.south_half != none ? around.south_half : around.south, Site::north_west, {}};
-      return {leaf, Site::south_west, {}};
+        return {around.south_half != none ? around.south_half : around.south, Site::north_west};
+      return {leaf, Site::south_west};
     case Site::south_east:
-      return around.south != none ? corner_home(around.south, q.at(site)) : Home{leaf, Site::south_east, {}};
+      return around.south != none ? corner_home(around.south, q.at(site)) : Home{leaf, Site::south_east};
     case Site::north_west:
-      return around.west != none ? corner_home(around.west, q.at(site)) : Home{leaf, Site::north_west, {}};
-    case Site::bottom_middle: return {around.south_half, Site::north_east, {}};
-    case Site::right_middle: return {leaf, Site::right_middle, {}};
-    case Site::top_middle: return {leaf, Site::top_middle, {}};
-    case Site::left_middle: return {around.west_half, Site::north_east, {}};
-    default: return {leaf, Site::north_east, {}};
+      return around.west != none ? corner_home(around.west, q.at(site)) : Home{leaf, Site::north_west};
+    case Site::bottom_middle: return {around.south_half, Site::north_east};
+    case Site::right_middle: return {leaf, Site::right_middle};
+    case Site::top_middle: return {leaf, Site::top_middle};
+    case Site::left_middle: return {around.west_half, Site::north_east};
+    default: return {leaf, Site::north_east};
   }
 }
 
@@ -95,30 +95,30 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::
         around.west_half != LeafGraph::none && node.position.y < lattice_->y(q.y + q.size() / 2);
     owner = lower_half ? around.west_half : around.west;
   }
-  return {owner != LeafGraph::none ? owner : leaf, Site::inside, node.position};
+  return {owner != LeafGraph::none ? owner : leaf, Site::inside};
 }
 
-std::int32_t NodeNumbering::listed_node(const Home& home) const {
-  const std::int32_t entry = cut_->entry_of[graph_->local_index(home.leaf)];
+std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
+  const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
   const CutForest::Entry& e = cut_->entries[entry];
   for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
-    if (cut_->nodes[n].position == home.position) return n;
+    if (cut_->nodes[n].position == position) return n;
   }
   throw Fault("two leaves disagree on a node of their common side");
 }
 
-void NodeNumbering::use(const Home& home) {
+void NodeNumbering::use(Home home, Point position) {
   if (graph_->is_local(home.leaf)) {
-    use_local(home);
+    use_local(home, position);
   } else {
-    wanted_.push_back(request_of(home));
+    wanted_.push_back(request_of(home, position));
   }
 }
 
-void NodeNumbering::use_local(const Home& home) {
+void NodeNumbering::use_local(Home home, Point position) {
   if (home.site == Site::inside) {
-    listed_[listed_node(home)] = used;
+    listed_[listed_node(home.leaf, position)] = used;
   } else {
     used_sites_[graph_->local_index(home.leaf)] |= bit_of(home.site);
   }
@@ -131,7 +131,7 @@ void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
   if (home.leaf == leaf && home.site == Site::inside) {
     listed_[node] = used;
   } else {
-    use(home);
+    use(home, cut_->nodes[node].position);
   }
 }
 
@@ -215,12 +215,12 @@ void NodeNumbering::place_moved() {
     const LeafId owner =
         finder.leaf_at(on_left ? corner.x : corner.x - 1, on_bottom ? corner.y : corner.y - 1);
     if (!graph_->is_local(owner)) continue;
-    const Home home = on_left && on_bottom ? Home{owner, Site::south_west, {}}
-                      : on_bottom          ? Home{owner, Site::south_east, {}}
-                      : on_left            ? Home{owner, Site::north_west, {}}
+    const Home home = on_left && on_bottom ? Home{owner, Site::south_west}
+                      : on_bottom          ? Home{owner, Site::south_east}
+                      : on_left            ? Home{owner, Site::north_west}
                                            : corner_home(owner, corner);
     const bool is_node = (used_sites_[graph_->local_index(owner)] & bit_of(home.site)) != 0;
-    if (is_node) points_[number_at(home)] = position;
+    if (is_node) points_[number_at_site(home)] = position;
   }
 }
 
@@ -231,7 +231,7 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
   };
   std::vector<Answer> answers;
   for (const Request& request : asked) {
-    const std::int32_t node = number_at(home_of(request));
+    const std::int32_t node = number_at(home_of(request), request.position);
     answers.push_back({first_node_ + node, points_[node]});
   }
   for (const Answer& answer : exchange.answer(answers)) {
@@ -241,32 +241,53 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
 }
 
 /// The number of a local node.
-std::int32_t NodeNumbering::number_at(const Home& home) const {
-  if (home.site == Site::inside) return listed_[listed_node(home)];
+std::int32_t NodeNumbering::number_at(Home home, Point position) const {
+  return home.site == Site::inside ? listed_[listed_node(home.leaf, position)] : number_at_site(home);
+}
+
+/// Of a local one that is not listed.
+std::int32_t NodeNumbering::number_at_site(Home home) const {
   const std::size_t local = graph_->local_index(home.leaf);
   const int before = used_sites_[local] & (bit_of(home.site) - 1);
   return first_[local] + sizes_of_sets[before];
 }
 
-NodeId NodeNumbering::find(const Home& home) const {
-  if (graph_->is_local(home.leaf)) return NodeId{number_at(home)};
-  const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), request_of(home));
+NodeId NodeNumbering::find(Home home, Point position) const {
+  if (graph_->is_local(home.leaf)) return NodeId{number_at(home, position)};
+  const auto at = std::lower_bound(wanted_.begin(), wanted_.end(), request_of(home, position));
   return NodeId{owned_ + static_cast<std::int32_t>(at - wanted_.begin())};
+}
+
+bool NodeNumbering::owns_one(LeafId leaf) const {
+  return graph_->is_local(leaf) && sizes_of_sets[used_sites_[graph_->local_index(leaf)]] == 1;
 }
 
 NodeNumbering::SiteNodes NodeNumbering::of_leaf(LeafId leaf) const {
   SiteNodes nodes;
-  const SideSet hanging = graph_->around(leaf).finer;
-  for (const Site site : lattice_sites) {
-    if (is_corner(site) || hanging.contains(side_of(site)))
-      nodes[index_of(site)] = find(home_of_site(leaf, site));
+  const LeafGraph::Around& around = graph_->around(leaf);
+  const auto set = [&](Site site) { nodes[index_of(site)] = find(home_of_site(leaf, site)); };
+  const auto set_corner = [&](Site site, LeafId owner) {
+    if (owns_one(owner)) {
+      nodes[index_of(site)] = NodeId{first_[graph_->local_index(owner)]};
+    } else {
+      set(site);
+    }
+  };
+  set_corner(Site::south_west, around.south_west);
+  set_corner(Site::south_east, around.south);
+  set_corner(Site::north_east, leaf);
+  set_corner(Site::north_west, around.west);
+  if (around.finer.empty()) return nodes;
+  for (const Side side : all_sides) {
+    if (around.finer.contains(side)) set(middle_of(side));
   }
   return nodes;
 }
 
 NodeId NodeNumbering::of_cut(LeafId leaf, std::int32_t node) const {
-  const Home home = home_of_cut_node(leaf, cut_->nodes[node]);
-  return home.leaf == leaf && home.site == Site::inside ? NodeId{listed_[node]} : find(home);
+  const CutLeaf::Node& n = cut_->nodes[node];
+  const Home home = home_of_cut_node(leaf, n);
+  return home.leaf == leaf && home.site == Site::inside ? NodeId{listed_[node]} : find(home, n.position);
 }
 
 void NodeNumbering::fill(Mesh& mesh) && {

@@ -32,33 +32,35 @@ class NodeNumbering {
 
  private:
   /// The leaf that owns a node, and where it has it: at one of its corners, in the middle of its right or top
-  /// side, or inside: in its list of cut nodes. Corners other than the upper right one only on the root's
-  /// lower and left side, where there is no leaf before it.
+  /// side, or inside: in its list of cut nodes, where its position names it. Corners other than the upper
+  /// right one only on the root's lower and left side, where there is no leaf before it.
   struct Home {
     LeafId leaf;
     Site site = Site::north_east;
-    Point position;  ///< names a listed node
   };
   struct Request {
     int rank = 0;
     std::int32_t leaf = 0;  ///< its local index there
     Site site = Site::north_east;
-    Point position;
+    Point position;  ///< of a listed node
     friend auto operator<=>(const Request&, const Request&) = default;
   };
 
   Home home_of_site(LeafId leaf, Site site) const;
   Home home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const;
   Home corner_home(LeafId owner, LatticePoint p) const;
-  Home home_of(const Request& asked) const {
-    return {graph_->from_local(asked.leaf), asked.site, asked.position};
-  }
-  std::int32_t listed_node(const Home& home) const;
-  std::int32_t number_at(const Home& home) const;
-  NodeId find(const Home& home) const;
+  Home home_of(const Request& asked) const { return {graph_->from_local(asked.leaf), asked.site}; }
+  std::int32_t listed_node(LeafId leaf, Point position) const;
+  std::int32_t number_at(Home home, Point position) const;
+  std::int32_t number_at_site(Home home) const;
+  NodeId find(Home home, Point position = {}) const;
 
-  void use(const Home& home);
-  void use_local(const Home& home);
+  /// Whether it is a local leaf with one node beside its listed ones, as most are: that need not be told from
+  /// others.
+  bool owns_one(LeafId leaf) const;
+
+  void use(Home home, Point position = {});
+  void use_local(Home home, Point position);
   void use_cut(LeafId leaf, std::int32_t node);
   void use_nodes_of_cells();
   void use_nodes_of_inside(LeafId leaf);
@@ -67,9 +69,9 @@ class NodeNumbering {
   void number_owned();
   void place_moved();
   void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
-  Request request_of(const Home& home) const {
+  Request request_of(Home home, Point position) const {
     const LeafGraph::Owner owner = graph_->owner_of(home.leaf);
-    return {owner.rank, owner.index, home.site, home.site == Site::inside ? home.position : Point{}};
+    return {owner.rank, owner.index, home.site, home.site == Site::inside ? position : Point{}};
   }
 
   const Lattice* lattice_;

@@ -41,11 +41,9 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
   std::vector<char> is_node(geometry.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& edge : boundary.edges) {
-      for (const NodeId node : edge) {
-        const auto at = kept.find(mesh.point(node));
-        if (at != kept.end()) is_node[at->second] = 1;
-      }
+    for (const auto& edge : boundary.edges) {  // each node of the closed outline begins one
+      const auto at = kept.find(mesh.point(edge[0]));
+      if (at != kept.end()) is_node[at->second] = 1;
     }
   }
   is_node = seen_anywhere(comm, is_node);

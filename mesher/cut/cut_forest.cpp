@@ -22,15 +22,17 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 /// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
 constexpr double thinnest_sine = 1e-11;
 
-TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline) {
-  TracedForest traced;
+/// On the same way through the size tree the levels that it wants are found.
+TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline,
+                          std::vector<std::int8_t>& wanted_levels) {
+  TracedForest traced(graph.size());
   SizeCursor cursor(sizes);
-  traced.trace_of.assign(graph.size(), -1);
+  wanted_levels.reserve(graph.local_size());
   for (const LeafId leaf : graph.all()) {
+    if (graph.is_local(leaf))
+      wanted_levels.push_back(static_cast<std::int8_t>(cursor.wanted_level(graph.leaf(leaf))));
     const auto segments = cursor.segments_in(graph.leaf(leaf));
-    if (!segments.empty())
-      traced.trace_of[leaf.value()] =
-          traced.traces.add(outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+    if (!segments.empty()) traced.add(leaf, outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
@@ -109,9 +111,9 @@ class ForestCutter {
   /// Enough for most: then nothing moves to a new place. Room that is not filled takes no memory.
   void reserve() {
     const std::size_t cut_leaves = traced_.traces.size();
-    result_.entries.reserve(cut_leaves + cut_leaves / 4);
-    result_.nodes.reserve(8 * cut_leaves);
-    result_.triangles.reserve(4 * cut_leaves);
+    result_.entries.reserve(cut_leaves + cut_leaves / 2);
+    result_.nodes.reserve(7 * cut_leaves);
+    result_.triangles.reserve(cut_leaves);
     result_.quads.reserve(cut_leaves);
     result_.outline.reserve(2 * cut_leaves);
   }
@@ -219,7 +221,8 @@ class ForestCutter {
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror) {
-  const TracedForest traced = trace_forest(graph, sizes, outline);
+  std::vector<std::int8_t> wanted_levels;
+  const TracedForest traced = trace_forest(graph, sizes, outline, wanted_levels);
   const std::vector<Snap> snaps =
       choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
   std::vector<const Snap*> standing;  // that no veto has taken back
@@ -243,6 +246,8 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const Siz
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
   CutForest result = cutter.take_result();
+  result.moved.reserve(standing.size());
+  result.wanted_levels = std::move(wanted_levels);
   for (const Snap* s : standing) {
     if (!s->on_edge) result.moved.push_back({s->corner, s->position});
   }

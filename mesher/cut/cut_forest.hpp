@@ -24,9 +24,10 @@ struct CutForest {
     CutLeaf::InsideHalves inside_halves;
   };
 
-  std::vector<State> states;           ///< of each local leaf
-  std::vector<std::int32_t> entry_of;  ///< of each local leaf; -1 where it is not cut
-  std::vector<Entry> entries;          ///< of the cut leaves, and of uncut ones with a snapped corner
+  std::vector<State> states;               ///< of each local leaf
+  std::vector<std::int8_t> wanted_levels;  ///< SizeCursor::wanted_level() of each local leaf
+  std::vector<std::int32_t> entry_of;      ///< of each local leaf; -1 where it is not cut
+  std::vector<Entry> entries;              ///< of the cut leaves, and of uncut ones with a snapped corner
   std::vector<CutLeaf::Node> nodes;
   std::vector<LocalTriangle> triangles;  ///< numbers count from the leaf's first node
   std::vector<LocalQuad> quads;
@@ -43,8 +44,9 @@ struct CutForest {
   static std::span<const T> part(const std::vector<T>& all, std::int32_t begin, std::int32_t end) {
     return std::span(all).subspan(begin, end - begin);
   }
-  /// Frees what is of no more use once the mesh is assembled: the lists of nodes, cells and edges.
+  /// Frees what is of no more use once the mesh is assembled: levels, the lists of nodes, cells and edges.
   void drop_lists() {
+    std::exchange(wanted_levels, {});
     std::exchange(nodes, {});
     std::exchange(triangles, {});
     std::exchange(quads, {});

@@ -76,12 +76,15 @@ void LeafCutter::gather_stops() {
     const Point p = input_.snaps[s].snap->position, from = corner[index_of(start_of(side))];
     add_stop(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
   }
-  std::sort(stops_.begin(), stops_.end(), [](const Stop& a, const Stop& b) {
+  const auto comes_first = [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
            : a.along != b.along ? a.along < b.along
            : a.site != b.site   ? a.site < b.site
                                 : a.crossing < b.crossing;
-  });
+  };
+  // With one crossing on a side they are in order.
+  if (!std::is_sorted(stops_.begin(), stops_.end(), comes_first))
+    std::sort(stops_.begin(), stops_.end(), comes_first);
   name_stops();
 }
 

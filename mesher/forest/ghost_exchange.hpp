@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "mesher/base/parallel/exchange.hpp"
@@ -20,24 +19,23 @@ class GhostExchange : public CopyExchange {
 /// than once. Touching leaves must differ by one level at most.
 template <class Visit>
 void for_touching_leaves(LeafFinder& finder, LeafId leaf, const Visit& visit) {
+  const LeafGraph::Around& around = finder.graph().around(leaf);
   const Quadrant& q = finder.graph().leaf(leaf);
-  const std::int64_t last = q.size() - 1, x = q.x, y = q.y;
-  const std::array<std::array<std::int64_t, 2>, 12> squares{{{x - 1, y - 1},
-                                                             {x, y - 1},
-                                                             {x + last, y - 1},
-                                                             {x + last + 1, y - 1},
-                                                             {x + last + 1, y},
-                                                             {x + last + 1, y + last},
-                                                             {x + last + 1, y + last + 1},
-                                                             {x + last, y + last + 1},
-                                                             {x, y + last + 1},
-                                                             {x - 1, y + last + 1},
-                                                             {x - 1, y + last},
-                                                             {x - 1, y}}};
-  for (const auto& [px, py] : squares) {
-    const LeafId other = finder.leaf_at(px, py);
+  const std::int64_t right = q.x + q.size(), top = q.y + q.size();
+  const auto visit_any = [&](LeafId other) {
     if (other != LeafGraph::none) visit(other);
-  }
+  };
+  const auto visit_at = [&](std::int64_t x, std::int64_t y) { visit_any(finder.leaf_at(x, y)); };
+  for (const LeafId other :
+       {around.south_west, around.south, around.south_half, around.west, around.west_half})
+    visit_any(other);
+  visit_at(right, q.y - 1);
+  visit_at(right, q.y);
+  if (around.finer.contains(Side::right)) visit_at(right, top - 1);
+  visit_at(right, top);
+  if (around.finer.contains(Side::top)) visit_at(right - 1, top);
+  visit_at(q.x, top);
+  visit_at(q.x - 1, top);
 }
 
 }  // namespace quadloop

@@ -119,9 +119,8 @@ Lattice::Axis Lattice::make_axis(double low, double high, int trees) {
   return axis;
 }
 
-double Lattice::Axis::at(std::int64_t i) const {
-  if (i == count) return high;
-  if (exact) return low + static_cast<double>(i) * unit;
+/// Where a line between the ends lies if the unit is no double.
+double Lattice::Axis::rounded_at(std::int64_t i) const {
   const double n = static_cast<double>(i);
   const double product = n * unit, product_rest = std::fma(n, unit, -product) + n * unit_rest;
   const double sum = low + product, back = sum - low;

@@ -43,18 +43,13 @@ struct Quadrant {
     const std::int64_t half = size() / 2;
     return {x + halves_of(site).x * half, y + halves_of(site).y * half};
   }
-  /// The site at a lattice point that is a corner of the square, or the middle of a side.
-  constexpr Site site(LatticePoint p) const {
-    const std::int64_t half = size() / 2;
-    return site_at({static_cast<int>((p.x - x) / half), static_cast<int>((p.y - y) / half)});
-  }
   /// The lattice line that a side lies on: a column for a vertical side, else a row.
   constexpr std::int64_t line(Side side) const {
     const std::int64_t low = is_vertical(side) ? x : y;
     return side == Side::right || side == Side::top ? low + size() : low;
   }
   constexpr bool contains(const Quadrant& q) const {
-    return level <= q.level && x <= q.x && q.x < x + size() && y <= q.y && q.y < y + size();
+    return level <= q.level && ((x ^ q.x) | (y ^ q.y)) >> (unit_level - level) == 0;
   }
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
@@ -105,7 +100,11 @@ class Lattice {
     std::int64_t count = 0;
     double unit = 0, unit_rest = 0;  ///< (high - low) / count as a sum of two doubles
     bool exact = false;              ///< whether every i * unit is a double
-    double at(std::int64_t i) const;
+    double at(std::int64_t i) const {
+      if (i == count) return high;
+      return exact ? low + static_cast<double>(i) * unit : rounded_at(i);
+    }
+    double rounded_at(std::int64_t i) const;
     std::int64_t line_before(double coordinate) const;
   };
   static Axis make_axis(double low, double high, int trees);

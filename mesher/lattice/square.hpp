@@ -111,16 +111,13 @@ constexpr Site turned(Site s, Side bottom) {
 struct Halves {
   int x = 0, y = 0;
 };
-constexpr Halves halves_of(Site s) {
-  constexpr std::array<Halves, 8> halves{{{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}}};
-  return halves[index_of(s)];
-}
-/// The opposite of halves_of; the square's middle is `inside`.
-constexpr Site site_at(Halves h) {
-  for (const Site s : lattice_sites) {
-    if (halves_of(s).x == h.x && halves_of(s).y == h.y) return s;
-  }
-  return Site::inside;
-}
+inline constexpr std::array<Halves, lattice_sites.size()> halves_of_sites{
+    {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}}};
+constexpr Halves halves_of(Site s) { return halves_of_sites[index_of(s)]; }
+/// The opposite of halves_of: the sites row by row; the square's middle is `inside`.
+inline constexpr std::array<Site, 9> sites_by_halves{
+    Site::south_west,   Site::bottom_middle, Site::south_east, Site::left_middle, Site::inside,
+    Site::right_middle, Site::north_west,    Site::top_middle, Site::north_east};
+constexpr Site site_at(Halves h) { return sites_by_halves[3 * h.y + h.x]; }
 
 }  // namespace quadloop

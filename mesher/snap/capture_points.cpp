@@ -6,6 +6,7 @@
 #include <span>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 
@@ -43,7 +44,8 @@ class PointCapture {
       if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
       const LatticePoint corner = graph_.leaf(leaf).at(site);
       const double distance = length(lattice_.corner(corner) - p);
-      if (distance >= share_ * corner_reach * shortest_edge_at(finder_, lattice_, corner) ||
+      if (distance >=
+              share_ * corner_reach * shortest_edge_of(graph_, lattice_, finder_.leaves_round(corner)) ||
           (nearest && distance > nearest->distance))
         continue;
       contested = nearest && distance == nearest->distance;
@@ -204,9 +206,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   PointCapture capture(graph, lattice, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
-  for (const LeafId leaf : graph.all()) {
-    const std::int32_t trace = traced.trace_of[leaf.value()];
-    if (trace < 0) continue;
+  for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
+    const LeafId leaf = traced.leaves[trace];
     const LeafTrace view = traced.traces[trace];
     for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       if (view.pieces[p].entry < 0) continue;
@@ -231,9 +232,8 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
-  for (const LeafId leaf : graph.all()) {
-    const std::int32_t trace = traced.trace_of[leaf.value()];
-    if (trace < 0) continue;
+  for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
+    const LeafId leaf = traced.leaves[trace];
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {
       if (!graph.has_hanging(leaf, side)) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 
 namespace quadloop {
@@ -30,10 +31,10 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
-  sights.reserve(traced.traces.crossings());
-  for (const LeafId leaf : graph.all()) {
-    const std::int32_t trace = traced.trace_of[leaf.value()];
-    if (trace < 0) continue;
+  const std::size_t crossings = traced.traces.crossings();
+  sights.reserve(crossings + crossings / 8);  // those near the middle of an edge are seen from both ends
+  for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
+    const LeafId leaf = traced.leaves[trace];
     const LeafTrace view = traced.traces[trace];
     for (std::int32_t p = 0; p < std::ssize(view.pieces); ++p) {
       const Piece& piece = view.pieces[p];

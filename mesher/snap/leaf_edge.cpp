@@ -15,10 +15,11 @@ LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId l
   return edge;
 }
 
-double shortest_edge_at(LeafFinder& finder, const Lattice& lattice, LatticePoint corner) {
+double shortest_edge_of(const LeafGraph& graph, const Lattice& lattice,
+                        const std::array<LeafId, 4>& leaves_round) {
   int finest = 0;
-  for (const LeafId leaf : finder.leaves_round(corner)) {
-    if (leaf != LeafGraph::none) finest = std::max(finest, finder.graph().leaf(leaf).level);
+  for (const LeafId leaf : leaves_round) {
+    if (leaf != LeafGraph::none) finest = std::max(finest, graph.leaf(leaf).level);
   }
   return lattice.edge(finest);
 }

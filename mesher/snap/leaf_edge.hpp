@@ -1,6 +1,8 @@
 #pragma once
 
-#include "mesher/forest/leaf_finder.hpp"
+#include <array>
+
+#include "mesher/forest/leaf_graph.hpp"
 
 namespace quadloop {
 
@@ -28,7 +30,8 @@ struct LeafEdge {
 /// The edge of a leaf's side next to a point; beyond the middle, the half in which it lies.
 LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId leaf, Side side, Point p);
 
-/// The edge of the smallest leaf at a lattice corner.
-double shortest_edge_at(LeafFinder& finder, const Lattice& lattice, LatticePoint corner);
+/// The edge of the smallest of the leaves round a lattice corner, as LeafFinder has them.
+double shortest_edge_of(const LeafGraph& graph, const Lattice& lattice,
+                        const std::array<LeafId, 4>& leaves_round);
 
 }  // namespace quadloop

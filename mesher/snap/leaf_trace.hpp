@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
 #include "mesher/lattice/lattice.hpp"
 
@@ -67,7 +68,16 @@ class LeafTraces {
 /// The outline in this rank's leaves and in the ghost leaves.
 struct TracedForest {
   LeafTraces traces;
+  std::vector<LeafId> leaves;          ///< of each trace, ascending
   std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it holds no geometry
+
+  explicit TracedForest(std::int32_t leaf_count = 0) : trace_of(leaf_count, -1) {}
+  /// As LeafTraces::add, for the leaves that hold geometry, one after another along the curve.
+  void add(LeafId leaf, const ShiftedOutline& outline, const Box& box,
+           std::span<const std::int32_t> segments) {
+    trace_of[leaf.value()] = traces.add(outline, box, segments);
+    leaves.push_back(leaf);
+  }
 };
 
 }  // namespace quadloop

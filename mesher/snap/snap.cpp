@@ -9,12 +9,17 @@ namespace quadloop {
 
 namespace {
 
-/// Where a leaf that lies in this direction from the snap has it.
-Site site_in(const Quadrant& leaf, Corner direction, const Snap& snap) {
-  if (!snap.on_edge) return leaf.site(snap.corner);
+/// Where the leaf that lies in this direction from the snap has it. A leaf that lies in two directions has
+/// the corner in the middle of a side.
+Site site_in(const Snap& snap, Corner direction) {
   const Halves towards = halves_of(site_of(direction));
-  if (snap.vertical) return elsewhere_on(towards.x == 0 ? Side::right : Side::left);
-  return elsewhere_on(towards.y == 0 ? Side::top : Side::bottom);
+  if (snap.on_edge && snap.vertical) return elsewhere_on(towards.x == 0 ? Side::right : Side::left);
+  if (snap.on_edge) return elsewhere_on(towards.y == 0 ? Side::top : Side::bottom);
+  const auto same_leaf = [&](bool east, bool north) {
+    return snap.leaves_round[index_of(corner_at(east, north))] == snap.leaves_round[index_of(direction)];
+  };
+  const bool east = towards.x != 0, north = towards.y != 0;
+  return site_at({same_leaf(!east, north) ? 1 : 2 - towards.x, same_leaf(east, !north) ? 1 : 2 - towards.y});
 }
 
 /// By counting those of each leaf, and those of one leaf by their sites.
@@ -34,19 +39,21 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 
 }  // namespace
 
+void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps) {
+  LeafFinder finder(graph);
+  for (Snap& snap : snaps) snap.leaves_round = finder.leaves_round(snap.corner);
+}
+
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps) {
   std::vector<LeafSnap> result;
   result.reserve(4 * snaps.size());
-  LeafFinder finder(graph);
   for (const Snap& snap : snaps) {
-    const std::array<LeafId, 4> round = finder.leaves_round(snap.corner);
     const std::size_t first = result.size();
     for (const Corner direction : corners_along_curve) {
-      const LeafId leaf = round[index_of(direction)];
+      const LeafId leaf = snap.leaves_round[index_of(direction)];
       const bool seen = std::any_of(result.begin() + first, result.end(),
                                     [&](const LeafSnap& s) { return s.leaf == leaf; });
-      if (graph.is_local(leaf) && !seen)
-        result.push_back({leaf, site_in(graph.leaf(leaf), direction, snap), &snap});
+      if (graph.is_local(leaf) && !seen) result.push_back({leaf, site_in(snap, direction), &snap});
     }
   }
   return sorted_by_leaf(graph, result);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/forest/leaf_graph.hpp"
@@ -25,7 +27,11 @@ struct Snap {
   std::int32_t segment = -1;  ///< that a hanging node was moved onto where no crossing was near; else -1
   bool on_edge = false;       ///< an edge's, not a corner's
   bool vertical = false;      ///< of an edge
+  std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
+
+/// Finds the leaves round snaps, one near another.
+void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps);
 
 /// A snap as one leaf sees it: at a corner, a hanging node, or elsewhere on a side of it.
 struct LeafSnap {

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 #include "mesher/snap/snap_corner.hpp"
 
@@ -53,6 +54,8 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
   Captures captures = capture_points(graph, lattice, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
+  snaps.reserve(snaps.size() + traced.leaves.size());
+  find_leaves_round(graph, snaps);
   const std::size_t edges = snaps.size();
   LeafFinder finder(graph);
   auto captured = captures.corners.begin();
@@ -65,13 +68,18 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     while (end < sights.size() && sights[end].corner == corner) ++end;
     const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
     if (!is_captured && !may_claim(seen, share)) continue;
-    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_at(finder, lattice, corner),
-                                seen, mirror};
+    const std::array<LeafId, 4> round = finder.leaves_round(corner);
+    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_of(graph, lattice, round), seen,
+                                mirror};
     auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
                             : snap_corner(geometry, traced.traces, sighted, share);
-    if (snap) snaps.push_back(std::move(*snap));
+    if (!snap) continue;
+    snap->leaves_round = round;
+    snaps.push_back(std::move(*snap));
   }
-  add_hanging(hanging_snaps(graph, lattice, geometry, traced, share), edges, snaps);
+  std::vector<Snap> hanging = hanging_snaps(graph, lattice, geometry, traced, share);
+  find_leaves_round(graph, hanging);
+  add_hanging(std::move(hanging), edges, snaps);
   return snaps;
 }
 

@@ -10,6 +10,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/forest/refine_forest.hpp"
+#include "mesher/sizes/size_cursor.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -132,6 +133,15 @@ TEST(CutForest, CoversTheDomainAndNothingElse) {
       EXPECT_EQ(moved > 0, snap > 0) << finest << ' ' << snap;
     }
   }
+}
+
+TEST(CutForest, KnowsTheLevelsThatAreWanted) {
+  const CutSquare square({{{1, 1}, {7, 1}, {7, 7}, {1, 7}}}, 0.125, 0);
+  ASSERT_EQ(std::ssize(square.cut.wanted_levels), square.graph.local_size());
+  SizeCursor cursor(square.sizes);
+  for (const LeafId leaf : square.graph.local())
+    EXPECT_EQ(square.cut.wanted_levels[square.graph.local_index(leaf)],
+              cursor.wanted_level(square.graph.leaf(leaf)));
 }
 
 TEST(CutForest, TakesStatesFromCoarserAndFinerNeighbours) {

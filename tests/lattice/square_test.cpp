@@ -28,7 +28,7 @@ TEST(Square, SitesGoRoundCounterClockwise) {
 TEST(Square, SitesLieOnTheirSides) {
   for (const Site site : lattice_sites) {
     const LatticePoint p = square.at(site);
-    EXPECT_EQ(square.site(p), site);
+    EXPECT_EQ(site_at(halves_of(site)), site);
     EXPECT_EQ(sides_of(site).size(), is_corner(site) ? 2 : 1);
     EXPECT_NE(is_corner(site), is_middle(site));
     for (const Side side : all_sides)
@@ -41,7 +41,7 @@ TEST(Square, SitesLieOnTheirSides) {
     EXPECT_FALSE(is_on_lattice(elsewhere_on(side)));
   }
   EXPECT_TRUE(sides_of(Site::inside).empty());
-  EXPECT_EQ(square.site({square.x + 2, square.y + 2}), Site::inside);
+  EXPECT_EQ(site_at({1, 1}), Site::inside);
 }
 
 TEST(Square, TurnsTakeSidesAlong) {

@@ -101,7 +101,7 @@ TEST(LeafEdge, TheSmallestLeafAtACornerCounts) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
   LeafFinder finder(leaves.graph);
   const auto shortest = [&](std::int64_t x, std::int64_t y) {
-    return shortest_edge_at(finder, leaves.lattice, at(x, y));
+    return shortest_edge_of(leaves.graph, leaves.lattice, finder.leaves_round(at(x, y)));
   };
   if (leaves.at_local_leaf(at(2, 2))) {
     EXPECT_EQ(shortest(2, 2), 1);
@@ -115,7 +115,8 @@ TEST(SnapsOfLeaves, EachLeafRoundACornerSeesItFromItsOwnSide) {
   const TracedLeaves leaves(above());
   Snap snap;
   snap.corner = at(2, 1);
-  const std::vector<Snap> snaps{snap};
+  std::vector<Snap> snaps{snap};
+  find_leaves_round(leaves.graph, snaps);
   for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) {
     EXPECT_TRUE(leaves.graph.is_local(seen.leaf));
     EXPECT_EQ(leaves.graph.leaf(seen.leaf).at(seen.site), snap.corner);
@@ -128,7 +129,8 @@ TEST(SnapsOfLeaves, AHangingNodeIsSeenOnceByTheCoarseLeaf) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
   Snap snap;
   snap.corner = at(2, 1);  // in the middle of the left side of the coarse leaf at (2, 0)
-  const std::vector<Snap> snaps{snap};
+  std::vector<Snap> snaps{snap};
+  find_leaves_round(leaves.graph, snaps);
   std::vector<Site> own;
   for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) own.push_back(seen.site);
   auto all = test::world().all_gather_values(std::span<const Site>(own));
@@ -141,7 +143,8 @@ TEST(SnapsOfLeaves, ABentEdgeIsSeenFromItsTwoSides) {
   Snap snap;
   snap.corner = {at(2, 1).x, at(2, 1).y + TracedLeaves::unit / 2};
   snap.on_edge = snap.vertical = true;
-  const std::vector<Snap> snaps{snap};
+  std::vector<Snap> snaps{snap};
+  find_leaves_round(leaves.graph, snaps);
   std::vector<Site> own;
   for (const LeafSnap& seen : snaps_of_leaves(leaves.graph, snaps)) own.push_back(seen.site);
   auto all = test::world().all_gather_values(std::span<const Site>(own));
@@ -156,6 +159,7 @@ TEST(SnapsOfLeaves, AreSortedByLeafAndNoneAtAllIsWell) {
   snaps[0].corner = at(3, 3);
   snaps[1].corner = at(1, 1);
   snaps[2].corner = at(0, 0);
+  find_leaves_round(leaves.graph, snaps);
   const auto seen = snaps_of_leaves(leaves.graph, snaps);
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(),
                              [](const LeafSnap& a, const LeafSnap& b) { return a.leaf < b.leaf; }));

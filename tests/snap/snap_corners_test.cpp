@@ -51,8 +51,10 @@ std::vector<Moved> agreed(const TracedLeaves& leaves, const std::vector<Snap>& s
 std::vector<Moved> snapped(const Geometry& geometry, const Box& fine = {{0, 0}, {4, 4}},
                            std::optional<MirrorAxis> mirror = {}) {
   const TracedLeaves leaves(geometry, fine);
-  return agreed(leaves,
-                choose_snaps(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share, mirror));
+  const std::vector<Snap> snaps =
+      choose_snaps(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share, mirror);
+  for (const Snap& s : snaps) EXPECT_EQ(s.leaves_round, LeafFinder(leaves.graph).leaves_round(s.corner));
+  return agreed(leaves, snaps);
 }
 
 /// Of these the one at a corner; none where there is none.
@@ -190,6 +192,7 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
   snaps[1].corner = {2 * unit, 2 * unit};  // a corner of four leaves
   snaps[2].corner = {2 * unit, 3 * unit};  // the edge between two leaves of edge 2
   snaps[2].on_edge = snaps[2].vertical = true;
+  find_leaves_round(leaves.graph, snaps);
   using Seen = std::tuple<Point, Site, std::ptrdiff_t>;  // the leaf's lower left corner, site and snap
   std::vector<Seen> expected, seen;
   using enum Site;

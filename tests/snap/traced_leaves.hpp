@@ -29,15 +29,17 @@ class TracedLeaves {
   static constexpr std::int64_t unit = std::int64_t{1} << (Quadrant::unit_level - 2);  ///< of length 1
 
   explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
-      : geometry{std::move(given)}, outline{geometry}, graph{world(), lattice, refined(fine)} {
-    traced.trace_of.assign(graph.size(), -1);
+      : geometry{std::move(given)},
+        outline{geometry},
+        graph{world(), lattice, refined(fine)},
+        traced{graph.size()} {
     for (const LeafId leaf : graph.all()) {
       const Box box = lattice.box_of(graph.leaf(leaf));
       std::vector<std::int32_t> segments;
       for (std::int32_t s = 0; s < geometry.size(); ++s) {
         if (outline.meets(s, box)) segments.push_back(s);
       }
-      if (!segments.empty()) traced.trace_of[leaf.value()] = traced.traces.add(outline, box, segments);
+      if (!segments.empty()) traced.add(leaf, outline, box, segments);
     }
   }
 
