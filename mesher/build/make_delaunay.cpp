@@ -1,7 +1,6 @@
 #include "mesher/build/make_delaunay.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -21,7 +20,7 @@ struct IrregularLeaf {
   std::int32_t count = 0;     ///< of these
   bool cut = false;           ///< or with a snapped corner
 
-  auto triangles() const { return std::views::iota(triangle, triangle + count); }
+  std::int32_t end() const { return triangle + count; }
 };
 
 /// A flag for each leaf of the graph that is irregular. *Collective.*
@@ -70,7 +69,7 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
   const auto for_each_triangle = [&](const auto& visit) {
     std::array<std::size_t, 2> next{of_cut, 0};  // of leaves that are not cut, and of those that are
     for (const IrregularLeaf& leaf : irregular) {
-      for (const std::int32_t t : leaf.triangles())
+      for (std::int32_t t = leaf.triangle; t < leaf.end(); ++t)
         visit(mesh.triangles[t], triangles[next[leaf.cut ? 1 : 0]++]);
     }
   };
@@ -142,7 +141,7 @@ class LeafTriangles {
       written = std::copy(next, begin, written);
       next = begin + leaf.count;
       here.clear();
-      for (const std::int32_t t : leaf.triangles()) {
+      for (std::int32_t t = leaf.triangle; t < leaf.end(); ++t) {
         if (stranger != strangers_.end() && *stranger == t) {
           ++stranger;
         } else {
@@ -165,7 +164,7 @@ class LeafTriangles {
   void send_strangers(const IrregularLeaf& from) {
     const LeafId leaf = graph_.from_local(from.index);
     const Box box = lattice_.box_of(graph_.leaf(leaf));
-    for (const std::int32_t t : from.triangles()) {
+    for (std::int32_t t = from.triangle; t < from.end(); ++t) {
       const std::array<NodeId, 3>& nodes = mesh_.triangles[t];
       const std::array<Point, 3> points{mesh_.point(nodes[0]), mesh_.point(nodes[1]), mesh_.point(nodes[2])};
       if (is_surely_in(box, points)) continue;

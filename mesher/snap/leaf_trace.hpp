@@ -71,7 +71,7 @@ struct TracedForest {
   std::vector<LeafId> leaves;          ///< of each trace, ascending
   std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it holds no geometry
 
-  explicit TracedForest(std::int32_t leaf_count = 0) : trace_of(leaf_count, -1) {}
+  explicit TracedForest(std::int32_t leaf_count) : trace_of(leaf_count, -1) {}
   /// As LeafTraces::add, for the leaves that hold geometry, one after another along the curve.
   void add(LeafId leaf, const ShiftedOutline& outline, const Box& box,
            std::span<const std::int32_t> segments) {

@@ -30,7 +30,7 @@ struct Snap {
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 
-/// Finds the leaves round snaps, one near another.
+/// Fills in the leaves round the snaps; few steps each where they lie near each other.
 void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps);
 
 /// A snap as one leaf sees it: at a corner, a hanging node, or elsewhere on a side of it.
