@@ -103,16 +103,24 @@ LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
   return record;
 }
 
+/// Room that is not filled takes no memory, but may have to be new where less would fit into what was freed.
+void reserve_cells(const CutForest& cut, std::size_t nodes, bool triangles_alone, Mesh& mesh) {
+  if (triangles_alone) {
+    mesh.triangles.reserve(2 * nodes);  // there are fewer, by Euler's formula
+    return;
+  }
+  const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
+  mesh.quads.reserve(inside + cut.quads.size());
+  mesh.triangles.reserve(inside / 2 + cut.triangles.size());
+}
+
 }  // namespace
 
 void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result) {
   NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
   Mesh& mesh = result.mesh;
-  const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);
-  if (!triangles_alone) mesh.quads.reserve(inside + cut.quads.size());
-  mesh.triangles.reserve((triangles_alone ? 3 * inside + 2 * size32(cut.quads) : inside / 2) +
-                         cut.triangles.size());  // room that is not filled takes no memory
+  reserve_cells(cut, numbers.size(), triangles_alone, mesh);
   Assembler assembler(geometry, graph, cut, numbers, triangles_alone, result);
   DemandPath demands(sizes.demanded());
   auto& leaves = result.tree.leaves;

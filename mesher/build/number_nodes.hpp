@@ -21,6 +21,8 @@ class NodeNumbering {
 
   /// How many nodes this rank owns.
   std::int32_t owned() const { return owned_; }
+  /// How many nodes this rank's cells have, others' too.
+  std::size_t size() const { return points_.size(); }
   /// The nodes at the lattice sites of an inside leaf, none in the middle of a side where nothing hangs.
   using SiteNodes = std::array<NodeId, lattice_sites.size()>;
   SiteNodes of_leaf(LeafId leaf) const;
