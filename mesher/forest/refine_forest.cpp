@@ -16,9 +16,11 @@ constexpr double quadrants_of_leaf = 4.0 / 3;  ///< leaves and what was split in
 constexpr double parts_to_share =
     64;  ///< for each rank, about: quadrants among which the leaves to come are shared out
 constexpr std::int64_t leaves_to_judge =
-    4096;                              ///< for each rank: of so many the sample tells well where they are
-constexpr int last_levels = 5;         ///< refined after a second look at the shares, where it does not
-constexpr int weight_unfinished = 64;  ///< of a leaf that may yet be split, down those levels
+    4096;                                  ///< for each rank: of so many the sample tells well where they are
+constexpr int last_levels = 5;             ///< refined after a second look at the shares, where it does not
+constexpr int weight_unfinished = 64;      ///< of a leaf that may yet be split, down those levels
+constexpr double leaves_to_weigh = 16384;  ///< for each rank: so many tell what all weigh to a fiftieth
+constexpr double even_enough = 1.02;       ///< to move leaves takes longer than to wait for a rank with more
 
 /// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
 /// split.
@@ -109,11 +111,47 @@ bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
   return (std::int64_t{1} << (2 * level)) > leaves_to_judge * comm.size();
 }
 
-/// By the work of cutting. *Collective.*
+/// By the work of cutting.
+int weight_of(const Quadrant& leaf, SizeCursor& cursor) {
+  return cursor.segments_in(leaf).empty() ? weight_uncut : weight_cut;
+}
+
+/// What this rank's leaves weigh, told by some of them.
+class WeighedLeaves {
+ public:
+  WeighedLeaves(const SizeTree& sizes, double expected)
+      : cursor_{sizes},
+        finest_{sizes.finest_level()},
+        step_{1 + static_cast<std::int64_t>(expected / leaves_to_weigh)} {}
+
+  /// What was asked about each quadrant, in the order of the curve. Of the finest level nobody asks.
+  void note(const Quadrant& q, bool is_split) {
+    if (!is_split) add(q);
+    if (!is_split || q.level + 1 < finest_) return;
+    for (const Corner quarter : corners_along_curve) add(q.child(quarter));
+  }
+
+  /// *Collective.*
+  bool are_shared_evenly(const Communicator& comm) const {
+    const auto most = static_cast<double>(comm.maximum(weight_)),
+               all = static_cast<double>(comm.sum(weight_));
+    return most * comm.size() <= even_enough * all;
+  }
+
+ private:
+  void add(const Quadrant& leaf) {
+    if (count_++ % step_ == 0) weight_ += weight_of(leaf, cursor_);
+  }
+
+  SizeCursor cursor_;
+  int finest_;
+  std::int64_t step_, count_ = 0, weight_ = 0;
+};
+
+/// *Collective.*
 void share_out_leaves(const SizeTree& sizes, Forest& forest) {
   SizeCursor cursor(sizes);
-  forest.partition(
-      [&](const Quadrant& q) { return cursor.segments_in(q).empty() ? weight_uncut : weight_cut; });
+  forest.partition([&](const Quadrant& q) { return weight_of(q, cursor); });
 }
 
 }  // namespace
@@ -137,9 +175,15 @@ LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const L
     forest.partition([&](const Quadrant& q) { return q.level == before_last ? weight_unfinished : 1; });
     refined = before_last;
   }
-  forest.refine(must_split, finest);
+  WeighedLeaves weighed(sizes, expected.all() / comm.size());
+  const auto split_and_weigh = [&](const Quadrant& q) {
+    const bool is_split = must_split(q);
+    if (comm.size() > 1) weighed.note(q, is_split);
+    return is_split;
+  };
+  forest.refine(split_and_weigh, finest);
   splits.split_outside(comm, forest);
-  if (comm.size() > 1) share_out_leaves(sizes, forest);
+  if (comm.size() > 1 && !weighed.are_shared_evenly(comm)) share_out_leaves(sizes, forest);
   while (true) {
     LeafGraph graph(comm, sizes.lattice(), forest);
     const SqueezedLeaves squeezed(graph);
