@@ -291,7 +291,9 @@ TEST(TreeRules, RanksShareTheWorkOfCutting) {
   for (const LeafId leaf : tree.graph.local())
     own += cursor.segments_in(tree.graph.leaf(leaf)).empty() ? weight_uncut : weight_cut;
   const std::int64_t ranks = test::world().size(), all = test::world().sum(own);
-  EXPECT_LE(std::abs(own * ranks - all), ranks * weight_cut) << "but for a leaf at its ends";
+  const double even = 1.02 * static_cast<double>(all);
+  EXPECT_LE(static_cast<double>(own * ranks), std::max(even, static_cast<double>(all + ranks * weight_cut)))
+      << "a fiftieth more than others, or a leaf";
 }
 
 TEST(TreeRules, NoLeafLiesBetweenFinerOnes) {
