@@ -16,7 +16,7 @@ namespace {
 constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
 
 // Peak memory of meshing, smoothing and writing, in bytes; a cut leaf's is of those that the estimate counts.
-constexpr double of_leaf = 90, of_cut_leaf = 1400, of_hybrid_cell = 80, of_delaunay_triangle = 60;
+constexpr double of_leaf = 80, of_cut_leaf = 450, of_hybrid_cell = 45, of_delaunay_triangle = 35;
 // On every rank, the program itself too.
 constexpr double of_segment = 110, of_program = 28 * 0x1p20;
 constexpr double of_station = 300;  // a segment of a front, beside that
