@@ -217,10 +217,7 @@ class CornerDecision {
     if (const auto on_axis = crossing_on_axis(run)) return *on_axis;
     Point nearest;
     double least = std::numeric_limits<double>::infinity();
-    std::pmr::vector<std::int32_t> seen(&memory_);
     const auto see = [&](std::int32_t s) {
-      if (std::find(seen.begin(), seen.end(), s) != seen.end()) return;  // from the leaf across the edge
-      seen.push_back(s);
       const Point p =
           nearest_on_segment(corner_.position, geometry_.point(s), geometry_.point(geometry_.next(s)));
       const double to_p = distance(p);
