@@ -7,7 +7,7 @@
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_shares.hpp"
-#include "adapt/transfer/locate/equal_points.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/nearest_boundary.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "adapt/transfer/locate/equal_points.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/node_exchange.hpp"

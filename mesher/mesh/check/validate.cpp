@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
 
@@ -128,6 +129,7 @@ void check_indices(const Mesh& mesh, Faults& faults) {
 }
 
 void check_coincident(const Mesh& mesh, Faults& faults) {
+  if (!PointTable(mesh.points).any_twice()) return;
   std::vector<std::int32_t> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto at = [&](std::int32_t i) { return mesh.points[i]; };

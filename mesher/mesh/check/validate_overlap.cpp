@@ -63,7 +63,17 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
     while (parent[node] != node) node = parent[node] = parent[parent[node]];
     return node;
   };
-  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) { parent[root(from)] = root(to); });
+  const auto join = [&](NodeId a, NodeId b) {
+    const NodeId of_a = root(a), of_b = root(b);
+    parent[std::max(of_a, of_b)] = std::min(of_a, of_b);
+  };
+  const auto join_nodes = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      for (std::size_t k = 1; k < cell.size(); ++k) join(cell[k - 1], cell[k]);
+    }
+  };
+  join_nodes(mesh.triangles);
+  join_nodes(mesh.quads);
   NodeFlags seen(mesh.points.size(), 0);
   std::vector<Point> seeds;
   const auto visit = [&](const auto& cells) {

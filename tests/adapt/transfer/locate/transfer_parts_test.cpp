@@ -9,7 +9,6 @@
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_shares.hpp"
-#include "adapt/transfer/locate/equal_points.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
 #include "mesher/base/ids.hpp"
@@ -132,16 +131,6 @@ std::vector<Point> graded_points(int count, std::uint64_t seed) {
     points.push_back({size * x, size * y});
   }
   return points;
-}
-
-TEST(EqualPoints, AreFoundByTheirCoordinatesAlone) {
-  const std::vector<Point> known{{1, 2}, {0.0, 3}, {2, 1}, {1, 2}, {1, std::nextafter(2.0, 3.0)}};
-  const std::vector<Point> points{{2, 1}, {1, 2}, {1, 1}, {-0.0, 3}, {1, std::nextafter(2.0, 1.0)}, known[4]};
-  EXPECT_EQ(find_equal_points(known, points), (std::vector<std::int32_t>{2, 0, -1, 1, -1, 4}));
-  EXPECT_EQ(find_equal_points({}, points), std::vector<std::int32_t>(points.size(), -1));
-  const std::vector<Point> many = graded_points(5000, 7);
-  const std::vector<std::int32_t> found = find_equal_points(many, many);
-  for (std::size_t i = 0; i < many.size(); ++i) EXPECT_EQ(many[found[i]], many[i]);
 }
 
 TEST(PointCells, MeetEveryBoxThatHoldsAPoint) {

@@ -16,12 +16,15 @@ class PointTable {
 
   /// The index of a point with the same coordinates, the first of several; -1 where there is none.
   std::int32_t find(Point p) const { return slots_[slot_of(p)]; }
+  /// Whether any two of the points have the same coordinates.
+  bool any_twice() const { return any_twice_; }
 
  private:
   std::size_t slot_of(Point p) const;
 
   std::span<const Point> points_;
   std::vector<std::int32_t> slots_;  ///< open addressing, at most half full
+  bool any_twice_ = false;
 };
 
 /// For each of `points` the index of one of the `known` points with the same coordinates, the first of

@@ -1,6 +1,8 @@
-#include "adapt/transfer/locate/equal_points.hpp"
+#include "mesher/geometry/point_table.hpp"
 
 #include <bit>
+
+#include "mesher/base/mixed_bits.hpp"
 
 namespace quadloop {
 
@@ -8,10 +10,8 @@ namespace {
 
 /// 0 and -0 are equal, and so must their hashes be.
 std::uint64_t hash_of(Point p) {
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
   const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number + 0.0); };
-  const std::uint64_t mixed = (std::rotl(bits(p.x) * odd, 32) ^ bits(p.y)) * odd;
-  return mixed ^ (mixed >> 32);
+  return mixed_bits(mixed_bits(bits(p.x)) + bits(p.y));
 }
 
 }  // namespace
@@ -20,6 +20,7 @@ PointTable::PointTable(std::span<const Point> points)
     : points_{points}, slots_(std::bit_ceil(2 * points.size() + 1), -1) {
   for (std::int32_t i = 0; i < std::ssize(points); ++i) {
     std::int32_t& slot = slots_[slot_of(points[i])];
+    any_twice_ |= slot >= 0;
     if (slot < 0) slot = i;
   }
 }
