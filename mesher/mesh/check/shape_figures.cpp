@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesh/check/quality.hpp"
@@ -149,36 +150,54 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
 
 /// The largest ratio at edges between nodes round which the areas differ by `least` or more, as far as this
 /// rank knows: of owned nodes.
-double largest_ratio(const HaloMesh& mesh, const AreaRanges& ranges, double least) {
+class LargestRatio {
+ public:
+  LargestRatio(const HaloMesh& mesh, const AreaRanges& ranges, double least)
+      : mesh_{mesh}, is_wanted_(mesh.points().size(), 0), last_(ranges.size(), none) {
+    for (const NodeId node : ranges.ids()) is_wanted_[node] = ranges[node].ratio() < least ? 0 : 1;
+    mesh.for_each_cell([&](const auto& nodes) {
+      if (any_flagged(is_wanted_, nodes)) add_cell(nodes);
+    });
+  }
+  double value() const { return value_; }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  /// Of the cell that an edge was seen with first.
   struct Side {
-    NodeId node, other;
+    NodeId other;
+    std::int32_t next;  ///< of the same node
     double area;
   };
-  NodeFlags is_wanted(ranges.size(), 0);
-  for (const NodeId node : ranges.ids()) is_wanted[node] = ranges[node].ratio() < least ? 0 : 1;
-  std::vector<Side> sides;
-  mesh.for_each_cell([&](const auto& nodes) {
-    const std::size_t n = nodes.size();
-    for (std::size_t k = 0; k < n; ++k) {
+
+  template <std::size_t width>
+  void add_cell(const std::array<NodeId, width>& nodes) {
+    const double area = area_of(mesh_, nodes);
+    for (std::size_t k = 0; k < width; ++k) {
       const NodeId node = nodes[k];
-      if (!mesh.owns(node) || is_wanted[node] == 0) continue;
-      const double area = area_of(mesh, nodes);
-      for (const NodeId other : {nodes[(k + 1) % n], nodes[(k + n - 1) % n]}) {
-        const bool counts = !mesh.owns(other) || (node < other && is_wanted[other] != 0);
-        if (counts) sides.push_back({node, other, area});
+      if (!mesh_.owns(node) || is_wanted_[node] == 0) continue;
+      for (const NodeId other : {nodes[(k + 1) % width], nodes[(k + width - 1) % width]}) {
+        const bool counts = !mesh_.owns(other) || (node < other && is_wanted_[other] != 0);
+        if (counts) add_side(node, other, area);
       }
     }
-  });
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.node != b.node ? a.node < b.node : a.other < b.other;
-  });
-  double largest = 0;
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    const bool shared = sides[i].node == sides[i - 1].node && sides[i].other == sides[i - 1].other;
-    if (shared) largest = std::max(largest, area_ratio(sides[i].area, sides[i - 1].area));
   }
-  return largest;
-}
+
+  void add_side(NodeId node, NodeId other, double area) {
+    for (std::int32_t i = last_[node]; i != none; i = sides_[i].next) {
+      if (sides_[i].other != other) continue;
+      value_ = std::max(value_, area_ratio(area, sides_[i].area));
+      return;
+    }
+    sides_.push_back({other, std::exchange(last_[node], size32(sides_)), area});
+  }
+
+  const HaloMesh& mesh_;
+  NodeFlags is_wanted_;  ///< owned nodes alone
+  std::vector<Side> sides_;
+  IdVector<NodeId, std::int32_t> last_;  ///< of each node, its last side
+  double value_ = 0;
+};
 
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
@@ -186,10 +205,10 @@ double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh, const 
   double bound = 1;
   for (const AreaRange& range : ranges) bound = std::max(bound, range.largest > 0 ? range.ratio() : 1);
   bound = comm.maximum(bound);
-  if (!std::isfinite(bound)) return comm.maximum(largest_ratio(mesh, ranges, 1));
+  if (!std::isfinite(bound)) return comm.maximum(LargestRatio(mesh, ranges, 1).value());
   for (;;) {
     bound = std::max(1.0, bound / 2);
-    const double found = comm.maximum(largest_ratio(mesh, ranges, bound));
+    const double found = comm.maximum(LargestRatio(mesh, ranges, bound).value());
     if (found >= bound || bound == 1) return found;
   }
 }
