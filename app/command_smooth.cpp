@@ -161,8 +161,7 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
                              StageTimes& times) {
   const Communicator& comm = context.comm;
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
-  const ShapeFigures figures = shape_figures(comm, part);
-  const bool parallel = figures.quads > 0 && figures.parallelograms == figures.quads;
+  const bool parallel = comm.any(!part.quads.empty()) && shape_figures(comm, part).parallelogram_share() == 1;
   SmoothOptions options = options_of(comm, arguments, loaded, part);
   if (parallel) options = sparing_parallelograms(options);
   times.begin("report");

@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "mesher/mesh/topology.hpp"
-
 namespace quadloop {
 
 namespace {
@@ -124,6 +122,12 @@ std::vector<double> areas_of(const Mesh& mesh, Pieces& pieces) {
 }
 
 }  // namespace
+
+bool surely_oriented(const Mesh& mesh, const EdgeTable& table) {
+  const auto runs_left = [&](const auto& nodes) { return twice_area(mesh, nodes) > 0; };
+  return std::ranges::all_of(mesh.triangles, runs_left) && std::ranges::all_of(mesh.quads, runs_left) &&
+         !table.repeats();
+}
 
 std::int64_t orient_cells(Mesh& mesh) {
   Pieces pieces = pieces_of(mesh);

@@ -3,8 +3,13 @@
 #include <cstdint>
 
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
+
+/// Whether orient_cells() surely has nothing to turn: all cells run counter-clockwise, and no two have an
+/// edge in the same direction. Linear.
+bool surely_oriented(const Mesh& mesh, const EdgeTable& table);
 
 /// Turns the cells of a mesh that is whole on this rank so that any two that share an edge run it in opposite
 /// directions, and so that in each piece (cells that hang together over edges of two cells) the signed areas

@@ -109,8 +109,11 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
     if (count > 0) loaded.warnings.push_back(fmt::format("{}: {} {}", path, count, what));
   };
   warn(drop_unused_nodes(loaded), "nodes that belong to no cell were left out");
-  warn(orient_cells(mesh), "cells ran clockwise and were turned");
-  const EdgeTable table(mesh);
+  EdgeTable table(mesh);
+  if (!surely_oriented(mesh, table)) {
+    warn(orient_cells(mesh), "cells ran clockwise and were turned");
+    table = EdgeTable(mesh);
+  }
   warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were turned");
   warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
        "boundaries without edges were left out");

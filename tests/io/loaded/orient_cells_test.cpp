@@ -178,6 +178,25 @@ TEST(OrientCells, LeavesWhatHasNoDirection) {
   EXPECT_LE(orient_cells(endless), 1);
 }
 
+TEST(OrientCells, IsSureOfWhatNeedsNoTurn) {
+  const auto sure_of = [](const Mesh& mesh) { return surely_oriented(mesh, EdgeTable(mesh)); };
+  const std::vector<std::array<int, 3>> fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  EXPECT_TRUE(sure_of(triangles_of(pentagon, fan)));
+  for (unsigned choice = 1; choice < 8; ++choice) {
+    std::vector<std::array<int, 3>> some = fan;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((choice >> k & 1U) != 0) std::swap(some[k][1], some[k][2]);
+    }
+    EXPECT_FALSE(sure_of(triangles_of(pentagon, some))) << choice;
+  }
+  EXPECT_FALSE(sure_of(triangles_of(pentagon, {{0, 1, 2}, {0, 1, 3}})));  // on one side of their edge
+  Mesh quad = triangles_of(pentagon, {});
+  quad.quads = {{NodeId{0}, NodeId{1}, NodeId{2}, NodeId{3}}};
+  EXPECT_TRUE(sure_of(quad));
+  std::reverse(quad.quads[0].begin(), quad.quads[0].end());
+  EXPECT_FALSE(sure_of(quad));
+}
+
 TEST(OrientCells, JoinsNothingOverEdgesOfThreeCells) {
   Mesh mesh = triangles_of(pentagon, {{0, 2, 1}, {0, 2, 3}, {0, 4, 2}});
   EXPECT_EQ(orient_cells(mesh), 2);
