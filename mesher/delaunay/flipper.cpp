@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "mesher/geometry/blunt_corners.hpp"
+
 namespace quadloop {
 
 void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of,

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "mesher/delaunay/flipper.hpp"
+#include "mesher/geometry/blunt_corners.hpp"
 #include "smoother/level_lines/square_lines.hpp"
 #include "smoother/level_lines/triangle_lines.hpp"
 #include "smoother/objective/condition_number.hpp"

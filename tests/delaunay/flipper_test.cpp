@@ -11,6 +11,7 @@
 
 #include "mesher/base/ids.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
+#include "mesher/geometry/blunt_corners.hpp"
 
 namespace quadloop {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/delaunay/flipper.hpp"
+#include "mesher/geometry/blunt_corners.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {

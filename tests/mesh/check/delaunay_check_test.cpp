@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
+#include "mesher/geometry/predicates.hpp"
+
 namespace quadloop {
 namespace {
 
@@ -25,6 +30,25 @@ constexpr std::array<Point, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
 TEST(DelaunayCheck, TakesTheDiagonalThatTheCircleAllows) {
   EXPECT_FALSE(is_delaunay(two_triangles(kite, true)));
   EXPECT_TRUE(is_delaunay(two_triangles(kite, false)));
+}
+
+/// However flat the quadrilateral, and whichever nodes its triangles begin with.
+TEST(DelaunayCheck, AgreesWithTheCircleOfEitherTriangle) {
+  std::mt19937_64 random(11);
+  const auto number = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  int delaunay = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const std::array<Point, 4> p{{{0, 0}, {1, -number()}, {1 + number(), number()}, {0.5 - number(), 1}}};
+    Mesh mesh = two_triangles(p, true);
+    if (orientation(p[0], p[1], p[2]) <= 0 || orientation(p[0], p[2], p[3]) <= 0) continue;
+    for (auto& triangle : mesh.triangles)
+      std::rotate(triangle.begin(), triangle.begin() + static_cast<int>(random() % 3), triangle.end());
+    const bool expected = in_circle(p[0], p[1], p[2], p[3]) <= 0;
+    ASSERT_EQ(is_delaunay(mesh), expected) << i;
+    delaunay += expected ? 1 : 0;
+  }
+  EXPECT_GT(delaunay, 100);
+  EXPECT_LT(delaunay, 2900);
 }
 
 TEST(DelaunayCheck, NodesOnOneCircleAreNoContradiction) {
