@@ -92,9 +92,8 @@ void LeafCutter::gather_stops() {
 std::int32_t LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
-    const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
-    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end())
+    if (std::ranges::binary_search(s.snap->absorbed, wanted))
       return static_cast<std::int32_t>(&s - input_.snaps.data());
   }
   return -1;

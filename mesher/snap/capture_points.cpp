@@ -114,6 +114,7 @@ class PointCapture {
       low = std::min(low, edge.along(crossing.position));
       high = std::max(high, edge.along(crossing.position));
     }
+    std::sort(snap.absorbed.begin(), snap.absorbed.end());
     for (std::int32_t c = 0; c < size32(view.crossings); ++c) {
       const Crossing& crossing = view.crossing(c);
       if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
