@@ -113,7 +113,9 @@ class CornerDecision {
     for (const bool whole_run : {true, false}) {
       const Runs runs = runs_among(whole_run);
       const std::optional<Run> run = run_of(capture, runs);
-      if (run && !passes_over(*run) && follows(swallowed_by(*run), target)) return snap_to(target, run);
+      if (!run || passes_over(*run)) continue;
+      Swallowed swallowed = swallowed_by(*run);
+      if (follows(swallowed, target)) return snap_to(target, run);
     }
     const bool claimed =
         std::any_of(sights_.begin(), sights_.end(), [&](const Sight& s) { return claims(s); });
@@ -302,11 +304,13 @@ class CornerDecision {
   /// two kept points would vanish, or what lies too far off, or a whole loop.
   std::optional<Point> target_of(const Claim& claim) const {
     Swallowed swallowed = swallowed_by(claim.run);
-    auto& vertices = swallowed.vertices;
-    const auto kept = std::ranges::find_if(vertices, [&](std::int32_t v) { return geometry_.kept(v); });
-    const Point target = kept == vertices.end() ? claim.nearest : geometry_.point(*kept);
+    const auto kept =
+        std::ranges::find_if(swallowed.vertices, [&](std::int32_t v) { return geometry_.kept(v); });
+    const bool holds_kept = kept != swallowed.vertices.end();
+    const Point target = holds_kept ? geometry_.point(*kept) : claim.nearest;
     if (follows(swallowed, target)) return target;
-    if (kept != vertices.end()) return std::nullopt;
+    if (holds_kept) return std::nullopt;
+    auto vertices = swallowed.vertices;
     const auto distance_of = [&](std::int32_t v) { return distance(geometry_.point(v)); };
     std::ranges::sort(vertices, {}, distance_of);
     for (std::size_t i = 0, end = 0; i < vertices.size(); i = end) {
@@ -318,12 +322,13 @@ class CornerDecision {
   }
 
   /// Whether the target is near the corner, and no vertex that vanishes in it strays from the outline as it
-  /// goes on from there, nor is a kept one.
-  bool follows(const Swallowed& swallowed, Point target) const {
+  /// goes on from there, nor is a kept one. One that does comes first from then on: most likely it strays
+  /// from the next target, too.
+  bool follows(Swallowed& swallowed, Point target) const {
     const auto& ways = swallowed.goes_on;
-    if (!is_near(target)) return false;
+    if (!is_near(target) || ways.empty()) return false;
     std::size_t near = 0;  // the way that the last vertex lies near: most likely the next one does so, too
-    return !ways.empty() && std::ranges::none_of(swallowed.vertices, [&](std::int32_t v) {
+    const auto strays = [&](std::int32_t v) {
       const Point p = geometry_.point(v);
       if (geometry_.kept(v) && p != target) return true;
       const auto is_near_way = [&](Point end) {
@@ -333,13 +338,18 @@ class CornerDecision {
         if (is_near_way(ways[near])) return false;
       }
       return true;
-    });
+    };
+    const auto straying = std::ranges::find_if(swallowed.vertices, strays);
+    if (straying == swallowed.vertices.end()) return true;
+    std::iter_swap(swallowed.vertices.begin(), straying);
+    return false;
   }
 
   /// `run`: none for a corner that takes no crossing.
   Snap snap_to(Point target, const std::optional<Run>& run) const {
     Snap snap{corner_.corner, target, corner_.position, corner_reach * corner_.edge, {}};
     if (!run) return snap;
+    snap.absorbed.reserve(run->sights.size());
     for (const std::int32_t i : run->sights)
       snap.absorbed.push_back({sights_[i].segment, is_vertical(sights_[i].direction)});
     std::sort(snap.absorbed.begin(), snap.absorbed.end());
