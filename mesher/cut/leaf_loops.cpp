@@ -35,8 +35,10 @@ class UnusedEdges {
   UnusedEdges(Edges edges, const CutLeaf& leaf) : edges_{edges}, leaf_{leaf} {
     used_.assign(edges.size(), 0);
     by_start_.resize(edges.size());
-    std::iota(by_start_.begin(), by_start_.end(), 0);
-    std::ranges::sort(by_start_, {}, [&](std::int32_t e) { return std::pair(edges_[e].from, e); });
+    end_of_.assign(leaf.nodes.size() + 1, 0);
+    for (const CutLeaf::Edge& e : edges) ++end_of_[e.from + 1];
+    std::partial_sum(end_of_.begin(), end_of_.end(), end_of_.begin());
+    for (std::int32_t e = 0; e < size32(edges); ++e) by_start_[end_of_[edges[e].from]++] = e;
   }
 
   bool has(std::size_t e) const { return used_[e] == 0; }
@@ -46,9 +48,9 @@ class UnusedEdges {
   /// sharpest turn left. Their count where none does.
   std::size_t next(std::size_t e) const {
     std::size_t best = edges_.size();
-    const auto onwards =
-        std::ranges::equal_range(by_start_, edges_[e].to, {}, [&](std::int32_t i) { return edges_[i].from; });
-    for (const std::int32_t i : onwards) {
+    const std::int32_t node = edges_[e].to;
+    for (std::int32_t k = node > 0 ? end_of_[node - 1] : 0; k < end_of_[node]; ++k) {
+      const std::int32_t i = by_start_[k];
       const bool better = has(i) && (best == edges_.size() ||
                                      clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
                                                       at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
@@ -62,6 +64,7 @@ class UnusedEdges {
   const CutLeaf& leaf_;
   inline static thread_local std::vector<char> used_;
   inline static thread_local std::vector<std::int32_t> by_start_;
+  inline static thread_local std::vector<std::int32_t> end_of_;  ///< of each node's edges among them
 };
 
 /// Cuts off each closed part of the walk as a loop of its own.
@@ -109,16 +112,18 @@ class EdgeIndex {
     if (edges.size() > few) tree_ = BoxTree(size32(edges), [&](std::int32_t e) { return box(edges[e]); });
   }
 
-  /// Whether the edge conflicts with any for which `counts(number)` holds.
+  /// Whether the edge conflicts with any of the first `end` for which `counts(number)` holds.
   template <class Counts>
-  bool any_conflict(const CutLeaf::Edge& edge, const Counts& counts) const {
+  bool any_conflict(const CutLeaf::Edge& edge, std::int32_t end, const Counts& counts) const {
     const auto conflicts = [&](std::int32_t e) {
       return counts(e) && edges_conflict(leaf_, edge, edges_[e]);
     };
-    if (!tree_.empty()) return tree_.any_meeting(box(edge), conflicts);
-    std::int32_t e = 0;
-    while (e < size32(edges_) && !conflicts(e)) ++e;
-    return e < size32(edges_);
+    if (!tree_.empty())
+      return tree_.any_meeting(box(edge), [&](std::int32_t e) { return e < end && conflicts(e); });
+    for (std::int32_t e = 0; e < end; ++e) {
+      if (conflicts(e)) return true;
+    }
+    return false;
   }
 
  private:
@@ -133,7 +138,7 @@ class EdgeIndex {
 bool any_conflict(const CutLeaf& leaf, Edges edges) {
   const EdgeIndex index(leaf, edges);
   for (std::int32_t i = 0; i < size32(edges); ++i) {
-    if (index.any_conflict(edges[i], [&](std::int32_t e) { return e < i; })) return true;
+    if (index.any_conflict(edges[i], i, [](std::int32_t) { return true; })) return true;
   }
   return false;
 }
@@ -241,7 +246,8 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
   };
   const EdgeIndex index(leaf, edges);
   for (const CutLeaf::Edge& bare : bare_sides) {
-    if (index.any_conflict(bare, [&](std::int32_t e) { return !same_line(bare, edges[e]); })) return false;
+    const auto counts = [&](std::int32_t e) { return !same_line(bare, edges[e]); };
+    if (index.any_conflict(bare, size32(edges), counts)) return false;
   }
   if (any_conflict(leaf, bare_sides)) return false;
   thread_local std::vector<std::int32_t> round;
