@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/forest/leaf_finder.hpp"
@@ -31,6 +33,9 @@ constexpr auto sizes_of_sets = [] {
   return sizes;
 }();
 
+/// Whether the leaf has so many nodes that they are sorted: of few all are looked at in less time.
+bool has_many(const CutForest::Entry& entry) { return entry.end.nodes - entry.begin.nodes > 32; }
+
 }  // namespace
 
 NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
@@ -41,6 +46,7 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
       used_sites_(cut.states.size(), 0),
       first_(cut.states.size()),
       listed_(cut.nodes.size(), unused) {
+  sort_listed();
   use_nodes_of_cells();
   const Exchange exchange(comm, ranks_wanted());
   const auto asked = exchange.deliver(wanted_);
@@ -98,14 +104,33 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::
   return {owner != LeafGraph::none ? owner : leaf, Site::inside};
 }
 
+/// Sorts the nodes of leaves that have many by position.
+void NodeNumbering::sort_listed() {
+  for (const CutForest::Entry& e : cut_->entries) {
+    if (!has_many(e)) continue;
+    by_position_.resize(cut_->nodes.size());
+    const auto own = std::span(by_position_).subspan(e.begin.nodes, e.end.nodes - e.begin.nodes);
+    std::iota(own.begin(), own.end(), e.begin.nodes);
+    std::ranges::sort(own, {}, [&](std::int32_t n) { return std::pair(cut_->nodes[n].position, n); });
+  }
+}
+
 std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
   const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
   QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
   const CutForest::Entry& e = cut_->entries[entry];
-  for (std::int32_t n = e.begin.nodes; n < e.end.nodes; ++n) {
-    if (cut_->nodes[n].position == position) return n;
+  std::int32_t node = e.begin.nodes;
+  if (has_many(e)) {
+    const auto own = std::span(by_position_).subspan(e.begin.nodes, e.end.nodes - e.begin.nodes);
+    const auto at =
+        std::ranges::lower_bound(own, position, {}, [&](std::int32_t n) { return cut_->nodes[n].position; });
+    node = at != own.end() ? *at : e.end.nodes;
+  } else {
+    while (node < e.end.nodes && cut_->nodes[node].position != position) ++node;
   }
-  throw Fault("two leaves disagree on a node of their common side");
+  QUADLOOP_REQUIRE(node < e.end.nodes && cut_->nodes[node].position == position,
+                   "two leaves disagree on a node of their common side");
+  return node;
 }
 
 void NodeNumbering::use(Home home, Point position) {

@@ -52,6 +52,7 @@ class NodeNumbering {
   Home home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const;
   Home corner_home(LeafId owner, LatticePoint p) const;
   Home home_of(const Request& asked) const { return {graph_->from_local(asked.leaf), asked.site}; }
+  void sort_listed();
   std::int32_t listed_node(LeafId leaf, Point position) const;
   std::int32_t number_at(Home home, Point position) const;
   std::int32_t number_at_site(Home home) const;
@@ -79,11 +80,12 @@ class NodeNumbering {
   const Lattice* lattice_;
   const LeafGraph* graph_;
   const CutForest* cut_;
-  std::vector<std::uint8_t> used_sites_;  ///< of each local leaf, a bit for each node that it owns, but
-                                          ///< listed ones
-  std::vector<std::int32_t> first_;       ///< of each local leaf, the number of the first node that it owns
-  std::vector<std::int32_t> listed_;      ///< the numbers of CutForest::nodes
-  std::vector<Request> wanted_;           ///< from other ranks, sorted: the copies
+  std::vector<std::uint8_t> used_sites_;   ///< of each local leaf, a bit for each node that it owns, but
+                                           ///< listed ones
+  std::vector<std::int32_t> first_;        ///< of each local leaf, the number of the first node that it owns
+  std::vector<std::int32_t> listed_;       ///< the numbers of CutForest::nodes
+  std::vector<std::int32_t> by_position_;  ///< CutForest::nodes, sorted within each leaf that has many
+  std::vector<Request> wanted_;            ///< from other ranks, sorted: the copies
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
@@ -38,7 +40,7 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   gather_stops();
   if (!walk_sides()) return false;
   add_chords(detail);
-  sort_inner_nodes();
+  settle_inner_nodes();
   const auto& crossings = input_.trace.crossings;
   const bool simple = input_.snaps.empty() && input_.trace.pieces.size() == 1 && leaf_.outline.size() == 1 &&
                       crossings.size() == 2 && crossings[0].side != crossings[1].side;
@@ -92,9 +94,8 @@ void LeafCutter::gather_stops() {
 std::int32_t LeafCutter::absorbing_snap(const Crossing& crossing) const {
   for (const LeafSnap& s : input_.snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
-    const auto& absorbed = s.snap->absorbed;
     const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
-    if (std::find(absorbed.begin(), absorbed.end(), wanted) != absorbed.end())
+    if (std::ranges::binary_search(s.snap->absorbed, wanted))
       return static_cast<std::int32_t>(&s - input_.snaps.data());
   }
   return -1;
@@ -199,10 +200,7 @@ bool LeafCutter::status_at_start(bool& inside) const {
   return true;
 }
 
-std::int32_t LeafCutter::node_at(Point position) {
-  for (std::int32_t i = 0; i < std::ssize(leaf_.nodes); ++i) {
-    if (leaf_.nodes[i].position == position) return i;
-  }
+std::int32_t LeafCutter::add_inner_node(Point position) {
   leaf_.nodes.push_back({position, Site::inside});
   return size32(leaf_.nodes) - 1;
 }
@@ -222,11 +220,11 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   list_points(piece, trimmed_vertices(piece));
   choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[piece.entry];
+  std::int32_t from_node = closed ? add_inner_node(run_[0].position) : crossing_node_[piece.entry];
   for (std::size_t i = 1; i < run_.size(); ++i) {
     if (!run_[i].chosen) continue;
     const bool at_exit = !closed && i + 1 == run_.size();
-    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : node_at(run_[i].position);
+    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : add_inner_node(run_[i].position);
     if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
@@ -326,44 +324,62 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
   keep_strays(farthest, to);
 }
 
-/// The order of the nodes inside must not depend on the order in which boundaries are listed.
-void LeafCutter::sort_inner_nodes() {
+/// Makes one node of all inside at one position, or that on the sides if it has one. The others go by
+/// position: their order must not depend on the order in which boundaries are listed.
+void LeafCutter::settle_inner_nodes() {
   const std::int32_t first = leaf_.side_nodes;
-  if (std::ssize(leaf_.nodes) <= first + 1) return;
-  std::vector<std::int32_t> order;
-  for (std::int32_t i = first; i < std::ssize(leaf_.nodes); ++i) order.push_back(i);
+  if (size32(leaf_.nodes) == first) return;
+  thread_local std::vector<std::int32_t> order, renamed;
+  thread_local std::vector<CutLeaf::Node> inner;
+  order.resize(leaf_.nodes.size());
+  renamed.resize(leaf_.nodes.size());
+  inner.clear();
+  std::iota(order.begin(), order.end(), 0);
   const auto position = [&](std::int32_t i) { return leaf_.nodes[i].position; };
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t a, std::int32_t b) { return position(a) < position(b); });
-  std::vector<std::int32_t> renamed(leaf_.nodes.size());
-  for (std::int32_t i = 0; i < first; ++i) renamed[i] = i;
-  std::vector<CutLeaf::Node> sorted;
-  for (const std::int32_t node : order) {
-    renamed[node] = first + size32(sorted);
-    sorted.push_back(leaf_.nodes[node]);
+  std::ranges::sort(order, {}, [&](std::int32_t i) { return std::pair(position(i), i); });
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const bool on_side = order[begin] < first;
+    const std::int32_t name = on_side ? order[begin] : first + size32(inner);
+    if (!on_side) inner.push_back(leaf_.nodes[order[begin]]);
+    for (; end < order.size() && position(order[end]) == position(order[begin]); ++end)
+      renamed[order[end]] = order[end] < first ? order[end] : name;
   }
-  std::copy(sorted.begin(), sorted.end(), leaf_.nodes.begin() + first);
+  leaf_.nodes.resize(first);
+  leaf_.nodes.insert(leaf_.nodes.end(), inner.begin(), inner.end());
   for (auto& edge : leaf_.outline) {
     edge.from = renamed[edge.from];
     edge.to = renamed[edge.to];
   }
+  std::erase_if(leaf_.outline, [](const CutLeaf::Edge& e) { return e.from == e.to; });
 }
 
 /// A chord along a side of the leaf, against the sense of the side, leaves nothing between the two: neither
 /// bounds a cell here. Two chords against each other would swallow what lies between: false.
 bool LeafCutter::cancel_opposites() {
-  const std::size_t sides = edges_.size();
+  using Ends = std::pair<std::int32_t, std::int32_t>;
+  thread_local std::vector<Ends> chords;
+  thread_local std::vector<std::pair<Ends, std::size_t>> sides;
+  chords.clear();
+  sides.clear();
+  for (const CutLeaf::Edge& e : leaf_.outline) chords.emplace_back(e.from, e.to);
+  for (const CutLeaf::Edge& e : edges_) sides.push_back({{e.from, e.to}, sides.size()});
+  std::sort(chords.begin(), chords.end());
+  std::sort(sides.begin(), sides.end());
+  const auto first_side = [&](const Ends& ends) {  // of those that are left; their count where there is none
+    auto at = std::lower_bound(sides.begin(), sides.end(), std::pair(ends, std::size_t{0}));
+    while (at != sides.end() && at->first == ends && edges_[at->second].from < 0) ++at;
+    return at != sides.end() && at->first == ends ? at->second : sides.size();
+  };
   for (const CutLeaf::Edge& chord : leaf_.outline) {
-    for (const CutLeaf::Edge& other : leaf_.outline) {
-      if (chord.from == other.to && chord.to == other.from) return false;
+    if (std::binary_search(chords.begin(), chords.end(), Ends(chord.to, chord.from))) return false;
+    const std::size_t along = first_side({chord.from, chord.to}),
+                      against = first_side({chord.to, chord.from});
+    if (along < against) return false;
+    if (against == sides.size()) {
+      edges_.push_back(chord);
+    } else {
+      edges_[against].from = edges_[against].to = -1;
     }
-    bool cancelled = false;
-    for (std::size_t i = 0; i < sides && !cancelled; ++i) {
-      if (edges_[i].from == chord.from && edges_[i].to == chord.to) return false;
-      cancelled = edges_[i].from == chord.to && edges_[i].to == chord.from;
-      if (cancelled) edges_[i].from = edges_[i].to = -1;
-    }
-    if (!cancelled) edges_.push_back(chord);
   }
   std::erase_if(edges_, [](const CutLeaf::Edge& e) { return e.from < 0; });
   return true;

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -27,33 +29,62 @@ bool clockwise_before(Point hub, Point start, Point a, Point b) {
   return half_a != half_b ? half_a < half_b : orientation(hub, a, b) < 0;
 }
 
-/// The edge that goes on from edge `e` with the same part of the domain to its left: where loops touch, the
-/// sharpest turn left.
-std::size_t next_edge(Edges edges, const CutLeaf& leaf, const std::vector<char>& used, std::size_t e) {
-  std::size_t best = edges.size();
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (used[i] != 0 || edges[i].from != edges[e].to) continue;
-    const bool better =
-        best == edges.size() || clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from),
-                                                 at(leaf, edges[i].to), at(leaf, edges[best].to));
-    if (better) best = i;
+/// The edges that no loop has yet, by the nodes where they start.
+class UnusedEdges {
+ public:
+  UnusedEdges(Edges edges, const CutLeaf& leaf) : edges_{edges}, leaf_{leaf} {
+    used_.assign(edges.size(), 0);
+    by_start_.resize(edges.size());
+    end_of_.assign(leaf.nodes.size() + 1, 0);
+    for (const CutLeaf::Edge& e : edges) ++end_of_[e.from + 1];
+    std::partial_sum(end_of_.begin(), end_of_.end(), end_of_.begin());
+    for (std::int32_t e = 0; e < size32(edges); ++e) by_start_[end_of_[edges[e].from]++] = e;
   }
-  return best;
-}
+
+  bool has(std::size_t e) const { return used_[e] == 0; }
+  void take(std::size_t e) { used_[e] = 1; }
+
+  /// The edge that goes on from edge `e` with the same part of the domain to its left: where loops touch, the
+  /// sharpest turn left. Their count where none does.
+  std::size_t next(std::size_t e) const {
+    std::size_t best = edges_.size();
+    const std::int32_t node = edges_[e].to;
+    for (std::int32_t k = node > 0 ? end_of_[node - 1] : 0; k < end_of_[node]; ++k) {
+      const std::int32_t i = by_start_[k];
+      const bool better = has(i) && (best == edges_.size() ||
+                                     clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
+                                                      at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
+      if (better) best = i;
+    }
+    return best;
+  }
+
+ private:
+  Edges edges_;
+  const CutLeaf& leaf_;
+  inline static thread_local std::vector<char> used_;
+  inline static thread_local std::vector<std::int32_t> by_start_;
+  inline static thread_local std::vector<std::int32_t> end_of_;  ///< of each node's edges among them
+};
 
 /// Cuts off each closed part of the walk as a loop of its own.
 void split_into_loops(const std::vector<std::int32_t>& walk, CutLeaf& leaf) {
-  thread_local std::vector<std::int32_t> open;
+  thread_local std::vector<std::int32_t> open, place_in_open;  // -1 for all nodes that are not in it
   open.clear();
+  place_in_open.resize(std::max(place_in_open.size(), leaf.nodes.size()), -1);
+  const auto forget = [&](std::int32_t node) { place_in_open[node] = -1; };
   for (const std::int32_t node : walk) {
-    const auto again = std::find(open.begin(), open.end(), node);
-    if (again != open.end()) {
+    if (place_in_open[node] >= 0) {
+      const auto again = open.begin() + place_in_open[node];
       leaf.loop_nodes.insert(leaf.loop_nodes.end(), again, open.end());
       leaf.loop_starts.push_back(size32(leaf.loop_nodes));
+      std::for_each(again, open.end(), forget);
       open.erase(again, open.end());
     }
+    place_in_open[node] = size32(open);
     open.push_back(node);
   }
+  std::ranges::for_each(open, forget);
 }
 
 bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::Edge& f) {
@@ -73,6 +104,45 @@ bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::
   return segments_meet(a, b, c, d);
 }
 
+/// Finds what an edge conflicts with among others.
+class EdgeIndex {
+ public:
+  EdgeIndex(const CutLeaf& leaf, Edges edges) : leaf_{leaf}, edges_{edges} {
+    constexpr std::size_t few = 32;  // of these all pairs take less time than a tree
+    if (edges.size() > few) tree_ = BoxTree(size32(edges), [&](std::int32_t e) { return box(edges[e]); });
+  }
+
+  /// Whether the edge conflicts with any of the first `end` for which `counts(number)` holds.
+  template <class Counts>
+  bool any_conflict(const CutLeaf::Edge& edge, std::int32_t end, const Counts& counts) const {
+    const auto conflicts = [&](std::int32_t e) {
+      return counts(e) && edges_conflict(leaf_, edge, edges_[e]);
+    };
+    if (!tree_.empty())
+      return tree_.any_meeting(box(edge), [&](std::int32_t e) { return e < end && conflicts(e); });
+    for (std::int32_t e = 0; e < end; ++e) {
+      if (conflicts(e)) return true;
+    }
+    return false;
+  }
+
+ private:
+  Box box(const CutLeaf::Edge& e) const { return box_of(at(leaf_, e.from), at(leaf_, e.to)); }
+
+  const CutLeaf& leaf_;
+  Edges edges_;
+  BoxTree tree_;
+};
+
+/// Whether any two of the edges conflict.
+bool any_conflict(const CutLeaf& leaf, Edges edges) {
+  const EdgeIndex index(leaf, edges);
+  for (std::int32_t i = 0; i < size32(edges); ++i) {
+    if (index.any_conflict(edges[i], i, [](std::int32_t) { return true; })) return true;
+  }
+  return false;
+}
+
 /// How often the loop goes round the point, which is none of its nodes and not on its edges.
 int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p) {
   int times = 0;
@@ -90,18 +160,28 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p
 /// Every hole lies in one outline, every outline in none or in a hole: the loops around a loop add up to 0
 /// for an outline, to 1 for a hole.
 bool nesting_is_sound(const CutLeaf& leaf) {
-  for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
+  if (leaf.loop_count() == 1) return winding_of(leaf, leaf.loop(0)) > 0;
+  const auto box_of_loop = [&](std::int32_t i) {
+    Box box;
+    for (const std::int32_t n : leaf.loop(i)) box.include(at(leaf, n));
+    return box;
+  };
+  const auto count = static_cast<std::int32_t>(leaf.loop_count());
+  const BoxTree boxes(count, box_of_loop);
+  for (std::int32_t i = 0; i < count; ++i) {
+    const auto loop = leaf.loop(i);
     int around = 0;
-    for (std::size_t j = 0; j < leaf.loop_count(); ++j) {
-      if (i == j) continue;
+    const auto coincides = [&](std::int32_t j) {
+      if (i == j) return false;
       const auto other = leaf.loop(j);
-      const auto apart = std::find_if(leaf.loop(i).begin(), leaf.loop(i).end(), [&](std::int32_t n) {
-        return std::find(other.begin(), other.end(), n) == other.end();
-      });
-      if (apart == leaf.loop(i).end()) return false;
+      const auto apart = std::ranges::find_if(
+          loop, [&](std::int32_t n) { return std::ranges::find(other, n) == other.end(); });
+      if (apart == loop.end()) return true;
       around += times_round(leaf, other, at(leaf, *apart));
-    }
-    if (around != (winding_of(leaf, leaf.loop(i)) > 0 ? 0 : 1)) return false;
+      return false;
+    };
+    if (boxes.any_meeting(box_of_loop(i), coincides)) return false;
+    if (around != (winding_of(leaf, loop) > 0 ? 0 : 1)) return false;
   }
   return true;
 }
@@ -117,26 +197,25 @@ bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards
 }  // namespace
 
 bool trace_loops(Edges edges, CutLeaf& leaf) {
-  thread_local std::vector<char> used;
   thread_local std::vector<std::int32_t> walk;
-  used.assign(edges.size(), 0);
+  UnusedEdges unused(edges, leaf);
   for (std::size_t start = 0; start < edges.size(); ++start) {
-    if (used[start] != 0) continue;
+    if (!unused.has(start)) continue;
     walk.assign(1, edges[start].from);
     std::size_t e = start;
-    used[e] = 1;
+    unused.take(e);
     while (true) {
       walk.push_back(edges[e].to);
       if (edges[e].to == edges[start].from) {
-        const std::size_t next = next_edge(edges, leaf, used, e);
+        const std::size_t next = unused.next(e);
         if (next == edges.size() || !clockwise_before(at(leaf, edges[e].to), at(leaf, edges[e].from),
                                                       at(leaf, edges[next].to), at(leaf, edges[start].to))) {
           break;
         }
       }
-      e = next_edge(edges, leaf, used, e);
+      e = unused.next(e);
       if (e == edges.size()) return false;
-      used[e] = 1;
+      unused.take(e);
     }
     split_into_loops(walk, leaf);
   }
@@ -154,11 +233,7 @@ int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
 }
 
 bool loops_are_sound(Edges edges, const CutLeaf& leaf) {
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (edges_conflict(leaf, edges[i], edges[j])) return false;
-    }
-  }
+  if (any_conflict(leaf, edges)) return false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
     if (leaf.loop(i).size() < 3) return false;
   }
@@ -169,14 +244,12 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
   const auto same_line = [](const CutLeaf::Edge& e, const CutLeaf::Edge& f) {
     return (e.from == f.from && e.to == f.to) || (e.from == f.to && e.to == f.from);
   };
-  for (std::size_t i = 0; i < bare_sides.size(); ++i) {
-    for (const CutLeaf::Edge& e : edges) {
-      if (!same_line(bare_sides[i], e) && edges_conflict(leaf, bare_sides[i], e)) return false;
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (edges_conflict(leaf, bare_sides[i], bare_sides[j])) return false;
-    }
+  const EdgeIndex index(leaf, edges);
+  for (const CutLeaf::Edge& bare : bare_sides) {
+    const auto counts = [&](std::int32_t e) { return !same_line(bare, edges[e]); };
+    if (index.any_conflict(bare, size32(edges), counts)) return false;
   }
+  if (any_conflict(leaf, bare_sides)) return false;
   thread_local std::vector<std::int32_t> round;
   round.resize(leaf.side_nodes);
   std::iota(round.begin(), round.end(), 0);

@@ -1,6 +1,7 @@
 #include "mesher/snap/capture_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -95,30 +96,41 @@ class PointCapture {
     return c.side == edge.side && edge.at(lattice_, edge.from) <= at && at <= edge.at(lattice_, edge.to);
   }
 
+  /// How many crossings lie on the edge's side of the leaf between two places along it, both closed. Sorts
+  /// those of a leaf once for all of its points.
+  std::ptrdiff_t crossings_between(const LeafTrace& view, const LeafEdge& edge, double low, double high) {
+    if (sorted_ != view.crossings.data()) {
+      for (auto& places : places_) places.clear();
+      for (const Crossing& c : view.crossings)
+        places_[index_of(c.side)].push_back(is_vertical(c.side) ? c.position.y : c.position.x);
+      for (auto& places : places_) std::sort(places.begin(), places.end());
+      sorted_ = view.crossings.data();
+    }
+    const auto& places = places_[index_of(edge.side)];
+    return std::ranges::upper_bound(places, high) - std::ranges::lower_bound(places, low);
+  }
+
   /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies
   /// between, or another kept point near, or where what lies between point and crossing, which vanishes,
   /// holds a kept point or reaches far: a bay behind a narrow mouth.
   bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
-                      Snap& snap) const {
+                      Snap& snap) {
     const Point p = geometry_.point(vertex);
     const double size = edge.length(lattice_);
     double low = edge.along(p), high = low;
-    std::vector<std::int32_t> taken;
     for (const std::int32_t c : {piece.entry, piece.exit}) {
       const Crossing& crossing = view.crossing(c);
       if (!on_edge(edge, crossing) || length(crossing.position - p) >= crossing_reach * size) continue;
       if (!may_vanish(between(view.vertices_of(piece), vertex, c == piece.entry), p, crossing_reach * size))
         return false;
       snap.absorbed.push_back({crossing.segment, edge.vertical()});
-      taken.push_back(c);
       low = std::min(low, edge.along(crossing.position));
       high = std::max(high, edge.along(crossing.position));
     }
-    for (std::int32_t c = 0; c < size32(view.crossings); ++c) {
-      const Crossing& crossing = view.crossing(c);
-      if (std::find(taken.begin(), taken.end(), c) != taken.end() || !on_edge(edge, crossing)) continue;
-      if (low <= edge.along(crossing.position) && edge.along(crossing.position) <= high) return false;
-    }
+    std::sort(snap.absorbed.begin(), snap.absorbed.end());
+    low = std::max(low, edge.at(lattice_, edge.from));
+    high = std::min(high, edge.at(lattice_, edge.to));
+    if (crossings_between(view, edge, low, high) > std::ssize(snap.absorbed)) return false;
     const auto vertices = view.vertices_of(piece);
     return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
       return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size;
@@ -143,6 +155,8 @@ class PointCapture {
   const Lattice& lattice_;
   const Geometry& geometry_;
   double share_;
+  const Crossing* sorted_ = nullptr;           ///< the first crossing of the leaf that `places_` is of
+  std::array<std::vector<double>, 4> places_;  ///< along each side, ascending
 };
 
 /// Of those that claim one corner the nearest has it; none where two are equally near.

@@ -21,12 +21,12 @@ struct Snap {
   struct Absorbed {
     std::int32_t segment = -1;
     bool vertical = false;  ///< whether the crossing lies on the vertical lattice line through the corner
-    friend bool operator==(const Absorbed&, const Absorbed&) = default;
+    friend auto operator<=>(const Absorbed&, const Absorbed&) = default;
   };
-  std::vector<Absorbed> absorbed;
-  std::int32_t segment = -1;  ///< that a hanging node was moved onto where no crossing was near; else -1
-  bool on_edge = false;       ///< an edge's, not a corner's
-  bool vertical = false;      ///< of an edge
+  std::vector<Absorbed> absorbed;  ///< ascending
+  std::int32_t segment = -1;       ///< that a hanging node was moved onto where no crossing was near; else -1
+  bool on_edge = false;            ///< an edge's, not a corner's
+  bool vertical = false;           ///< of an edge
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 

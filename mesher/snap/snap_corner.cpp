@@ -17,31 +17,61 @@ namespace {
 constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this
                                         ///< from the outline as it goes on from the corner
 
-/// Sights of crossings that the outline passes one after another near the corner: the same crossing, and the
-/// two ends of one piece, belong to one run. Of each sight the number of its run, or `none`.
-using Runs = std::pmr::vector<std::int32_t>;
 constexpr std::int32_t none = -1;
+
+/// Which sights are of crossings that the outline passes one after another near the corner: the same
+/// crossing, and the two ends of one piece, belong to one run.
+class Runs {
+ public:
+  Runs(std::size_t sights, std::pmr::memory_resource* memory)
+      : number_(sights, none, memory), sights_(memory) {}
+
+  /// Steps to make them: adds sights in ascending order, each a run of its own, joins the runs of two,
+  /// closes.
+  void add(std::int32_t sight) {
+    number_[sight] = sight;
+    sights_.push_back(sight);
+  }
+  void join(std::int32_t a, std::int32_t b) {
+    const auto [low, high] = std::minmax({first_of(a), first_of(b)});  // a list: values
+    number_[high] = low;
+  }
+  void close() {
+    for (const std::int32_t sight : sights_) number_[sight] = number_[number_[sight]];
+    std::ranges::sort(sights_, {}, [&](std::int32_t sight) { return std::pair(number_[sight], sight); });
+  }
+
+  /// Of a sight the number of its run, that of the run's first sight, or `none`.
+  std::int32_t number_of(std::size_t sight) const { return number_[sight]; }
+  /// The sights that are in runs, run after run, those of each in ascending order.
+  std::span<const std::int32_t> sights() const { return sights_; }
+
+ private:
+  std::int32_t first_of(std::int32_t sight) {
+    while (number_[sight] != sight) sight = number_[sight] = number_[number_[sight]];
+    return sight;
+  }
+
+  std::pmr::vector<std::int32_t>
+      number_;  ///< until they are closed: of an earlier sight of the run, or its own
+  std::pmr::vector<std::int32_t> sights_;
+};
 
 /// One of them.
 struct Run {
   const Runs* runs;
   std::int32_t number;
+  std::span<const std::int32_t> sights;  ///< ascending
 
-  bool contains(std::size_t sight) const { return (*runs)[sight] == number; }
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (std::size_t i = 0; i < runs->size(); ++i) {
-      if (contains(i)) visit(i);
-    }
-  }
-  template <class Holds>
-  bool any_of(const Holds& holds) const {
-    for (std::size_t i = 0; i < runs->size(); ++i) {
-      if (contains(i) && holds(i)) return true;
-    }
-    return false;
-  }
+  bool contains(std::size_t sight) const { return runs->number_of(sight) == number; }
 };
+
+/// The run with a number.
+Run run_at(const Runs& runs, std::int32_t number) {
+  const auto found = std::ranges::equal_range(runs.sights(), number, {},
+                                              [&](std::int32_t sight) { return runs.number_of(sight); });
+  return {&runs, number, {found.begin(), found.end()}};
+}
 
 bool on_one_piece(const Sight& a, const Sight& b) { return a.trace == b.trace && a.piece == b.piece; }
 
@@ -54,7 +84,7 @@ struct Claim {
 /// What vanishes in a corner that takes a run.
 struct Swallowed {
   explicit Swallowed(std::pmr::memory_resource* memory) : vertices(memory), goes_on(memory) {}
-  std::pmr::vector<std::int32_t> vertices;
+  std::pmr::vector<std::int32_t> vertices;  ///< each once
   /// Where the outline goes on from the corner: nowhere for an island round it.
   std::pmr::vector<Point> goes_on;
 };
@@ -82,9 +112,10 @@ class CornerDecision {
     const Point target = geometry_.point(capture.vertex);
     for (const bool whole_run : {true, false}) {
       const Runs runs = runs_among(whole_run);
-      const Run run = run_of(capture, runs);
-      if (run.number != none && !passes_over(run) && follows(swallowed_by(run), target))
-        return snap_to(target, run);
+      const std::optional<Run> run = run_of(capture, runs);
+      if (!run || passes_over(*run)) continue;
+      Swallowed swallowed = swallowed_by(*run);
+      if (follows(swallowed, target)) return snap_to(target, run);
     }
     const bool claimed =
         std::any_of(sights_.begin(), sights_.end(), [&](const Sight& s) { return claims(s); });
@@ -102,30 +133,38 @@ class CornerDecision {
     return view.vertices_of(view.pieces[s.piece]);
   }
 
-  /// Whether two sights belong to one run. A kept point far from the corner parts what comes before from what
-  /// comes after it.
-  bool in_one_run(const Sight& a, const Sight& b) const {
-    if (a.direction == b.direction && a.segment == b.segment) return true;
-    if (!on_one_piece(a, b)) return false;
-    const auto vertices = vertices_of(a);
+  /// Whether the ends of a piece belong to one run. A kept point far from the corner parts what comes before
+  /// from what comes after it.
+  bool joins_its_ends(const Sight& s) const {
+    const auto vertices = vertices_of(s);
     return std::none_of(vertices.begin(), vertices.end(),
                         [&](std::int32_t v) { return geometry_.kept(v) && !is_near(geometry_.point(v)); });
+  }
+
+  /// The same for sights of one crossing.
+  std::pair<Direction, std::int32_t> crossing_of(std::int32_t sight) const {
+    return {sights_[sight].direction, sights_[sight].segment};
   }
 
   /// The runs among the crossings that claim the corner and, if asked, those that are at least nearer to it
   /// than to the far end of their edge: the corner there is farther, and never takes them.
   Runs runs_among(bool whole_run) const {
-    Runs runs(sights_.size(), none, &memory_);
-    for (std::size_t i = 0; i < sights_.size(); ++i) {
+    Runs runs(sights_.size(), &memory_);
+    for (std::int32_t i = 0; i < size32(sights_); ++i) {
       const bool nearer = 2 * sights_[i].distance < sights_[i].edge;
-      if (!claims(sights_[i]) && !(whole_run && nearer)) continue;
-      runs[i] = static_cast<std::int32_t>(i);
-      for (std::size_t j = 0; j < i; ++j) {
-        if (runs[j] == none || runs[j] == runs[i] || !in_one_run(sights_[i], sights_[j])) continue;
-        const std::int32_t own = runs[i], joined = runs[j];
-        std::replace(runs.begin(), runs.end(), own, joined);
-      }
+      if (claims(sights_[i]) || (whole_run && nearer)) runs.add(i);
     }
+    std::pmr::vector<std::int32_t> order(runs.sights().begin(), runs.sights().end(), &memory_);
+    for (std::size_t k = 1; k < order.size(); ++k) {  // both ends of a piece come one after the other
+      const Sight& s = sights_[order[k]];
+      if (on_one_piece(sights_[order[k - 1]], s) && joins_its_ends(s)) runs.join(order[k - 1], order[k]);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::int32_t a, std::int32_t b) { return crossing_of(a) < crossing_of(b); });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      if (crossing_of(order[k - 1]) == crossing_of(order[k])) runs.join(order[k - 1], order[k]);
+    }
+    runs.close();
     return runs;
   }
 
@@ -133,9 +172,10 @@ class CornerDecision {
   std::optional<Claim> nearest_claim(const Runs& runs) const {
     double best = corner_.edge;
     std::optional<Claim> nearest;
-    for (std::int32_t number = 0; number < size32(runs); ++number) {
-      const Run run{&runs, number};
-      if (!run.any_of([&](std::size_t i) { return claims(sights_[i]); })) continue;
+    for (auto rest = runs.sights(); !rest.empty();) {
+      const Run run = run_at(runs, runs.number_of(rest.front()));
+      rest = rest.subspan(run.sights.size());
+      if (std::ranges::none_of(run.sights, [&](std::int32_t i) { return claims(sights_[i]); })) continue;
       const Point point = nearest_point(run);
       const double run_distance = distance(point);
       if (run_distance == best) nearest.reset();
@@ -146,23 +186,24 @@ class CornerDecision {
   }
 
   /// The run of the point that captures the corner: of the first sight of its piece that has one.
-  Run run_of(const CornerCapture& capture, const Runs& runs) const {
+  std::optional<Run> run_of(const CornerCapture& capture, const Runs& runs) const {
     for (std::size_t i = 0; i < sights_.size(); ++i) {
-      if (sights_[i].trace == capture.trace && sights_[i].piece == capture.piece && runs[i] != none)
-        return {&runs, runs[i]};
+      if (sights_[i].trace == capture.trace && sights_[i].piece == capture.piece && runs.number_of(i) != none)
+        return run_at(runs, runs.number_of(i));
     }
-    return {&runs, none};
+    return std::nullopt;
   }
 
   /// Whether a crossing that is not taken lies between the corner and one that is: no contraction.
   bool passes_over(const Run& run) const {
-    return run.any_of([&](std::size_t i) {
-      for (std::size_t j = 0; j < sights_.size(); ++j) {
-        if (sights_[j].direction == sights_[i].direction && sights_[j].distance <= sights_[i].distance &&
-            !run.contains(j))
-          return true;
-      }
-      return false;
+    std::array<double, 4> nearest_other;  // of each direction
+    nearest_other.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      double& nearest = nearest_other[index_of(sights_[i].direction)];
+      if (!run.contains(i)) nearest = std::min(nearest, sights_[i].distance);
+    }
+    return std::ranges::any_of(run.sights, [&](std::int32_t i) {
+      return nearest_other[index_of(sights_[i].direction)] <= sights_[i].distance;
     });
   }
 
@@ -191,13 +232,13 @@ class CornerDecision {
   std::optional<Point> crossing_on_axis(const Run& run) const {
     std::optional<Point> nearest;
     if (!corner_.mirror || side_of(*corner_.mirror, corner_.position) != 0) return nearest;
-    run.for_each([&](std::size_t i) {
+    for (const std::int32_t i : run.sights) {
       const Sight& s = sights_[i];
       const LeafTrace view = traces_[s.trace];
       const Piece& piece = view.pieces[s.piece];
       const Point p = view.crossing(s.at_entry ? piece.entry : piece.exit).position;
       if (side_of(*corner_.mirror, p) == 0 && (!nearest || distance(p) < distance(*nearest))) nearest = p;
-    });
+    }
     return nearest;
   }
 
@@ -225,29 +266,36 @@ class CornerDecision {
       least = to_p;
       nearest = p;
     };
-    run.for_each([&](std::size_t i) {
+    for (const std::int32_t i : run.sights)
       follow(
           sights_[i], [](std::int32_t) {}, see);
-    });
     return nearest;
+  }
+
+  /// Whether the run has the other end of a sight's piece as well: the sight before or after.
+  bool has_other_end(const Run& run, std::int32_t sight) const {
+    const Sight& s = sights_[sight];
+    const auto is_other_end = [&](std::int32_t i) {
+      return i >= 0 && i < size32(sights_) && run.contains(i) && on_one_piece(sights_[i], s) &&
+             sights_[i].at_entry != s.at_entry;
+    };
+    return is_other_end(sight - 1) || is_other_end(sight + 1);
   }
 
   /// A piece with both ends in the run vanishes whole.
   Swallowed swallowed_by(const Run& run) const {
     Swallowed swallowed(&memory_);
     const auto swallow = [&](std::int32_t v) { swallowed.vertices.push_back(v); };
-    run.for_each([&](std::size_t i) {
+    for (const std::int32_t i : run.sights) {
       const Sight& s = sights_[i];
-      const bool vanishes = run.any_of(
-          [&](std::size_t j) { return on_one_piece(sights_[j], s) && sights_[j].at_entry != s.at_entry; });
-      if (!vanishes) {
+      if (!has_other_end(run, i)) {
         swallowed.goes_on.push_back(follow(s, swallow, [](std::int32_t) {}));
-        return;
+      } else if (s.at_entry) {
+        for (const std::int32_t v : vertices_of(s)) {
+          if (!geometry_.straight(v)) swallow(v);
+        }
       }
-      for (const std::int32_t v : vertices_of(s)) {
-        if (!geometry_.straight(v)) swallow(v);
-      }
-    });
+    }
     return swallowed;
   }
 
@@ -256,46 +304,56 @@ class CornerDecision {
   /// two kept points would vanish, or what lies too far off, or a whole loop.
   std::optional<Point> target_of(const Claim& claim) const {
     Swallowed swallowed = swallowed_by(claim.run);
-    auto& vertices = swallowed.vertices;
-    Point target = claim.nearest;
-    for (const std::int32_t v : vertices) {
-      if (geometry_.kept(v)) target = geometry_.point(v);
-    }
+    const auto kept =
+        std::ranges::find_if(swallowed.vertices, [&](std::int32_t v) { return geometry_.kept(v); });
+    const bool holds_kept = kept != swallowed.vertices.end();
+    const Point target = holds_kept ? geometry_.point(*kept) : claim.nearest;
     if (follows(swallowed, target)) return target;
+    if (holds_kept) return std::nullopt;
+    auto vertices = swallowed.vertices;
     const auto distance_of = [&](std::int32_t v) { return distance(geometry_.point(v)); };
-    std::sort(vertices.begin(), vertices.end(),
-              [&](std::int32_t a, std::int32_t b) { return distance_of(a) < distance_of(b); });
-    for (const std::int32_t v : vertices) {
-      const bool tied = std::any_of(vertices.begin(), vertices.end(), [&](std::int32_t other) {
-        return other != v && distance_of(other) == distance_of(v);
-      });
-      if (!tied && follows(swallowed, geometry_.point(v))) return geometry_.point(v);
+    std::ranges::sort(vertices, {}, distance_of);
+    for (std::size_t i = 0, end = 0; i < vertices.size(); i = end) {
+      while (end < vertices.size() && distance_of(vertices[end]) == distance_of(vertices[i])) ++end;
+      const Point p = geometry_.point(vertices[i]);
+      if (end == i + 1 && follows(swallowed, p)) return p;
     }
     return std::nullopt;
   }
 
   /// Whether the target is near the corner, and no vertex that vanishes in it strays from the outline as it
-  /// goes on from there, nor is a kept one.
-  bool follows(const Swallowed& swallowed, Point target) const {
-    return is_near(target) && !swallowed.goes_on.empty() &&
-           std::none_of(swallowed.vertices.begin(), swallowed.vertices.end(), [&](std::int32_t v) {
-             const Point p = geometry_.point(v);
-             double stray = std::numeric_limits<double>::infinity();
-             for (const Point end : swallowed.goes_on)
-               stray = std::min(stray, length(p - nearest_on_segment(p, target, end)));
-             return stray > swallow_share * corner_.edge || (geometry_.kept(v) && p != target);
-           });
+  /// goes on from there, nor is a kept one. One that does comes first from then on: most likely it strays
+  /// from the next target, too.
+  bool follows(Swallowed& swallowed, Point target) const {
+    const auto& ways = swallowed.goes_on;
+    if (!is_near(target) || ways.empty()) return false;
+    std::size_t near = 0;  // the way that the last vertex lies near: most likely the next one does so, too
+    const auto strays = [&](std::int32_t v) {
+      const Point p = geometry_.point(v);
+      if (geometry_.kept(v) && p != target) return true;
+      const auto is_near_way = [&](Point end) {
+        return length(p - nearest_on_segment(p, target, end)) <= swallow_share * corner_.edge;
+      };
+      for (std::size_t tried = 0; tried < ways.size(); ++tried, near = (near + 1) % ways.size()) {
+        if (is_near_way(ways[near])) return false;
+      }
+      return true;
+    };
+    const auto straying = std::ranges::find_if(swallowed.vertices, strays);
+    if (straying == swallowed.vertices.end()) return true;
+    std::iter_swap(swallowed.vertices.begin(), straying);
+    return false;
   }
 
   /// `run`: none for a corner that takes no crossing.
   Snap snap_to(Point target, const std::optional<Run>& run) const {
     Snap snap{corner_.corner, target, corner_.position, corner_reach * corner_.edge, {}};
-    const auto absorb = [&](std::size_t i) {
-      const Snap::Absorbed crossing{sights_[i].segment, is_vertical(sights_[i].direction)};
-      if (std::find(snap.absorbed.begin(), snap.absorbed.end(), crossing) == snap.absorbed.end())
-        snap.absorbed.push_back(crossing);
-    };
-    if (run) run->for_each(absorb);
+    if (!run) return snap;
+    snap.absorbed.reserve(run->sights.size());
+    for (const std::int32_t i : run->sights)
+      snap.absorbed.push_back({sights_[i].segment, is_vertical(sights_[i].direction)});
+    std::sort(snap.absorbed.begin(), snap.absorbed.end());
+    snap.absorbed.erase(std::unique(snap.absorbed.begin(), snap.absorbed.end()), snap.absorbed.end());
     return snap;
   }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/snap/capture_points.hpp"
 #include "tests/snap/traced_leaves.hpp"
 
@@ -126,6 +127,22 @@ TEST(SnapCorners, NoVertexVanishesThatStraysFromTheOutline) {
   const auto peak = above({{1.75, 0.5}, {2, 1.25}, {2.25, 0.5}}, none_kept);
   EXPECT_EQ(at(snapped(peak), {2, 1}), (Moved{{2, 1}, {2, 1.25}, 3}))
       << "the point that strays is the target";
+}
+
+TEST(SnapCorners, AZigzagIsOneRunHoweverOftenItCrosses) {
+  constexpr double step = 1.0 / 2048, height = 0.1 * step;  // no turn is sharp
+  const auto turn = [&](int k) { return Point{(k + 0.25) * step, 1 + (k % 2 == 0 ? -height : height)}; };
+  Points zigzag;
+  for (int k = -1000; k <= 9000; ++k) zigzag.push_back(turn(k));
+  std::vector<Moved> expected;
+  for (int i = 0; i <= 4; ++i) {  // each takes what is nearer to it than to the next one, and one on x = i
+    const Point corner{1.0 * i, 1};
+    const int last = 2048 * i - 1;  // that the outline passes before the corner
+    expected.push_back(
+        {corner, nearest_on_segment(corner, turn(last), turn(last + 1)), i == 0 || i == 4 ? 1025 : 2049});
+  }
+  EXPECT_EQ(snapped(above(zigzag, none_kept)), expected);
+  EXPECT_TRUE(snapped(above(zigzag, 10)).empty()) << "more than one kept point would vanish";
 }
 
 TEST(SnapCorners, AKeptPointTakesTheCornerAndItsRunAlong) {
