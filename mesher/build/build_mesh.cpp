@@ -87,7 +87,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");
-  const LeafEstimate leaves = estimate_leaves(sizes);
+  const LeafEstimate leaves = estimate_leaves(comm, sizes);
   result.report.estimate = estimate_mesh(geometry, options.type, domain, leaves);
   require_within(result.report.estimate, geometry, options, demanded);
   tell(result.report.estimate, geometry, options, comm.size(), demanded.empty());

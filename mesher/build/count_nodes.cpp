@@ -14,7 +14,7 @@ std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const 
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
   SizedDomain domain(geometry, options.size, demanded);
-  const LeafEstimate leaves = estimate_leaves(domain.sizes);
+  const LeafEstimate leaves = estimate_leaves(comm, domain.sizes);
   require_within(estimate_mesh(geometry, options.type, domain, leaves), geometry, options, demanded);
   const LeafGraph graph = refine_forest(comm, domain.sizes, leaves);
   const CutForest cut =

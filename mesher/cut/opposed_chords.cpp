@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <vector>
 
 #include "mesher/base/mixed_bits.hpp"
 #include "mesher/base/parallel/exchange.hpp"
@@ -43,12 +44,29 @@ std::array<LeafId, 2> across(LeafFinder& finder, LeafId leaf, Side side) {
   return {finder.leaf_at(q.x, beyond), finder.leaf_at(q.x + last, beyond)};
 }
 
+/// Flags the local leaves that have another rank's across a side: few, found from those.
+std::vector<char> leaves_beside_ghosts(LeafFinder& finder) {
+  const LeafGraph& graph = finder.graph();
+  std::vector<char> flags(graph.local_size(), 0);
+  const auto flag_beside = [&](LeafId ghost) {
+    for (const Side side : all_sides) {
+      for (const LeafId other : across(finder, ghost, side)) {
+        if (other != LeafGraph::none && graph.is_local(other)) flags[graph.local_index(other)] = 1;
+      }
+    }
+  };
+  std::ranges::for_each(ids_below(graph.from_local(0)), flag_beside);
+  std::ranges::for_each(ids_between(graph.from_local(graph.local_size()), LeafId{graph.size()}), flag_beside);
+  return flags;
+}
+
 }  // namespace
 
 OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
   std::vector<SideChord> chords;
   Outbox<SideChord> out;
   LeafFinder finder(graph);
+  const std::vector<char> beside_ghosts = leaves_beside_ghosts(finder);
   for (const LeafId leaf : graph.local()) {
     const std::int32_t e = cut.entry_of[graph.local_index(leaf)];
     if (e < 0) continue;
@@ -62,7 +80,7 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       const SideChord chord{rising ? from.position : to.position, rising ? to.position : from.position,
                             rising};
       chords.push_back(chord);
-      if (comm.size() == 1) continue;
+      if (beside_ghosts[graph.local_index(leaf)] == 0) continue;
       for (const Side side : all_sides) {
         if (!common.contains(side)) continue;
         for (const LeafId other : across(finder, leaf, side)) {

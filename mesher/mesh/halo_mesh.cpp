@@ -19,6 +19,28 @@ struct TravellingEdge {
   std::int32_t boundary;
 };
 
+/// Calls `visit(i)` for the cells with a copy among their nodes, few of all: looked for by the block, as
+/// fast as memory gives them.
+template <std::size_t width, class Visit>
+void for_cells_at_copies(const std::vector<std::array<NodeId, width>>& cells, std::int32_t owned_nodes,
+                         const Visit& visit) {
+  constexpr std::size_t block = 256;
+  const auto largest_in = [&](std::size_t begin, std::size_t end) {
+    std::int32_t largest = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const NodeId node : cells[i]) largest = std::max(largest, node.value());
+    }
+    return largest;
+  };
+  for (std::size_t begin = 0; begin < cells.size(); begin += block) {
+    const std::size_t end = std::min(cells.size(), begin + block);
+    if (largest_in(begin, end) < owned_nodes) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (largest_in(i, i + 1) >= owned_nodes) visit(static_cast<std::int32_t>(i));
+    }
+  }
+}
+
 /// The ranks other than this one that own a node of a cell or an edge.
 template <class Nodes>
 std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const Nodes& nodes) {
@@ -49,17 +71,16 @@ template <std::size_t width>
 void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
                              NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent) {
   std::vector<TravellingCell<width>> out;
-  const bool any_shared = !mesh_->copies.empty();  // else no cell touches a node of another rank
-  const std::int32_t cells = any_shared ? size32(own) : 0;
-  for (std::int32_t i = 0; i < cells; ++i) {
-    if (std::ranges::all_of(own[i], [&](NodeId node) { return owns(node); })) continue;
+  const auto send = [&](std::int32_t i) {
     for (const int rank : other_owners(*mesh_, owners, own[i])) {
       TravellingCell<width>& cell = out.emplace_back();
       for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(own[i][k]), mesh_->point(own[i][k])};
       sent.cells.push_back(i);
       sent.ranks.push_back(rank);
     }
-  }
+  };
+  const bool any_shared = !mesh_->copies.empty();  // else no cell touches a node of another rank
+  if (any_shared) for_cells_at_copies(own, owned_nodes(), send);
   const Exchange exchange(comm, sent.ranks);
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());
   for (const TravellingCell<width>& cell : exchange.deliver(out)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,47 +24,11 @@ struct Sampled {
   Side side = Side::unknown;  ///< known where it holds no outline
 };
 
-/// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter for
-/// each alike, so that a wrong guess of any one kind cannot hide much.
-std::vector<double> chances_of(const std::vector<Sampled>& splits, LeavesAhead& leaves, SizeCursor& cursor) {
-  std::vector<double> ahead, outline;
-  double all_ahead = 0, all_outline = 0, all = 0;
-  for (const Sampled& s : splits) {
-    ahead.push_back(s.weight * leaves.below(s.quadrant));
-    outline.push_back(s.weight * size32(cursor.segments_in(s.quadrant)));
-    all_ahead += ahead.back();
-    all_outline += outline.back();
-    all += s.weight;
-  }
-  std::vector<double> chances;
-  for (std::size_t i = 0; i < splits.size(); ++i) {
-    const double by_outline = all_outline > 0 ? outline[i] / all_outline : 0;
-    chances.push_back(std::min(
-        1.0, followed * (0.5 * ahead[i] / all_ahead + 0.25 * by_outline + 0.25 * splits[i].weight / all)));
-  }
-  return chances;
-}
-
-/// Evenly along the curve. All where there are few.
-std::vector<Sampled> chosen(std::vector<Sampled> splits, LeavesAhead& leaves, SizeCursor& cursor) {
-  if (size32(splits) <= followed) return splits;
-  const std::vector<double> chances = chances_of(splits, leaves, cursor);
-  std::vector<Sampled> kept;
-  double sum = 0.5;
-  for (std::size_t i = 0; i < splits.size(); ++i) {
-    const double before = sum;
-    sum += chances[i];
-    if (chances[i] < 1 && std::floor(sum) == std::floor(before)) continue;
-    kept.push_back(splits[i]);
-    kept.back().weight /= chances[i];
-  }
-  return kept;
-}
-
 class LeafCount {
  public:
-  explicit LeafCount(const SizeTree& sizes)
-      : sizes_{sizes}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
+  /// `comm`: the ranks that share the looks at quadrants; null where this one takes all.
+  LeafCount(const Communicator* comm, const SizeTree& sizes)
+      : comm_{comm}, sizes_{sizes}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
 
   LeafEstimate count() {
     std::vector<Sampled> level;
@@ -72,7 +37,7 @@ class LeafCount {
         level.push_back({{tx << Quadrant::unit_level, ty << Quadrant::unit_level, 0}});
       }
     }
-    while (!level.empty()) level = chosen(splits_among(children_of(level)), ahead_, cursor_);
+    while (!level.empty()) level = chosen(splits_among(children_of(level)));
     counted_.sample = LeafSample(std::move(sampled_));
     return std::move(counted_);
   }
@@ -87,19 +52,85 @@ class LeafCount {
     return children;
   }
 
+  /// What `look` says of each quadrant, in their order. Each rank looks at a stretch of them.
+  template <class Look>
+  auto looks_at(const std::vector<Sampled>& quadrants, const Look& look) const {
+    using Found = decltype(look(quadrants.front()));
+    const std::size_t ranks = comm_ ? comm_->size() : 1, rank = comm_ ? comm_->rank() : 0;
+    const std::size_t end = quadrants.size() * (rank + 1) / ranks;
+    std::vector<Found> found;
+    for (std::size_t i = quadrants.size() * rank / ranks; i < end; ++i) found.push_back(look(quadrants[i]));
+    return ranks > 1 ? comm_->all_gather_values(std::span<const Found>(found)) : found;
+  }
+
+  struct Seen {
+    Sampled::Side side;
+    bool is_cut, is_split;
+  };
+  Seen see(const Sampled& q) {
+    const bool unknown = q.side == Sampled::Side::unknown;
+    const bool is_cut = unknown && !cursor_.segments_in(q.quadrant).empty();
+    const Sampled::Side side = unknown && !is_cut ? side_of(q.quadrant) : q.side;
+    return {side, is_cut, side != Sampled::Side::outside && gradation_.must_split(q.quadrant)};
+  }
+
   std::vector<Sampled> splits_among(const std::vector<Sampled>& quadrants) {
     std::vector<Sampled> splits;
-    for (Sampled q : quadrants) {
-      const bool cut = q.side == Sampled::Side::unknown && !cursor_.segments_in(q.quadrant).empty();
-      if (!cut && q.side == Sampled::Side::unknown) q.side = side_of(q.quadrant);
-      if (q.side == Sampled::Side::outside)
-        count(q, counted_.outside);
-      else if (gradation_.must_split(q.quadrant))
+    const std::vector<Seen> seen = looks_at(quadrants, [&](const Sampled& q) { return see(q); });
+    for (std::size_t i = 0; i < quadrants.size(); ++i) {
+      const Sampled q{quadrants[i].quadrant, quadrants[i].weight, seen[i].side};
+      if (seen[i].is_split)
         splits.push_back(q);
+      else if (q.side == Sampled::Side::outside)
+        count(q, counted_.outside);
       else
-        cut ? count(q, counted_.cut, outside_of_cut * q.weight) : count(q, counted_.inside);
+        seen[i].is_cut ? count(q, counted_.cut, outside_of_cut * q.weight) : count(q, counted_.inside);
     }
     return splits;
+  }
+
+  /// What is to be expected below a split quadrant and others for which it stands.
+  struct Expected {
+    double leaves, segments;
+  };
+  Expected expect(const Sampled& s) {
+    return {s.weight * ahead_.below(s.quadrant), s.weight * size32(cursor_.segments_in(s.quadrant))};
+  }
+
+  /// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter
+  /// for each alike, so that a wrong guess of any one kind cannot hide much.
+  std::vector<double> chances_of(const std::vector<Sampled>& splits) {
+    const std::vector<Expected> expected = looks_at(splits, [&](const Sampled& s) { return expect(s); });
+    Expected all{0, 0};
+    double all_weight = 0;
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      all.leaves += expected[i].leaves;
+      all.segments += expected[i].segments;
+      all_weight += splits[i].weight;
+    }
+    std::vector<double> chances;
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      const double by_outline = all.segments > 0 ? expected[i].segments / all.segments : 0;
+      chances.push_back(std::min(1.0, followed * (0.5 * expected[i].leaves / all.leaves + 0.25 * by_outline +
+                                                  0.25 * splits[i].weight / all_weight)));
+    }
+    return chances;
+  }
+
+  /// Evenly along the curve. All where there are few.
+  std::vector<Sampled> chosen(std::vector<Sampled> splits) {
+    if (size32(splits) <= followed) return splits;
+    const std::vector<double> chances = chances_of(splits);
+    std::vector<Sampled> kept;
+    double sum = 0.5;
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      const double before = sum;
+      sum += chances[i];
+      if (chances[i] < 1 && std::floor(sum) == std::floor(before)) continue;
+      kept.push_back(splits[i]);
+      kept.back().weight /= chances[i];
+    }
+    return kept;
   }
 
   /// `outside`: how many more lie outside beside it.
@@ -113,6 +144,7 @@ class LeafCount {
     return cursor_.is_inside(q, Corner::south_west) ? Sampled::Side::inside : Sampled::Side::outside;
   }
 
+  const Communicator* comm_;
   const SizeTree& sizes_;
   SizeCursor cursor_;
   Gradation gradation_;
@@ -123,6 +155,10 @@ class LeafCount {
 
 }  // namespace
 
-LeafEstimate estimate_leaves(const SizeTree& sizes) { return LeafCount(sizes).count(); }
+LeafEstimate estimate_leaves(const SizeTree& sizes) { return LeafCount(nullptr, sizes).count(); }
+
+LeafEstimate estimate_leaves(const Communicator& comm, const SizeTree& sizes) {
+  return LeafCount(&comm, sizes).count();
+}
 
 }  // namespace quadloop

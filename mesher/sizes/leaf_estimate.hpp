@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesher/base/parallel/communicator.hpp"
 #include "mesher/sizes/leaf_sample.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
@@ -20,5 +21,8 @@ struct LeafEstimate {
 /// split outside the domain, which is guessed by the cut leaves. Time grows with the levels, not with the
 /// leaves. The same on any number of ranks; not collective.
 LeafEstimate estimate_leaves(const SizeTree& sizes);
+
+/// The same to the last bit, in less time: each rank looks at some of the quadrants. *Collective.*
+LeafEstimate estimate_leaves(const Communicator& comm, const SizeTree& sizes);
 
 }  // namespace quadloop

@@ -42,16 +42,17 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
     seen_.insert(seen_.end(), seen.begin(), seen.end());
   }
   number_stars();
-  const std::vector<char> touched = find_starts();
+  const Touched touched = find_starts();
   corners_.resize(starts_.back());
   if (!targets.empty() || mesh.has_quads()) seen_of_.resize(corners_.size());
   std::size_t number = 0;
   mesh.for_each_cell([&](const auto& cell) {
     const std::size_t cell_number = number++;
-    if (touched[cell_number] != 0) add_cell(cell, targets.empty() ? CellTarget{} : targets[cell_number]);
+    if (touched.cells[cell_number] != 0)
+      add_cell(cell, targets.empty() ? CellTarget{} : targets[cell_number]);
   });
   starts_.pop_back();
-  list_stars_round_copies();
+  list_stars_round_copies(touched.near_copies);
 }
 
 std::vector<std::int32_t> NodeStars::all() const {
@@ -65,41 +66,43 @@ void NodeStars::number_stars() {
   for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
 }
 
-/// Shifted by one: a star's start stands in the place of the next one's until its corners are added. Returns
-/// for each cell whether it has a free node.
-std::vector<char> NodeStars::find_starts() {
-  std::vector<char> touched;
-  touched.reserve(mesh_.cell_count());
+/// Shifted by one: a star's start stands in the place of the next one's until its corners are added.
+NodeStars::Touched NodeStars::find_starts() {
+  Touched touched;
+  touched.cells.reserve(mesh_.cell_count());
   starts_.assign(nodes_.size() + 2, 0);
   mesh_.for_each_cell([&](const auto& cell) {
-    bool any = false;
+    bool any = false, any_copy = false;
     for (const NodeId node : cell) {
       const std::int32_t star = star_of_[node];
-      if (star < 0) continue;
+      if (star < 0) {
+        any_copy |= !mesh_.owns(node);
+        continue;
+      }
       any = true;
       starts_[star + std::size_t{2}] +=
           corners_of_cell<std::tuple_size_v<std::remove_cvref_t<decltype(cell)>>>;
     }
-    touched.push_back(any ? 1 : 0);
+    touched.cells.push_back(any ? 1 : 0);
+    if (!any || !any_copy) return;
+    for (const NodeId node : cell) {
+      if (star_of_[node] >= 0) touched.near_copies.push_back(star_of_[node]);
+    }
   });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  std::vector<std::int32_t>& near = touched.near_copies;
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
   return touched;
 }
 
 /// Copies are few and lie at the borders of ranks.
-void NodeStars::list_stars_round_copies() {
-  if (mesh_.points().size() == static_cast<std::size_t>(mesh_.owned_nodes())) return;
-  NodeFlags near_copies(mesh_.points().size(), 0);
-  mesh_.for_each_cell([&](const auto& cell) {
-    if (!std::ranges::all_of(cell, [&](NodeId node) { return mesh_.owns(node); }))
-      flag_all(cell, near_copies);
-  });
+void NodeStars::list_stars_round_copies(const std::vector<std::int32_t>& near_copies) {
   copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
   const auto for_each_pair = [&](const auto& visit) {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (near_copies[nodes_[i]] == 0) continue;
-      for_each_neighbour(i, [&](NodeId other) {
-        if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), static_cast<std::int32_t>(i));
+    for (const std::int32_t star : near_copies) {
+      for_each_neighbour(star, [&](NodeId other) {
+        if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), star);
       });
     }
   };

@@ -63,14 +63,19 @@ class NodeStars {
   /// What the k-th of all corners should be.
   const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
   void number_stars();
-  std::vector<char> find_starts();
+  struct Touched {
+    std::vector<char> cells;  ///< a flag for each: it has a free node
+    std::vector<std::int32_t>
+        near_copies;  ///< the stars that share a cell with another rank's node, ascending
+  };
+  Touched find_starts();
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& cell, const CellTarget& target);
   template <std::size_t width>
   std::int32_t first_seen(const CellTarget& target);
   template <std::size_t width>
   static std::vector<SeenTarget> seen_targets(const std::array<CornerTarget, width>& of_corners);
-  void list_stars_round_copies();
+  void list_stars_round_copies(const std::vector<std::int32_t>& near_copies);
 
   const HaloMesh& mesh_;
   std::vector<NodeId> nodes_;

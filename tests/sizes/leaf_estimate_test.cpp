@@ -5,6 +5,7 @@
 
 #include "mesher/sizes/size_cursor.hpp"
 #include "tests/sizes/forest_of.hpp"
+#include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
@@ -41,6 +42,21 @@ TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
   const SizeTree tree = sizes.tree();
   const double first = estimate_leaves(tree).all();
   EXPECT_EQ(estimate_leaves(tree).all(), first) << "the tree has grown since";
+}
+
+TEST(LeafEstimate, IsTheSameToTheLastBitWhereRanksShareIt) {
+  for (const double spacing : {0.06, 0.0015}) {
+    const Sizes sizes(spacing);
+    const SizeTree own_tree = sizes.tree(), shared_tree = sizes.tree();
+    const LeafEstimate own = estimate_leaves(own_tree), shared = estimate_leaves(test::world(), shared_tree);
+    EXPECT_EQ(shared.cut, own.cut);
+    EXPECT_EQ(shared.inside, own.inside);
+    EXPECT_EQ(shared.outside, own.outside);
+    for (const Corner quarter : corners_along_curve) {
+      const Quadrant q = Quadrant{0, 0, 0}.child(quarter);
+      EXPECT_EQ(shared.sample.leaves_in(q), own.sample.leaves_in(q));
+    }
+  }
 }
 
 TEST(LeafEstimate, OfEachKindIsNearItsNumberAtEverySpacing) {
