@@ -110,7 +110,7 @@ class LeafCutter {
   void add_hanging_nodes(Point segment_end);
   void choose_points(bool closed, Detail detail);
   void keep_strays(std::size_t from, std::size_t to);
-  std::int32_t add_inner_node(Point position);
+  std::int32_t node_at(Point position);
   void settle_inner_nodes();
   bool cancel_opposites();
 

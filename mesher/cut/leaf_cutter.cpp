@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
@@ -19,6 +21,40 @@ double along(Side side, Point p) {
   const double ascending = is_vertical(side) ? p.y : p.x;
   return side == Side::bottom || side == Side::right ? ascending : -ascending;
 }
+
+constexpr std::size_t few = 32;  ///< of so many all are looked at in less time than they are sorted
+
+/// The edges that a list has now, by their ends, found as long as they keep these.
+class EdgesByEnds {
+ public:
+  explicit EdgesByEnds(const std::vector<CutLeaf::Edge>& edges) : edges_{edges}, count_{edges.size()} {
+    if (count_ <= few) return;
+    order_.resize(count_);
+    std::iota(order_.begin(), order_.end(), 0);
+    std::ranges::sort(order_, {}, [&](std::int32_t e) { return std::tuple(edges[e].from, edges[e].to, e); });
+    for (const std::int32_t e : order_) sorted_.emplace_back(edges[e].from, edges[e].to);
+  }
+  std::size_t count() const { return count_; }
+
+  /// The first one from one node to another; their count where there is none.
+  std::size_t first(std::int32_t from, std::int32_t to) const {
+    const auto runs_so = [&](std::size_t e) { return edges_[e].from == from && edges_[e].to == to; };
+    const std::pair ends(from, to);
+    std::size_t k = std::ranges::lower_bound(sorted_, ends) - sorted_.begin();
+    for (; k < sorted_.size() && sorted_[k] == ends; ++k) {
+      if (runs_so(order_[k])) return order_[k];
+    }
+    std::size_t e = order_.empty() ? 0 : count_;
+    while (e < count_ && !runs_so(e)) ++e;
+    return e;
+  }
+
+ private:
+  const std::vector<CutLeaf::Edge>& edges_;
+  std::size_t count_;
+  std::vector<std::int32_t> order_;  ///< none where they are few
+  std::vector<std::pair<std::int32_t, std::int32_t>> sorted_;
+};
 
 /// By Corner.
 std::array<Point, 4> corners_of(const Box& box) {
@@ -200,7 +236,12 @@ bool LeafCutter::status_at_start(bool& inside) const {
   return true;
 }
 
-std::int32_t LeafCutter::add_inner_node(Point position) {
+/// That at the position, if it is among the first few: settle_inner_nodes() finds the others.
+std::int32_t LeafCutter::node_at(Point position) {
+  const auto looked_at = static_cast<std::int32_t>(std::min(leaf_.nodes.size(), few));
+  for (std::int32_t i = 0; i < looked_at; ++i) {
+    if (leaf_.nodes[i].position == position) return i;
+  }
   leaf_.nodes.push_back({position, Site::inside});
   return size32(leaf_.nodes) - 1;
 }
@@ -220,11 +261,11 @@ void LeafCutter::add_chord_run(const Piece& piece, Detail detail) {
   list_points(piece, trimmed_vertices(piece));
   choose_points(closed, detail);
   std::size_t from = 0;
-  std::int32_t from_node = closed ? add_inner_node(run_[0].position) : crossing_node_[piece.entry];
+  std::int32_t from_node = closed ? node_at(run_[0].position) : crossing_node_[piece.entry];
   for (std::size_t i = 1; i < run_.size(); ++i) {
     if (!run_[i].chosen) continue;
     const bool at_exit = !closed && i + 1 == run_.size();
-    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : add_inner_node(run_[i].position);
+    const std::int32_t to_node = at_exit ? crossing_node_[piece.exit] : node_at(run_[i].position);
     if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run_[from].segment});
     from = i;
     from_node = to_node;
@@ -328,7 +369,8 @@ void LeafCutter::keep_strays(std::size_t from, std::size_t to) {
 /// position: their order must not depend on the order in which boundaries are listed.
 void LeafCutter::settle_inner_nodes() {
   const std::int32_t first = leaf_.side_nodes;
-  if (size32(leaf_.nodes) == first) return;
+  const bool all_looked_at = leaf_.nodes.size() <= few;
+  if (size32(leaf_.nodes) <= first + (all_looked_at ? 1 : 0)) return;
   thread_local std::vector<std::int32_t> order, renamed;
   thread_local std::vector<CutLeaf::Node> inner;
   order.resize(leaf_.nodes.size());
@@ -356,26 +398,12 @@ void LeafCutter::settle_inner_nodes() {
 /// A chord along a side of the leaf, against the sense of the side, leaves nothing between the two: neither
 /// bounds a cell here. Two chords against each other would swallow what lies between: false.
 bool LeafCutter::cancel_opposites() {
-  using Ends = std::pair<std::int32_t, std::int32_t>;
-  thread_local std::vector<Ends> chords;
-  thread_local std::vector<std::pair<Ends, std::size_t>> sides;
-  chords.clear();
-  sides.clear();
-  for (const CutLeaf::Edge& e : leaf_.outline) chords.emplace_back(e.from, e.to);
-  for (const CutLeaf::Edge& e : edges_) sides.push_back({{e.from, e.to}, sides.size()});
-  std::sort(chords.begin(), chords.end());
-  std::sort(sides.begin(), sides.end());
-  const auto first_side = [&](const Ends& ends) {  // of those that are left; their count where there is none
-    auto at = std::lower_bound(sides.begin(), sides.end(), std::pair(ends, std::size_t{0}));
-    while (at != sides.end() && at->first == ends && edges_[at->second].from < 0) ++at;
-    return at != sides.end() && at->first == ends ? at->second : sides.size();
-  };
+  const EdgesByEnds chords(leaf_.outline), sides(edges_);
   for (const CutLeaf::Edge& chord : leaf_.outline) {
-    if (std::binary_search(chords.begin(), chords.end(), Ends(chord.to, chord.from))) return false;
-    const std::size_t along = first_side({chord.from, chord.to}),
-                      against = first_side({chord.to, chord.from});
+    if (chords.first(chord.to, chord.from) < chords.count()) return false;
+    const std::size_t along = sides.first(chord.from, chord.to), against = sides.first(chord.to, chord.from);
     if (along < against) return false;
-    if (against == sides.size()) {
+    if (against == sides.count()) {
       edges_.push_back(chord);
     } else {
       edges_[against].from = edges_[against].to = -1;
