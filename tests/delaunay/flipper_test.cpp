@@ -11,7 +11,6 @@
 
 #include "mesher/base/ids.hpp"
 #include "mesher/delaunay/delaunay_patch.hpp"
-#include "mesher/geometry/blunt_corners.hpp"
 
 namespace quadloop {
 namespace {
@@ -288,14 +287,6 @@ TEST(DelaunayPatch, KnowsEdgesOfOneTriangle) {
   }
   EXPECT_GT(single, both_odd);
   EXPECT_GT(both_odd, 0);
-}
-
-TEST(BluntCorners, AreNamedByBits) {
-  const Point a{0, 0}, b{1, 0}, right{0, 1}, obtuse{-1, 1}, acute{0.5, 1};
-  EXPECT_EQ(blunt_corners(a, b, acute), 0U);
-  EXPECT_EQ(blunt_corners(a, b, right), 1U);  // a right angle may be blunt
-  EXPECT_EQ(blunt_corners(obtuse, a, b), 2U);
-  EXPECT_EQ(blunt_corners(b, obtuse, a), 4U);
 }
 
 }  // namespace
