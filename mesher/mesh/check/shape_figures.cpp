@@ -153,16 +153,16 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
 class LargestRatio {
  public:
   LargestRatio(const HaloMesh& mesh, const AreaRanges& ranges, double least)
-      : mesh_{mesh}, is_wanted_(mesh.points().size(), 0), last_(ranges.size(), none) {
-    for (const NodeId node : ranges.ids()) is_wanted_[node] = ranges[node].ratio() < least ? 0 : 1;
+      : mesh_{mesh}, last_(mesh.points().size(), unwanted) {
+    for (const NodeId node : ranges.ids()) last_[node] = ranges[node].ratio() < least ? unwanted : none;
     mesh.for_each_cell([&](const auto& nodes) {
-      if (any_flagged(is_wanted_, nodes)) add_cell(nodes);
+      if (std::ranges::any_of(nodes, [&](NodeId node) { return is_wanted(node); })) add_cell(nodes);
     });
   }
   double value() const { return value_; }
 
  private:
-  static constexpr std::int32_t none = -1;
+  static constexpr std::int32_t none = -1, unwanted = -2;
   /// Of the cell that an edge was seen with first.
   struct Side {
     NodeId other;
@@ -170,14 +170,16 @@ class LargestRatio {
     double area;
   };
 
+  bool is_wanted(NodeId node) const { return last_[node] != unwanted; }
+
   template <std::size_t width>
   void add_cell(const std::array<NodeId, width>& nodes) {
     const double area = area_of(mesh_, nodes);
     for (std::size_t k = 0; k < width; ++k) {
       const NodeId node = nodes[k];
-      if (!mesh_.owns(node) || is_wanted_[node] == 0) continue;
+      if (!is_wanted(node)) continue;
       for (const NodeId other : {nodes[(k + 1) % width], nodes[(k + width - 1) % width]}) {
-        const bool counts = !mesh_.owns(other) || (node < other && is_wanted_[other] != 0);
+        const bool counts = !mesh_.owns(other) || (node < other && is_wanted(other));
         if (counts) add_side(node, other, area);
       }
     }
@@ -193,9 +195,8 @@ class LargestRatio {
   }
 
   const HaloMesh& mesh_;
-  NodeFlags is_wanted_;  ///< owned nodes alone
   std::vector<Side> sides_;
-  IdVector<NodeId, std::int32_t> last_;  ///< of each node, its last side
+  IdVector<NodeId, std::int32_t> last_;  ///< of each node its last side; only owned ones are wanted
   double value_ = 0;
 };
 
