@@ -1,16 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/closing.hpp"
+#include "app/command_line.hpp"
 #include "mesher/base/json.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace quadloop {
 
@@ -28,13 +24,12 @@ std::string record_text(const CommandRecord& record, const Outcome& outcome);
 
 /// What every command is given, and where it leaves its work.
 ///
-///     add_x_command(app, context)      adds the subcommand `x` with its options
-///     app.parse(...)                   the subcommand's callback only sets `context.run`
-///     context.run()                    does the work, *collectively*, and throws an Error of
-///     mesher/base/error.hpp
+///     add_x_command(line, context)     adds the command `x` with its options
+///     line.parse(...)                  returns the work of the chosen command
+///     work()                           does it, *collectively*, and throws an Error of mesher/base/error.hpp
 ///
-/// Options live in a shared_ptr that the callback captures. `quiet` and `verbose` are known when `run` is
-/// called, not before. Results for the user go to stdout from the rank and in the manner that `shows_table`
+/// Options live in a shared_ptr that the work captures. `quiet` and `verbose` are known when the work is
+/// done, not before. Results for the user go to stdout from the rank and in the manner that `shows_table`
 /// says, and into `record` always; logs go through mesher/base/log.hpp, warnings through `warn`.
 struct CommandContext {
   const Communicator& comm;
@@ -42,7 +37,6 @@ struct CommandContext {
   bool verbose = false;
   bool json = false;
   CommandRecord& record;
-  std::function<void()> run;
 
   /// Whether this rank prints the table for people.
   bool shows_table() const { return comm.is_root() && !quiet && !json; }
@@ -51,15 +45,15 @@ struct CommandContext {
   void warn(const std::vector<std::string>& warnings) const;
 };
 
-void add_mesh_command(CLI::App& app, CommandContext& context);
-void add_adapt_command(CLI::App& app, CommandContext& context);
-void add_remesh_command(CLI::App& app, CommandContext& context);
-void add_morph_command(CLI::App& app, CommandContext& context);
-void add_smooth_command(CLI::App& app, CommandContext& context);
-void add_solve_command(CLI::App& app, CommandContext& context);
-void add_check_command(CLI::App& app, CommandContext& context);
-void add_plot_command(CLI::App& app, CommandContext& context);
-void add_convert_command(CLI::App& app, CommandContext& context);
-void add_extrude_command(CLI::App& app, CommandContext& context);
+void add_mesh_command(CommandLine& line, CommandContext& context);
+void add_adapt_command(CommandLine& line, CommandContext& context);
+void add_remesh_command(CommandLine& line, CommandContext& context);
+void add_morph_command(CommandLine& line, CommandContext& context);
+void add_smooth_command(CommandLine& line, CommandContext& context);
+void add_solve_command(CommandLine& line, CommandContext& context);
+void add_check_command(CommandLine& line, CommandContext& context);
+void add_plot_command(CommandLine& line, CommandContext& context);
+void add_convert_command(CommandLine& line, CommandContext& context);
+void add_extrude_command(CommandLine& line, CommandContext& context);
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -198,28 +197,27 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
 
 }  // namespace
 
-void add_adapt_command(CLI::App& app, CommandContext& context) {
+void add_adapt_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<AdaptArguments>();
-  CLI::App* command = app.add_subcommand("adapt", "mesh, solve and adapt in turn, as a case file says");
-  add_case_argument(*command, arguments->case_path);
-  command->add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
-      ->type_name("DIR");
+  Command command = line.add_command("adapt", "mesh, solve and adapt in turn, as a case file says");
+  command.add_case_argument(arguments->case_path);
+  command.add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
+      .value_name("DIR");
   command
-      ->add_option(
+      .add_option(
           "--from", arguments->from,
           "begin with what another run left, on the outline of now: its folder, that of a cycle, or a mesh "
           "beside its tree")
-      ->type_name("RUN");
-  command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
-      ->type_name("NEW.geom");
-  command->add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
-      ->type_name("N")
-      ->check(CLI::Range(0, 10000));
-  command->add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
-  add_max_cells_option(*command, arguments->max_cells);
-  add_set_option(*command, arguments->assignments, "solver.mach=0.7");
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_adapt(context, *arguments); }; });
+      .value_name("RUN");
+  command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+      .value_name("NEW.geom");
+  command.add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
+      .value_name("N")
+      .between(0, 10000);
+  command.add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
+  command.add_max_cells_option(arguments->max_cells);
+  command.add_set_option(arguments->assignments, "solver.mach=0.7");
+  command.set_work([&context, arguments] { run_adapt(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -92,23 +91,21 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 
 }  // namespace
 
-void add_check_command(CLI::App& app, CommandContext& context) {
+void add_check_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* command = app.add_subcommand("check", "say whether a mesh is valid");
+  Command command = line.add_command("check", "say whether a mesh is valid");
   command
-      ->add_option("input", arguments->input,
-                   "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
-                       suffixes_for({Content::solid}) + ", a folder)")
-      ->required()
-      ->type_name("IN");
-  command->add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")
-      ->type_name("FILE.geom");
-  command->callback([&context, arguments] {
-    context.run = [&context, arguments] {
-      context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status
-        if (context.comm.is_root()) check_on_root(context, *arguments);
-      });
-    };
+      .add_option("input", arguments->input,
+                  "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                      suffixes_for({Content::solid}) + ", a folder)")
+      .required()
+      .value_name("IN");
+  command.add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")
+      .value_name("FILE.geom");
+  command.set_work([&context, arguments] {
+    context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status
+      if (context.comm.is_root()) check_on_root(context, *arguments);
+    });
   });
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -206,32 +205,31 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
 
 }  // namespace
 
-void add_convert_command(CLI::App& app, CommandContext& context) {
+void add_convert_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App* command = app.add_subcommand("convert", "write a mesh, as it is, in another format");
+  Command command = line.add_command("convert", "write a mesh, as it is, in another format");
   command
-      ->add_option("input", arguments->input,
-                   "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
-                       suffixes_for({Content::solid}) + "), with a solution where it has one")
-      ->required()
-      ->type_name("IN");
+      .add_option("input", arguments->input,
+                  "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                      suffixes_for({Content::solid}) + "), with a solution where it has one")
+      .required()
+      .value_name("IN");
   command
-      ->add_option("output", arguments->output,
-                   "the same mesh, in the format of its suffix; IN itself is overwritten")
-      ->required()
-      ->type_name("OUT");
-  command->add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
-      ->type_name("NAME")
-      ->check(one_of(formats_of_meshes()));
+      .add_option("output", arguments->output,
+                  "the same mesh, in the format of its suffix; IN itself is overwritten")
+      .required()
+      .value_name("OUT");
+  command.add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
+      .value_name("NAME")
+      .one_of(formats_of_meshes());
   command
-      ->add_option(
+      .add_option(
           "--parts", arguments->parts,
           "write the mesh in so many parts as well, for the ranks of a solver: OUT without its suffix "
           "is the prefix of their names")
-      ->type_name("N")
-      ->check(CLI::Range(1, 100000));
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_convert(context, *arguments); }; });
+      .value_name("N")
+      .between(1, 100000);
+  command.set_work([&context, arguments] { run_convert(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -163,42 +162,41 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
     std::cout << figures.table() << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
-void add_options(CLI::App& command, ExtrudeArguments& arguments) {
+void add_options(Command& command, ExtrudeArguments& arguments) {
   command.add_option("input", arguments.input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
-      ->required()
-      ->type_name("IN");
+      .required()
+      .value_name("IN");
   command
       .add_option(
           "-o,--output", arguments.output,
           "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::solid}) + ", a folder)")
-      ->required()
-      ->type_name("OUT");
+      .required()
+      .value_name("OUT");
   command.add_option("--layers", arguments.layers, "how many layers of cells, of the same thickness")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{1}, most_layers));
+      .value_name("N")
+      .between(1, most_layers);
   command.add_option("--thickness", arguments.thickness, "of all of them together")
-      ->type_name("T")
-      ->check(positive_number());
+      .value_name("T")
+      .positive();
   command
       .add_option("--heights", arguments.heights,
                   "in their place: the coordinates of the levels along the axis, two or more, ascending")
-      ->type_name("FILE");
+      .value_name("FILE");
   command
       .add_option("--axis", arguments.axis,
                   "the axis along which it is drawn out: z (the default), or y: the plane's y becomes z")
-      ->type_name("AXIS")
-      ->check(one_of({"y", "z"}));
+      .value_name("AXIS")
+      .one_of({"y", "z"});
 }
 
 }  // namespace
 
-void add_extrude_command(CLI::App& app, CommandContext& context) {
+void add_extrude_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<ExtrudeArguments>();
-  CLI::App* command =
-      app.add_subcommand("extrude", "draw a mesh out into prisms and hexahedra, with its solution");
-  add_options(*command, *arguments);
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_extrude(context, *arguments); }; });
+  Command command =
+      line.add_command("extrude", "draw a mesh out into prisms and hexahedra, with its solution");
+  add_options(command, *arguments);
+  command.set_work([&context, arguments] { run_extrude(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
@@ -16,6 +17,10 @@
 namespace quadloop {
 
 namespace {
+
+std::vector<CLI::App*> commands_of(CLI::App& app) {
+  return app.get_subcommands([](CLI::App*) { return true; });
+}
 
 /// What is wrong where no word of the command line is a command.
 std::string without_command(CLI::App& app) {
@@ -54,12 +59,9 @@ bool is_file(const std::string& word) {
   return std::filesystem::exists(word, ignored);
 }
 
-}  // namespace
-
-std::vector<CLI::App*> commands_of(CLI::App& app) {
-  return app.get_subcommands([](CLI::App*) { return true; });
-}
-
+/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow
+/// one: an option of many values would take the case file for one of them. A word that names a file is the
+/// case file, whatever it looks like.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words;
   bool in_assignments = false;
@@ -75,6 +77,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
   return words;
 }
 
+/// Lets CLI11 print what it has to print (help, version) on the root rank; anything else is a UsageError.
 void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
   if (request.get_exit_code() == 0) {
     if (comm.is_root()) app.exit(request, std::cout, std::cerr);
@@ -87,43 +90,130 @@ void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& c
   throw UsageError(fmt::format("{} '{} --help'", fault + (fault.ends_with('?') ? " See" : "; see"), command));
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) {
+}  // namespace
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::value_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::count(int values) {
+  option_->expected(values);
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& words) {
   const std::string all = fmt::format("{{{}}}", fmt::join(words, ","));
-  return CLI::Validator(
+  option_->check(CLI::Validator(
       [words, all](std::string& word) {
         if (std::find(words.begin(), words.end(), word) != words.end()) return std::string();
         return fmt::format("'{}' is not in {}{}", word, all, guess_for(word, words));
       },
-      all);
+      all));
+  return *this;
 }
 
-CLI::Validator positive_number() {
-  return CLI::Validator(
+Option& Option::between(std::int64_t low, std::int64_t high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+
+Option& Option::positive() {
+  option_->check(CLI::Validator(
       [](std::string& word) {
         double number = 0;
         const bool is_positive =
             CLI::detail::lexical_cast(word, number) && number > 0 && std::isfinite(number);
         return is_positive ? std::string() : fmt::format("'{}' is not a number above 0", word);
       },
-      "");
+      ""));
+  return *this;
 }
 
-void add_case_argument(CLI::App& command, std::string& case_path) {
-  command.add_option("case", case_path, "the case file (TOML)")->required()->type_name("CASE.toml");
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
 }
 
-void add_set_option(CLI::App& command, std::vector<std::string>& assignments, const std::string& example) {
-  command.add_option("--set", assignments, "set a key of the case file, as in " + example + "; one or more")
+template <class Value>
+Option Command::add_option(const std::string& names, Value& value, const std::string& help) {
+  return Option(app_.add_option(names, value, help));
+}
+template Option Command::add_option(const std::string&, std::string&, const std::string&);
+template Option Command::add_option(const std::string&, int&, const std::string&);
+template Option Command::add_option(const std::string&, std::int64_t&, const std::string&);
+template Option Command::add_option(const std::string&, double&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<int>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+
+Option Command::add_flag(const std::string& names, bool& value, const std::string& help) {
+  return Option(app_.add_flag(names, value, help));
+}
+
+void Command::add_case_argument(std::string& case_path) {
+  add_option("case", case_path, "the case file (TOML)").required().value_name("CASE.toml");
+}
+
+void Command::add_set_option(std::vector<std::string>& assignments, const std::string& example) {
+  app_.add_option("--set", assignments, "set a key of the case file, as in " + example + "; one or more")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
 
-void add_max_cells_option(CLI::App& command, std::optional<double>& max_cells) {
-  command
-      .add_option("--max-cells", max_cells,
-                  "the most cells that a mesh may have by estimate; without it as many as free memory holds")
-      ->type_name("N")
-      ->check(positive_number());
+void Command::add_max_cells_option(std::optional<double>& max_cells) {
+  add_option("--max-cells", max_cells,
+             "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+      .value_name("N")
+      .positive();
+}
+
+void Command::set_work(std::function<void()> work) {
+  app_.callback([&chosen = chosen_, work = std::move(work)] { chosen = work; });
+}
+
+CommandLine::CommandLine(const std::string& description, const std::string& name, const std::string& version)
+    : app_{std::make_unique<CLI::App>(description, name)} {
+  app_->fallthrough();
+  app_->require_subcommand(1);
+  app_->set_version_flag("--version", version);
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::add_flag(const std::string& names, bool& value, const std::string& help) {
+  app_->add_flag(names, value, help);
+}
+
+Command CommandLine::add_command(const std::string& name, const std::string& help) {
+  return {*app_->add_subcommand(name, help), chosen_};
+}
+
+void CommandLine::set_footer(const std::string& text) {
+  for (CLI::App* command : commands_of(*app_)) command->footer(text);
+}
+
+std::function<void()> CommandLine::parse(int argc, char** argv, const Communicator& comm,
+                                         std::string& command) {
+  const auto named = [&] {
+    const auto commands = app_->get_subcommands();
+    return commands.empty() ? std::string() : commands.back()->get_name();
+  };
+  try {
+    app_->parse(words_of(argc, argv));
+  } catch (const CLI::ParseError& request) {
+    command = named();
+    answer(*app_, request, comm);
+    command.clear();
+    return {};
+  }
+  command = named();
+  return chosen_;
 }
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -188,29 +187,28 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
 
 }  // namespace
 
-void add_mesh_command(CLI::App& app, CommandContext& context) {
+void add_mesh_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MeshArguments>();
-  CLI::App* command = app.add_subcommand("mesh", "mesh the domain that a case file describes");
-  add_case_argument(*command, arguments->case_path);
+  Command command = line.add_command("mesh", "mesh the domain that a case file describes");
+  command.add_case_argument(arguments->case_path);
   command
-      ->add_option("-o,--output", arguments->prefix,
-                   "what the output files begin with, instead of output.prefix")
-      ->type_name("PREFIX");
-  command->add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
-      ->type_name("TYPE")
-      ->check(one_of({"hybrid", "delaunay"}));
+      .add_option("-o,--output", arguments->prefix,
+                  "what the output files begin with, instead of output.prefix")
+      .value_name("PREFIX");
+  command.add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
+      .value_name("TYPE")
+      .one_of({"hybrid", "delaunay"});
   command
-      ->add_option("--tree", arguments->tree,
-                   "restart from the tree of an earlier run: what it wanted refined stays so")
-      ->type_name("TREE.h5");
+      .add_option("--tree", arguments->tree,
+                  "restart from the tree of an earlier run: what it wanted refined stays so")
+      .value_name("TREE.h5");
   command
-      ->add_option("--geometry-out", arguments->geometry_out,
-                   "write the geometry as it is meshed, without the islands that are dropped")
-      ->type_name("OUT.geom");
-  add_max_cells_option(*command, arguments->max_cells);
-  add_set_option(*command, arguments->assignments, "spacing.min=0.1");
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_mesh(context, *arguments); }; });
+      .add_option("--geometry-out", arguments->geometry_out,
+                  "write the geometry as it is meshed, without the islands that are dropped")
+      .value_name("OUT.geom");
+  command.add_max_cells_option(arguments->max_cells);
+  command.add_set_option(arguments->assignments, "spacing.min=0.1");
+  command.set_work([&context, arguments] { run_mesh(context, *arguments); });
 }
 
 }  // namespace quadloop

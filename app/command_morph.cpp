@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -249,54 +248,52 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
               << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
-void add_derivative_options(CLI::App& command, MorphArguments& arguments) {
+void add_derivative_options(Command& command, MorphArguments& arguments) {
   command
       .add_option(
           "--direction", arguments.direction,
           "a table boundary,x,y,dx,dy of what points of NEW.geom do: OUT has the nodes' velocities, as dx_ds "
           "and dy_ds")
-      ->type_name("TABLE.csv");
+      .value_name("TABLE.csv");
   command
       .add_option(
           "--nodal-gradient", arguments.nodal_gradient,
           "dJ/dX at the nodes of the mesh on the new outline, in the fields dJ_dx and dJ_dy of an adjoint "
           "solution")
-      ->type_name("SOLUTION");
+      .value_name("SOLUTION");
   command
       .add_option("--outline-gradient", arguments.outline_gradient,
                   "writes what J gains from the points of NEW.geom: boundary,x,y,dJ_dx,dJ_dy")
-      ->type_name("TABLE.csv");
+      .value_name("TABLE.csv");
   command.add_option("--fields", arguments.fields, "the two fields of --nodal-gradient by other names")
-      ->expected(2)
-      ->type_name("NAME");
+      .count(2)
+      .value_name("NAME");
 }
 
 }  // namespace
 
-void add_morph_command(CLI::App& app, CommandContext& context) {
+void add_morph_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MorphArguments>();
-  CLI::App* command = app.add_subcommand("morph", "move a mesh's nodes to a changed outline");
-  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
-      ->required()
-      ->type_name("IN");
+  Command command = line.add_command("morph", "move a mesh's nodes to a changed outline");
+  command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+      .required()
+      .value_name("IN");
   command
-      ->add_option("--geometry", arguments->geometry,
-                   "the new outline; boundaries that it lacks stay where they are")
-      ->required()
-      ->type_name("NEW.geom");
+      .add_option("--geometry", arguments->geometry,
+                  "the new outline; boundaries that it lacks stay where they are")
+      .required()
+      .value_name("NEW.geom");
   command
-      ->add_option(
-          "--from", arguments->from,
-          "the outline that IN was made on: where NEW.geom has as many points, nodes stay with their "
-          "segments, else they keep their shares of the way between corners")
-      ->type_name("OLD.geom");
+      .add_option("--from", arguments->from,
+                  "the outline that IN was made on: where NEW.geom has as many points, nodes stay with their "
+                  "segments, else they keep their shares of the way between corners")
+      .value_name("OLD.geom");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "the mesh on the new outline, in the format of its suffix")
-      ->type_name("OUT");
-  add_derivative_options(*command, *arguments);
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_morph(context, *arguments); }; });
+      .add_option("-o,--output", arguments->output,
+                  "the mesh on the new outline, in the format of its suffix")
+      .value_name("OUT");
+  add_derivative_options(command, *arguments);
+  command.set_work([&context, arguments] { run_morph(context, *arguments); });
 }
 
 }  // namespace quadloop

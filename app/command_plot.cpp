@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -192,45 +191,45 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   context.record.files = {arguments.output};
 }
 
-void add_field_options(CLI::App& command, PlotArguments& arguments) {
-  CLI::Option* field =
+void add_field_options(Command& command, PlotArguments& arguments) {
+  const Option field =
       command
           .add_option("--field", arguments.field,
                       "a variable of the solution, mach or pressure_coefficient, as colours; with --walls a "
                       "column of the table")
-          ->type_name("NAME");
+          .value_name("NAME");
   command
       .add_option("--colour-by,--color-by", arguments.colouring,
                   "what the cells' colours tell: block, quality or type (the default); rank is refused, as "
                   "a mesh file holds no ranks")
-      ->type_name("WHAT")
-      ->check(one_of({"block", "quality", "type", "rank"}))
-      ->excludes(field);
+      .value_name("WHAT")
+      .one_of({"block", "quality", "type", "rank"})
+      .excludes(field);
   command.add_option("--range", arguments.range, "what the colours of a field span: the values shown")
-      ->type_name("A,B");
+      .value_name("A,B");
   command.add_option("--map", arguments.map, "the colours of a field: viridis, coolwarm, grey or plasma")
-      ->type_name("NAME")
-      ->check(one_of(colour_map_names()));
+      .value_name("NAME")
+      .one_of(colour_map_names());
   command
       .add_option("--shading", arguments.shading,
                   "of a field: smooth (linear over triangles, bilinear over quads) or flat")
-      ->type_name("HOW")
-      ->check(one_of({"smooth", "flat"}));
+      .value_name("HOW")
+      .one_of({"smooth", "flat"});
   command.add_option("--lines", arguments.lines, "the mesh's lines, on or off: off where a field is shown")
-      ->type_name("on|off")
-      ->check(one_of({"on", "off"}));
+      .value_name("on|off")
+      .one_of({"on", "off"});
   command.add_option("--contours", arguments.contours, "lines of equal values of the field, so many: 0")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000));
+      .value_name("N")
+      .between(0, 1000);
   command
       .add_option("--streamlines", arguments.streamlines,
                   "streamlines, about so many across the picture's shorter side: 0")
-      ->type_name("N")
-      ->check(CLI::Range(0, 200));
+      .value_name("N")
+      .between(0, 200);
 }
 
-void add_chart_options(CLI::App& command, PlotArguments& arguments) {
-  CLI::Option* walls =
+void add_chart_options(Command& command, PlotArguments& arguments) {
+  const Option walls =
       command.add_flag("--walls", arguments.walls,
                        "Cp over x along the walls, from the table .walls.csv beside IN, or in the last "
                        "cycle of IN, the folder of an adaptive run");
@@ -238,33 +237,32 @@ void add_chart_options(CLI::App& command, PlotArguments& arguments) {
       .add_flag("--history", arguments.history,
                 "residual and forces over steps, from the table .history.csv beside IN, or in the cycles of "
                 "IN, the folder of an adaptive run; over cycles where the solver leaves no such table")
-      ->excludes(walls);
+      .excludes(walls);
 }
 
 }  // namespace
 
-void add_plot_command(CLI::App& app, CommandContext& context) {
+void add_plot_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      app.add_subcommand("plot", "draw a mesh, a field on it, the flow along walls, or a history");
+  Command command =
+      line.add_command("plot", "draw a mesh, a field on it, the flow along walls, or a history");
   command
-      ->add_option("input", arguments->input,
-                   "the mesh (" + suffixes_for({Content::mesh}) + "); or a table .walls.csv or .history.csv")
-      ->required()
-      ->type_name("IN");
-  command->add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
-      ->required()
-      ->type_name("OUT");
-  command->add_option("--window", arguments->window, "the part of the plane, or of the axes, to show")
-      ->type_name("X0,X1,Y0,Y1");
+      .add_option("input", arguments->input,
+                  "the mesh (" + suffixes_for({Content::mesh}) + "); or a table .walls.csv or .history.csv")
+      .required()
+      .value_name("IN");
+  command.add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
+      .required()
+      .value_name("OUT");
+  command.add_option("--window", arguments->window, "the part of the plane, or of the axes, to show")
+      .value_name("X0,X1,Y0,Y1");
   command
-      ->add_option("--size", arguments->size,
-                   "pixels along the longer side, 1600, or width and height in cm: 16x10")
-      ->type_name("N|WxH");
-  add_field_options(*command, *arguments);
-  add_chart_options(*command, *arguments);
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_plot(context, *arguments); }; });
+      .add_option("--size", arguments->size,
+                  "pixels along the longer side, 1600, or width and height in cm: 16x10")
+      .value_name("N|WxH");
+  add_field_options(command, *arguments);
+  add_chart_options(command, *arguments);
+  command.set_work([&context, arguments] { run_plot(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -111,7 +110,7 @@ Figures transfer_figures(const CarriedMesh& carried) {
 }
 
 /// What remesh works on; the whole mesh with its solution on the root alone.
-struct Problem {
+struct RemeshProblem {
   TreeRecord tree;
   CaseInput input;
   LoadedMesh whole;                     ///< until it is spread
@@ -122,7 +121,7 @@ struct Problem {
 
 /// With the figures of parts where they are asked for. *Collective.*
 std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& carried,
-                                 const Problem& problem) {
+                                 const RemeshProblem& problem) {
   OutputSet outputs(comm);
   PartFiles part_files(comm);
   std::optional<PartFigures> parts;
@@ -141,13 +140,13 @@ std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& ca
 }
 
 /// *Collective.*
-Problem load(const Communicator& comm, const RemeshArguments& arguments) {
+RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments) {
   if (arguments.tree.empty()) {
     throw UsageError(
         "--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop "
         "remesh --help'");
   }
-  Problem problem;
+  RemeshProblem problem;
   problem.tree = read_tree(comm, arguments.tree);
   comm.together([&] {
     const TreeAttributes& tree = problem.tree.attributes;
@@ -168,7 +167,7 @@ Problem load(const Communicator& comm, const RemeshArguments& arguments) {
 }
 
 /// The mesh that the solution counts on, spread over the ranks, and doubts about it. *Collective.*
-SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, Problem& problem,
+SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem,
                    Warnings& doubts) {
   doubts = settle(comm, arguments, problem.tree, problem.input, problem.whole);
   SolvedMesh solved = spread_solved(comm, std::exchange(problem.whole, {}), std::move(problem.tree));
@@ -178,7 +177,7 @@ SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, P
 }
 
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
-            const Problem& problem, const std::optional<PartFigures>& parts) {
+            const RemeshProblem& problem, const std::optional<PartFigures>& parts) {
   for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
   const std::vector<std::string> files = with_files_beside(problem.files);
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
@@ -202,7 +201,7 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
 /// The old cells on the changed outline, where the case wants them and they are good enough; otherwise why a
 /// mesh is made anew is added to `doubts`. *Collective.*
 std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments& arguments,
-                                 const Problem& problem, const SolvedMesh& solved, Warnings& doubts) {
+                                 const RemeshProblem& problem, const SolvedMesh& solved, Warnings& doubts) {
   const std::optional<double>& least = problem.input.settings.morph_to;
   if (!least) return {};
   const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
@@ -213,7 +212,7 @@ std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments
 }
 
 /// Marked by the solution, meshed, and the solution carried over. *Collective.*
-CarriedMesh remesh(const Communicator& comm, const Problem& problem, const SolvedMesh& solved,
+CarriedMesh remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
                    StageTimes& times, Warnings& warnings) {
   times.begin("adapt");
   const MeshInput& mesh = *problem.input.mesh;
@@ -233,7 +232,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
-  Problem problem = load(comm, arguments);
+  RemeshProblem problem = load(comm, arguments);
   times.begin("compare");
   Warnings warnings;
   const SolvedMesh solved = compare(comm, arguments, problem, warnings);
@@ -265,26 +264,25 @@ std::string solution_help() {
 
 }  // namespace
 
-void add_remesh_command(CLI::App& app, CommandContext& context) {
+void add_remesh_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
-  CLI::App* command =
-      app.add_subcommand("remesh", "one pass of the loop for a solution that was computed elsewhere");
-  add_case_argument(*command, arguments->case_path);
+  Command command =
+      line.add_command("remesh", "one pass of the loop for a solution that was computed elsewhere");
+  command.add_case_argument(arguments->case_path);
   command
-      ->add_option("--tree", arguments->tree,
-                   "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
-      ->type_name("TREE.h5 REQUIRED");
-  command->add_option("--solution", arguments->solution, solution_help())->required()->type_name("IN");
-  command->add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
-      ->type_name("NEW.geom");
+      .add_option("--tree", arguments->tree,
+                  "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
+      .value_name("TREE.h5 REQUIRED");
+  command.add_option("--solution", arguments->solution, solution_help()).required().value_name("IN");
+  command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+      .value_name("NEW.geom");
   command
-      ->add_option("-o,--output", arguments->prefix,
-                   "what the output files begin with, instead of output.prefix")
-      ->type_name("PREFIX");
-  add_max_cells_option(*command, arguments->max_cells);
-  add_set_option(*command, arguments->assignments, "adapt.refine=0.5");
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_remesh(context, *arguments); }; });
+      .add_option("-o,--output", arguments->prefix,
+                  "what the output files begin with, instead of output.prefix")
+      .value_name("PREFIX");
+  command.add_max_cells_option(arguments->max_cells);
+  command.add_set_option(arguments->assignments, "adapt.refine=0.5");
+  command.set_work([&context, arguments] { run_remesh(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <limits>
@@ -209,36 +208,35 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 
 }  // namespace
 
-void add_smooth_command(CLI::App& app, CommandContext& context) {
+void add_smooth_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
-  CLI::App* command = app.add_subcommand("smooth", "move a mesh's nodes to better the shapes of its cells");
-  command->add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
-      ->required()
-      ->type_name("IN");
+  Command command = line.add_command("smooth", "move a mesh's nodes to better the shapes of its cells");
+  command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+      .required()
+      .value_name("IN");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
-      ->required()
-      ->type_name("OUT");
-  command->add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")
-      ->type_name("N")
-      ->check(CLI::Range(0, 100000));
+      .add_option("-o,--output", arguments->output,
+                  "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
+      .required()
+      .value_name("OUT");
+  command.add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")
+      .value_name("N")
+      .between(0, 100000);
   command
-      ->add_option("--method", arguments->method,
-                   "how a node's place is looked for: perturb (the default) or nlopt")
-      ->type_name("METHOD")
-      ->check(one_of(words_of(method_words)));
+      .add_option("--method", arguments->method,
+                  "how a node's place is looked for: perturb (the default) or nlopt")
+      .value_name("METHOD")
+      .one_of(words_of(method_words));
   command
-      ->add_option("--objective", arguments->objective,
-                   "what is lowered: power (the default) or thesis (Eq. 3.4)")
-      ->type_name("COST")
-      ->check(one_of(words_of(objective_words)));
+      .add_option("--objective", arguments->objective,
+                  "what is lowered: power (the default) or thesis (Eq. 3.4)")
+      .value_name("COST")
+      .one_of(words_of(objective_words));
   command
-      ->add_option("--geometry", arguments->geometry,
-                   "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
-      ->type_name("FILE.geom");
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_smooth(context, *arguments); }; });
+      .add_option("--geometry", arguments->geometry,
+                  "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
+      .value_name("FILE.geom");
+  command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }
 
 }  // namespace quadloop

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -37,7 +36,7 @@ struct SolveArguments {
 };
 
 /// The settings, and on the root rank alone the mesh with the flow to start from.
-struct Problem {
+struct SolveProblem {
   Settings settings;
   LoadedMesh whole;
   MeshOrder order;
@@ -79,8 +78,8 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
 }
 
 /// Every rank reads the case, the root the mesh. *Collective.*
-Problem load(const CommandContext& context, const SolveArguments& arguments) {
-  Problem problem;
+SolveProblem load(const CommandContext& context, const SolveArguments& arguments) {
+  SolveProblem problem;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
     require_outputs(arguments.output);
@@ -117,7 +116,7 @@ void write_text(OutputSet& outputs, const std::string& path, const std::string& 
 }
 
 /// Puts the flow into the whole mesh on the root and writes it, and the tables beside it. *Collective.*
-void write(const Communicator& comm, Problem& problem, const Mesh& part, const EulerResult& result,
+void write(const Communicator& comm, SolveProblem& problem, const Mesh& part, const EulerResult& result,
            const std::string& path) {
   const EulerOptions& options = problem.settings.solver.euler;
   const FreeStream stream = free_stream_of(options);
@@ -140,7 +139,7 @@ void write(const Communicator& comm, Problem& problem, const Mesh& part, const E
   });
 }
 
-EulerResult solve(const Communicator& comm, const Problem& problem, const Mesh& part) {
+EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
   EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
   const bool steady = options.time == EulerOptions::Time::steady;
   options.progress = [&comm, steady](const EulerProgress& p) {
@@ -188,7 +187,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
-  Problem problem = load(context, arguments);
+  SolveProblem problem = load(context, arguments);
   const Mesh part = scatter_mesh(comm, problem.whole.mesh, problem.order);
   times.begin("solve");
   const EulerResult result = solve(comm, problem, part);
@@ -213,24 +212,23 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
 
 }  // namespace
 
-void add_solve_command(CLI::App& app, CommandContext& context) {
+void add_solve_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SolveArguments>();
-  CLI::App* command = app.add_subcommand(
-      "solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
-  add_case_argument(*command, arguments->case_path);
+  Command command =
+      line.add_command("solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
+  command.add_case_argument(arguments->case_path);
   command
-      ->add_option("input", arguments->input,
-                   "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
-      ->required()
-      ->type_name("IN");
+      .add_option("input", arguments->input,
+                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
+      .required()
+      .value_name("IN");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
-      ->required()
-      ->type_name("OUT");
-  add_set_option(*command, arguments->assignments, "solver.mach=0.5");
-  command->callback(
-      [&context, arguments] { context.run = [&context, arguments] { run_solve(context, *arguments); }; });
+      .add_option("-o,--output", arguments->output,
+                  "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
+      .required()
+      .value_name("OUT");
+  command.add_set_option(arguments->assignments, "solver.mach=0.5");
+  command.set_work([&context, arguments] { run_solve(context, *arguments); });
 }
 
 }  // namespace quadloop

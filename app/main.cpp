@@ -2,7 +2,6 @@
 #include <malloc.h>
 #include <mpi.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -59,49 +58,38 @@ constexpr const char* about_quiet = "print nothing but warnings and errors";
 constexpr const char* about_verbose = "print details, those of each rank too";
 constexpr const char* about_json = "print one JSON record instead of a table";
 
-void add_commands(CLI::App& app, CommandContext& context) {
-  app.fallthrough();
-  app.require_subcommand(1);
-  app.set_version_flag("--version", "quadloop " QUADLOOP_VERSION);
-  app.add_flag("-q,--quiet", context.quiet, about_quiet);
-  app.add_flag("-v,--verbose", context.verbose, about_verbose);
-  app.add_flag("--json", context.json, about_json);
-  add_mesh_command(app, context);
-  add_smooth_command(app, context);
-  add_adapt_command(app, context);
-  add_solve_command(app, context);
-  add_remesh_command(app, context);
-  add_check_command(app, context);
-  add_plot_command(app, context);
-  add_convert_command(app, context);
-  add_extrude_command(app, context);
-  add_morph_command(app, context);
-  for (CLI::App* command : commands_of(app)) {
-    command->footer(fmt::format(
-        "With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
-        "  --json                      {}\n  --version",
-        about_quiet, about_verbose, about_json));
-  }
+void add_commands(CommandLine& line, CommandContext& context) {
+  line.add_flag("-q,--quiet", context.quiet, about_quiet);
+  line.add_flag("-v,--verbose", context.verbose, about_verbose);
+  line.add_flag("--json", context.json, about_json);
+  add_mesh_command(line, context);
+  add_smooth_command(line, context);
+  add_adapt_command(line, context);
+  add_solve_command(line, context);
+  add_remesh_command(line, context);
+  add_check_command(line, context);
+  add_plot_command(line, context);
+  add_convert_command(line, context);
+  add_extrude_command(line, context);
+  add_morph_command(line, context);
+  line.set_footer(
+      fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
+                  "  --json                      {}\n  --version",
+                  about_quiet, about_verbose, about_json));
 }
 
 /// The command's name in `record` says that one was to run.
 void run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {
-  CLI::App app("quadloop: parallel 2D mesh generation from named outlines", "quadloop");
-  CommandContext context{comm, false, false, false, record, {}};
-  add_commands(app, context);
-  try {
-    app.parse(words_of(argc, argv));
-  } catch (const CLI::ParseError& request) {
-    for (const CLI::App* command : app.get_subcommands()) record.command = command->get_name();
-    answer(app, request, comm);
-    record.command.clear();
-    return;
-  }
-  record.command = app.get_subcommands().front()->get_name();
+  CommandLine line("quadloop: parallel 2D mesh generation from named outlines", "quadloop",
+                   "quadloop " QUADLOOP_VERSION);
+  CommandContext context{comm, false, false, false, record};
+  add_commands(line, context);
+  const auto work = line.parse(argc, argv, comm, record.command);
+  if (!work) return;
   allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   if (comm.is_root() && !context.quiet) progress::show();
-  context.run();
+  work();
 }
 
 Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {

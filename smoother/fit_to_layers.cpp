@@ -31,7 +31,7 @@ constexpr std::array<Point, Star::batch> directions{{{1, 0},
                                                      {-diagonal, -diagonal},
                                                      {0, -1},
                                                      {diagonal, -diagonal}}};
-constexpr int rings = 1, most_sweeps = 6;
+constexpr int fitted_rings = 1, most_sweeps = 6;
 
 /// An edge of the front as the node where it begins has it.
 struct FrontEdge {
@@ -145,7 +145,7 @@ class LayerFit {
 
   std::vector<NodeId> nodes_near_misfits() const {
     NodeFlags flags = misfits();
-    grow(mesh_, flags, rings);
+    grow(mesh_, flags, fitted_rings);
     std::vector<NodeId> nodes;
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
       if (flags[node] != 0 && (slide_.freedom(node) == NodeFreedom::interior || slides_on_front(node)))

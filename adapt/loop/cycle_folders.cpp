@@ -39,7 +39,7 @@ bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way
 }
 
 /// The digest that the line of a start begins with.
-std::string digest_in(const std::string& start) { return start.substr(0, start.find(' ')); }
+std::string digest_of_start(const std::string& start) { return start.substr(0, start.find(' ')); }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void CycleFolders::settle_start(bool resume, const std::string& start) const {
   std::string before;
   std::getline(std::ifstream(start_file()), before);
   const bool has_begun = !before.empty() || fs::exists(under_way(0));
-  if (resume && has_begun && digest_in(before) != digest_in(start)) {
+  if (resume && has_begun && digest_of_start(before) != digest_of_start(start)) {
     if (before.empty())
       throw InputError(folder_ +
                        ": the run in it was begun without --from and holds no whole cycle yet; "

@@ -10,7 +10,7 @@ namespace quadloop {
 namespace {
 
 constexpr int most_sweeps = 100;  ///< each carries a size one edge farther
-constexpr double settled = 1e-3;  ///< of the density, in a sweep, at any node
+constexpr double settled_change = 1e-3;  ///< of the density, in a sweep, at any node
 
 /// The nodes round each owned node, in their global order.
 class Neighbours {
@@ -56,7 +56,7 @@ void limit_growth(const Communicator& comm, const Mesh& mesh, double slope, std:
     }
     all = std::move(next);
     halo.exchange().update(all);
-    if (comm.maximum(change) < settled) break;
+    if (comm.maximum(change) < settled_change) break;
   }
   std::copy_n(all.begin(), metrics.size(), metrics.begin());
 }

@@ -9,7 +9,7 @@ namespace quadloop {
 namespace {
 
 constexpr int least_rounds = 3;
-constexpr double settled = 0.003;  ///< nodes that come and go in a round, of all
+constexpr double settled_share = 0.003;  ///< nodes that come and go in a round, of all
 
 }  // namespace
 
@@ -24,7 +24,7 @@ TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt
     log::detail(fmt::format("metric: {} nodes, {} splits, {} collapses, {} flips, {} moves", nodes,
                             changes.splits, changes.collapses, changes.flips, changes.moves));
     if (round + 1 >= least_rounds &&
-        static_cast<double>(changes.nodes()) < settled * static_cast<double>(nodes))
+        static_cast<double>(changes.nodes()) < settled_share * static_cast<double>(nodes))
       break;
   }
   return changes;

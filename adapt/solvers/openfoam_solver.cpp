@@ -107,7 +107,7 @@ MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
 }
 
 /// What the solver left, spread over the ranks. *Collective.*
-Field read_left(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
+Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
                 const SolverCommand& command, const SolverFiles& files) {
   Field whole;
   comm.together([&] {
@@ -157,7 +157,7 @@ FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int 
     write_mesh_of(comm, mesh, files.folder);
     run_solver(comm, command, files);
     SolvedFlow flow;
-    flow.solution = read_left(comm, mesh, counts, command, files);
+    flow.solution = read_time_step(comm, mesh, counts, command, files);
     return flow;
   };
 }

@@ -13,10 +13,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t most_listed = 20;
-
-constexpr const char* number = "{:.6g}";
-
 void add_count(Figures& figures, const char* name, std::int64_t count, const char* key) {
   figures.add_raw(name, std::to_string(count), json_of(count), key);
 }
@@ -26,9 +22,9 @@ void add_fit(Figures& figures, const GeometryFit& fit) {
   figures.add("loops dropped", fit.loops_dropped);
   figures.add("sharp corners", fit.sharp_corners);
   figures.add("sharp corners lost", fit.sharp_corners_lost);
-  figures.add("boundary node distance", fit.boundary_node_distance, number);
-  figures.add("geometry distance", fit.geometry_distance, number);
-  figures.add("geometry area error", fit.area_error, number);
+  figures.add("boundary node distance", fit.boundary_node_distance, number_pattern);
+  figures.add("geometry distance", fit.geometry_distance, number_pattern);
+  figures.add("geometry area error", fit.area_error, number_pattern);
 }
 
 std::string places_json(const std::vector<SharpPlace>& places) {
@@ -100,12 +96,12 @@ void add_shape(Figures& figures, const CheckReport& report, bool verbose) {
   add_outline_corners(figures, shape, report.fit.has_value(), verbose);
   figures.add_member("min_angle_made", json_of(shape.smallest_degrees));
   figures.add_member("max_angle_made", json_of(shape.largest_degrees));
-  figures.add("largest area ratio", shape.area_ratio_max, number, "area_ratio_max");
+  figures.add("largest area ratio", shape.area_ratio_max, number_pattern, "area_ratio_max");
   if (shape.area_ratio_max > 0) add_place(figures, report.worst.largest_area_ratio, "area_ratio_max_at");
-  figures.add("area ratio, 99 %", shape.area_ratio_p99, number, "area_ratio_p99");
-  figures.add("share of quads", shape.quad_share, number, "quad_share");
-  figures.add("parallelograms", shares.parallelogram_share(), number, "parallelogram_share");
-  figures.add("inexact nodes", shares.inexact_share(), number, "inexact_node_share");
+  figures.add("area ratio, 99 %", shape.area_ratio_p99, number_pattern, "area_ratio_p99");
+  figures.add("share of quads", shape.quad_share, number_pattern, "quad_share");
+  figures.add("parallelograms", shares.parallelogram_share(), number_pattern, "parallelogram_share");
+  figures.add("inexact nodes", shares.inexact_share(), number_pattern, "inexact_node_share");
   figures.add("passage cells", shares.passage_cells);
   figures.add_member("sharp_places", places_json(shape.sharp_places));
   figures.add_member("passages", places_json(shape.passages));
@@ -128,16 +124,16 @@ Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   figures.add("boundary edges", quality.counts.boundary_edges);
   figures.add_member("boundaries", boundaries_json(report));
   figures.add_lines(boundaries_text(report.boundaries, most));
-  figures.add("area", report.area, number);
-  figures.add("smallest angle", quality.smallest_degrees, number, "min_angle");
+  figures.add("area", report.area, number_pattern);
+  figures.add("smallest angle", quality.smallest_degrees, number_pattern, "min_angle");
   const bool has_cells = quality.counts.triangles + quality.counts.quads > 0;
   if (has_cells) add_place(figures, report.worst.smallest_angle, "min_angle_at");
-  figures.add("largest angle", quality.largest_degrees, number, "max_angle");
+  figures.add("largest angle", quality.largest_degrees, number_pattern, "max_angle");
   if (has_cells) add_place(figures, report.worst.largest_angle, "max_angle_at");
   add_shape(figures, report, verbose);
-  figures.add("worst quality", quality.worst, number);
+  figures.add("worst quality", quality.worst, number_pattern);
   if (has_cells) add_place(figures, report.worst.worst_quality, "worst_quality_at");
-  figures.add("mean quality", quality.mean, number);
+  figures.add("mean quality", quality.mean, number_pattern);
   figures.add("pinched nodes", report.pinched_nodes);
   add_quality(figures, report.by_layers);
   add_layers(figures, report.layers, most);

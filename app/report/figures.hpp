@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -7,6 +8,12 @@
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
+
+/// How tables print a value without a unit.
+constexpr const char* number_pattern = "{:.6g}";
+
+/// The rows of a list that are printed, unless all are asked for.
+constexpr std::size_t most_listed = 20;
 
 /// The figures that a command ends with. Each is a row of the table that people read, rounded and with its
 /// unit, and a member of the record that

@@ -15,10 +15,6 @@ CellBlocks blocks_of(const LoadedMesh& loaded) {
   return {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
 }
 
-std::string more_faults(std::size_t count) {
-  return count == 0 ? "" : fmt::format("; {} fault{} more", count, count == 1 ? "" : "s");
-}
-
 /// The middle of the cell that costs most.
 Point worst_place(const Mesh& mesh) {
   double worst = -1;
@@ -42,6 +38,10 @@ Point worst_place(const Mesh& mesh) {
 
 }  // namespace
 
+std::string more_faults(std::int64_t count) {
+  return count == 0 ? "" : fmt::format("; {} fault{} more", count, count == 1 ? "" : "s");
+}
+
 void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
   const MeshFault& first = faults.front();
   const char* cure =
@@ -49,7 +49,7 @@ void refuse_invalid(const std::string& file, const std::vector<MeshFault>& fault
           ? "; the geometry has to be the one that was meshed, as `mesh --geometry-out` writes it"
           : "";
   throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", file, name_of(first.rule),
-                               first.what, first.place.x, first.place.y, more_faults(faults.size() - 1),
+                               first.what, first.place.x, first.place.y, more_faults(std::ssize(faults) - 1),
                                cure));
 }
 
@@ -59,7 +59,7 @@ std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::strin
   const MeshFault& first = faults.front();
   return {fmt::format("{}: is not valid, and is passed on as it is: {}: {} at ({}, {}){}", file,
                       name_of(first.rule), first.what, first.place.x, first.place.y,
-                      more_faults(faults.size() - 1))};
+                      more_faults(std::ssize(faults) - 1))};
 }
 
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@
 #include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {
+
+/// "; 2 faults more", or nothing.
+std::string more_faults(std::int64_t count);
 
 /// Throws InputError with the first fault, its place, and how many more there are.
 [[noreturn]] void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults);

@@ -6,14 +6,12 @@
 #include <limits>
 
 #include "app/report/figures.hpp"
+#include "app/report/refusals.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
 namespace {
-
-constexpr std::size_t most_listed = 20;
-constexpr const char* number = "{:.6g}";
 
 std::vector<double> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
 
@@ -60,8 +58,8 @@ Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t
   figures.add("hexahedra", std::ssize(mesh.hexahedra));
   if (!mesh.tetrahedra.empty()) figures.add("tetrahedra", std::ssize(mesh.tetrahedra));
   if (!mesh.pyramids.empty()) figures.add("pyramids", std::ssize(mesh.pyramids));
-  figures.add("volume", found.volume, number);
-  figures.add("least cell volume", found.least_volume, number);
+  figures.add("volume", found.volume, number_pattern);
+  figures.add("least cell volume", found.least_volume, number_pattern);
   figures.add_member("least_place", json_of(coordinates(found.least_place)));
   if (!found.blocks.empty()) {
     figures.add("blocks", std::ssize(found.blocks));
@@ -78,12 +76,6 @@ Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t
 
 std::string fault_text(const SolidFault& fault) {
   return fmt::format("{}: {} at {}", name_of(fault.rule), fault.what, place_text(fault.place));
-}
-
-/// "; 2 faults more"
-std::string more_faults(const SolidFigures& figures) {
-  const std::int64_t more = figures.all_faults - 1;
-  return more == 0 ? "" : fmt::format("; {} fault{} more", more, more == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -115,15 +107,15 @@ JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const So
 }
 
 void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) {
-  throw InputError(
-      fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()), more_faults(figures)));
+  throw InputError(fmt::format("{}: invalid mesh: {}{}", file, fault_text(figures.faults.front()),
+                               more_faults(figures.all_faults - 1)));
 }
 
 std::vector<std::string> doubts_about(const SolidMesh& mesh, const std::string& file) {
   const SolidFigures figures = check_solid(mesh);
   if (figures.faults.empty()) return {};
   return {fmt::format("{}: is not valid, and is passed on as it is: {}{}", file,
-                      fault_text(figures.faults.front()), more_faults(figures))};
+                      fault_text(figures.faults.front()), more_faults(figures.all_faults - 1))};
 }
 
 }  // namespace quadloop

@@ -119,7 +119,7 @@ void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Grad
 namespace {
 
 /// What a node's factors hand to the neighbours whose values decide.
-struct Handed {
+struct HandedFactors {
   std::array<GlobalNodeId, 4> to;
   State weight{};
 };
@@ -127,7 +127,7 @@ struct Handed {
 }  // namespace
 
 void LimiterDerivative::apply_transposed(std::vector<Gradient>& weights, std::vector<State>& sums) const {
-  std::vector<Handed> handed(live_ ? mesh_.nodes() : 0);
+  std::vector<HandedFactors> handed(live_ ? mesh_.nodes() : 0);
   for (std::size_t node = 0; node < parts_.size(); ++node) {
     const Gradient& held = gradients_[node];
     Gradient& weight = weights[node];
@@ -158,7 +158,7 @@ void LimiterDerivative::apply_transposed(std::vector<Gradient>& weights, std::ve
 
 namespace {
 
-struct HandedPlace {
+struct HandedGradient {
   std::array<GlobalNodeId, 4> to;
   std::array<Point, 4> weight{};
 };
@@ -168,7 +168,7 @@ struct HandedPlace {
 void LimiterDerivative::add_place_weights(const std::vector<Gradient>& weights, std::vector<Point>& places,
                                           std::vector<double>& areas) const {
   if (!live_) return;
-  std::vector<HandedPlace> handed(mesh_.nodes());
+  std::vector<HandedGradient> handed(mesh_.nodes());
   for (std::size_t node = 0; node < parts_.size(); ++node) {
     const Gradient &held = gradients_[node], &weight = weights[node];
     for (std::size_t k = 0; k < 4; ++k) {

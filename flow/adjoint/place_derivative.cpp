@@ -35,7 +35,7 @@ Real length_of(const VectorOf<Real>& v) {
   return sqrt(v.x * v.x + v.y * v.y);
 }
 template <class Real>
-Real product(const Flux& weight, const FluxOf<Real>& flux) {
+Real weighted_sum(const Flux& weight, const FluxOf<Real>& flux) {
   return weight[0] * flux[0] + weight[1] * flux[1] + weight[2] * flux[2] + weight[3] * flux[3];
 }
 
@@ -128,7 +128,7 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   const VectorOf<Dual> normal{face.x / size, face.y / size};
   const FluxOf<Dual> flux = roe_flux(run_.model.gas, carried(edge.low, 1), carried(edge.high, -1), normal,
                                      run_.residual.shock_share(edge.low, edge.high));
-  const Dual term = size * product(fall(edge), flux);
+  const Dual term = size * weighted_sum(fall(edge), flux);
   weights.normal = {term.slopes[0], term.slopes[1]};
   add_half(edge, {term.slopes[2], term.slopes[3]});
 }
@@ -146,7 +146,7 @@ void PlaceDerivative::add_skew(const DualEdge& edge, FaceWeights& weights) const
   const Flux weight = fall(edge);
   const std::array<SkewEdge, 4> units{{{0, {1, 0}, {}}, {0, {0, 1}, {}}, {0, {}, {1, 0}}, {0, {}, {0, 1}}}};
   for (std::size_t i = 0; i < 4; ++i)
-    weights.skew[i] = product(weight, skew_flux(run_.model.gas, units[i], state, along_x, along_y));
+    weights.skew[i] = weighted_sum(weight, skew_flux(run_.model.gas, units[i], state, along_x, along_y));
 }
 
 /// Gradients answer to places by least squares and, where it is not kept, by the limiter.
@@ -190,7 +190,7 @@ void PlaceDerivative::add_boundaries() {
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       const State state = state_at_half(face, run_.states[own], run_.states[other]);
       const Dual term =
-          size * product(adjoint_[own], boundary_flux(run_.model, boundary, constant<Dual>(state), normal));
+          size * weighted_sum(adjoint_[own], boundary_flux(run_.model, boundary, constant<Dual>(state), normal));
       sums_[face.from] = sums_[face.from] + Point{term.slopes[0], term.slopes[1]};
       sums_[face.to] = sums_[face.to] + Point{term.slopes[2], term.slopes[3]};
     }

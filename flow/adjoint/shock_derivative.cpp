@@ -39,7 +39,7 @@ std::vector<double> ShockDerivative::apply(const std::vector<State>& change) con
 namespace {
 
 /// What a node's share hands to the neighbour whose pressure decides.
-struct Handed {
+struct HandedWeight {
   GlobalNodeId to;
   double weight = 0;
 };
@@ -47,7 +47,7 @@ struct Handed {
 }  // namespace
 
 void ShockDerivative::add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const {
-  std::vector<Handed> handed(mesh_.nodes());
+  std::vector<HandedWeight> handed(mesh_.nodes());
   for (std::size_t node = 0; node < parts_.size(); ++node) {
     const Part& part = parts_[node];
     if (part.neighbour < 0) continue;

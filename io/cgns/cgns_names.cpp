@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t longest_name = 32;
 
-constexpr std::array<std::pair<const char*, const char*>, 10> variables{{{"density", "Density"},
+constexpr std::array<std::pair<const char*, const char*>, 10> known_variables{{{"density", "Density"},
                                                                          {"pressure", "Pressure"},
                                                                          {"temperature", "Temperature"},
                                                                          {"mach", "Mach"},
@@ -42,8 +42,8 @@ std::string shortened(const std::string& name, std::size_t length) {
 
 std::string standard_name(const std::string& name) {
   const auto* const known =
-      std::find_if(variables.begin(), variables.end(), [&](const auto& pair) { return name == pair.first; });
-  return known == variables.end() ? name : known->second;
+      std::find_if(known_variables.begin(), known_variables.end(), [&](const auto& pair) { return name == pair.first; });
+  return known == known_variables.end() ? name : known->second;
 }
 
 /// Names of siblings beside the nodes that are `used`.
@@ -89,7 +89,7 @@ std::vector<std::string> cgns_variable_renames(const std::vector<std::string>& n
 }
 
 std::string variable_name_of_cgns(const std::string& name) {
-  for (const auto& [ours, theirs] : variables) {
+  for (const auto& [ours, theirs] : known_variables) {
     if (name == theirs) return ours;
   }
   return name;

@@ -3,6 +3,7 @@
 // Inside io/cgns only.
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,9 @@
 #include "io/files/output_file.hpp"
 
 namespace quadloop {
+
+/// The most entries that an array of the file may have.
+constexpr std::int64_t largest_cgns_size = std::numeric_limits<cgsize_t>::max();
 
 /// What stands on rank 0 while a CGNS file is written: the file, its one base and zone, and where the next
 /// piece of the array under way goes.

@@ -244,7 +244,7 @@ class CgnsSolidReader {
   std::unordered_map<std::string, std::size_t> patch_numbers_;
 };
 
-std::optional<SolidMesh> read_here(const std::string& path) {
+std::optional<SolidMesh> read_solid_here(const std::string& path) {
   const File file(path, path, CG_MODE_READ);
   const auto [cell_dimension, zones] = first_base(file);
   if (cell_dimension != 3) return std::nullopt;
@@ -257,7 +257,7 @@ std::optional<SolidMesh> read_here(const std::string& path) {
 }  // namespace
 
 std::optional<SolidMesh> read_cgns_solid(const std::string& path) {
-  return read_separately<std::optional<SolidMesh>>(path, [&] { return read_here(path); });
+  return read_separately<std::optional<SolidMesh>>(path, [&] { return read_solid_here(path); });
 }
 
 }  // namespace quadloop

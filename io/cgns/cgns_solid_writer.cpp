@@ -15,7 +15,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t largest_size = std::numeric_limits<cgsize_t>::max();
 
 /// Rows of an array type as one list of numbers.
 template <class Number, std::size_t width>
@@ -54,7 +53,7 @@ class CgnsSolidWriter {
   void refuse_too_large(const std::string& path) const {
     const SolidCounts& counts = stream_.counts();
     const std::int64_t elements = counts.cells() + stream_.patch_triangles() + stream_.patch_quads();
-    if (elements <= largest_size && counts.largest_array() <= largest_size) return;
+    if (elements <= largest_cgns_size && counts.largest_array() <= largest_cgns_size) return;
     throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
                       " elements are more than this CGNS library can count (32-bit sizes); write a .vtu file "
                       "instead");

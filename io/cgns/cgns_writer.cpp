@@ -18,7 +18,6 @@ namespace quadloop {
 namespace {
 
 constexpr std::int64_t rows_per_piece = std::int64_t{1} << 18;  // at most 4 MB of nodes or of quads
-constexpr std::int64_t largest_size = std::numeric_limits<cgsize_t>::max();
 
 /// The collective side: every rank hands its rows over, rank 0 alone has a sink.
 class CgnsWriter {
@@ -124,8 +123,8 @@ class CgnsWriter {
 
   void refuse_too_large(const std::string& path) const {
     const std::int64_t elements = counts_.triangles + counts_.quads + boundaries_.all_edges();
-    if (counts_.nodes <= largest_size && elements <= largest_size && 3 * counts_.triangles <= largest_size &&
-        4 * counts_.quads <= largest_size) {
+    if (counts_.nodes <= largest_cgns_size && elements <= largest_cgns_size && 3 * counts_.triangles <= largest_cgns_size &&
+        4 * counts_.quads <= largest_cgns_size) {
       return;
     }
     throw OutputError(

@@ -23,7 +23,7 @@ enum FluentSection : std::int64_t {
 };
 
 /// Kinds of faces; others are numbers of nodes.
-constexpr std::int64_t mixed = 0, polygonal = 5;
+constexpr std::int64_t mixed_faces = 0, polygonal_faces = 5;
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void FluentSections::read_faces() {
   require_kind(head.kind);
   if (head.type == parents)
     scan_.refuse("a zone of parents of refined faces; only conforming meshes can be read");
-  const bool says_width = head.kind == mixed || head.kind == polygonal;
+  const bool says_width = head.kind == mixed_faces || head.kind == polygonal_faces;
   scan_.expect("(");
   for (std::int64_t i = 0; i < head.count(); ++i) read_face(head, says_width ? read_width() : head.kind);
   scan_.expect(")");
@@ -127,7 +127,7 @@ void FluentSections::read_faces() {
 }
 
 void FluentSections::require_kind(std::int64_t kind) const {
-  if (kind == mixed || kind == polygonal) return;
+  if (kind == mixed_faces || kind == polygonal_faces) return;
   if (dimension_ == 2 && kind != 2)
     scan_.refuse(fmt::format("faces of {} nodes; those of a 2D mesh have 2", kind));
   if (dimension_ == 3 && kind != 3 && kind != 4)

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* blanks = " \t\r\n";
+constexpr const char* field_blanks = " \t\r\n";
 
 /// A field's file as text, and where its values stand in it.
 struct FoamText {
@@ -39,7 +39,7 @@ std::size_t value_of_key(const std::string& text, const std::string& key) {
     const std::size_t line = text.find_last_not_of(" \t", at - std::min<std::size_t>(at, 1));
     const bool begins = at == 0 || line == std::string::npos || text[line] == '\n' || text[line] == '{' ||
                         text[line] == ';' || text[line] == '}';
-    const std::size_t value = text.find_first_not_of(blanks, at + key.size());
+    const std::size_t value = text.find_first_not_of(field_blanks, at + key.size());
     if (begins && value != std::string::npos && value > at + key.size()) return value;
   }
   return std::string::npos;

@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double step = 1.5;         ///< pixels along a line
+constexpr double line_step = 1.5;         ///< pixels along a line
 constexpr double too_close = 0.5;    ///< share of the distance at which a line ends
 constexpr double least_length = 25;  ///< pixels; shorter ones say nothing
 
@@ -36,7 +36,7 @@ class Tracer {
       const Point seed = seeds.front();
       seeds.pop_front();
       std::vector<Point> line = line_through(seed);
-      if (static_cast<double>(line.size()) * step < least_length) continue;
+      if (static_cast<double>(line.size()) * line_step < least_length) continue;
       for (const Point p : line) bucket(p)->push_back(p);
       const std::vector<Point> beside = seeds_beside(line);
       seeds.insert(seeds.begin(), beside.begin(), beside.end());
@@ -75,16 +75,16 @@ class Tracer {
   /// From the seed, without it, as far as there is room; `sense` is 1 with the flow, -1 against it.
   std::vector<Point> half_line(Point seed, double sense) {
     std::vector<Point> points;
-    const auto most = static_cast<std::size_t>(4 * (box_.width() + box_.height()) / step);
+    const auto most = static_cast<std::size_t>(4 * (box_.width() + box_.height()) / line_step);
     Point at = seed;
     while (points.size() < most) {
       const std::optional<Point> first = direction(at);
       if (!first) break;
-      const std::optional<Point> middle = direction(at + 0.5 * sense * step * *first);
+      const std::optional<Point> middle = direction(at + 0.5 * sense * line_step * *first);
       if (!middle || dot(*first, *middle) < 0) break;
-      at = at + sense * step * *middle;
+      at = at + sense * line_step * *middle;
       if (!box_.contains(at) || !is_free(at, too_close * distance_)) break;
-      if (points.size() > 8 && length(at - seed) < step) break;  // once round
+      if (points.size() > 8 && length(at - seed) < line_step) break;  // once round
       points.push_back(at);
     }
     return points;
@@ -101,7 +101,7 @@ class Tracer {
 
   std::vector<Point> seeds_beside(const std::vector<Point>& line) const {
     std::vector<Point> seeds;
-    const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(distance_ / step));
+    const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(distance_ / line_step));
     for (std::size_t i = 1; i < line.size(); i += stride) {
       const Point along = line[i] - line[i - 1];
       const double size = length(along);

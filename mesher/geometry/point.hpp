@@ -7,6 +7,9 @@
 
 namespace quadloop {
 
+/// -1, 0 or +1.
+constexpr int sign(double value) { return (value > 0) - (value < 0); }
+
 /// A position or a vector in the plane, in the geometry's unit of length.
 struct Point {
   double x = 0, y = 0;

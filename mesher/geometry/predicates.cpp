@@ -130,8 +130,6 @@ int rounded_in_circle(Point a, Point b, Point c, Point d) {
   return !sure ? 0 : determinant > 0 ? 1 : -1;
 }
 
-int sign(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
-
 }  // namespace
 
 int exact_orientation(Point a, Point b, Point c) {

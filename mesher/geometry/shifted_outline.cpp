@@ -7,8 +7,6 @@ namespace quadloop {
 
 namespace {
 
-int sign(double value) { return (value > 0) - (value < 0); }
-
 /// The sign along one axis of the mitre at a vertex that the outline enters along `in` and leaves along `out`
 /// (signs of the components along this axis and, counter-clockwise from it, the other one), turning left
 /// (+1), right (-1) or not (0).

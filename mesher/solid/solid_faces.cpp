@@ -38,7 +38,11 @@ void for_each_face(const SolidMesh& mesh,
   for (std::int64_t& end : ends) total += std::exchange(end, total);
   std::vector<FaceMention> mentions(total);
   for_each_mention(mesh, [&](SolidPatch::Face face, std::int32_t owner, std::int32_t number) {
-    std::sort(face.begin(), face.end() - (is_triangle(face) ? 1 : 0));
+    if (is_triangle(face)) {
+      std::sort(face.begin(), face.begin() + 3);
+    } else {
+      std::sort(face.begin(), face.end());
+    }
     mentions[ends[face[0]]++] = {{face[1], face[2], face[3]}, owner, number};
   });
   std::int64_t begin = 0;

@@ -149,10 +149,10 @@ Point move_for(std::uint64_t sum) {
 }
 
 /// Of a box: coordinates that went through a file are on the lattice nearly.
-constexpr double rounding = 1e-6;
+constexpr double relative_rounding = 1e-6;
 constexpr double least = 1e-300;  ///< length of a box's side
 
-bool near(double a, double b, double whole) { return std::abs(a - b) <= rounding * whole; }
+bool near(double a, double b, double whole) { return std::abs(a - b) <= relative_rounding * whole; }
 
 /// From the least of three coordinates to the largest.
 struct Extent {

@@ -7,8 +7,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_moves = 3;   ///< in one visit
-constexpr double reach = 0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
+constexpr int most_newton_moves = 3;   ///< in one visit
+constexpr double newton_reach = 0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
 constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance asks for of the cost
 constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
 constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
@@ -28,7 +28,7 @@ struct Step {
 /// square over the sum. Against the gradient where the model has no minimum.
 Step newton_step(const StarModel& m) {
   const Point g = m.gradient;
-  const double longest = reach * std::sqrt(m.reference), share = 2 / (3 * m.cubes);
+  const double longest = newton_reach * std::sqrt(m.reference), share = 2 / (3 * m.cubes);
   const double xx = m.xx - share * g.x * g.x, xy = m.xy - share * g.x * g.y, yy = m.yy - share * g.y * g.y;
   const double determinant = xx * yy - xy * xy, trace = xx + yy;
   const bool is_bowl = trace > 0 && determinant > flattest * trace * trace;
@@ -58,7 +58,7 @@ std::optional<Point> Newton::improve(const Star& star, Point p, Objective object
   if (objective != Objective::power) return perturbation_.improve(star, p, objective);
   StarModel now = star.model(p);
   std::optional<Point> found;
-  for (int move = 0; move < most_moves; ++move) {
+  for (int move = 0; move < most_newton_moves; ++move) {
     const Step step = newton_step(now);
     if (!(step.gain > (found ? further_gain : least_gain))) break;
     const Acceptance acceptance(now.cost);

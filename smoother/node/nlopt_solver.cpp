@@ -15,7 +15,7 @@ constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;
 constexpr double tolerance = 1e-3;  ///< relative, of the cost
-constexpr double reach = 0.5;       ///< of the node's mean edge, both ways along each axis
+constexpr double search_reach = 0.5;       ///< of the node's mean edge, both ways along each axis
 
 struct Problem {
   const Star* star = nullptr;
@@ -59,8 +59,8 @@ struct NloptSolver::Impl {
 NloptSolver::NloptSolver() : impl_{std::make_unique<Impl>()} {
   nlopt::opt& o = impl_->optimiser;
   o.set_min_objective(cost_of, &impl_->problem);
-  o.set_lower_bounds(-reach);
-  o.set_upper_bounds(reach);
+  o.set_lower_bounds(-search_reach);
+  o.set_upper_bounds(search_reach);
   o.set_ftol_rel(tolerance);
   o.set_maxeval(most_evaluations);
   o.set_initial_step(0.1);

@@ -7,9 +7,9 @@ namespace quadloop::euler {
 
 namespace {
 
-using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-using MatrixMap = Eigen::Map<const Matrix>;
-using VectorMap = Eigen::Map<Eigen::Vector4d>;
+using RowMajorMatrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using RowMajorMap = Eigen::Map<const RowMajorMatrix>;
+using DoubleVectorMap = Eigen::Map<Eigen::Vector4d>;
 
 }  // namespace
 
@@ -51,10 +51,10 @@ void LineSystem::factor(const std::vector<Matrix4>& diagonal) {
   for (const Line& line : lines_) {
     const Blocks* before = nullptr;
     for (const std::int32_t row : line.rows) {
-      Eigen::Map<Matrix> block(blocks_[row].inverse.data());
+      Eigen::Map<RowMajorMatrix> block(blocks_[row].inverse.data());
       if (before != nullptr) {
-        block -= MatrixMap(blocks_[row].before.data()) *
-                 (MatrixMap(before->inverse.data()) * MatrixMap(before->after.data())).eval();
+        block -= RowMajorMap(blocks_[row].before.data()) *
+                 (RowMajorMap(before->inverse.data()) * RowMajorMap(before->after.data())).eval();
       }
       block = block.inverse().eval();
       before = &blocks_[row];
@@ -68,15 +68,15 @@ void LineSystem::solve(int colour, std::vector<Row>& rows) const {
     if (line.colour != colour) continue;
     for (std::size_t k = 0; k < line.rows.size(); ++k) {
       const Blocks& blocks = blocks_[line.rows[k]];
-      VectorMap right(rows[line.rows[k]].data());
-      if (k > 0) right -= MatrixMap(blocks.before.data()) * VectorMap(rows[line.rows[k - 1]].data());
-      right = (MatrixMap(blocks.inverse.data()) * right).eval();
+      DoubleVectorMap right(rows[line.rows[k]].data());
+      if (k > 0) right -= RowMajorMap(blocks.before.data()) * DoubleVectorMap(rows[line.rows[k - 1]].data());
+      right = (RowMajorMap(blocks.inverse.data()) * right).eval();
     }
     for (std::size_t k = line.rows.size() - 1; k-- > 0;) {
       const Blocks& blocks = blocks_[line.rows[k]];
-      VectorMap(rows[line.rows[k]].data()) -=
-          MatrixMap(blocks.inverse.data()) *
-          (MatrixMap(blocks.after.data()) * VectorMap(rows[line.rows[k + 1]].data())).eval();
+      DoubleVectorMap(rows[line.rows[k]].data()) -=
+          RowMajorMap(blocks.inverse.data()) *
+          (RowMajorMap(blocks.after.data()) * DoubleVectorMap(rows[line.rows[k + 1]].data())).eval();
     }
   }
 }

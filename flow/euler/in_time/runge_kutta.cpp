@@ -14,7 +14,7 @@ namespace quadloop::euler {
 namespace {
 
 constexpr double largest_cfl = 0.8;
-constexpr int most_halvings = 8;
+constexpr int most_halvings_of_step = 8;
 
 /// One stage of a step: the step's start and the stage before it advanced by an Euler step, mixed.
 struct Stage {
@@ -76,7 +76,7 @@ double RungeKutta::longest_step() {
 }
 
 bool RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
-  return take(step, fluxes, most_halvings);
+  return take(step, fluxes, most_halvings_of_step);
 }
 
 /// The shortest steps keep the states of the first stage that failed: later ones spread the failure.

@@ -9,7 +9,7 @@ namespace quadloop {
 namespace {
 
 template <std::size_t count>
-Colour between(const std::array<Colour, count>& stops, double t) {
+Colour interpolated(const std::array<Colour, count>& stops, double t) {
   const double at = std::clamp(t, 0.0, 1.0) * (count - 1);
   const auto i = std::min(static_cast<std::size_t>(at), count - 2);
   return mixed(stops[i], stops[i + 1], at - static_cast<double>(i));
@@ -26,7 +26,7 @@ Colour diverging_colour(double t) {
                                                 {0.957, 0.604, 0.482},
                                                 {0.871, 0.376, 0.302},
                                                 {0.706, 0.016, 0.149}}};
-  return between(stops, t);
+  return interpolated(stops, t);
 }
 
 Colour plasma_colour(double t) {
@@ -39,11 +39,11 @@ Colour plasma_colour(double t) {
                                                 {0.973, 0.580, 0.254},
                                                 {0.993, 0.765, 0.157},
                                                 {0.940, 0.975, 0.131}}};
-  return between(stops, t);
+  return interpolated(stops, t);
 }
 
 Colour grey_colour(double t) {
-  return between(std::array<Colour, 2>{{{0.08, 0.08, 0.08}, {0.98, 0.98, 0.98}}}, t);
+  return interpolated(std::array<Colour, 2>{{{0.08, 0.08, 0.08}, {0.98, 0.98, 0.98}}}, t);
 }
 
 constexpr std::array<std::pair<const char*, ColourMap>, 4> maps{{{"viridis", perceptual_colour},
@@ -75,12 +75,12 @@ Colour perceptual_colour(double t) {  // stops of viridis
                                                 {0.369, 0.789, 0.383},
                                                 {0.678, 0.864, 0.190},
                                                 {0.993, 0.906, 0.144}}};
-  return between(stops, t);
+  return interpolated(stops, t);
 }
 
 Colour quality_colour(double t) {
   constexpr Colour red{0.80, 0.13, 0.12}, yellow{0.98, 0.85, 0.35}, green{0.36, 0.68, 0.38};
-  return between(std::array<Colour, 3>{{red, yellow, green}}, t);
+  return interpolated(std::array<Colour, 3>{{red, yellow, green}}, t);
 }
 
 }  // namespace quadloop

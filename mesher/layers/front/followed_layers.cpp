@@ -12,7 +12,7 @@ namespace quadloop {
 namespace {
 
 constexpr double most_over_estimate = 10;
-constexpr double steepest = 0.6;  // of a height, over a thickness of wall
+constexpr double steepest_following = 0.6;  // of a height, over a thickness of wall
 
 /// Finds what was measured near a station.
 class Measurements {
@@ -57,7 +57,7 @@ void limit_growth(const WallLine& line, std::span<double> heights) {
   const auto limit = [&](std::int32_t from, std::int32_t to, double width) {
     const LayerSpec& spec = line.spec(to);
     if (spec.y_plus > 0)
-      heights[to] = std::min(heights[to], heights[from] * (1 + steepest * width / layers_thickness(spec)));
+      heights[to] = std::min(heights[to], heights[from] * (1 + steepest_following * width / layers_thickness(spec)));
   };
   for (int round = 0; round < 2; ++round) {  // a closed run needs a second one
     for (std::int32_t i = 0; i < line.size(); ++i) {

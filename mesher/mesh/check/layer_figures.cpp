@@ -86,7 +86,7 @@ class Columns {
 };
 
 /// What the columns of one boundary add up to.
-struct Tally {
+struct LayerTally {
   std::int64_t columns = 0, cut = 0;
   std::vector<double> first, growth, thickness;
 
@@ -114,8 +114,8 @@ class StripColumns {
  public:
   StripColumns(const Mesh& whole, const StripLayers& strip) : mesh_{whole}, strip_{strip} {}
 
-  Tally tally() const {
-    Tally tally;
+  LayerTally tally() const {
+    LayerTally tally;
     for (std::int32_t column = 0; column < strip_.columns(); ++column) {
       ++tally.columns;
       add_side(column, strip_.layers.count, -1, tally);
@@ -130,7 +130,7 @@ class StripColumns {
   }
 
   /// The layers from one row on.
-  void add_side(std::int32_t column, std::int32_t foot, std::int32_t step, Tally& tally) const {
+  void add_side(std::int32_t column, std::int32_t foot, std::int32_t step, LayerTally& tally) const {
     double whole = 0, before = 0;
     for (std::int32_t layer = 1; layer <= strip_.layers.count; ++layer) {
       const Point low = at(column, foot + step * (layer - 1)), high = at(column, foot + step * layer);
@@ -160,7 +160,7 @@ class StripColumns {
   const StripLayers& strip_;
 };
 
-LayerFigures figures_of(const std::string& name, const WallLayers& layers, Tally tally) {
+LayerFigures figures_of(const std::string& name, const WallLayers& layers, LayerTally tally) {
   return {name,
           layers.count,
           tally.columns,
@@ -200,7 +200,7 @@ std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& pl
   if (!has_layers(whole)) return {};
   const Columns columns(whole, places);
   const NodeFlags at_border = border_of_part(whole);
-  std::vector<Tally> tallies(whole.boundaries.size());
+  std::vector<LayerTally> tallies(whole.boundaries.size());
   for (const NodeId node : places.ids()) {
     if (places[node].strip < 0 && on_layered_wall(whole, places[node]))
       tallies[places[node].boundary].add(whole, columns, node, at_border);

@@ -29,7 +29,7 @@ std::int64_t nearest_whole(double value) {
 }
 
 /// What one rank adds up.
-struct Tally {
+struct QualityTally {
   CornerRange angles;
   double worst = std::numeric_limits<double>::infinity();
   std::int64_t sum = 0;
@@ -76,7 +76,7 @@ MeshCounts count(const Communicator& comm, const Mesh& mesh) {
 }
 
 QualitySummary summarise_quality(const Communicator& comm, const Mesh& mesh) {
-  Tally tally;
+  QualityTally tally;
   tally.add(mesh, mesh.triangles);
   tally.add(mesh, mesh.quads);
   QualitySummary result;

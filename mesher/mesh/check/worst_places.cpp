@@ -10,8 +10,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 class WorstCells {
  public:
   explicit WorstCells(const Mesh& mesh) : mesh_{mesh} {
@@ -50,7 +48,7 @@ class WorstCells {
 
   const Mesh& mesh_;
   CornerRange angles_;
-  double worst_ = infinity;
+  double worst_ = std::numeric_limits<double>::infinity();
   WorstPlaces places_;
 };
 

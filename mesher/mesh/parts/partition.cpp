@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t heaviest = 4;  // edges of a quad
+constexpr std::int64_t quad_weight = 4;  // edges of a quad
 
 /// A cell on the curve: by its key, and by its number over all ranks, triangles first, where keys are equal.
 struct Place {
@@ -180,7 +180,7 @@ CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t par
     return {parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
             std::vector<std::int32_t>(mesh.quads.size(), 0)};
   // Shares of less than a cell would leave parts empty: cells count alike then.
-  const bool weighed = 3 * triangles + heaviest * quads >= heaviest * parts;
+  const bool weighed = 3 * triangles + quad_weight * quads >= quad_weight * parts;
   PartWeights weights;
   if (!weighed) weights.of_triangle = weights.of_quad = 1;
   const std::int64_t all = weights.of_triangle * triangles + weights.of_quad * quads;
