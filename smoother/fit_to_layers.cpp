@@ -13,24 +13,24 @@ namespace quadloop {
 
 namespace {
 
-constexpr double lowest = 0.75, highest = 2;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;              // ratio of neighbouring widths that is left
+constexpr double lowest_cells = 0.75,
+                 highest_cells = 2;  // heights of cells, over that of the last layer, that are left
+constexpr double steepest = 1.3;     // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
 constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes
 constexpr double worthwhile = 1 - 1e-3;
-constexpr double cotangent_of_28 = 1.8807264653463318;
-constexpr double defect_at_28 = 0.2683281572999748;  // square root of the largest cost of a corner
-constexpr std::array<double, 2> steps{0.12, 0.04};   // of the node's mean edge
+constexpr double defect_at_28 = 0.2683281572999748;     // square root of the largest cost of a corner
+constexpr std::array<double, 2> fit_steps{0.12, 0.04};  // of the node's mean edge
 constexpr double diagonal = 0.70710678118654757;
-constexpr std::array<Point, Star::batch> directions{{{1, 0},
-                                                     {diagonal, diagonal},
-                                                     {0, 1},
-                                                     {-diagonal, diagonal},
-                                                     {-1, 0},
-                                                     {-diagonal, -diagonal},
-                                                     {0, -1},
-                                                     {diagonal, -diagonal}}};
+constexpr std::array<Point, Star::batch> fit_directions{{{1, 0},
+                                                         {diagonal, diagonal},
+                                                         {0, 1},
+                                                         {-diagonal, diagonal},
+                                                         {-1, 0},
+                                                         {-diagonal, -diagonal},
+                                                         {0, -1},
+                                                         {diagonal, -diagonal}}};
 constexpr int fitted_rings = 1, most_sweeps = 6;
 
 /// An edge of the front as the node where it begins has it.
@@ -135,7 +135,7 @@ class LayerFit {
     NodeFlags flags(mesh_.points().size(), 0);
     for (const FrontCell& cell : cells_) {
       const double ratio = height_of(cell) / cell.last_layer;
-      if (ratio < lowest || ratio > highest) flag_all(cell.all(), flags);
+      if (ratio < lowest_cells || ratio > highest_cells) flag_all(cell.all(), flags);
     }
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
       if (is_uneven(node)) flags[node] = 1;
@@ -186,7 +186,7 @@ class LayerFit {
     const StarCost<1> now = star_.cost(p, Objective::power);
     if (!now.valid[0]) return std::nullopt;
     const double edge = std::sqrt(star_.reference(p));
-    for (const double step : steps) {
+    for (const double step : fit_steps) {
       if (const auto found = best_step(i, p, now, step * edge)) return found;
     }
     return std::nullopt;
@@ -197,8 +197,8 @@ class LayerFit {
                  defect = std::max(defect_at_28, now.largest_defect[0]);
     Star::Batch x, y;
     for (int k = 0; k < Star::batch; ++k) {
-      x[k] = p.x + step * directions[k].x;
-      y[k] = p.y + step * directions[k].y;
+      x[k] = p.x + step * fit_directions[k].x;
+      y[k] = p.y + step * fit_directions[k].y;
     }
     const StarCost<Star::batch> cost = star_.cost(x, y, Objective::power);
     double best = worthwhile * (now.objective[0] + misfit(i, p));

@@ -16,7 +16,7 @@ constexpr double flat_degrees = 180;
 template <std::size_t width>
 constexpr double ideal_degrees = width == 3 ? 60 : 90;
 
-enum Shape : std::size_t { angle, aspect, skewness, condition };
+enum ShapeMeasure : std::size_t { angle, aspect, skewness, condition };
 
 template <std::size_t width>
 void add_cell(const std::array<Point, width>& cell, std::vector<Histogram>& histograms) {

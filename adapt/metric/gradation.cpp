@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_sweeps = 100;  ///< each carries a size one edge farther
+constexpr int most_sweeps = 100;         ///< each carries a size one edge farther
 constexpr double settled_change = 1e-3;  ///< of the density, in a sweep, at any node
 
 /// The nodes round each owned node, in their global order.

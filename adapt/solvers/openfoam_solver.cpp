@@ -108,7 +108,7 @@ MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
 
 /// What the solver left, spread over the ranks. *Collective.*
 Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
-                const SolverCommand& command, const SolverFiles& files) {
+                     const SolverCommand& command, const SolverFiles& files) {
   Field whole;
   comm.together([&] {
     if (!comm.is_root()) return;

@@ -28,8 +28,6 @@ std::vector<Corners> corners_of(const TransferSide& side) {
   return corners;
 }
 
-double area_of(const Corners& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
-
 /// Within the bounds, where there are any.
 double bounded(double value, const CoveredValue& by) {
   return by.smallest <= by.largest ? std::clamp(value, by.smallest, by.largest) : value;

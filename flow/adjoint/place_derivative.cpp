@@ -189,8 +189,8 @@ void PlaceDerivative::add_boundaries() {
     const BoundaryModel& boundary = run_.model.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       const State state = state_at_half(face, run_.states[own], run_.states[other]);
-      const Dual term =
-          size * weighted_sum(adjoint_[own], boundary_flux(run_.model, boundary, constant<Dual>(state), normal));
+      const Dual term = size * weighted_sum(adjoint_[own], boundary_flux(run_.model, boundary,
+                                                                         constant<Dual>(state), normal));
       sums_[face.from] = sums_[face.from] + Point{term.slopes[0], term.slopes[1]};
       sums_[face.to] = sums_[face.to] + Point{term.slopes[2], term.slopes[3]};
     }

@@ -17,15 +17,15 @@ namespace {
 constexpr std::size_t longest_name = 32;
 
 constexpr std::array<std::pair<const char*, const char*>, 10> known_variables{{{"density", "Density"},
-                                                                         {"pressure", "Pressure"},
-                                                                         {"temperature", "Temperature"},
-                                                                         {"mach", "Mach"},
-                                                                         {"x_velocity", "VelocityX"},
-                                                                         {"y_velocity", "VelocityY"},
-                                                                         {"z_velocity", "VelocityZ"},
-                                                                         {"x_momentum", "MomentumX"},
-                                                                         {"y_momentum", "MomentumY"},
-                                                                         {"z_momentum", "MomentumZ"}}};
+                                                                               {"pressure", "Pressure"},
+                                                                               {"temperature", "Temperature"},
+                                                                               {"mach", "Mach"},
+                                                                               {"x_velocity", "VelocityX"},
+                                                                               {"y_velocity", "VelocityY"},
+                                                                               {"z_velocity", "VelocityZ"},
+                                                                               {"x_momentum", "MomentumX"},
+                                                                               {"y_momentum", "MomentumY"},
+                                                                               {"z_momentum", "MomentumZ"}}};
 
 /// The number of a BCType_t by its name.
 int type_named(std::string_view name) {
@@ -41,8 +41,8 @@ std::string shortened(const std::string& name, std::size_t length) {
 }
 
 std::string standard_name(const std::string& name) {
-  const auto* const known =
-      std::find_if(known_variables.begin(), known_variables.end(), [&](const auto& pair) { return name == pair.first; });
+  const auto* const known = std::find_if(known_variables.begin(), known_variables.end(),
+                                         [&](const auto& pair) { return name == pair.first; });
   return known == known_variables.end() ? name : known->second;
 }
 

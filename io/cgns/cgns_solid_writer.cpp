@@ -15,7 +15,6 @@ namespace quadloop {
 
 namespace {
 
-
 /// Rows of an array type as one list of numbers.
 template <class Number, std::size_t width>
 std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {

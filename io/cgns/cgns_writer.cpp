@@ -123,8 +123,8 @@ class CgnsWriter {
 
   void refuse_too_large(const std::string& path) const {
     const std::int64_t elements = counts_.triangles + counts_.quads + boundaries_.all_edges();
-    if (counts_.nodes <= largest_cgns_size && elements <= largest_cgns_size && 3 * counts_.triangles <= largest_cgns_size &&
-        4 * counts_.quads <= largest_cgns_size) {
+    if (counts_.nodes <= largest_cgns_size && elements <= largest_cgns_size &&
+        3 * counts_.triangles <= largest_cgns_size && 4 * counts_.quads <= largest_cgns_size) {
       return;
     }
     throw OutputError(

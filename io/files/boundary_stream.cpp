@@ -1,6 +1,7 @@
 #include "io/files/boundary_stream.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -42,6 +43,44 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::
     : BoundaryStream(comm, mesh) {
   instead_ = std::move(instead);
   QUADLOOP_REQUIRE(std::ssize(instead_) == own_before_.back(), "numbers for each boundary edge");
+}
+
+void BoundaryStream::run(const Begin& begin, const Put& put) const {
+  comm_.together([&] {
+    if (comm_.is_root()) {
+      take_all(begin, put);
+    } else {
+      send_all();
+    }
+  });
+}
+
+/// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
+void BoundaryStream::take_all(const Begin& begin, const Put& put) const {
+  std::vector<Incoming> incoming = all_incoming();
+  std::exception_ptr failure;
+  try {
+    std::int64_t boundary = -1, index = -1;
+    for (const Share& share : shares_) {
+      if (share.boundary != boundary) begin(++index);
+      boundary = share.boundary;
+      take_share(share, incoming[share.rank], put);
+    }
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  for (int rank = 0; rank < comm_.size(); ++rank) receive_rest(rank, incoming[rank]);
+  if (failure) std::rethrow_exception(failure);
+}
+
+void BoundaryStream::take_share(const Share& share, Incoming& from, const Put& put) const {
+  for (std::int64_t left = share.edges; left > 0;) {
+    if (from.taken == from.piece.size()) ask_for_next(static_cast<int>(share.rank), from);
+    const std::size_t count = std::min<std::size_t>(left, from.piece.size() - from.taken);
+    put(std::span<const Edge>(from.piece).subspan(from.taken, count));
+    from.taken += count;
+    left -= count;
+  }
 }
 
 std::vector<BoundaryStream::Incoming> BoundaryStream::all_incoming() const {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <exception>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,19 +30,12 @@ class BoundaryStream {
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
   std::int64_t edges_of(std::size_t index) const { return edges_[index]; }
 
+  using Begin = std::function<void(std::size_t index)>;
+  using Put = std::function<void(std::span<const Edge> edges)>;
   /// On rank 0, for each boundary that has edges, `begin(n)` with its index in present(), then
   /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
   /// and nobody hangs.
-  template <class Begin, class Put>
-  void run(const Begin& begin, const Put& put) const {
-    comm_.together([&] {
-      if (comm_.is_root()) {
-        take_all(begin, put);
-      } else {
-        send_all();
-      }
-    });
-  }
+  void run(const Begin& begin, const Put& put) const;
 
  private:
   /// Edges of one boundary on one rank.
@@ -57,36 +50,8 @@ class BoundaryStream {
     std::int64_t asked_for = 0, all = 0;  ///< edges
   };
 
-  /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
-  template <class Begin, class Put>
-  void take_all(const Begin& begin, const Put& put) const {
-    std::vector<Incoming> incoming = all_incoming();
-    std::exception_ptr failure;
-    try {
-      std::int64_t boundary = -1, index = -1;
-      for (const Share& share : shares_) {
-        if (share.boundary != boundary) begin(++index);
-        boundary = share.boundary;
-        take_share(share, incoming[share.rank], put);
-      }
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    for (int rank = 0; rank < comm_.size(); ++rank) receive_rest(rank, incoming[rank]);
-    if (failure) std::rethrow_exception(failure);
-  }
-
-  template <class Put>
-  void take_share(const Share& share, Incoming& from, const Put& put) const {
-    for (std::int64_t left = share.edges; left > 0;) {
-      if (from.taken == from.piece.size()) ask_for_next(static_cast<int>(share.rank), from);
-      const std::size_t count = std::min<std::size_t>(left, from.piece.size() - from.taken);
-      put(std::span<const Edge>(from.piece).subspan(from.taken, count));
-      from.taken += count;
-      left -= count;
-    }
-  }
-
+  void take_all(const Begin& begin, const Put& put) const;
+  void take_share(const Share& share, Incoming& from, const Put& put) const;
   std::vector<Incoming> all_incoming() const;
   void ask_for_next(int rank, Incoming& from) const;
   void receive_rest(int rank, Incoming& from) const;

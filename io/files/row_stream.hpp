@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -19,6 +20,11 @@ struct RowStream {
   std::int64_t rows = 0;            ///< of this rank
   std::int64_t rows_per_piece = 1;  ///< bounds what rank 0 holds at a time
 
+  template <class T>
+  using Make = std::function<std::vector<T>(std::int64_t begin, std::int64_t end)>;
+  template <class T>
+  using Consume = std::function<void(std::span<const T> piece)>;
+
   static constexpr std::int64_t pieces_ahead = 8;  ///< made by a rank while it waits for its turn
 
   std::int64_t pieces() const { return (rows + rows_per_piece - 1) / rows_per_piece; }
@@ -27,8 +33,8 @@ struct RowStream {
   /// `make(begin, end)` gives a std::vector<T> for the rank's own rows begin .. end-1 (its length is free);
   /// `consume` gets a std::span<const T> for each piece, on rank 0 only. *Collective*; what either throws
   /// ends on every rank, and nobody hangs.
-  template <class T, class Make, class Consume>
-  void run(const Make& make, const Consume& consume) const {
+  template <class T>
+  void run(const Make<T>& make, const Consume<T>& consume) const {
     const std::vector<std::int64_t> pieces_of_rank = comm.all_gather(pieces());
     comm.together([&] {
       if (comm.is_root()) {
@@ -41,9 +47,9 @@ struct RowStream {
 
  private:
   /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
-  template <class T, class Make, class Consume>
-  void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make& make,
-                const Consume& consume) const {
+  template <class T>
+  void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make<T>& make,
+                const Consume<T>& consume) const {
     std::exception_ptr failure;
     progress::Stage stage(
         "writing",
@@ -72,16 +78,16 @@ struct RowStream {
   }
 
   /// A rank that fails still sends as many pieces as it announced, empty ones.
-  template <class T, class Make>
-  void send_all(const Make& make) const {
+  template <class T>
+  void send_all(const Make<T>& make) const {
     std::exception_ptr failure;
-    const auto made = [&](std::int64_t k) {
+    const auto made = [&](std::int64_t k) -> std::vector<T> {
       try {
         if (!failure) return make(begin_of(k), begin_of(k + 1));
       } catch (...) {
         failure = std::current_exception();
       }
-      return std::vector<T>{};
+      return {};
     };
     std::vector<std::vector<T>> ahead;
     for (std::int64_t k = 0; k < std::min(pieces(), pieces_ahead); ++k) ahead.push_back(made(k));

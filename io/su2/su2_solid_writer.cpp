@@ -9,7 +9,7 @@ namespace {
 
 /// VTK's numbers of kinds of cells, by how many nodes they have.
 template <std::size_t width>
-constexpr int vtk_solid = width == 4   ? 10
+constexpr int su2_solid = width == 4   ? 10
                           : width == 5 ? 14
                           : width == 6 ? 13
                                        : 12;
@@ -31,7 +31,7 @@ class Su2SolidWriter {
     file_.write("NDIME= 3\nNELEM= " + std::to_string(stream_.counts().cells()) + "\n");
     for_each_kind_of_cell([&]<std::size_t width>() {
       file_.write_rows(stream_.cell_rows<width>(), width + 1, [&](TextRows& text, std::int64_t i) {
-        put_element(text, vtk_solid<width>, stream_.cell<width>(i));
+        put_element(text, su2_solid<width>, stream_.cell<width>(i));
       });
     });
     write_points();

@@ -109,7 +109,8 @@ class EdgeIndex {
  public:
   EdgeIndex(const CutLeaf& leaf, Edges edges) : leaf_{leaf}, edges_{edges} {
     constexpr std::size_t few_edges = 32;  // of these all pairs take less time than a tree
-    if (edges.size() > few_edges) tree_ = BoxTree(size32(edges), [&](std::int32_t e) { return box(edges[e]); });
+    if (edges.size() > few_edges)
+      tree_ = BoxTree(size32(edges), [&](std::int32_t e) { return box(edges[e]); });
   }
 
   /// Whether the edge conflicts with any of the first `end` for which `counts(number)` holds.

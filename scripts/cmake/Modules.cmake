@@ -5,9 +5,11 @@ target_include_directories(quadloop_options INTERFACE "$<BUILD_INTERFACE:${PROJE
 target_compile_features(quadloop_options INTERFACE cxx_std_20)
 # Exact predicates, and one result on every machine, need each operation rounded on its own: no fused multiply-add.
 target_compile_options(quadloop_options INTERFACE -ffp-contract=off $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion>)
-# GCC gives this warning for types of unnamed namespaces in headers, and takes the sources of one folder for headers.
 if(CMAKE_UNITY_BUILD)
+  # GCC warns of types of unnamed namespaces in headers, and takes the sources of one unit for headers.
   target_compile_options(quadloop_options INTERFACE $<BUILD_INTERFACE:-Wno-subobject-linkage>)
+  # Units need more memory than GCC expects: it would spend an eighth of its time on collecting garbage.
+  target_compile_options(quadloop_options INTERFACE $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=400000>>)
 endif()
 option(QUADLOOP_WERROR "warnings of GCC 12, the compiler that the tests run with, are errors" OFF)
 if(QUADLOOP_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.")
@@ -16,30 +18,22 @@ endif()
 set_target_properties(quadloop_options PROPERTIES EXPORT_NAME options)
 install(TARGETS quadloop_options EXPORT quadloop)
 
-# quadloop_group_sources(TARGET [ALONE source ...]): where CMAKE_UNITY_BUILD is on, the sources of one folder are compiled as one file, so
-# that headers are read once for each folder. Names in unnamed namespaces must therefore differ within a folder. Sources after ALONE are
-# compiled by themselves: they need flags or pragmas of their own, or take as long as a whole folder.
-function(quadloop_group_sources target)
-  cmake_parse_arguments(GROUP "" "" "ALONE" ${ARGN})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  get_target_property(sources ${target} SOURCES)
-  foreach(source IN LISTS sources)
-    if(NOT source IN_LIST GROUP_ALONE)
-      get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}/${source}" DIRECTORY)
-      file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${folder}")
-      string(MAKE_C_IDENTIFIER "${folder}" group)
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
-    endif()
-  endforeach()
+# Where CMAKE_UNITY_BUILD is on (preset `release`), up to so many sources of one target are compiled as one file: headers are read and templates
+# instantiated once for all of them. Names in unnamed namespaces must therefore differ within a target.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
+
+# quadloop_compile_alone(source ...): sources that are compiled by themselves, as they need pragmas of their own or include a library that takes the
+# compiler long.
+function(quadloop_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# quadloop_module(NAME SOURCES ... [ALONE ...] PUBLIC ... PRIVATE ... [COMPONENT name | PROGRAM]): one folder, one library, one idea. It is installed
+# quadloop_module(NAME SOURCES ... PUBLIC ... PRIVATE ... [COMPONENT name | PROGRAM]): one folder, one library, one idea. It is installed
 # as what the door stands on, or as a component that a user of the package asks for, or not at all as only the program needs it.
 # Headers are installed by Package.cmake.
 function(quadloop_module name)
-  cmake_parse_arguments(MODULE "PROGRAM" "COMPONENT" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
-  add_library(quadloop_${name} STATIC ${MODULE_SOURCES} ${MODULE_ALONE})
-  quadloop_group_sources(quadloop_${name} ALONE ${MODULE_ALONE})
+  cmake_parse_arguments(MODULE "PROGRAM" "COMPONENT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(quadloop_${name} STATIC ${MODULE_SOURCES})
   add_library(quadloop::${name} ALIAS quadloop_${name})
   target_link_libraries(quadloop_${name} PUBLIC quadloop_options ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE})
   set_target_properties(quadloop_${name} PROPERTIES EXPORT_NAME ${name})

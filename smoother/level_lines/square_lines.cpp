@@ -6,7 +6,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double step = 0.25;  ///< of the smaller square's edge
+constexpr double step_into_squares = 0.25;  ///< of the smaller square's edge
 /// Of that edge: coordinates that went through a file are on the lattice nearly.
 constexpr double rounding = 1e-6;
 /// A flag beside those of the quadrants: the node's cells are not those of a level line.
@@ -55,7 +55,7 @@ SquareLines::SquareLines(const HaloMesh& mesh) : mesh_{mesh}, round_(mesh.owned_
 
 Point SquareLines::move_of(NodeId node) const {
   const Surroundings& s = round_[node];
-  return -step * s.edge * into_squares(s.quadrants);
+  return -step_into_squares * s.edge * into_squares(s.quadrants);
 }
 
 void SquareLines::exclude(NodeId node) {

@@ -150,11 +150,11 @@ Point move_for(std::uint64_t sum) {
 
 /// Of a box: coordinates that went through a file are on the lattice nearly.
 constexpr double relative_rounding = 1e-6;
-constexpr double least = 1e-300;  ///< length of a box's side
+constexpr double least_side = 1e-300;  ///< length of a box's side
 
 bool near(double a, double b, double whole) { return std::abs(a - b) <= relative_rounding * whole; }
 
-/// From the least of three coordinates to the largest.
+/// From the least_side of three coordinates to the largest.
 struct Extent {
   double low, length;
 };
@@ -178,7 +178,7 @@ unsigned nearest_place(double from_low, const Extent& extent) {
 FittedShape shape_of(const std::array<Point, 3>& p, const Extent& x, const Extent& y) {
   FittedShape found{{{}, unsigned{4 * x.length >= 3 * y.length} + unsigned{2 * x.length >= 3 * y.length}},
                     false};
-  unsigned fits = unsigned{x.length > least} &
+  unsigned fits = unsigned{x.length > least_side} &
                   unsigned{near(2 * x.length, (1U << found.shape.aspect) * y.length, y.length)};
   for (std::size_t k = 0; k < 3; ++k) {
     const double right = p[k].x - x.low, up = p[k].y - y.low;

@@ -7,8 +7,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_newton_moves = 3;   ///< in one visit
-constexpr double newton_reach = 0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
+constexpr int most_newton_moves = 3;  ///< in one visit
+constexpr double newton_reach =
+    0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
 constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance asks for of the cost
 constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
 constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
@@ -18,7 +19,7 @@ constexpr double cotangent_of_32 =
 constexpr std::array<Point, Star::batch> ways{
     {{0.6, 0}, {0.3, 0}, {0.1, 0}, {0.03, 0}, {0.3, 0.25}, {0.3, -0.25}, {0.05, 0.14}, {0.05, -0.14}}};
 
-struct Step {
+struct NewtonMove {
   Point by;
   double gain = 0;  ///< as a share of the sum of cubes, by the quadratic model
 };
@@ -26,7 +27,7 @@ struct Step {
 /// To the minimum of the quadratic model of the third root of the sum of cubes, which is nearer to quadratic
 /// than the sum: its second derivatives are, but for a factor, those of the sum less 2/3 of the gradient's
 /// square over the sum. Against the gradient where the model has no minimum.
-Step newton_step(const StarModel& m) {
+NewtonMove newton_step(const StarModel& m) {
   const Point g = m.gradient;
   const double longest = newton_reach * std::sqrt(m.reference), share = 2 / (3 * m.cubes);
   const double xx = m.xx - share * g.x * g.x, xy = m.xy - share * g.x * g.y, yy = m.yy - share * g.y * g.y;
@@ -59,7 +60,7 @@ std::optional<Point> Newton::improve(const Star& star, Point p, Objective object
   StarModel now = star.model(p);
   std::optional<Point> found;
   for (int move = 0; move < most_newton_moves; ++move) {
-    const Step step = newton_step(now);
+    const NewtonMove step = newton_step(now);
     if (!(step.gain > (found ? further_gain : least_gain))) break;
     const Acceptance acceptance(now.cost);
     const StarModel then = star.model(p + step.by);

@@ -14,8 +14,8 @@ namespace {
 constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;
-constexpr double tolerance = 1e-3;  ///< relative, of the cost
-constexpr double search_reach = 0.5;       ///< of the node's mean edge, both ways along each axis
+constexpr double tolerance = 1e-3;    ///< relative, of the cost
+constexpr double search_reach = 0.5;  ///< of the node's mean edge, both ways along each axis
 
 struct Problem {
   const Star* star = nullptr;

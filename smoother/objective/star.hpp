@@ -9,6 +9,10 @@
 
 namespace quadloop {
 
+/// Cotangent of 28 degrees: cells that are fitted to layers or slide along the outline keep larger angles
+/// where they have them.
+constexpr double cotangent_of_28 = 1.8807264653463318;
+
 /// What a node's star would be worth with the node at each of several places, evaluated together.
 template <int places>
 struct StarCost {

@@ -20,7 +20,6 @@ constexpr double stray_share = 0.15;
 constexpr double most_uneven = 1.5;
 /// Of the difference of both ways, a visit; and of their sum, what is no more worth a step.
 constexpr double step_to_middle = 0.125, even_enough = 1e-3;
-constexpr double cotangent_of_28 = 1.8807264653463318;
 /// A chord that stands for a part of the outline longer than so many times itself is left alone.
 constexpr double longest_way = 20;
 

@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::array<double, 4> shares{0.8, 0.4, 0.2, 0.1};  ///< of the way to the place aimed at
+constexpr std::array<double, 4> relaxation_shares{0.8, 0.4, 0.2, 0.1};  ///< of the way to the place aimed at
 
 /// The star of a node that is elsewhere: what its worst triangle is, and the sum of what each lacks.
 struct StarQuality {
@@ -80,7 +80,7 @@ bool relax_on_wall(TileMesh& mesh, std::int32_t n, const StarQuality& now) {
   const double back = mesh.edge_length(before, n), ahead = mesh.edge_length(n, after);
   const double way = ahead > back ? walls.way(at, whole.to) : walls.way(whole.from, at);
   const double step = (ahead - back) / (ahead + back) * way;
-  for (const double share : shares) {
+  for (const double share : relaxation_shares) {
     const OutlinePlace moved = walls.moved(at, share * step);
     const Point to = walls.point_at(moved);
     if (walls.may_slide(whole, moved, to, at, mesh.point(n)) && take(mesh, n, now, to)) return true;
@@ -96,7 +96,8 @@ bool relax_node(TileMesh& mesh, std::int32_t n) {
   if (!now) return false;
   if (mesh.freedom(n) == TileMesh::Freedom::slides) return relax_on_wall(mesh, n, *now);
   const Point from = mesh.point(n), way = aim(mesh, n) - from;
-  return std::ranges::any_of(shares, [&](double share) { return take(mesh, n, *now, from + share * way); });
+  return std::ranges::any_of(relaxation_shares,
+                             [&](double share) { return take(mesh, n, *now, from + share * way); });
 }
 
 }  // namespace quadloop

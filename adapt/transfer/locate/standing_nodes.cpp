@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "mesher/geometry/point_table.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/parallel/exchange.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {

@@ -25,8 +25,6 @@ Box box_of_triangle(const Triangle& triangle) {
   return box;
 }
 
-double area_of(const Triangle& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
-
 /// Triangles and what goes with them, sent to all ranks whose pieces of the plane they meet.
 class ToShares {
  public:

@@ -9,6 +9,9 @@
 
 namespace quadloop {
 
+/// Of a triangle, by its corners in counter-clockwise order.
+constexpr double area_of(const std::array<Point, 3>& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
+
 /// Integrals of one variable over the part of a triangle that another mesh covers.
 struct CoveredValue {
   double integral = 0;

@@ -9,10 +9,10 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr NewtonSystem::Effort effort{.tolerance = 0.1, .directions = 20, .sweeps = 10};
+constexpr NewtonSystem::Effort effort_in_time{.tolerance = 0.1, .directions = 20, .sweeps = 10};
 constexpr double tolerance = 1e-3;  ///< of what would be left if nothing moved
 constexpr double rounding = 1e-13;  ///< of what is conserved, as a share
-constexpr int most_iterations = 10, most_halvings = 3;
+constexpr int most_iterations = 10, most_share_halvings = 3;
 constexpr double least_gain = 0.9;  ///< of an iteration; one that gains less leads nowhere
 constexpr int most_step_halvings = 4;
 constexpr double longest_growth = 2.1;  ///< of a step over the one before; order 1 where it is more
@@ -83,11 +83,11 @@ double BackwardDifference::newton(double rate, double size, double enough) {
     for (double& value : row) value = -value;
   }
   const NodeRows fluxes = fluxes_;
-  NewtonSystem::Effort asked = effort;
-  asked.tolerance = std::clamp(0.5 * enough / size, 0.01, effort.tolerance);
+  NewtonSystem::Effort asked = effort_in_time;
+  asked.tolerance = std::clamp(0.5 * enough / size, 0.01, effort_in_time.tolerance);
   newton_.solve(start_, fluxes, right, asked, change_);
   double share = 1;
-  for (int attempt = 0; attempt < most_halvings; ++attempt, share *= 0.5) {
+  for (int attempt = 0; attempt < most_share_halvings; ++attempt, share *= 0.5) {
     for (std::size_t node = 0; node < change_.size(); ++node) {
       Row change = change_[node];
       for (double& value : change) value *= share;

@@ -13,7 +13,7 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double largest_cfl = 0.8;
+constexpr double largest_explicit_cfl = 0.8;
 constexpr int most_halvings_of_step = 8;
 
 /// One stage of a step: the step's start and the stage before it advanced by an Euler step, mixed.
@@ -43,7 +43,7 @@ void advance_stage(const TimeRun& run, const Stage& stage, double step, const st
 
 RungeKutta::RungeKutta(const TimeRun& run, double cfl)
     : run_{run},
-      cfl_{std::min(cfl, largest_cfl)},
+      cfl_{std::min(cfl, largest_explicit_cfl)},
       wave_sums_(run.mesh.nodes()),
       start_(run.mesh.owned_nodes()) {}
 

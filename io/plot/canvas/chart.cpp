@@ -11,8 +11,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr double left = 110, right = 28, top = 24, between = 22, below = 62, legend_row = 27, swatch = 30;
-constexpr Colour ink{0.2, 0.2, 0.2}, grid_ink{0.86, 0.86, 0.88}, mark_ink{0.6, 0.6, 0.62};
+constexpr double chart_left = 110, chart_right = 28, chart_top = 24, chart_gap = 22, chart_below = 62,
+                 chart_legend_row = 27, chart_swatch = 30;
+constexpr Colour chart_ink{0.2, 0.2, 0.2}, grid_ink{0.86, 0.86, 0.88}, mark_ink{0.6, 0.6, 0.62};
 
 Colour line_colour(std::size_t i) {
   static constexpr std::array<Colour, 8> colours{{{0.10, 0.36, 0.70},
@@ -88,15 +89,16 @@ class ChartPicture {
 
   std::string draw() {
     const std::vector<Point> places = legend_places();
-    const double legend = has_legend() ? places.back().y - places.front().y + legend_row : 8;
+    const double legend = has_legend() ? places.back().y - places.front().y + chart_legend_row : 8;
     const auto count = static_cast<double>(chart_.panels.size());
-    const double high = std::max(20.0, (size_.y - top - below - legend - between * (count - 1)) / count);
+    const double high =
+        std::max(20.0, (size_.y - chart_top - chart_below - legend - chart_gap * (count - 1)) / count);
     for (std::size_t i = 0; i < chart_.panels.size(); ++i) {
-      const double from = top + static_cast<double>(i) * (high + between);
-      draw_panel(chart_.panels[i], {{left, from}, {size_.x - right, from + high}},
+      const double from = chart_top + static_cast<double>(i) * (high + chart_gap);
+      draw_panel(chart_.panels[i], {{chart_left, from}, {size_.x - chart_right, from + high}},
                  i + 1 == chart_.panels.size());
     }
-    if (has_legend()) draw_legend(places, size_.y - legend + 0.5 * legend_row - 4);
+    if (has_legend()) draw_legend(places, size_.y - legend + 0.5 * chart_legend_row - 4);
     return canvas_.finish();
   }
 
@@ -147,7 +149,7 @@ class ChartPicture {
     canvas_.unclip();
     canvas_.add_polygon(std::array{frame.low, Point{frame.high.x, frame.low.y}, frame.high,
                                    Point{frame.low.x, frame.high.y}});
-    canvas_.stroke(ink, 1, 1.2);
+    canvas_.stroke(chart_ink, 1, 1.2);
     for (std::size_t i = 0; i < y_ticks.values.size(); ++i)
       canvas_.text({frame.low.x - 9, up(y_ticks.values[i])}, y_ticks.labels[i], TextAlign::right);
     canvas_.text_upwards({18, 0.5 * (frame.low.y + frame.high.y)}, panel.y.title);
@@ -181,10 +183,10 @@ class ChartPicture {
   /// With the first row at 0.
   std::vector<Point> legend_places() const {
     std::vector<Point> places;
-    Point at{left, 0};
+    Point at{chart_left, 0};
     for (const std::string& name : names_) {
-      const double needed = swatch + 8 + canvas_.text_width(name);
-      if (at.x > left && at.x + needed > size_.x - 8) at = {left, at.y + legend_row};
+      const double needed = chart_swatch + 8 + canvas_.text_width(name);
+      if (at.x > chart_left && at.x + needed > size_.x - 8) at = {chart_left, at.y + chart_legend_row};
       places.push_back(at);
       at.x += needed + 26;
     }
@@ -194,9 +196,9 @@ class ChartPicture {
   void draw_legend(const std::vector<Point>& places, double first_row) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const Point at = places[i] + Point{0, first_row};
-      canvas_.add_line(at, at + Point{swatch, 0});
+      canvas_.add_line(at, at + Point{chart_swatch, 0});
       canvas_.stroke(line_colour(i), 1, 2.5);
-      canvas_.text(at + Point{swatch + 8, 0}, names_[i]);
+      canvas_.text(at + Point{chart_swatch + 8, 0}, names_[i]);
     }
   }
 

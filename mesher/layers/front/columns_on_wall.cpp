@@ -8,9 +8,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_visible = 0.2;                   // cosine of a column's tilt
-constexpr double least_ratio = 0.3, largest_ratio = 6;  // of the front's width over the wall's
-constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;     // the same
+constexpr double least_visible = 0.2;                            // cosine of a column's tilt
+constexpr double least_ratio = 0.3, largest_ratio = 6;           // of the front's width over the wall's
+constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // the same
 constexpr int most_averagings = 40;
 
 // A station's length takes in half a thickness of wall: so it tells of places as far from it as that, counted
@@ -177,7 +177,8 @@ class ColumnsOnWall::Columns {
   /// How far columns converge on the place after a station: 1 to 0.
   void set_convergence(std::int32_t i) {
     if (i != WallLine::none && has_width(i))
-      convergence_[i] = std::clamp((spreading_ratio - ratio(i, h_)) / (spreading_ratio - convergent_ratio), 0.0, 1.0);
+      convergence_[i] =
+          std::clamp((spreading_ratio - ratio(i, h_)) / (spreading_ratio - convergent_ratio), 0.0, 1.0);
   }
 
   /// L = h (1 + p (1/c - 1)): where columns converge they keep the layers' thickness over the wall, where

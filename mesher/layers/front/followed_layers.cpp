@@ -57,7 +57,8 @@ void limit_growth(const WallLine& line, std::span<double> heights) {
   const auto limit = [&](std::int32_t from, std::int32_t to, double width) {
     const LayerSpec& spec = line.spec(to);
     if (spec.y_plus > 0)
-      heights[to] = std::min(heights[to], heights[from] * (1 + steepest_following * width / layers_thickness(spec)));
+      heights[to] =
+          std::min(heights[to], heights[from] * (1 + steepest_following * width / layers_thickness(spec)));
   };
   for (int round = 0; round < 2; ++round) {  // a closed run needs a second one
     for (std::int32_t i = 0; i < line.size(); ++i) {
