@@ -1,4 +1,4 @@
-# Every call of the compiler and every test appends a row to a file in the build folder: user seconds, system seconds and a name.
+# Every call of the compiler and of the linker, and every test, appends a row to a file in the build folder: user seconds, system seconds and a name.
 # scripts/cpu_times adds them up.
 find_program(QUADLOOP_TIME time HINTS /usr/bin)
 

@@ -28,6 +28,9 @@ function(quadloop_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# Everything that `cmake --install` copies: what scripts/quickstart builds.
+add_custom_target(installed)
+
 # quadloop_module(NAME SOURCES ... PUBLIC ... PRIVATE ... [COMPONENT name | PROGRAM]): one folder, one library, one idea. It is installed
 # as what the door stands on, or as a component that a user of the package asks for, or not at all as only the program needs it.
 # Headers are installed by Package.cmake.
@@ -38,6 +41,7 @@ function(quadloop_module name)
   target_link_libraries(quadloop_${name} PUBLIC quadloop_options ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE})
   set_target_properties(quadloop_${name} PROPERTIES EXPORT_NAME ${name})
   if(NOT MODULE_PROGRAM)
+    add_dependencies(installed quadloop_${name})
     install(TARGETS quadloop_${name} EXPORT quadloop${MODULE_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
   endif()
 endfunction()

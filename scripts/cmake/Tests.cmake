@@ -14,6 +14,12 @@ set(QUADLOOP_TEST_ENVIRONMENT
     ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1:exitcode=99:handle_abort=1) # Open MPI keeps memory of its own to the end
 set(QUADLOOP_MPIRUN "${PROJECT_SOURCE_DIR}/scripts/mpirun")
 
+# quadloop_add_test(NAME command ...): add_test, with its processor time measured.
+function(quadloop_add_test name)
+  quadloop_timed(timed test_seconds.txt ${name})
+  add_test(NAME ${name} COMMAND ${timed} ${ARGN})
+endfunction()
+
 # quadloop_label_test(NAME LABEL quick|normal|full TIMEOUT seconds RANKS n [SANITIZE]): what every ctest of ours carries.
 function(quadloop_label_test name)
   cmake_parse_arguments(TEST "SANITIZE" "LABEL;TIMEOUT;RANKS" "" ${ARGN})
@@ -39,6 +45,7 @@ endfunction()
 function(quadloop_test_program name)
   cmake_parse_arguments(TEST "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>) # compiles a quarter faster than -O2; the libraries have that
   target_link_libraries(${name} PRIVATE quadloop_test_support ${TEST_LIBRARIES})
 endfunction()
 
@@ -47,7 +54,7 @@ endfunction()
 function(quadloop_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
-  add_test(NAME ${name} COMMAND ${name})
+  quadloop_add_test(${name} $<TARGET_FILE:${name}>)
   set(sanitize SANITIZE)
   if(TEST_LABEL)
     set(sanitize "")
@@ -61,7 +68,7 @@ function(quadloop_mpi_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "RANKS;SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
   foreach(ranks IN LISTS TEST_RANKS)
-    add_test(NAME ${name}.${ranks} COMMAND "${QUADLOOP_MPIRUN}" -n ${ranks} $<TARGET_FILE:${name}>)
+    quadloop_add_test(${name}.${ranks} "${QUADLOOP_MPIRUN}" -n ${ranks} $<TARGET_FILE:${name}>)
     set(sanitize "")
     if(ranks EQUAL 1 OR ranks EQUAL 3)
       set(sanitize SANITIZE)
