@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double line_step = 1.5;         ///< pixels along a line
+constexpr double line_step = 1.5;    ///< pixels along a line
 constexpr double too_close = 0.5;    ///< share of the distance at which a line ends
 constexpr double least_length = 25;  ///< pixels; shorter ones say nothing
 

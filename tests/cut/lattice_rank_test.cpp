@@ -7,11 +7,11 @@
 namespace quadloop {
 namespace {
 
-const Lattice lattice({{0, 0}, {8, 8}}, 1, 1);
+const Lattice lattice_of_one_tree({{0, 0}, {8, 8}}, 1, 1);
 constexpr int finest = 3;  // leaves of edge 1
 
 TEST(LatticeRank, TheCoarserTheLineTheHigher) {
-  const auto rank = [](double x, double y) { return tie_rank(lattice, finest, {x, y}); };
+  const auto rank = [](double x, double y) { return tie_rank(lattice_of_one_tree, finest, {x, y}); };
   EXPECT_GT(rank(4, 4), rank(2, 2));
   EXPECT_GT(rank(2, 2), rank(1, 1));
   EXPECT_GT(rank(2, 2), rank(4, 1)) << "the finer one of a node's two lines counts first";
@@ -20,15 +20,16 @@ TEST(LatticeRank, TheCoarserTheLineTheHigher) {
 }
 
 TEST(LatticeRank, OfEqualLinesTheFartherFromTheCentre) {
-  EXPECT_GT(tie_rank(lattice, finest, {1, 1}), tie_rank(lattice, finest, {3, 3}));
-  EXPECT_GT(tie_rank(lattice, finest, {1.1, 1}), tie_rank(lattice, finest, {1.2, 1}));
+  EXPECT_GT(tie_rank(lattice_of_one_tree, finest, {1, 1}), tie_rank(lattice_of_one_tree, finest, {3, 3}));
+  EXPECT_GT(tie_rank(lattice_of_one_tree, finest, {1.1, 1}), tie_rank(lattice_of_one_tree, finest, {1.2, 1}));
 }
 
 TEST(LatticeRank, MirrorImagesDifferInTheirCoordinatesAlone) {
   for (const Point p : {Point{1, 2}, Point{4, 8}, Point{0.3, 5}, Point{0.3, 0.7}}) {
     for (const Point image :
          {Point{8 - p.x, p.y}, Point{p.x, 8 - p.y}, Point{p.y, p.x}, Point{8 - p.y, p.x}}) {
-      TieRank own = tie_rank(lattice, finest, p), other = tie_rank(lattice, finest, image);
+      TieRank own = tie_rank(lattice_of_one_tree, finest, p),
+              other = tie_rank(lattice_of_one_tree, finest, image);
       EXPECT_TRUE(own != other || p == image);
       EXPECT_EQ(own.coarser, other.coarser);
       EXPECT_EQ(own.finer, other.finer);

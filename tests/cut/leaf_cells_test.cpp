@@ -8,14 +8,16 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/cut/lattice_rank.hpp"
+#include "tests/cut/unit_box.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::unit_box;
+
 constexpr double degree = std::numbers::pi / 180;
 
 const Quadrant quadrant{0, 0, 3};
-const Box box{{0, 0}, {1, 1}};
 constexpr std::array<Site, 4> corners{Site::south_west, Site::south_east, Site::north_east, Site::north_west};
 
 CutLeaf leaf_of(const std::vector<CutLeaf::Node>& nodes) {
@@ -35,7 +37,7 @@ std::size_t quads_of(std::array<Point, 4> places, bool whole) {
       nodes.push_back({scale * places[i], whole ? corners[i] : Site::inside});
     LeafCellMaker maker;
     LeafCells cells;
-    EXPECT_TRUE(maker.make(quadrant, box, leaf_of(nodes), cells));
+    EXPECT_TRUE(maker.make(quadrant, unit_box, leaf_of(nodes), cells));
     EXPECT_EQ(cells.triangles.size(), cells.quads.empty() ? 2U : 0U);
     return cells.quads.size();
   };
@@ -79,7 +81,7 @@ TEST(LeafCells, TheSmallestSineIsThatOfAllLoops) {
   leaf.loop_starts.push_back(6);
   LeafCellMaker maker;
   LeafCells cells;
-  ASSERT_TRUE(maker.make(quadrant, box, leaf, cells));
+  ASSERT_TRUE(maker.make(quadrant, unit_box, leaf, cells));
   EXPECT_EQ(cells.triangles.size(), 2U);
   EXPECT_NEAR(maker.smallest_sine(), 0.1 / std::sqrt(1.01), 1e-15);
 }

@@ -7,12 +7,11 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/leaf_cells.hpp"
+#include "tests/cut/unit_box.hpp"
 #include "tests/snap/traced_leaves.hpp"
 
 namespace quadloop {
 namespace {
-
-const Box unit{{0, 0}, {1, 1}};
 
 using test::loops_of;
 
@@ -47,7 +46,7 @@ Cut cut_box(const Geometry& geometry, const Box& box, SideSet hanging = {}) {
 }
 
 Cut cut_unit_square(const Geometry& geometry, SideSet hanging = {}) {
-  return cut_box(geometry, unit, hanging);
+  return cut_box(geometry, test::unit_box, hanging);
 }
 
 using Points = std::vector<Point>;

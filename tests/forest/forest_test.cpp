@@ -7,12 +7,13 @@
 
 #include "mesher/forest/curve_owners.hpp"
 #include "mesher/forest/ghost_exchange.hpp"
+#include "tests/forest/brick.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
-const Lattice brick({{0, 0}, {3, 2}}, 3, 2);
+using test::brick;
 
 /// Refined towards a point, without a jump in level where leaves touch.
 bool near_point(const Quadrant& q) {

@@ -6,10 +6,13 @@
 
 #include "mesher/forest/ghost_layer.hpp"
 #include "mesher/forest/leaf_graph.hpp"
+#include "tests/forest/brick.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
+
+using test::brick;
 
 using Place = std::array<std::int64_t, 5>;  ///< x, y, level; rank, number there
 
@@ -42,7 +45,6 @@ void expect_ghosts(const Lattice& lattice, const Forest& forest) {
 }
 
 TEST(GhostLeaves, AreThoseThatTouchOwnOnes) {
-  const Lattice brick({{0, 0}, {3, 2}}, 3, 2);
   for (const std::int64_t towards : {5L, 1L << 29, (1L << 30) - 7, (1L << 30) + (1L << 28)}) {
     Forest forest(test::world(), brick);
     forest.refine(
@@ -60,7 +62,6 @@ TEST(GhostLeaves, AreThoseThatTouchOwnOnes) {
 }
 
 TEST(LeafGraph, NamesTheFinerLeavesAcrossTheNearerHalvesOfSides) {
-  const Lattice brick({{0, 0}, {3, 2}}, 3, 2);
   Forest forest(test::world(), brick);
   forest.refine([](const Quadrant& q) { return q.level < 2 || ((q.x ^ q.y) >> 28 & 1) != 0; }, 3);
   forest.partition();

@@ -4,10 +4,13 @@
 #include <random>
 
 #include "mesher/forest/leaf_finder.hpp"
+#include "tests/forest/brick.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
+
+using test::brick;
 
 /// A brick of 3 by 2 trees, refined towards one point.
 Forest refined_brick(const Lattice& lattice) {
@@ -24,11 +27,9 @@ Forest refined_brick(const Lattice& lattice) {
   return forest;
 }
 
-const Lattice brick_lattice({{0, 0}, {3, 2}}, 3, 2);
-
 TEST(LeafGraph, PointsFindTheirLeaves) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   for (const LeafId leaf : graph.all()) {
     const Quadrant& q = graph.leaf(leaf);
     EXPECT_EQ(graph.leaf_at(q.x, q.y), leaf);
@@ -39,8 +40,8 @@ TEST(LeafGraph, PointsFindTheirLeaves) {
 }
 
 TEST(LeafFinder, WhereItLookedBeforeMakesNoDifference) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   LeafFinder finder(graph);
   std::mt19937_64 random(7);
   std::uniform_int_distribution<std::int64_t> column(-2, (std::int64_t{3} << 30) + 1),
@@ -54,8 +55,8 @@ TEST(LeafFinder, WhereItLookedBeforeMakesNoDifference) {
 }
 
 TEST(LeafFinder, ACornersLeavesAreTheFourSquaresRoundIt) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   LeafFinder finder(graph);
   for (const LeafId leaf : graph.all()) {
     const Quadrant& q = graph.leaf(leaf);
@@ -66,8 +67,8 @@ TEST(LeafFinder, ACornersLeavesAreTheFourSquaresRoundIt) {
 }
 
 TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   for (const LeafId leaf : graph.local()) {
     const Quadrant& q = graph.leaf(leaf);
     const std::int64_t last = q.size() - 1;
@@ -86,8 +87,8 @@ TEST(LeafGraph, NeighboursAreTheLeavesThatTouch) {
 }
 
 TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   for (const LeafId leaf : graph.all()) {
     for (const LeafId before :
          {graph.around(leaf).south_west, graph.around(leaf).south, graph.around(leaf).west})
@@ -96,8 +97,8 @@ TEST(LeafGraph, EarlierNeighboursComeEarlierAlongTheCurve) {
 }
 
 TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   std::vector<std::pair<Quadrant, int>> all;
   for (const Quadrant& q : test::world().all_gather_values(std::span<const Quadrant>(forest.leaves())))
     all.emplace_back(q, graph.rank_at(q.x, q.y));
@@ -113,8 +114,8 @@ TEST(LeafGraph, KnowsTheRankOfLeavesOutOfSight) {
 }
 
 TEST(LeafGraph, LocalLeavesHaveAnIndexAndGhostsHaveNone) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   std::int32_t leaves = 0, local = 0;
   for (const LeafId leaf : graph.all()) {
     EXPECT_EQ(leaf, LeafId{leaves++});
@@ -132,8 +133,8 @@ TEST(LeafGraph, LocalLeavesHaveAnIndexAndGhostsHaveNone) {
 }
 
 TEST(LeafGraph, LeavesKnowTheirOwners) {
-  const Forest forest = refined_brick(brick_lattice);
-  const LeafGraph graph(test::world(), brick_lattice, forest);
+  const Forest forest = refined_brick(brick);
+  const LeafGraph graph(test::world(), brick, forest);
   std::vector<Quadrant> local;
   for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));
   const auto counts = test::world().all_gather(std::ssize(local));

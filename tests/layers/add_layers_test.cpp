@@ -19,14 +19,13 @@
 namespace quadloop {
 namespace {
 
+using test::ten_layers;
 using test::world;
 
-const LayerSpec layers{0.02, 1.2, 1.2, 10};
-
 std::vector<Geometry> outlines() {
-  return {test::floor_with_layers(layers), test::step_with_layers(layers),
-          test::rhombus_with_layers(layers, 0.25),
-          test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {7, 2}, {-1, 2}}}}})};
+  return {test::floor_with_layers(ten_layers), test::step_with_layers(ten_layers),
+          test::rhombus_with_layers(ten_layers, 0.25),
+          test::outline_of({{{"floor", {{0, 0}}, ten_layers}, {"rest", {{8, 0}, {7, 2}, {-1, 2}}}}})};
 }
 
 double area_within(const Geometry& g) {
@@ -80,7 +79,7 @@ TEST(AddLayers, MeshesAreTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(AddLayers, EachFrontEdgeBecomesAColumnOfAsManyCells) {
-  const Layered made(world(), test::floor_with_layers(layers), false);
+  const Layered made(world(), test::floor_with_layers(ten_layers), false);
   const auto edges_of = [](const Mesh& mesh, std::size_t b) {
     return world().sum(std::ssize(mesh.boundaries[b].edges));
   };
@@ -136,7 +135,7 @@ TEST(AddLayers, QuadsAreDividedByTheirShorterDiagonals) {
 }
 
 TEST(AddLayers, LeavesCountTheCellsOverTheirEdgesAndTheseStandBehindTheirOwn) {
-  const Layered made(world(), test::floor_with_layers(layers), false);
+  const Layered made(world(), test::floor_with_layers(ten_layers), false);
   std::vector<std::int64_t> edges(made.leaves.size(), 0);
   for (const std::int32_t leaf : made.outside.edge_leaves[0]) ++edges[leaf];
   std::size_t quad = 0;
@@ -148,14 +147,14 @@ TEST(AddLayers, LeavesCountTheCellsOverTheirEdgesAndTheseStandBehindTheirOwn) {
     for (std::int32_t k = 0; k < after.quads; ++k, ++quad) {
       double highest = 0;
       for (const NodeId node : made.mesh.quads[quad]) highest = std::max(highest, made.mesh.point(node).y);
-      const bool in_layers = highest <= layers_thickness(layers) * (1 + 1e-12);
+      const bool in_layers = highest <= layers_thickness(ten_layers) * (1 + 1e-12);
       EXPECT_EQ(in_layers, k >= before.quads);
     }
   }
 }
 
 TEST(AddLayers, ACellThatIsNotPositiveIsRefusedOnAllRanks) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(ten_layers);
   const LayerFront front = layer_front(geometry);
   MeshOptions options;
   options.size.min = 0.05;

@@ -21,15 +21,15 @@ namespace {
 
 using test::world;
 
-const LayerSpec layers{0.005, 1.3, 1.3, 8};
+const LayerSpec eight_layers{0.005, 1.3, 1.3, 8};
 
 /// A box of 16 by 16 round a body with a sharp nose at the left, of a boundary of its own; at the right it
 /// ends in a base of the given height, or sharp too.
 Geometry body(double base) {
-  test::Side back{"body", {{-1, 0.15}, {0, 0.3}, {2, base / 2}}, layers};
+  test::Side back{"body", {{-1, 0.15}, {0, 0.3}, {2, base / 2}}, eight_layers};
   if (base > 0) back.points.push_back({2, -base / 2});
   back.points.push_back({0, -0.3});
-  const test::Side nose{"nose", {{-1, -0.15}, {-2, 0}}, layers};
+  const test::Side nose{"nose", {{-1, -0.15}, {-2, 0}}, eight_layers};
   return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}}, {back, nose}}, 0.4);
 }
 
@@ -44,7 +44,7 @@ LayerLine free_line() {
   LayerLine line;
   line.path = {{-5, -5}, {-3, -5}, {-1, -4.5}};
   line.spacing = 0.2;
-  line.layers = layers;
+  line.layers = eight_layers;
   return line;
 }
 
@@ -64,7 +64,7 @@ struct Made {
     add_strips(comm, front, outside.edge_leaves, divide, mesh, leaves);
     for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
       if (geometry.boundaries()[b].layers)
-        mesh.boundaries[b].layers = {layers.count, layers_thickness(layers)};
+        mesh.boundaries[b].layers = {eight_layers.count, layers_thickness(eight_layers)};
     }
   }
   LayerFront front;
@@ -116,8 +116,8 @@ TEST(AddStrips, TheMeshKnowsThemByTheirNames) {
       for (std::size_t s = 0; s < strips.size(); ++s) {
         const LayerStrip& strip = made.front.strips[s];
         EXPECT_EQ(strips[s].name, strip.root ? "wake" : "layer_line");
-        EXPECT_EQ(strips[s].layers.count, layers.count);
-        EXPECT_NEAR(strips[s].layers.thickness, layers_thickness(layers), 1e-15);
+        EXPECT_EQ(strips[s].layers.count, eight_layers.count);
+        EXPECT_NEAR(strips[s].layers.thickness, layers_thickness(eight_layers), 1e-15);
         ASSERT_EQ(strips[s].columns(), size32(strip.columns));
         const Mesh whole = gather_whole(world(), made.mesh);
         for (std::int32_t column = 0; world().is_root() && column < strips[s].columns(); ++column) {

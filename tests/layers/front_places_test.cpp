@@ -8,11 +8,12 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers = test::equal_layers(0.5, 4);
+using test::four_layers;
+
 constexpr BoundaryId floor_id{0}, rest_id{1};
 
 TEST(FrontPlaces, AStationAndBetweenTwo) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(four_layers);
   const LayerFront front = layer_front(geometry);
   const FrontPlaces places(front);
   const FrontPlace at = places.locate({0.125, 0.5}, floor_id),
@@ -27,7 +28,7 @@ TEST(FrontPlaces, AStationAndBetweenTwo) {
 }
 
 TEST(FrontPlaces, TheEndOfARunIsAStationToo) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(four_layers);
   const LayerFront front = layer_front(geometry);
   const FrontPlace end = FrontPlaces(front).locate({8, 0.5}, floor_id);
   EXPECT_EQ(end.station, front.line.size() - 1);
@@ -35,13 +36,13 @@ TEST(FrontPlaces, TheEndOfARunIsAStationToo) {
 }
 
 TEST(FrontPlaces, ABoundaryWithoutAFrontHasNone) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(four_layers);
   const LayerFront front = layer_front(geometry);
   EXPECT_FALSE(FrontPlaces(front).locate({8, 0.5}, rest_id).valid());
 }
 
 TEST(FrontPlaces, FollowEachOtherOnOneLineOfWall) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(four_layers);
   const LayerFront front = layer_front(geometry);
   const FrontPlaces places(front);
   const FrontPlace a = places.locate({1.0, 0.5}, floor_id), b = places.locate({1.01, 0.5}, floor_id),
@@ -52,7 +53,7 @@ TEST(FrontPlaces, FollowEachOtherOnOneLineOfWall) {
 }
 
 TEST(FrontPlaces, RoundALoopTheShorterWayCounts) {
-  const Geometry geometry = test::rhombus_with_layers(layers, 0.25);
+  const Geometry geometry = test::rhombus_with_layers(four_layers, 0.25);
   const LayerFront front = layer_front(geometry);
   const FrontPlaces places(front);
   const FrontPlace last{front.line.size() - 2}, first{3};

@@ -10,7 +10,7 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers{0.02, 1.2, 1.2, 10};
+using test::ten_layers;
 
 /// A front with the column at each of its stations.
 struct Front {
@@ -24,19 +24,19 @@ struct Front {
 };
 
 TEST(LayerColumn, OfAStraightWallHasTheHeightsAskedFor) {
-  const Front f(test::floor_with_layers(layers));
+  const Front f(test::floor_with_layers(ten_layers));
   const std::vector<Point> nodes = f.column(7);
   ASSERT_EQ(nodes.size(), 10U) << "the front's own node is not among them";
   double height = 0;
   for (std::size_t layer = 0; layer < nodes.size(); ++layer) {
     EXPECT_EQ(nodes[layer].x, f.front.line[7].wall.x);
     EXPECT_NEAR(nodes[layer].y, height, 1e-14);
-    height += layer_heights(layers)[layer];
+    height += layer_heights(ten_layers)[layer];
   }
 }
 
 TEST(LayerColumn, StandsOnTheWallAtTheShareThatItsNodeHasOfTheFront) {
-  const Front f(test::step_with_layers(layers));
+  const Front f(test::step_with_layers(ten_layers));
   const FrontPlaces places(f.front);
   std::int32_t corner = 0;
   while (f.front.line[corner].wall != Point{4, 0}) ++corner;
@@ -50,10 +50,10 @@ TEST(LayerColumn, StandsOnTheWallAtTheShareThatItsNodeHasOfTheFront) {
 }
 
 TEST(LayerColumn, ThatIsTiltedHasItsFirstHeightNormalToTheWall) {
-  const Front plain(test::step_with_layers(layers)),
-      thinner(
-          test::outline_of({{{"floor", {{0, 0}, {4, 0}, {4, 2}}, layers}, {"rest", {{8, 2}, {8, 6}, {0, 6}}}},
-                            {{"bar", {{3, 0.8}, {3, 1.2}, {3.4, 1.2}, {3.4, 0.8}}}}}));
+  const Front plain(test::step_with_layers(ten_layers)),
+      thinner(test::outline_of(
+          {{{"floor", {{0, 0}, {4, 0}, {4, 2}}, ten_layers}, {"rest", {{8, 2}, {8, 6}, {0, 6}}}},
+           {{"bar", {{3, 0.8}, {3, 1.2}, {3.4, 1.2}, {3.4, 0.8}}}}}));
   for (const Front* f : {&plain, &thinner}) {
     for (std::int32_t i = 0; i < f->front.line.size(); ++i) {
       if (f->front.line[i].wall.y > 0) continue;
@@ -63,7 +63,7 @@ TEST(LayerColumn, ThatIsTiltedHasItsFirstHeightNormalToTheWall) {
 }
 
 TEST(LayerColumn, InAFanHasTheFirstHeightAlongItself) {
-  const Front f(test::rhombus_with_layers(layers, 0.25));
+  const Front f(test::rhombus_with_layers(ten_layers, 0.25));
   for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
     if (f.front.line[i].shape == Station::Shape::fan) {
       EXPECT_NEAR(length(f.column(i)[1] - f.front.line[i].wall), 0.02, 1e-14) << i;
@@ -72,7 +72,7 @@ TEST(LayerColumn, InAFanHasTheFirstHeightAlongItself) {
 }
 
 TEST(LayerColumn, OfReducedLengthKeepsItsCountAndItsFirstHeight) {
-  const Front f(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
+  const Front f(test::outline_of({{{"floor", {{0, 0}}, ten_layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
                                   {{"bar", {{3, 0.9}, {3, 1.5}, {5, 1.5}, {5, 0.9}}}}}));
   for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
     const std::vector<Point> nodes = f.column(i);
@@ -82,11 +82,11 @@ TEST(LayerColumn, OfReducedLengthKeepsItsCountAndItsFirstHeight) {
 }
 
 TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
-  const Geometry floor = test::floor_with_layers(layers);
+  const Geometry floor = test::floor_with_layers(ten_layers);
   const Front f(floor), image(test::mirrored(floor));
   const FrontPlaces places(f.front), of_image(image.front);
   for (double x = 1.23; x < 7; x += 0.00171) {
-    const Point node{x, layers_thickness(layers)}, mirror{x, -layers_thickness(layers)};
+    const Point node{x, layers_thickness(ten_layers)}, mirror{x, -layers_thickness(ten_layers)};
     const std::vector<Point> nodes = f.column(places.locate(node, BoundaryId{0}), node),
                              others = image.column(of_image.locate(mirror, BoundaryId{0}), mirror);
     for (std::size_t layer = 0; layer < nodes.size(); ++layer)
@@ -95,7 +95,7 @@ TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
 }
 
 TEST(LayerColumn, ThatFollowsFrictionChangesEvenlyBetweenStations) {
-  LayerSpec wanted = layers;
+  LayerSpec wanted = ten_layers;
   wanted.y_plus = 2;
   const Geometry floor = test::floor_with_layers(wanted);
   const LayerFront front = layer_front(floor, {}, {}, {{{0, 0}, {8, 0}, 60, 140}});

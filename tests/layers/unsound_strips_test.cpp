@@ -12,9 +12,8 @@
 namespace quadloop {
 namespace {
 
+using test::ten_layers;
 using test::world;
-
-const LayerSpec layers{0.02, 1.2, 1.2, 10};
 
 /// The mesh outside of a floor's layers.
 struct Outside {
@@ -33,13 +32,13 @@ struct Outside {
 };
 
 TEST(UnsoundStrips, ThereAreNoneWhereLayersCanStand) {
-  for (const Geometry& g : {test::floor_with_layers(layers), test::step_with_layers(layers),
-                            test::rhombus_with_layers(layers, 0.25)})
+  for (const Geometry& g : {test::floor_with_layers(ten_layers), test::step_with_layers(ten_layers),
+                            test::rhombus_with_layers(ten_layers, 0.25)})
     EXPECT_TRUE(Outside(g).unsound().empty());
 }
 
 TEST(UnsoundStrips, AreTheEdgesWithColumnsUpsideDown) {
-  Outside outside(test::floor_with_layers(layers));
+  Outside outside(test::floor_with_layers(ten_layers));
   for (Point& p : outside.result.mesh.points) {
     if (p.y < 0.52 && std::abs(p.x - 4) < 1) p.y = -0.1;  // below the wall
   }
@@ -54,7 +53,7 @@ TEST(UnsoundStrips, AreTheEdgesWithColumnsUpsideDown) {
 TEST(UnsoundStrips, AreThoseWhoseFeetPassOverAHeadland) {
   // Without its tip as a node a chord of the front may begin on one side of the needle and end on the other.
   Outside outside(test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
-                                    {{"needle", {{-2, 0}, {2, 0.1}, {2, -0.1}}, layers}}}));
+                                    {{"needle", {{-2, 0}, {2, 0.1}, {2, -0.1}}, ten_layers}}}));
   Mesh& mesh = outside.result.mesh;
   EXPECT_TRUE(outside.unsound().empty());
   BoundaryEdges& edges = mesh.boundaries[1];
@@ -74,7 +73,7 @@ TEST(UnsoundStrips, AreThoseWhoseFeetPassOverAHeadland) {
 }
 
 TEST(UnsoundStrips, AreThoseAtANodeWhereTheFrontTouchesItself) {
-  Outside outside(test::floor_with_layers(layers));
+  Outside outside(test::floor_with_layers(ten_layers));
   Mesh& mesh = outside.result.mesh;
   auto& edges = mesh.boundaries[0].edges;
   if (world().size() > 1) return;
@@ -85,7 +84,7 @@ TEST(UnsoundStrips, AreThoseAtANodeWhereTheFrontTouchesItself) {
 }
 
 TEST(LayerFront, StationsThatAreKeptAreNodes) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(ten_layers);
   LayerFront front = layer_front(geometry);
   const std::int32_t station = front.line.size() / 2;
   front.keep({station});

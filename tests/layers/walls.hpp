@@ -22,6 +22,12 @@ Geometry outline_of(const std::vector<std::vector<Side>>& loops, double spacing 
 /// So many layers of one height, so thick together.
 LayerSpec equal_layers(double thickness, int count);
 
+/// Of one height, 0.5 thick together.
+inline constexpr LayerSpec four_layers{0.125, 1, 1, 4};
+
+/// 0.519 thick together, the last one 0.103.
+inline constexpr LayerSpec ten_layers{0.02, 1.2, 1.2, 10};
+
 /// A box of 8 by 4 whose floor, y = 0, carries layers; its other sides do not.
 Geometry floor_with_layers(const LayerSpec& layers);
 

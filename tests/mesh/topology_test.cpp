@@ -7,15 +7,15 @@
 
 #include "mesher/mesh/node_exchange.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/node.hpp"
 #include "tests/mesh/square_and_triangle.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::world;
-
-constexpr NodeId node(std::int32_t number) { return NodeId{number}; }
 
 TEST(EdgeTable, KnowsTheCellLeftOfEachEdge) {
   const EdgeTable table(test::square_and_triangle());

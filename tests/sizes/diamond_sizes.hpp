@@ -51,4 +51,9 @@ struct DiamondSizes {
   }
 };
 
+/// Leaves of one size at a large diamond, in the square's upper right quarter.
+struct LargeDiamondSizes : DiamondSizes {
+  explicit LargeDiamondSizes(double spacing) : DiamondSizes({{0.6, 0.6}, 0.37}, spacing, spacing, 0.5) {}
+};
+
 }  // namespace quadloop::test

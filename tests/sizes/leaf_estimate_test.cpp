@@ -10,12 +10,10 @@
 namespace quadloop {
 namespace {
 
-struct Sizes : test::DiamondSizes {
-  explicit Sizes(double spacing) : DiamondSizes({{0.6, 0.6}, 0.37}, spacing, spacing, 0.5) {}
-};
+using test::LargeDiamondSizes;
 
 /// All of them, one by one.
-LeafEstimate counted(const Sizes& sizes) {
+LeafEstimate counted(const LargeDiamondSizes& sizes) {
   const SizeTree tree = sizes.tree();
   SizeCursor cursor(tree);
   LeafEstimate all;
@@ -29,7 +27,7 @@ LeafEstimate counted(const Sizes& sizes) {
 }
 
 TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
-  const Sizes sizes(0.06);
+  const LargeDiamondSizes sizes(0.06);
   const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
   EXPECT_EQ(estimate.cut, expected.cut);
   EXPECT_EQ(estimate.inside, expected.inside);
@@ -38,7 +36,7 @@ TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
 }
 
 TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
-  const Sizes sizes(0.0015);
+  const LargeDiamondSizes sizes(0.0015);
   const SizeTree tree = sizes.tree();
   const double first = estimate_leaves(tree).all();
   EXPECT_EQ(estimate_leaves(tree).all(), first) << "the tree has grown since";
@@ -46,7 +44,7 @@ TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
 
 TEST(LeafEstimate, IsTheSameToTheLastBitWhereRanksShareIt) {
   for (const double spacing : {0.06, 0.0015}) {
-    const Sizes sizes(spacing);
+    const LargeDiamondSizes sizes(spacing);
     const SizeTree own_tree = sizes.tree(), shared_tree = sizes.tree();
     const LeafEstimate own = estimate_leaves(own_tree), shared = estimate_leaves(test::world(), shared_tree);
     EXPECT_EQ(shared.cut, own.cut);
@@ -61,7 +59,7 @@ TEST(LeafEstimate, IsTheSameToTheLastBitWhereRanksShareIt) {
 
 TEST(LeafEstimate, OfEachKindIsNearItsNumberAtEverySpacing) {
   for (const double spacing : {0.004, 0.002, 0.001}) {
-    const Sizes sizes(spacing);
+    const LargeDiamondSizes sizes(spacing);
     const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
     EXPECT_NEAR(estimate.cut / expected.cut, 1, 0.2);
     EXPECT_NEAR(estimate.inside / expected.inside, 1, 0.2);

@@ -12,9 +12,7 @@
 namespace quadloop {
 namespace {
 
-struct Sizes : test::DiamondSizes {
-  explicit Sizes(double spacing) : DiamondSizes({{0.6, 0.6}, 0.37}, spacing, spacing, 0.5) {}
-};
+using test::LargeDiamondSizes;
 
 double counted(const Quadrant& q, const std::vector<Quadrant>& leaves) {
   return static_cast<double>(std::ranges::count_if(leaves, [&](const Quadrant& r) { return q.contains(r); }));
@@ -55,7 +53,7 @@ TEST(LeafSample, CountsBelowAQuadrantAndAtIt) {
 }
 
 TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
-  const Sizes sizes(0.06);
+  const LargeDiamondSizes sizes(0.06);
   const SizeTree tree = sizes.tree();
   const LeafSample sample = estimate_leaves(tree).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
@@ -71,7 +69,7 @@ TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
 }
 
 TEST(LeafSample, OfManyTellsHalvesAboutRight) {
-  const Sizes sizes(0.001);
+  const LargeDiamondSizes sizes(0.001);
   const LeafSample sample = estimate_leaves(sizes.tree()).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
   for (const Quadrant& q : quadrants_of(1))

@@ -18,8 +18,8 @@ namespace quadloop {
 namespace {
 
 /// Of a small diamond, whose sides ask for leaves of 0.02, in the square's upper right quarter.
-struct Sizes : test::DiamondSizes {
-  explicit Sizes(const std::vector<SizeSource>& sources = {})
+struct SmallDiamondSizes : test::DiamondSizes {
+  explicit SmallDiamondSizes(const std::vector<SizeSource>& sources = {})
       : DiamondSizes({{0.6, 0.6}, 0.07}, 0.02, 0.01, 0.3) {
     options.sources = sources;
   }
@@ -40,7 +40,7 @@ std::vector<Quadrant> all_of_level(int level) {
 }
 
 TEST(SizeRules, EmptyQuadrantsOfTheDomainAreSplitDownToMax) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   const SizeTree tree = sizes.tree();
   const SizeRules& rules = tree.rules();
   EXPECT_EQ(rules.coarsest_level(), 4);  // 3 / 16 <= 0.3
@@ -54,7 +54,7 @@ TEST(SizeRules, EmptyQuadrantsOfTheDomainAreSplitDownToMax) {
 }
 
 TEST(SizeRules, SegmentsAskForTheirSpacingDownToMin) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   const SizeTree tree = sizes.tree();
   const std::vector<std::int32_t> frame{0}, diamond{0, 5};
   const Quadrant q = quadrant(5, 9, 9);
@@ -66,7 +66,7 @@ TEST(SizeRules, SegmentsAskForTheirSpacingDownToMin) {
 }
 
 TEST(SizeRules, ADemandIsGranted) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   const SizeTree tree = sizes.tree();
   SizedQuadrant q = sizes.at(quadrant(8, 9, 9));
   q.finest_demanded = 10;
@@ -74,7 +74,7 @@ TEST(SizeRules, ADemandIsGranted) {
 }
 
 TEST(SizeRules, PlainIsWhereNothingAsksForMore) {
-  const Sizes sizes({{Box{{-0.9, -0.9}, {-0.8, -0.8}}, 0.05}});
+  const SmallDiamondSizes sizes({{Box{{-0.9, -0.9}, {-0.8, -0.8}}, 0.05}});
   const SizeTree tree = sizes.tree();
   const auto judged = [&](const SizedQuadrant& q) { return tree.rules().judge(q); };
   const std::vector<std::int32_t> segment{5};
@@ -95,7 +95,7 @@ TEST(SizeRules, PlainIsWhereNothingAsksForMore) {
 }
 
 TEST(SizeTree, NodesHoldWhatMeetsThem) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   const SizeTree tree = sizes.tree();
   for (std::int32_t n = 0; n < tree.size(); ++n) {  // it grows meanwhile
     tree.is_split(n);
@@ -115,7 +115,7 @@ TEST(SizeTree, NodesHoldWhatMeetsThem) {
 }
 
 TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
-  const Sizes sizes({{Box{{-0.9, -0.9}, {-0.8, -0.8}}, 0.05}});
+  const SmallDiamondSizes sizes({{Box{{-0.9, -0.9}, {-0.8, -0.8}}, 0.05}});
   std::vector<Quadrant> questions;
   for (int level = 1; level <= 7; ++level) {
     const std::vector<Quadrant> all = all_of_level(level);
@@ -147,7 +147,7 @@ TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
 }
 
 TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   SizeTree tree = sizes.tree();
   const auto answers = [&] {
     SizeCursor cursor(tree);
@@ -165,7 +165,7 @@ TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
 }
 
 TEST(LeavesAhead, IsMostWhereMostLeavesAre) {
-  const Sizes sizes;
+  const SmallDiamondSizes sizes;
   const SizeTree tree = sizes.tree();
   Gradation gradation(tree);
   LeavesAhead ahead(tree, gradation);

@@ -17,7 +17,7 @@ namespace {
 using test::LayeredStrip;
 using test::world;
 
-constexpr LayeredStrip quads{12, 3, 2, false}, triangles{12, 3, 2, true};
+constexpr LayeredStrip strip_of_quads{12, 3, 2, false}, strip_of_triangles{12, 3, 2, true};
 
 /// With the nodes inside the rows above the layers moved about.
 Mesh shaken(const LayeredStrip& strip) {
@@ -50,22 +50,22 @@ void expect_layers_kept(const LayeredStrip& strip, const Mesh& after, const Mesh
 }
 
 TEST(KeepLayers, TheirNodesStayToTheBit) {
-  const Mesh before = spread(shaken(quads));
+  const Mesh before = spread(shaken(strip_of_quads));
   Mesh mesh = before;
   SmoothOptions options;
   options.pinned = NodeFlags(mesh.owned_nodes, 0);
   keep_layers(world(), mesh, options);
   smooth_mesh(world(), mesh, options);
-  expect_layers_kept(quads, mesh, before);
+  expect_layers_kept(strip_of_quads, mesh, before);
 }
 
 TEST(KeepLayers, StripsStayAndWhatIsStretchedBesideThemMoves) {
-  Mesh whole = quads.mesh();
+  Mesh whole = strip_of_quads.mesh();
   StripLayers strip{"wake", {1, 2}, false, 3, {}};
   for (std::int32_t i = 2; i <= 6; ++i) {
-    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(quads.node(i, j)));
+    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(strip_of_quads.node(i, j)));
   }
-  const NodeId beside = quads.node(9, 5);
+  const NodeId beside = strip_of_quads.node(9, 5);
   whole.points[beside.value()].x += 0.95;  // a sliver to its right
   const auto pinned = [&](const Mesh& of) {
     const Mesh mesh = spread(of);
@@ -82,15 +82,15 @@ TEST(KeepLayers, StripsStayAndWhatIsStretchedBesideThemMoves) {
   };
   const std::vector<GlobalNodeId> unnamed = pinned(whole);
   EXPECT_TRUE(has(unnamed, beside)) << "a file that names no strips: shapes alone tell";
-  EXPECT_FALSE(has(unnamed, quads.node(4, 5)));
+  EXPECT_FALSE(has(unnamed, strip_of_quads.node(4, 5)));
   whole.strips = {strip};
   const std::vector<GlobalNodeId> named = pinned(whole);
   EXPECT_FALSE(has(named, beside));
-  for (std::int32_t i = 2; i <= 6; ++i) EXPECT_TRUE(has(named, quads.node(i, 5))) << i;
+  for (std::int32_t i = 2; i <= 6; ++i) EXPECT_TRUE(has(named, strip_of_quads.node(i, 5))) << i;
 }
 
 TEST(KeepLayers, WhatIsPinnedStaysSoAndNothingIsAskedWithoutLayers) {
-  Mesh mesh = spread(quads.mesh());
+  Mesh mesh = spread(strip_of_quads.mesh());
   SmoothOptions options;
   options.pinned = NodeFlags(mesh.owned_nodes, 1);
   keep_layers(world(), mesh, options);
@@ -102,13 +102,13 @@ TEST(KeepLayers, WhatIsPinnedStaysSoAndNothingIsAskedWithoutLayers) {
 }
 
 TEST(KeepLayers, FlipsSpareTheirCells) {
-  const Mesh before = spread(shaken(triangles));
+  const Mesh before = spread(shaken(strip_of_triangles));
   Mesh mesh = before;
   SmoothOptions options;
   options.delaunay = [](Point p) { return tie_rank({0, 0}, p); };
   keep_layers(world(), mesh, options);
   smooth_mesh(world(), mesh, options);
-  expect_layers_kept(triangles, mesh, before);
+  expect_layers_kept(strip_of_triangles, mesh, before);
   const LayerPlaces places = layer_places(world(), mesh);
   bool flipped = false;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -121,7 +121,7 @@ TEST(KeepLayers, FlipsSpareTheirCells) {
 }
 
 TEST(BlocksForFlips, AreOneEachInLayersAndAsTheyWereElsewhere) {
-  const Mesh mesh = spread(triangles.mesh());
+  const Mesh mesh = spread(strip_of_triangles.mesh());
   const LayerPlaces places = layer_places(world(), mesh);
   const std::vector<std::int32_t> given(mesh.triangles.size(), 3);
   const std::vector<std::int32_t> blocks = blocks_for_flips(world(), mesh, places, given);
@@ -140,10 +140,10 @@ TEST(BlocksForFlips, AreOneEachInLayersAndAsTheyWereElsewhere) {
 }
 
 TEST(BlocksForFlips, AreOneEachBesideStripsToo) {
-  Mesh whole = triangles.mesh();
+  Mesh whole = strip_of_triangles.mesh();
   StripLayers strip{"wake", {1, 2}, false, 3, {}};
   for (std::int32_t i = 2; i <= 6; ++i) {
-    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(triangles.node(i, j)));
+    for (std::int32_t j = 4; j <= 6; ++j) strip.nodes.push_back(whole.global(strip_of_triangles.node(i, j)));
   }
   whole.strips = {strip};
   const Mesh mesh = spread(whole);

@@ -11,24 +11,23 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "smoother/objective/condition_number.hpp"
+#include "tests/delaunay/rank_of.hpp"
+#include "tests/smoother/rounding.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::degrees_rounding;
 using test::expect_same_positions;
 using test::Grid;
 using test::jittered;
+using test::rank_of;
+using test::rounding;
 using test::self;
 using test::smooth_both_ways;
 using test::smoothed_alone;
 using test::world;
-
-constexpr double rounding = 1e-12;
-constexpr double degrees_rounding = 1e-9;
-
-/// Any strict order of positions will do.
-TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::abs(p.x), p.x, p.y}; }
 
 TEST(SmoothDelaunay, IsTheSameDelaunayMeshOnAnyNumberOfRanks) {
   Mesh mesh = jittered(Grid{12, {2, 1}, false}, 0.24);

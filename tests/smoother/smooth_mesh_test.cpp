@@ -14,26 +14,26 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "smoother/objective/condition_number.hpp"
+#include "tests/smoother/rounding.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
 namespace quadloop {
 namespace {
 
 using test::circle;
+using test::degrees_rounding;
 using test::disc;
 using test::expect_same_positions;
 using test::expect_same_report;
 using test::Grid;
 using test::jittered;
+using test::rounding;
 using test::self;
 using test::smooth_both_ways;
 using test::Smoothed;
 using test::smoothed_alone;
 using test::tangled;
 using test::world;
-
-constexpr double rounding = 1e-12;
-constexpr double degrees_rounding = 1e-9;
 
 TEST(SmoothMesh, IsTheSameOnAnyNumberOfRanks) {
   for (const Method method : {Method::perturb, Method::nlopt}) {

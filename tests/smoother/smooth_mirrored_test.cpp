@@ -8,6 +8,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/mirror_images.hpp"
+#include "tests/delaunay/rank_of.hpp"
 #include "tests/mesh/mirrored_mesh.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
@@ -15,21 +16,18 @@ namespace quadloop {
 namespace {
 
 using test::Grid;
+using test::rank_of;
 using test::self;
-
-TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::abs(p.x), p.x, p.y}; }
-
-constexpr MirrorAxis axis = MirrorAxis::x;
 
 Mesh mirrored_mesh(bool quads, double share = 0.24) {
   Mesh half = test::jittered(Grid{10, {2, 1}, quads}, share);
   if (!quads) restore_delaunay(self(), half, NodeFlags(half.points.size(), 1), rank_of);
-  return test::with_image(half, axis);
+  return test::with_image(half, MirrorAxis::x);
 }
 
 SmoothOptions options_for(bool quads) {
   SmoothOptions options;
-  options.mirror = axis;
+  options.mirror = MirrorAxis::x;
   if (!quads) options.delaunay = rank_of;
   return options;
 }
@@ -39,13 +37,13 @@ TEST(SmoothMirrored, KeepsTheMirror) {
     const Mesh before = mirrored_mesh(quads);
     SmoothOptions options = options_for(quads);
     const Mesh after = test::smoothed_alone(before, options);
-    EXPECT_NO_THROW(require_mirror_images(self(), after, axis));
+    EXPECT_NO_THROW(require_mirror_images(self(), after, MirrorAxis::x));
     EXPECT_TRUE(validate(after).empty());
     EXPECT_GT(summarise_quality(self(), after).smallest_degrees,
               summarise_quality(self(), before).smallest_degrees);
     options.mirror.reset();
     const Mesh without = test::smoothed_alone(before, options);
-    EXPECT_THROW(require_mirror_images(self(), without, axis), InputError);
+    EXPECT_THROW(require_mirror_images(self(), without, MirrorAxis::x), InputError);
   }
 }
 
@@ -92,7 +90,7 @@ TEST(SmoothMirrored, TellsHowManyTrianglesStandInEachSlot) {
   }
   EXPECT_EQ(sum, std::ssize(after.triangles));
   EXPECT_GT(changed, 0);
-  EXPECT_NO_THROW(require_mirror_images(self(), after, axis));
+  EXPECT_NO_THROW(require_mirror_images(self(), after, MirrorAxis::x));
 }
 
 TEST(SmoothMirrored, NodesStayWhoseImagesArePinned) {

@@ -6,11 +6,12 @@
 #include <algorithm>
 
 #include "mesher/base/error.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
-constexpr std::int32_t none = SolidPatch::no_node;
+using test::node;
 
 /// A unit square with a triangle on its right, drawn out from `low` to `high` across an axis; nodes of the
 /// back from 0, those of the front from 5. The back and the front are empty.
@@ -25,14 +26,12 @@ SolidMesh house(char across, double low = -0.5, double high = 0.25) {
   }
   mesh.hexahedra = {{0, 1, 2, 3, 5, 6, 7, 8}};
   mesh.prisms = {{1, 4, 2, 6, 9, 7}};
-  mesh.patches = {{"front", "symmetry", {{5, 6, 7, 8}, {6, 9, 7, none}}, true},
+  mesh.patches = {{"front", "symmetry", {{5, 6, 7, 8}, {6, 9, 7, SolidPatch::no_node}}, true},
                   {"wall", "wall", {{0, 1, 6, 5}, {1, 4, 9, 6}}},
                   {"rest", "none", {{3, 0, 5, 8}, {2, 3, 8, 7}, {4, 2, 7, 9}}},
-                  {"back", "symmetry", {{3, 2, 1, 0}, {2, 4, 1, none}}, true}};
+                  {"back", "symmetry", {{3, 2, 1, 0}, {2, 4, 1, SolidPatch::no_node}}, true}};
   return mesh;
 }
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 void expect_house(const Mesh& mesh) {
   EXPECT_EQ(mesh.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1.5, 0.5}}));

@@ -7,40 +7,18 @@
 #include <cmath>
 
 #include "mesher/base/error.hpp"
-#include "tests/adapt/remesh/square_input.hpp"
+#include "tests/adapt/loop/front_in_square.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::all_nodes;
+using test::options_of;
+using test::solve_constant;
+using test::solve_front;
+using test::square_in_eighths;
 using test::world;
-
-const MeshInput square_input = test::square_input(0.125);
-
-AdaptOptions options_of(int cycles) {
-  AdaptOptions options;
-  options.cycles = cycles;
-  options.variables = {"q"};
-  options.min = 1.0 / 256;
-  return options;
-}
-
-/// q rises by 1 across a circle about the origin.
-double front(Point p) { return std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)); }
-
-SolvedFlow solve_front(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
-  flow.solution.names = {"q"};
-  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
-    flow.solution.values.push_back(front(mesh.point(NodeId{i})));
-  return flow;
-}
-
-SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
-  flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
-  return flow;
-}
 
 /// What is called in which order, and the states that solvers start from.
 class Notes final : public CycleObserver {
@@ -63,13 +41,9 @@ class Notes final : public CycleObserver {
   std::vector<std::string> told;
 };
 
-std::vector<Point> all_nodes(const Communicator& comm, const Mesh& mesh) {
-  return comm.all_gather_values(std::span(mesh.points).first(mesh.owned_nodes));
-}
-
 TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
   Notes notes;
-  const LoopEnd end = run_loop(world(), square_input, options_of(2), solve_front, notes);
+  const LoopEnd end = run_loop(world(), square_in_eighths, options_of(2), solve_front, notes);
   EXPECT_EQ(notes.calls, "b0msf b1Msf b2Msf ");
   ASSERT_EQ(notes.records.size(), 3U);
   EXPECT_GT(notes.records[1].nodes, notes.records[0].nodes);
@@ -81,7 +55,7 @@ TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
 
   const Communicator alone(MPI_COMM_SELF);
   Notes of_one;
-  const LoopEnd on_one = run_loop(alone, square_input, options_of(2), solve_front, of_one);
+  const LoopEnd on_one = run_loop(alone, square_in_eighths, options_of(2), solve_front, of_one);
   ASSERT_TRUE(end.left && on_one.left);
   EXPECT_EQ(all_nodes(world(), end.left->solved.mesh), all_nodes(alone, on_one.left->solved.mesh));
   EXPECT_EQ(notes.records[2].drift, of_one.records[2].drift);
@@ -91,21 +65,22 @@ TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
   double worst = 0;
   const FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
     for (std::int32_t i = 0; cycle > 0 && i < mesh.owned_nodes; ++i)
-      worst = std::max(worst, std::abs(start.row(NodeId{i})[0] - front(mesh.point(NodeId{i}))));
+      worst =
+          std::max(worst, std::abs(start.row(NodeId{i})[0] - test::circular_front(mesh.point(NodeId{i}))));
     return solve_front(comm, mesh, start, cycle);
   };
   Notes notes;
-  run_loop(world(), square_input, options_of(3), solver, notes);
+  run_loop(world(), square_in_eighths, options_of(3), solver, notes);
   EXPECT_GT(world().maximum(worst), 1e-4);  // linear between the nodes of a coarser mesh
   EXPECT_LT(world().maximum(worst), 0.9);
 }
 
 TEST(Loop, GoesOnFromWhatACycleCameTo) {
   Notes notes;
-  const LoopEnd whole = run_loop(world(), square_input, options_of(2), solve_front, notes);
-  LoopEnd begun = run_loop(world(), square_input, options_of(1), solve_front, notes);
+  const LoopEnd whole = run_loop(world(), square_in_eighths, options_of(2), solve_front, notes);
+  LoopEnd begun = run_loop(world(), square_in_eighths, options_of(1), solve_front, notes);
   const LoopEnd resumed =
-      run_loop(world(), square_input, options_of(2), solve_front, notes, 2, std::move(begun.left));
+      run_loop(world(), square_in_eighths, options_of(2), solve_front, notes, 2, std::move(begun.left));
   EXPECT_EQ(resumed.first, 2);
   EXPECT_EQ(resumed.last, 2);
   EXPECT_EQ(all_nodes(world(), whole.left->solved.mesh), all_nodes(world(), resumed.left->solved.mesh));
@@ -113,7 +88,7 @@ TEST(Loop, GoesOnFromWhatACycleCameTo) {
 
 TEST(Loop, EndsWhereNothingIsToBeChanged) {
   Notes notes;
-  const LoopEnd end = run_loop(world(), square_input, options_of(5), solve_constant, notes);
+  const LoopEnd end = run_loop(world(), square_in_eighths, options_of(5), solve_constant, notes);
   EXPECT_TRUE(end.nothing_to_change);
   EXPECT_EQ(end.last, 0);
   ASSERT_EQ(notes.told.size(), 2U);
@@ -126,7 +101,7 @@ TEST(Loop, HandsOnWhatTheSolverThrows) {
     throw SolverError("no flow today");
   };
   Notes notes;
-  EXPECT_THROW(run_loop(world(), square_input, options_of(1), failing, notes), SolverError);
+  EXPECT_THROW(run_loop(world(), square_in_eighths, options_of(1), failing, notes), SolverError);
   EXPECT_EQ(notes.calls, "b0m");
 }
 

@@ -4,46 +4,33 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "tests/adapt/remesh/square_input.hpp"
+#include "tests/adapt/loop/front_in_square.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::all_nodes;
+using test::square_in_eighths;
 using test::world;
 
-const MeshInput square_input = test::square_input(0.125);
-
-AdaptOptions options_of(int passes) {
-  AdaptOptions options;
+AdaptOptions options_with(int passes) {
+  AdaptOptions options = test::options_of(passes);
   options.passes = passes;
-  options.cycles = passes;
-  options.variables = {"q"};
-  options.min = 1.0 / 256;
   return options;
 }
 
-SolvedFlow solve_front(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
-  flow.solution.names = {"q"};
-  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
-    const Point p = mesh.point(NodeId{i});
-    flow.solution.values.push_back(std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)));
-  }
+SolvedFlow solve_front_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+  SolvedFlow flow = test::solve_front(comm, mesh, start, cycle);
   flow.cl = 0.25;
   return flow;
 }
 
-std::vector<Point> all_nodes(const Communicator& comm, const Mesh& mesh) {
-  return comm.all_gather_values(std::span(mesh.points).first(mesh.owned_nodes));
-}
-
 TEST(Passes, LeadToTheMeshOfAsManyCycles) {
   CycleObserver nobody;
-  const LoopEnd end = run_loop(world(), square_input, options_of(2), solve_front, nobody);
-  const CarriedMesh first = mesh_after_passes(world(), square_input, options_of(2), solve_front);
+  const LoopEnd end = run_loop(world(), square_in_eighths, options_with(2), solve_front_with_lift, nobody);
+  const CarriedMesh first =
+      mesh_after_passes(world(), square_in_eighths, options_with(2), solve_front_with_lift);
   ASSERT_TRUE(end.left);
   EXPECT_EQ(all_nodes(world(), first.generated.result.mesh), all_nodes(world(), end.left->solved.mesh));
   EXPECT_EQ(first.start.names, (std::vector<std::string>{"q"}));
@@ -52,17 +39,14 @@ TEST(Passes, LeadToTheMeshOfAsManyCycles) {
   EXPECT_EQ(first.passes[1].cl, 0.25);
 
   const Communicator alone(MPI_COMM_SELF);
-  const CarriedMesh on_one = mesh_after_passes(alone, square_input, options_of(2), solve_front);
+  const CarriedMesh on_one =
+      mesh_after_passes(alone, square_in_eighths, options_with(2), solve_front_with_lift);
   EXPECT_EQ(all_nodes(alone, on_one.generated.result.mesh), all_nodes(world(), first.generated.result.mesh));
 }
 
 TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
-  const FlowSolver constant = [](const Communicator&, const Mesh& mesh, const Field&, int) {
-    SolvedFlow flow;
-    flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
-    return flow;
-  };
-  const CarriedMesh first = mesh_after_passes(world(), square_input, options_of(3), constant);
+  const CarriedMesh first =
+      mesh_after_passes(world(), square_in_eighths, options_with(3), test::solve_constant);
   EXPECT_EQ(first.passes.size(), 1U);
   const Mesh& mesh = first.generated.result.mesh;
   EXPECT_EQ(world().sum(std::int64_t{mesh.owned_nodes}), first.passes.at(0).nodes);
@@ -75,16 +59,16 @@ TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
 }
 
 TEST(Passes, StandInTheRecordOfTheFirstCycle) {
-  struct Notes final : CycleObserver {
+  struct RecordsOfCycles final : CycleObserver {
     void finished(CycleRecord record, const std::vector<std::string>&,
                   const std::vector<std::string>&) override {
       records.push_back(std::move(record));
     }
     std::vector<CycleRecord> records;
   } notes;
-  AdaptOptions options = options_of(1);
-  run_loop(world(), square_input, options, solve_front, notes, 0, {},
-           [&] { return mesh_after_passes(world(), square_input, options, solve_front); });
+  AdaptOptions options = options_with(1);
+  run_loop(world(), square_in_eighths, options, solve_front_with_lift, notes, 0, {},
+           [&] { return mesh_after_passes(world(), square_in_eighths, options, solve_front_with_lift); });
   ASSERT_EQ(notes.records.size(), 2U);
   const std::string first = json_text(notes.records[0]), second = json_text(notes.records[1]);
   EXPECT_NE(first.find("\"passes\": [{\"nodes\": "), std::string::npos) << first;

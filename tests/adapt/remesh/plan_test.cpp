@@ -14,6 +14,7 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/adapt/remesh/circular_front.hpp"
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
@@ -35,10 +36,8 @@ AdaptOptions adapt_options() {
 SolvedMesh solved_front(const Communicator& comm, const MeshInput& input) {
   MeshResult made = generate_mesh(comm, input).result;
   SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"q"}, {}, {}}, "front.mesh"};
-  for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i) {
-    const Point p = solved.mesh.point(NodeId{i});
-    solved.solution.values.push_back(std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)));
-  }
+  for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i)
+    solved.solution.values.push_back(test::circular_front(solved.mesh.point(NodeId{i})));
   return solved;
 }
 

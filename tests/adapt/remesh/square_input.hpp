@@ -17,4 +17,11 @@ inline MeshInput square_input(double size) {
   return input;
 }
 
+/// The same as one tree: 1 / size leaves along each side.
+inline MeshInput square_of_one_tree(double size) {
+  MeshInput input = square_input(size);
+  input.mesh.size.root = RootOptions{{0, 0}, 1, 1, 1};
+  return input;
+}
+
 }  // namespace quadloop::test

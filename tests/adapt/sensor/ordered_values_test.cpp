@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "tests/adapt/sensor/infinite.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -16,10 +17,9 @@
 namespace quadloop {
 namespace {
 
+using test::infinite;
 using test::world;
 using Values = std::vector<double>;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Values of leaves with a cell each, and this rank's share of them.
 OrderedValues ordered(const Values& values, test::Sharing sharing = test::Sharing::even) {

@@ -10,6 +10,7 @@
 #include "adapt/transfer/overlap/triangle_overlap.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "tests/adapt/transfer/gathered.hpp"
 #include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -17,6 +18,7 @@
 namespace quadloop {
 namespace {
 
+using test::gathered;
 using test::Grid;
 using test::scattered;
 using test::world;
@@ -34,7 +36,7 @@ double step(Point p) { return p.x + 0.3 * p.y > 0.6 ? 1e5 : 1; }
 
 /// Two variables in the cells, one at the nodes: a function's and numbers without a pattern.
 template <class Function>
-Field field_of(const Mesh& part, const Function& function) {
+Field field_with_cells(const Mesh& part, const Function& function) {
   Field field{{"q"}, {}, {3}, {{"a", "b"}, {}}};
   for (std::int32_t node = 0; node < part.owned_nodes; ++node)
     field.values.push_back(function(part.point(NodeId{node})));
@@ -44,10 +46,6 @@ Field field_of(const Mesh& part, const Function& function) {
     field.cells.values.push_back(scattered(5, static_cast<std::int64_t>(x * 1e6), 0));
   }
   return field;
-}
-
-std::vector<double> gathered(const std::vector<double>& values) {
-  return world().all_gather_values(std::span<const double>(values));
 }
 
 TEST(TriangleOverlap, OfTrianglesThatCrossOrTouch) {
@@ -70,7 +68,7 @@ TEST(ConservativeTransfer, KeepsIntegralsAndExtrema) {
     const Whole old_whole = jittered({13, {1, 1}, quads}, 3, {1e4, -7}),
                 new_whole = jittered({19, {1, 1}, quads}, 4, {1e4, -7});
     const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-    const Field old_field = field_of(old_mesh, [](Point p) { return step(p - Point{1e4, -7}); });
+    const Field old_field = field_with_cells(old_mesh, [](Point p) { return step(p - Point{1e4, -7}); });
     const Transferred result = transfer(world(), old_mesh, old_field, new_mesh, TransferKind::conservative);
     EXPECT_EQ(result.report.outside, 0);
     EXPECT_EQ(result.report.cells_outside, 0);
@@ -98,7 +96,7 @@ TEST(ConservativeTransfer, LinearFunctionsAreExactInside) {
   const Mesh old_mesh = jittered({13, {1, 1}, true}, 3).part(world()),
              new_mesh = jittered({17, {1, 1}, true}, 4).part(world());
   const Transferred result =
-      transfer(world(), old_mesh, field_of(old_mesh, linear), new_mesh, TransferKind::conservative);
+      transfer(world(), old_mesh, field_with_cells(old_mesh, linear), new_mesh, TransferKind::conservative);
   const std::vector<CellShape> shapes = cell_shapes(new_mesh);
   const auto inside = [](Point p) { return std::min({p.x, p.y, 1 - p.x, 1 - p.y}) > 0.2; };
   for (std::size_t cell = 0; cell < shapes.size(); ++cell) {
@@ -114,7 +112,7 @@ TEST(ConservativeTransfer, LinearFunctionsAreExactInside) {
 
 TEST(ConservativeTransfer, OfTheSameMeshChangesNothing) {
   const Mesh mesh = jittered({11, {2, 1}, true}, 5).part(world());
-  const Field field = field_of(mesh, step);
+  const Field field = field_with_cells(mesh, step);
   const Transferred result = transfer(world(), mesh, field, mesh);
   for (std::size_t i = 0; i < field.cells.values.size(); ++i)
     EXPECT_NEAR(result.field.cells.values[i], field.cells.values[i], 1e-9) << i;
@@ -125,7 +123,7 @@ TEST(ConservativeTransfer, HasTheSameBitsOnAnyNumberOfRanks) {
   const Whole old_whole = jittered({12, {1, 1}, true}, 6), new_whole = jittered({15, {1.1, 1}, true}, 8);
   const auto carried = [&](const Communicator& comm) {
     const Mesh old_mesh = old_whole.part(comm);
-    return transfer(comm, old_mesh, field_of(old_mesh, step), new_whole.part(comm),
+    return transfer(comm, old_mesh, field_with_cells(old_mesh, step), new_whole.part(comm),
                     TransferKind::conservative);
   };
   const Transferred one = carried(alone), many = carried(world());
@@ -150,7 +148,7 @@ TEST(ConservativeTransfer, OutsideTakesTheNearestCell) {
   Mesh new_whole = Grid{4}.mesh();
   for (Point& p : new_whole.points) p = p + Point{3, 0};
   const Mesh new_mesh = scatter_mesh(world(), new_whole, own_order(new_whole));
-  const Field field = field_of(old_mesh, [](Point p) { return p.x > 0.75 ? 8.0 : 1.0; });
+  const Field field = field_with_cells(old_mesh, [](Point p) { return p.x > 0.75 ? 8.0 : 1.0; });
   const Transferred result = transfer(world(), old_mesh, field, new_mesh);
   EXPECT_EQ(result.report.cells_outside, std::ssize(new_whole.triangles) + std::ssize(new_whole.quads));
   for (std::size_t i = 0; i < result.field.cells.values.size(); i += 2)

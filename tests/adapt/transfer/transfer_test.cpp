@@ -10,6 +10,7 @@
 
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "tests/adapt/transfer/gathered.hpp"
 #include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -21,6 +22,7 @@ using test::Grid;
 using test::scattered;
 using test::world;
 
+using test::gathered;
 using test::jittered;
 using Whole = test::WholeMesh;
 
@@ -41,7 +43,7 @@ Field field_of(const Mesh& part, int width, const Function& function) {
   return field;
 }
 
-double linear(Point p, std::int64_t, int k) {
+double linear_value(Point p, std::int64_t, int k) {
   return k == 0 ? 3.25 : (k == 1 ? 1 + 2 * p.x - 3 * p.y : 1e5 * (p.x + p.y));
 }
 double random_value(Point, std::int64_t number, int k) { return scattered(77, number, k); }
@@ -65,18 +67,14 @@ Mesh only_points(const Communicator& comm, const std::vector<Point>& points) {
   return mesh;
 }
 
-std::vector<double> gathered(const std::vector<double>& values) {
-  return world().all_gather_values(std::span<const double>(values));
-}
-
 TEST(Transfer, LinearFieldsAreExact) {
   for (const bool quads : {true, false}) {
     const Whole old_whole = jittered({13, {1, 1}, quads}, 0.2, 3),
                 new_whole = jittered({17, {1, 1}, quads}, 0.2, 4);
     const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-    const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear), new_mesh);
+    const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear_value), new_mesh);
     EXPECT_EQ(result.report.outside, 0);
-    const std::vector<double> wanted = field_of(new_mesh, 3, linear).values;
+    const std::vector<double> wanted = field_of(new_mesh, 3, linear_value).values;
     ASSERT_EQ(result.field.values.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const double scale = i % 3 == 2 ? 1e5 : 1;
@@ -186,14 +184,14 @@ TEST(Transfer, OutsideTakesTheNearestBoundaryValue) {
   Whole new_whole = jittered({20, {2, 2}, true}, 0, 12);
   new_whole.mesh = moved(new_whole.mesh, {-0.5, -0.5});
   const Mesh old_mesh = old_whole.part(world()), new_mesh = new_whole.part(world());
-  const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear), new_mesh);
+  const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 3, linear_value), new_mesh);
   std::int64_t outside = 0;
   for (std::int32_t node = 0; node < new_mesh.owned_nodes; ++node) {
     const Point p = new_mesh.point(NodeId{node}),
                 nearest{std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0)};
     outside += p == nearest ? 0 : 1;
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(result.field.values[3 * node + k], linear(nearest, 0, k), 1e-13 * (k == 2 ? 1e5 : 1));
+      EXPECT_NEAR(result.field.values[3 * node + k], linear_value(nearest, 0, k), 1e-13 * (k == 2 ? 1e5 : 1));
     }
   }
   EXPECT_EQ(result.report.outside, world().sum(outside));
@@ -272,7 +270,8 @@ TEST(Transfer, WithoutVariablesOrNewNodesThereIsNothingToDo) {
   const Transferred none = transfer(world(), mesh, {}, mesh);
   EXPECT_TRUE(none.field.values.empty());
   EXPECT_TRUE(none.report.drift.empty());
-  const Transferred nowhere = transfer(world(), mesh, field_of(mesh, 1, linear), only_points(world(), {}));
+  const Transferred nowhere =
+      transfer(world(), mesh, field_of(mesh, 1, linear_value), only_points(world(), {}));
   EXPECT_TRUE(nowhere.field.values.empty());
   EXPECT_NEAR(nowhere.report.relative_drift.at(0), -1, 1e-15);
 }

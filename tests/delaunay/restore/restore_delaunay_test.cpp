@@ -16,6 +16,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/node_table.hpp"
 #include "mesher/mesh/topology.hpp"
+#include "tests/delaunay/rank_of.hpp"
 #include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
 
@@ -23,6 +24,7 @@ namespace quadloop {
 namespace {
 
 using test::expect_same_meshes;
+using test::rank_of;
 using test::world;
 
 Chain circle(const std::string& name, Point centre, double radius, int vertices) {
@@ -57,9 +59,6 @@ MeshResult two_holes(const Communicator& comm, MeshType type, double spacing) {
   options.size.root = RootOptions{{-1, -1}, 2, 1, 1};
   return build_mesh(comm, geometry, options);
 }
-
-/// Any strict order of positions will do; many nodes of the mesh lie on one circle.
-TieRank rank_of(Point p) { return {-1, -1, std::abs(p.x) + std::abs(p.y), std::abs(p.x), p.x, p.y}; }
 
 /// As it is before any move: constrained Delaunay under rank_of().
 Mesh delaunay_mesh(const Communicator& comm, double spacing = 0.05) {

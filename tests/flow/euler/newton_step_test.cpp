@@ -15,13 +15,13 @@ namespace {
 
 using test::world;
 
-Mesh ring() {
+Mesh fine_ring() {
   const Mesh whole = test::ring_mesh(32, 12, 0.3, 10);
   return scatter_mesh(world(), whole, space_filling_order(whole));
 }
 
 TEST(NewtonStep, FallsFasterTheNearerTheEnd) {
-  const Mesh mesh = ring();
+  const Mesh mesh = fine_ring();
   EulerOptions options;
   options.mach = 0.3;
   options.limiter = EulerOptions::Limiter::none;

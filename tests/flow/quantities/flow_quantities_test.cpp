@@ -10,6 +10,7 @@
 #include "flow/quantities/free_stream.hpp"
 #include "flow/quantities/history.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/flow/quantities/dense_stream.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -18,11 +19,11 @@ namespace {
 
 using test::world;
 
-const FreeStream stream{2, 3, 4, 0, 1.5, 0, 0.5};
+const FreeStream inviscid_stream = test::dense_stream(0);
 
 TEST(Quantities, AreMachNumberAndPressureCoefficient) {
   const Field flow{{"rho", "u", "v", "p"}, {1.5, 3, 4, 4, 2, 0, 0, 3}, {7}};
-  const Field all = with_quantities(flow, quantity_names(), stream);
+  const Field all = with_quantities(flow, quantity_names(), inviscid_stream);
   EXPECT_EQ(all.names, (std::vector<std::string>{"rho", "u", "v", "p", "mach", "pressure_coefficient"}));
   EXPECT_EQ(all.constants, flow.constants);
   EXPECT_DOUBLE_EQ(all.row(NodeId{0})[4], 5 / std::sqrt(1.5 * 4 / 1.5));
@@ -34,16 +35,16 @@ TEST(Quantities, AreMachNumberAndPressureCoefficient) {
 
 TEST(Quantities, ReplaceThoseThatAreThere) {
   const Field flow{{"mach", "rho", "u", "v", "p"}, {99, 1, 1, 0, 1 / 1.5}, {}};
-  const Field all = with_quantities(flow, {mach_name}, stream);
+  const Field all = with_quantities(flow, {mach_name}, inviscid_stream);
   EXPECT_EQ(all.names, (std::vector<std::string>{"rho", "u", "v", "p", "mach"}));
   EXPECT_DOUBLE_EQ(all.values.back(), 1);
-  EXPECT_EQ(with_quantities(flow, {}, stream).names, flow.names);
+  EXPECT_EQ(with_quantities(flow, {}, inviscid_stream).names, flow.names);
 }
 
 TEST(Quantities, OfAFlowInCellsStandThere) {
   Field flow;
   flow.cells = {{"T", "p", "U_x", "U_y", "rho"}, {9, 4, 3, 4, 1.5, 9, 3, 0, 0, 2}};
-  const Field all = with_quantities(flow, quantity_names(), stream);
+  const Field all = with_quantities(flow, quantity_names(), inviscid_stream);
   EXPECT_TRUE(all.names.empty());
   EXPECT_EQ(all.cells.names,
             (std::vector<std::string>{"T", "p", "U_x", "U_y", "rho", "mach", "pressure_coefficient"}));
@@ -56,7 +57,7 @@ TEST(Quantities, OfGasAtRestAndOfAFlowWithoutDensityAreZero) {
   EXPECT_EQ(pressure_coefficient(5, FreeStream{}), 0);
   const Field flow{{"u", "v", "p"}, {3, 4, 1}, {}};
   EXPECT_EQ(FlowColumns(flow, "it").mach(flow.row(NodeId{0}), 1.4), 0);
-  EXPECT_EQ(FlowColumns(flow, "it").density(flow.row(NodeId{0}), stream), 2);
+  EXPECT_EQ(FlowColumns(flow, "it").density(flow.row(NodeId{0}), inviscid_stream), 2);
   EXPECT_THROW(FlowColumns(std::vector<std::string>{"u", "p"}, "it"), InputError);
 }
 
@@ -71,7 +72,7 @@ Field flow_on(const Mesh& mesh, bool viscous) {
   if (viscous) flow.names.emplace_back("wall_shear");
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     const Point at = mesh.points[i];
-    flow.values.insert(flow.values.end(), {1, 1, 0, stream.pressure + at.x + 2 * at.y});
+    flow.values.insert(flow.values.end(), {1, 1, 0, inviscid_stream.pressure + at.x + 2 * at.y});
     if (viscous) flow.values.push_back(0.25);
   }
   return flow;
@@ -79,10 +80,10 @@ Field flow_on(const Mesh& mesh, bool viscous) {
 
 TEST(BoundaryForces, AreThePressureLessTheFreeStreams) {
   const Mesh mesh = part_of({7});
-  const auto forces = boundary_forces(world(), mesh, flow_on(mesh, false), stream, {"wall", "far"});
+  const auto forces = boundary_forces(world(), mesh, flow_on(mesh, false), inviscid_stream, {"wall", "far"});
   ASSERT_EQ(forces.size(), 2U);
   EXPECT_EQ(forces[0].boundary, "wall");
-  const double scale = 1 / (stream.dynamic_pressure() * stream.reference_length);
+  const double scale = 1 / (inviscid_stream.dynamic_pressure() * inviscid_stream.reference_length);
   EXPECT_NEAR(forces[0].cl, -0.5 * scale, 1e-14) << "south: the mean of x";
   EXPECT_NEAR(forces[0].cd, (1 + 1) * scale, 1e-14) << "east: 1 + the mean of 2y";
   EXPECT_NEAR(forces[1].cl, 2.5 * scale, 1e-14);
@@ -92,16 +93,16 @@ TEST(BoundaryForces, AreThePressureLessTheFreeStreams) {
 
 TEST(BoundaryForces, TurnWithTheWindAndHaveFriction) {
   const Mesh mesh = part_of({4});
-  FreeStream turned = stream;
+  FreeStream turned = inviscid_stream;
   turned.alpha = 30;
   const Field flow = flow_on(mesh, true);
-  const BoundaryForce along = boundary_forces(world(), mesh, flow, stream, {"wall"}).at(0),
+  const BoundaryForce along = boundary_forces(world(), mesh, flow, inviscid_stream, {"wall"}).at(0),
                       across = boundary_forces(world(), mesh, flow, turned, {"wall"}).at(0);
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
   const double drag = along.cd - along.cd_friction, lift = along.cl - along.cl_friction;
   EXPECT_NEAR(across.cd - across.cd_friction, c * drag + s * lift, 1e-14);
   EXPECT_NEAR(across.cl - across.cl_friction, c * lift - s * drag, 1e-14);
-  const double scale = 1 / (stream.dynamic_pressure() * stream.reference_length);
+  const double scale = 1 / (inviscid_stream.dynamic_pressure() * inviscid_stream.reference_length);
   EXPECT_NEAR(along.cd_friction, 0.25 * scale, 1e-14) << "the south side";
   EXPECT_NEAR(along.cl_friction, 0.25 * scale, 1e-14) << "the east side, walked upwards";
 }
@@ -112,8 +113,8 @@ TEST(BoundaryForces, HaveTheSameBitsHoweverTheMeshIsSpread) {
   test::jitter(grid, 0.2, 3, whole);
   const Mesh one = scatter_mesh(world(), whole, space_filling_order(whole)),
              other = scatter_mesh(world(), whole, test::shuffled_order(whole, 4));
-  const auto a = boundary_forces(world(), one, flow_on(one, true), stream, {"wall"}).at(0),
-             b = boundary_forces(world(), other, flow_on(other, true), stream, {"wall"}).at(0);
+  const auto a = boundary_forces(world(), one, flow_on(one, true), inviscid_stream, {"wall"}).at(0),
+             b = boundary_forces(world(), other, flow_on(other, true), inviscid_stream, {"wall"}).at(0);
   EXPECT_EQ(a.cl, b.cl);
   EXPECT_EQ(a.cd, b.cd);
 }

@@ -10,16 +10,16 @@
 #include "flow/quantities/wall_table.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "tests/flow/quantities/dense_stream.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::dense_stream;
 using test::world;
 using Names = std::vector<std::string>;
-
-FreeStream stream(double viscosity) { return {2, 3, 4, 0, 1.5, viscosity, 0.5}; }
 
 Mesh spread(const Mesh& whole) { return scatter_mesh(world(), whole, test::shuffled_order(whole, 5)); }
 
@@ -71,7 +71,7 @@ TEST(WallFlow, WallsAreKnownByTheirConditions) {
 
 TEST(WallFlow, OfNodesIsTheirsAndItsFrictionTheSlope) {
   const Mesh mesh = grid();
-  const Field flow = wall_flow(world(), mesh, at_nodes(mesh), stream(0.1), {"wall"}, "it");
+  const Field flow = wall_flow(world(), mesh, at_nodes(mesh), dense_stream(0.1), {"wall"}, "it");
   EXPECT_EQ(flow.names, (Names{"x_velocity", "y_velocity", "pressure", "density", "wall_shear"}));
   ASSERT_EQ(flow.values.size(), flow.width() * mesh.owned_nodes);
   on_the_south(mesh, flow, [](std::span<const double> row, Point at) {
@@ -81,7 +81,7 @@ TEST(WallFlow, OfNodesIsTheirsAndItsFrictionTheSlope) {
   });
   for (const double viscosity : {0.0, 0.1}) {
     const Mesh smooth = grid(viscosity > 0 ? "inviscid_wall" : "wall");
-    const Field slips = wall_flow(world(), smooth, at_nodes(smooth), stream(viscosity), {"wall"}, "it");
+    const Field slips = wall_flow(world(), smooth, at_nodes(smooth), dense_stream(viscosity), {"wall"}, "it");
     EXPECT_EQ(slips.width(), viscosity > 0 ? 5U : 4U);
     on_the_south(smooth, slips, [&](std::span<const double> row, Point) {
       EXPECT_EQ(row.back(), viscosity > 0 ? 0 : row[3]) << "the density, or no friction";
@@ -103,9 +103,9 @@ TEST(WallFlow, ASolversOwnFrictionCounts) {
       for (std::size_t k = 0; k < more.size(); ++k)
         with.values.push_back(0.25 - 7.0 * static_cast<double>(k));
     }
-    const Field found = wall_flow(world(), mesh, with, stream(0.1), {"wall"}, "it");
+    const Field found = wall_flow(world(), mesh, with, dense_stream(0.1), {"wall"}, "it");
     on_the_south(mesh, found, [&](std::span<const double> row, Point) {
-      EXPECT_EQ(row[4], su2 ? 0.25 * stream(0).dynamic_pressure() : 0.25);
+      EXPECT_EQ(row[4], su2 ? 0.25 * dense_stream(0).dynamic_pressure() : 0.25);
     });
   }
 }
@@ -117,14 +117,14 @@ TEST(WallFlow, OfCellsIsLinearAlongTheWall) {
     // linear along the wall alone, whatever the height of the centroid: quads and triangles differ in it
     cells.cells.values[i + 3] = 7;
   }
-  const Field flow = wall_flow(world(), mesh, cells, stream(0.1), {"wall"}, "it");
+  const Field flow = wall_flow(world(), mesh, cells, dense_stream(0.1), {"wall"}, "it");
   EXPECT_EQ(flow.names, (Names{"x_velocity", "y_velocity", "pressure", "density", "wall_shear"}));
   on_the_south(mesh, flow, [](std::span<const double> row, Point) {
     EXPECT_EQ(row[0], 0) << "no slip";
     EXPECT_NEAR(row[2], 7, 1e-14);
     EXPECT_NEAR(row[4], 0.1 * 3, 1e-13);
   });
-  const Field slips = wall_flow(world(), mesh, in_cells(mesh), stream(0), {"wall"}, "it");
+  const Field slips = wall_flow(world(), mesh, in_cells(mesh), dense_stream(0), {"wall"}, "it");
   EXPECT_EQ(slips.names, (Names{"x_velocity", "y_velocity", "pressure", "density"}));
   on_the_south(mesh, slips, [](std::span<const double> row, Point) { EXPECT_GT(row[0], 0) << "slips"; });
 }
@@ -144,7 +144,7 @@ TEST(WallFlow, OfCellsGoesByTheLengthsOfTheEdges) {
   whole.boundaries[1].edges.push_back({node(3), node(7)});
   whole.boundaries[1].edges.push_back({node(4), node(0)});
   const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
-  const Field flow = wall_flow(world(), mesh, in_cells(mesh), stream(0), {"south"}, "it");
+  const Field flow = wall_flow(world(), mesh, in_cells(mesh), dense_stream(0), {"south"}, "it");
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     const Point at = mesh.points[i];
     if (at.y > 0) continue;
@@ -162,10 +162,10 @@ TEST(WallFlow, HasTheSameBitsHoweverTheMeshIsSpread) {
     std::vector<double> drags;
     for (const MeshOrder& order : {space_filling_order(whole), test::shuffled_order(whole, 8)}) {
       const Mesh mesh = scatter_mesh(world(), whole, order);
-      const Field flow =
-          wall_flow(world(), mesh, cells ? in_cells(mesh) : at_nodes(mesh), stream(0.1), {"wall"}, "it");
-      tables.push_back(wall_table(world(), mesh, flow, stream(0.1), {"wall"}));
-      drags.push_back(boundary_forces(world(), mesh, flow, stream(0.1), {"wall"}).at(0).cd);
+      const Field flow = wall_flow(world(), mesh, cells ? in_cells(mesh) : at_nodes(mesh), dense_stream(0.1),
+                                   {"wall"}, "it");
+      tables.push_back(wall_table(world(), mesh, flow, dense_stream(0.1), {"wall"}));
+      drags.push_back(boundary_forces(world(), mesh, flow, dense_stream(0.1), {"wall"}).at(0).cd);
     }
     EXPECT_EQ(tables[0], tables[1]) << cells;
     EXPECT_EQ(drags[0], drags[1]) << cells;
@@ -187,7 +187,7 @@ TEST(WallFlow, OfCellsHasOneOrderWhereWallsTouch) {
   std::vector<std::vector<double>> rows;  // of the first node
   for (int turn = 0; turn < 6; ++turn) {
     const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
-    const Field flow = wall_flow(world(), mesh, in_cells(mesh), stream(0), {"wall"}, "it");
+    const Field flow = wall_flow(world(), mesh, in_cells(mesh), dense_stream(0), {"wall"}, "it");
     std::vector<double> own;
     if (mesh.first_node == 0 && mesh.owned_nodes > 0)
       own.assign(flow.values.begin(), flow.values.begin() + 4);
@@ -201,7 +201,7 @@ TEST(WallFlow, WantsVelocityAndPressure) {
   const Mesh mesh = grid();
   Field flow = in_cells(mesh);
   flow.cells.names[3] = "T";
-  EXPECT_THROW(wall_flow(world(), mesh, flow, stream(0), {"wall"}, "it"), InputError);
+  EXPECT_THROW(wall_flow(world(), mesh, flow, dense_stream(0), {"wall"}, "it"), InputError);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using test::world;
 
-FreeStream stream() { return {1, 1, 2, 0, 1.5, 0, 1}; }
+FreeStream stream_of_speed_2() { return {1, 1, 2, 0, 1.5, 0, 1}; }
 
 /// Pressure coefficient x + 10 y; Mach number 2 where the density is 1.5 and the pressure 1.
 Field flow_on(const Mesh& mesh) {
@@ -41,7 +41,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST(WallTable, HasTheFlowAtEachNodeInTheOrderOfTheWalk) {
   const Mesh whole = test::Grid{2}.mesh();
-  const std::string table = table_of(whole, own_order(whole), stream(), {"wall"});
+  const std::string table = table_of(whole, own_order(whole), stream_of_speed_2(), {"wall"});
   if (!world().is_root()) {
     EXPECT_TRUE(table.empty());
     return;
@@ -57,7 +57,7 @@ TEST(WallTable, HasTheFlowAtEachNodeInTheOrderOfTheWalk) {
 
 TEST(WallTable, OfAViscousFlowHasFrictionAndTheFirstHeight) {
   const Mesh whole = test::Grid{4, {1, 2}}.mesh();
-  FreeStream viscous = stream();
+  FreeStream viscous = stream_of_speed_2();
   viscous.viscosity = 0.01;
   const std::vector<std::string> lines = lines_of(table_of(whole, own_order(whole), viscous, {"wall"}));
   if (!world().is_root()) return;
@@ -75,7 +75,7 @@ TEST(WallTable, IsTheSameHoweverTheMeshIsSpread) {
   const test::Grid grid{9};
   Mesh whole = grid.mesh();
   test::jitter(grid, 0.2, 3, whole);
-  FreeStream viscous = stream();
+  FreeStream viscous = stream_of_speed_2();
   viscous.viscosity = 0.01;
   EXPECT_EQ(table_of(whole, space_filling_order(whole), viscous, {"far", "wall"}),
             table_of(whole, test::shuffled_order(whole, 8), viscous, {"far", "wall"}));
@@ -84,13 +84,14 @@ TEST(WallTable, IsTheSameHoweverTheMeshIsSpread) {
 TEST(WallTable, QuotesNamesThatWouldDivideARow) {
   Mesh whole = test::Grid{1}.mesh();
   whole.boundaries[0].name = "a,\"b\"";
-  const std::string table = table_of(whole, own_order(whole), stream(), {whole.boundaries[0].name});
+  const std::string table =
+      table_of(whole, own_order(whole), stream_of_speed_2(), {whole.boundaries[0].name});
   EXPECT_EQ(table.find("\"a,\"\"b\"\"\",0,") != std::string::npos, world().is_root()) << table;
 }
 
 TEST(WallTable, OfNoWallIsItsHead) {
   const Mesh whole = test::Grid{2}.mesh();
-  const std::string table = table_of(whole, own_order(whole), stream(), {});
+  const std::string table = table_of(whole, own_order(whole), stream_of_speed_2(), {});
   EXPECT_EQ(table, world().is_root() ? "boundary,s,x,y,Cp,Mach\n" : "");
 }
 

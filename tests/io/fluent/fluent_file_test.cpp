@@ -10,10 +10,12 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::replaced;
 
 const test::ReaderCheck check{read_fluent, "m.msh"};
@@ -29,8 +31,6 @@ const std::string house =
     "(13 (a 3 6 5 0)(\n2 2 3 1 0\n2 1 4 0 1\n2 3 5 2 0\n2 5 4 2 0\n))\n"           // 20-25
     "(37 ((x (y 1)) (z 2)))\n(45 (2 fluid room)())\n(45 (3 interior inside)())\n"  // 26-28
     "(39 (4 wall floor 1)(a b))\n(45 (10 pressure-outlet walls)())\n";             // 29-30
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 TEST(FluentReader, ReadsCellsAndZones) {
   const LoadedMesh loaded = check.of(house);

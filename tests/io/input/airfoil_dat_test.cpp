@@ -2,15 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/io/input/airfoil_rows.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
 namespace {
 
-const std::string name = "NACA 0012\n";
-const std::string selig = "1.0 0.0\n0.5 0.06\n0.0 0.0\n0.5 -0.06\n1.0 0.0\n";
-const std::string upper = "0.0 0.0\n0.5 0.06\n1.0 0.0\n", lower = "0.0 0.0\n0.5 -0.06\n1.0 0.0\n";
-const std::string lednicer = "3. 3.\n\n" + upper + "\n" + lower;
+using test::airfoil_name;
+using test::lednicer_rows;
+using test::lower_rows;
+using test::selig_rows;
+using test::upper_rows;
 
 /// Files as the collections of airfoils hold them.
 class AirfoilDat : public ::testing::Test {
@@ -24,7 +26,7 @@ class AirfoilDat : public ::testing::Test {
 
   /// The airfoil, and one warning that holds these pieces.
   void expect_airfoil(const std::string& text, const std::vector<std::string>& pieces) {
-    const std::vector<Point> wanted = read(name + selig);
+    const std::vector<Point> wanted = read(airfoil_name + selig_rows);
     ASSERT_TRUE(warnings_.empty());
     EXPECT_EQ(read(text), wanted) << text;
     ASSERT_EQ(warnings_.size(), pieces.empty() ? 0u : 1u) << text;
@@ -41,60 +43,62 @@ class AirfoilDat : public ::testing::Test {
 };
 
 TEST_F(AirfoilDat, PassesOverTextAfterThePoints) {
-  for (const std::string& points : {selig, lednicer}) {
-    expect_airfoil(name + points + "\nWortmann, 1978\nt/c = 12 percent\n",
+  for (const std::string& points : {selig_rows, lednicer_rows}) {
+    expect_airfoil(airfoil_name + points + "\nWortmann, 1978\nt/c = 12 percent\n",
                    {"2 rows beside the name that are no points of the airfoil", "'Wortmann, 1978'"});
-    expect_airfoil(name + points + "12 percent thick\n",
+    expect_airfoil(airfoil_name + points + "12 percent thick\n",
                    {"1 row beside the name", "'12 percent thick'", "was passed over"});
-    expect_airfoil(name + points + "x t\n0.5 0.12\n0.7 0.08\n", {"3 rows", "'x t'"});
-    expect_airfoil(name + points + "\x1a\n", {});
-    expect_airfoil(name + points + "\n\n \t\r\n", {});
+    expect_airfoil(airfoil_name + points + "x t\n0.5 0.12\n0.7 0.08\n", {"3 rows", "'x t'"});
+    expect_airfoil(airfoil_name + points + "\x1a\n", {});
+    expect_airfoil(airfoil_name + points + "\n\n \t\r\n", {});
   }
 }
 
 TEST_F(AirfoilDat, PassesOverASecondRowInTheHead) {
-  for (const std::string& points : {selig, lednicer}) {
-    expect_airfoil(name + "designed for Re = 1e6\n\n" + points,
+  for (const std::string& points : {selig_rows, lednicer_rows}) {
+    expect_airfoil(airfoil_name + "designed for Re = 1e6\n\n" + points,
                    {"a.dat:2: 1 row beside the name that is no point", "'designed for Re = 1e6'"});
-    expect_airfoil(name + "12 percent, symmetric\nX Y\n" + points, {"a.dat:2: 2 rows"});
+    expect_airfoil(airfoil_name + "12 percent, symmetric\nX Y\n" + points, {"a.dat:2: 2 rows"});
   }
 }
 
 TEST_F(AirfoilDat, PassesOverWhatFollowsAWholeAirfoilAfterABlankRow) {
-  expect_airfoil(name + selig + "\n" + selig, {"a.dat:8: 5 rows", "'1.0 0.0'"});
-  expect_airfoil(name + lednicer + "\n0.0 0.0\n0.5 0.12\n1.0 0.0\n", {"3 rows"});
+  expect_airfoil(airfoil_name + selig_rows + "\n" + selig_rows, {"a.dat:8: 5 rows", "'1.0 0.0'"});
+  expect_airfoil(airfoil_name + lednicer_rows + "\n0.0 0.0\n0.5 0.12\n1.0 0.0\n", {"3 rows"});
 }
 
 TEST_F(AirfoilDat, PassesOverWordsBetweenTheSurfaces) {
-  expect_airfoil(name + "3. 3.\nupper surface\n" + upper + "lower surface\n" + lower,
+  expect_airfoil(airfoil_name + "3. 3.\nupper surface\n" + upper_rows + "lower surface\n" + lower_rows,
                  {"2 rows", "'upper surface'"});
 }
 
 TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) {
-  expect_airfoil(name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {});
+  expect_airfoil(airfoil_name + "\n1.0 0.0\n\n0.5 0.06\n\n0.0 0.0\n\n0.5 -0.06\n\n1.0 0.0\n", {});
 }
 
 TEST_F(AirfoilDat, TakesTwoSurfacesWithoutCounts) {
-  expect_airfoil(name + upper + "\n" + lower,
+  expect_airfoil(airfoil_name + upper_rows + "\n" + lower_rows,
                  {"both surfaces run from the leading edge", "point 4 begins the second"});
 }
 
 TEST_F(AirfoilDat, RefusesABrokenPoint) {
-  EXPECT_EQ(refused(name + "1.0 0.0\n0.5 O.06\n0.0 0.0\n").find("a.dat:3: 'O.06' is not a number"), 0u);
-  EXPECT_EQ(refused(name + "1.0 0.0\n0.5 0.06 0.1\n0.0 0.0\n")
+  EXPECT_EQ(refused(airfoil_name + "1.0 0.0\n0.5 O.06\n0.0 0.0\n").find("a.dat:3: 'O.06' is not a number"),
+            0u);
+  EXPECT_EQ(refused(airfoil_name + "1.0 0.0\n0.5 0.06 0.1\n0.0 0.0\n")
                 .find("a.dat:3: '0.5 0.06 0.1' should be two coordinates"),
             0u);
-  EXPECT_EQ(refused(name + "3. 3.\n" + upper + lower + "0.5 0.1\n")
+  EXPECT_EQ(refused(airfoil_name + "3. 3.\n" + upper_rows + lower_rows + "0.5 0.1\n")
                 .find("a.dat:9: the file has 7 points, but its head says 3 and 3"),
             0u);
-  EXPECT_EQ(refused(name + "3. 4.\n" + upper + lower + "the end\n").find("a.dat:9: the file has 6 points"),
+  EXPECT_EQ(refused(airfoil_name + "3. 4.\n" + upper_rows + lower_rows + "the end\n")
+                .find("a.dat:9: the file has 6 points"),
             0u);
 }
 
 TEST_F(AirfoilDat, RefusesSeveralElementsInOneFile) {
-  EXPECT_EQ(
-      refused(name + selig + "999. 999.\n" + selig).find("a.dat:7: this row divides the elements of a wing"),
-      0u);
+  EXPECT_EQ(refused(airfoil_name + selig_rows + "999. 999.\n" + selig_rows)
+                .find("a.dat:7: this row divides the elements of a wing"),
+            0u);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "io/input/geom_text.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "tests/io/input/airfoil_rows.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
@@ -90,7 +91,7 @@ TEST_F(GeometryFile, RefusesAMissingFile) {
 }
 
 TEST_F(GeometryFile, ReadsSelig) {
-  const auto chains = read("a.dat", "NACA 0012\n1.0 0.0\n0.5 0.06\n0.0 0.0\n0.5 -0.06\n1.0 0.0\n");
+  const auto chains = read("a.dat", test::airfoil_name + test::selig_rows);
   ASSERT_EQ(chains.size(), 1u);
   EXPECT_EQ(chains[0].name, "airfoil");
   EXPECT_FALSE(chains[0].open);
@@ -104,9 +105,8 @@ TEST_F(GeometryFile, ReadsABluntTrailingEdge) {
 }
 
 TEST_F(GeometryFile, ReadsLednicer) {
-  const std::string upper = "0.0 0.0\n0.5 0.06\n1.0 0.0\n", lower = "0.0 0.0\n0.5 -0.06\n1.0 0.0\n";
-  const auto lednicer = read("a.dat", "NACA 0012\n3. 3.\n\n" + upper + "\n" + lower);
-  const auto selig = read("b.dat", "NACA 0012\n1.0 0.0\n0.5 0.06\n0.0 0.0\n0.5 -0.06\n1.0 0.0\n");
+  const auto lednicer = read("a.dat", test::airfoil_name + test::lednicer_rows);
+  const auto selig = read("b.dat", test::airfoil_name + test::selig_rows);
   EXPECT_EQ(lednicer[0].points, selig[0].points);
 }
 

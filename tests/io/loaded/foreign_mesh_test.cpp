@@ -5,11 +5,12 @@
 
 #include "io/loaded/loaded_mesh.hpp"
 #include "tests/io/input/temporary_file.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
-constexpr NodeId node(std::int32_t number) { return NodeId{number}; }
+using test::node;
 
 /// Two unit squares side by side, nodes row by row, and the text that they come from.
 struct Foreign {

@@ -7,11 +7,12 @@
 
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/mesh/mixed_square.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
-NodeId node(std::int32_t number) { return NodeId{number}; }
+using test::node;
 
 LoadedMesh square() {
   LoadedMesh loaded;

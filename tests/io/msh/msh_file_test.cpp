@@ -9,11 +9,13 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
@@ -41,8 +43,6 @@ const std::string new_house =
     "$Elements\n6 8 1 8\n0 1 15 1\n1 10\n1 1 1 1\n2 10 20\n1 2 1 2\n3 20 30\n4 30 5\n1 3 1 2\n5 5 40\n6 40 "
     "10\n"                                                         // 33-44
     "2 1 3 1\n7 10 20 30 40\n2 1 2 1\n8 40 30 5\n$EndElements\n";  // 45-49
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 void expect_house(const LoadedMesh& loaded) {
   EXPECT_TRUE(validate(loaded.mesh).empty());

@@ -98,21 +98,21 @@ TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
   mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
   mesh.prisms = {{1, 8, 2, 5, 9, 6}};
   mesh.pyramids = {{4, 5, 6, 7, 10}};
-  constexpr std::int32_t none = SolidPatch::no_node;
+  constexpr std::int32_t no_node = SolidPatch::no_node;
   mesh.patches = {{"rest",
                    "wall",
                    {{3, 2, 1, 0},
-                    {1, 2, 8, none},
+                    {1, 2, 8, no_node},
                     {0, 1, 5, 4},
                     {2, 3, 7, 6},
                     {3, 0, 4, 7},
                     {1, 8, 9, 5},
                     {8, 2, 6, 9},
-                    {5, 9, 6, none},
-                    {4, 5, 10, none},
-                    {5, 6, 10, none},
-                    {6, 7, 10, none},
-                    {7, 4, 10, none}}}};
+                    {5, 9, 6, no_node},
+                    {4, 5, 10, no_node},
+                    {5, 6, 10, no_node},
+                    {6, 7, 10, no_node},
+                    {7, 4, 10, no_node}}}};
   mesh.block_names = {"tip", "base"};
   mesh.cell_to_block = {0, 1, 1};  // pyramid, prism, hexahedron
   ASSERT_TRUE(check_solid(mesh).faults.empty());

@@ -6,11 +6,13 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
@@ -22,8 +24,6 @@ const std::string house =
     "NPOIN= 5\n0 0 0\n1 0 1\n1 1 2\n0 1 3\n0.5 1.5 4\n"                  // 5-10
     "NMARK= 2\nMARKER_TAG= floor\nMARKER_ELEMS= 1\n3 0 1\n"              // 11-14
     "MARKER_TAG= walls\nMARKER_ELEMS= 4\n3 1 2\n3 2 4\n3 4 3\n3 3 0\n";  // 15-20
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 TEST(Su2Reader, ReadsCellsAndMarkers) {
   const LoadedMesh loaded = check.of(house);

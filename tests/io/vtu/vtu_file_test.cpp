@@ -10,17 +10,17 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
 const test::ReaderCheck check{read_vtu, "m.vtu"};
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 /// A unit square as a quad with a triangle on top, as a program that knows nothing of boundaries writes it;
 /// line numbers below count in it.

@@ -12,7 +12,7 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers = test::equal_layers(0.5, 4);
+using test::four_layers;
 
 /// The columns on an outline's walls, of the thickness that is asked for.
 struct Columned {
@@ -33,7 +33,7 @@ struct Columned {
 };
 
 TEST(ColumnsOnWall, StandNormalToAStraightWall) {
-  const Columned floor(test::floor_with_layers(layers));
+  const Columned floor(test::floor_with_layers(four_layers));
   for (std::int32_t i = 0; i < floor.line.size(); ++i) {
     EXPECT_EQ(floor.columns.direction[i], (Point{0, 1}));
     EXPECT_EQ(floor.columns.length[i], 0.5);
@@ -41,7 +41,7 @@ TEST(ColumnsOnWall, StandNormalToAStraightWall) {
 }
 
 TEST(ColumnsOnWall, BesideAConcaveCornerTheFrontIsTheWallsOffsetLine) {
-  const Columned step(test::step_with_layers(layers));
+  const Columned step(test::step_with_layers(four_layers));
   std::int32_t beside = 0;
   for (std::int32_t i = 0; i < step.line.size(); ++i) {
     const Point wall = step.line[i].wall, front = step.front(i);
@@ -64,7 +64,7 @@ TEST(ColumnsOnWall, BesideAConcaveCornerTheFrontIsTheWallsOffsetLine) {
 
 TEST(ColumnsOnWall, AnEndLiesOnItsSideAndTheOthersLeanWithIt) {
   const Columned slanted(
-      test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {7, 2}, {-1, 2}}}}}));
+      test::outline_of({{{"floor", {{0, 0}}, four_layers}, {"rest", {{8, 0}, {7, 2}, {-1, 2}}}}}));
   const std::int32_t last = slanted.line.size() - 1;
   EXPECT_NEAR(slanted.front(last).x, 7.75, 1e-14);
   EXPECT_NEAR(slanted.front(0).x, -0.25, 1e-14);
@@ -79,7 +79,7 @@ TEST(ColumnsOnWall, AnEndLiesOnItsSideAndTheOthersLeanWithIt) {
 }
 
 TEST(ColumnsOnWall, SpreadAtAConvexCornerWithTheirOwnLength) {
-  const Columned step(test::step_with_layers(layers));
+  const Columned step(test::step_with_layers(four_layers));
   for (std::int32_t i = 0; i < step.line.size(); ++i) {
     if (step.line[i].wall != Point{4, 2}) continue;
     EXPECT_LT(step.columns.length[i], 0.57) << "no horn at the corner, which would be 0.707 long";
@@ -90,8 +90,9 @@ TEST(ColumnsOnWall, SpreadAtAConvexCornerWithTheirOwnLength) {
 }
 
 TEST(ColumnsOnWall, RiseVisiblyEverywhereAndNeverCrossTheirNeighbours) {
-  for (const Geometry& g : {test::step_with_layers(layers), test::rhombus_with_layers(layers, 0.25),
-                            test::rhombus_with_layers(layers, 1.5), test::rhombus_with_layers(layers, 3)}) {
+  for (const Geometry& g :
+       {test::step_with_layers(four_layers), test::rhombus_with_layers(four_layers, 0.25),
+        test::rhombus_with_layers(four_layers, 1.5), test::rhombus_with_layers(four_layers, 3)}) {
     const Columned c(g);
     for (std::int32_t i = 0; i < c.line.size(); ++i) {
       if (c.line[i].shape != Station::Shape::fan) {
@@ -111,7 +112,7 @@ TEST(ColumnsOnWall, AtACornerTheyDoNotStandOutFromThoseBesideIt) {
   // A short base, with turns of 79 and 99 degrees: its columns lean to the side of the larger one.
   const Point upper{0, 0}, lower{-0.17, -0.295};
   const Columned body(test::outline_of({{{"box", {{-16, -16}, {16, -16}, {16, 16}, {-16, 16}}}},
-                                        {{"body", {{-5.6, 5.7}, upper, lower, {-6.5, 4.6}}, layers}}}));
+                                        {{"body", {{-5.6, 5.7}, upper, lower, {-6.5, 4.6}}, four_layers}}}));
   int corners = 0;
   for (std::int32_t i = 0; i < body.line.size(); ++i) {
     if (body.line[i].wall != upper && body.line[i].wall != lower) continue;
@@ -124,7 +125,7 @@ TEST(ColumnsOnWall, AtACornerTheyDoNotStandOutFromThoseBesideIt) {
 }
 
 TEST(ColumnsOnWall, AFansRaysHaveTheThicknessForTheirLength) {
-  const Columned body(test::rhombus_with_layers(layers, 0.25));
+  const Columned body(test::rhombus_with_layers(four_layers, 0.25));
   for (std::int32_t i = 0; i < body.line.size(); ++i) {
     if (body.line[i].shape == Station::Shape::fan) {
       EXPECT_EQ(body.columns.length[i], 0.5);
@@ -141,7 +142,7 @@ TEST(ColumnsOnWall, FittedAgainAreThoseFittedAtOnce) {
     coast.push_back({radius * std::cos(angle), radius * std::sin(angle)});
   }
   const Columned island(
-      test::outline_of({{{"sea", {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}}, {{"coast", coast, layers}}}));
+      test::outline_of({{{"sea", {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}}, {{"coast", coast, four_layers}}}));
   const WallLine& line = island.line;
   ColumnsOnWall again(line);
   std::vector<double> h(line.size(), 0.5);

@@ -12,12 +12,12 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers{0.02, 1.2, 1.2, 10};  // 0.519 thick, the last one 0.103
+using test::ten_layers;
 
 TEST(LayerFront, StandsInTheWallsPlace) {
-  const Geometry floor = test::floor_with_layers(layers);
+  const Geometry floor = test::floor_with_layers(ten_layers);
   const LayerFront front = layer_front(floor);
-  const double thickness = layers_thickness(layers);
+  const double thickness = layers_thickness(ten_layers);
   EXPECT_NEAR(test::loop_area(front.outer, 0), 8 * (4 - thickness), 1e-12);
   ASSERT_EQ(std::ssize(front.station_of), front.outer.size());
   std::int32_t of_front = 0;
@@ -34,9 +34,9 @@ TEST(LayerFront, StandsInTheWallsPlace) {
 }
 
 TEST(LayerFront, LeavesAreAsHighAsTwoOfTheLastLayers) {
-  const Geometry geometry = test::floor_with_layers(layers);
+  const Geometry geometry = test::floor_with_layers(ten_layers);
   const LayerFront front = layer_front(geometry);
-  const std::vector<double> heights = layer_heights(layers);
+  const std::vector<double> heights = layer_heights(ten_layers);
   for (std::int32_t s = 0; s < front.outer.size(); ++s) {
     if (front.station_of[s] != WallLine::none) {
       EXPECT_NEAR(front.outer.spacing_of(s), 2 * heights.back(), 1e-12);
@@ -48,7 +48,7 @@ TEST(LayerFront, LeavesAreAsHighAsTwoOfTheLastLayers) {
 
 TEST(LayerFront, TheWallsOwnSpacingHoldsOnItsFrontToo) {
   const Geometry fine =
-      test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}}}, 0.0625);
+      test::outline_of({{{"floor", {{0, 0}}, ten_layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}}}, 0.0625);
   const LayerFront front = layer_front(fine);
   for (std::int32_t s = 0; s < front.outer.size(); ++s)
     EXPECT_LE(front.outer.spacing_of(s), 0.0625 * (1 + 1e-12));
@@ -60,7 +60,7 @@ TEST(LayerFront, TheWallsTurnsAskForSmallerLeavesWhereCurvatureIsARule) {
     const double angle = -std::acos(-1.0) * k / 20;
     circle.push_back({std::cos(angle), std::sin(angle)});
   }
-  LayerSpec thin = layers;
+  LayerSpec thin = ten_layers;
   thin.first = 0.005;
   const Geometry body =
       test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}}, {{"body", circle, thin}}}, 1);
@@ -80,14 +80,14 @@ TEST(LayerFront, TheWallsTurnsAskForSmallerLeavesWhereCurvatureIsARule) {
 }
 
 TEST(LayerFront, KeptPlacesOfTheWallAreKeptOnTheFront) {
-  const Geometry geometry = test::step_with_layers(layers);
+  const Geometry geometry = test::step_with_layers(ten_layers);
   const LayerFront front = layer_front(geometry);
   std::vector<Point> kept;
   for (std::int32_t v = 0; v < front.outer.size(); ++v) {
     if (front.outer.kept(v)) kept.push_back(front.outer.point(v));
   }
   ASSERT_EQ(kept.size(), 6U) << "two corners, two ends, two corners of the box";
-  const double h = layers_thickness(layers);
+  const double h = layers_thickness(ten_layers);
   EXPECT_NEAR(kept[0].x, 0, 1e-15);
   EXPECT_NEAR(kept[1].x, 4 - h, 1e-12) << "the concave corner";
   EXPECT_NEAR(kept[1].y, h, 1e-12);
@@ -112,8 +112,8 @@ TEST(LayerFront, InAFanSectorsAreNotTooSharp) {
 TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
   const Geometry body =
       test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
-                        {{"body", {{-2, 0.1}, {-0.7, 0.6}, {0.4, 0.3}, {2, 0}, {0.3, -0.4}}, layers}},
-                        {{"flap", {{2.2, 0.3}, {3.3, -0.4}, {2.4, -0.2}}, layers}}});
+                        {{"body", {{-2, 0.1}, {-0.7, 0.6}, {0.4, 0.3}, {2, 0}, {0.3, -0.4}}, ten_layers}},
+                        {{"flap", {{2.2, 0.3}, {3.3, -0.4}, {2.4, -0.2}}, ten_layers}}});
   const Geometry other = test::mirrored(body);
   const LayerFront front = layer_front(body), image = layer_front(other);
   std::vector<Point> points = front.points, mirrored;
@@ -121,14 +121,15 @@ TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
   std::ranges::sort(points);
   std::ranges::sort(mirrored);
   EXPECT_EQ(points, mirrored) << "bit for bit";
-  EXPECT_TRUE(std::ranges::any_of(front.thickness, [](double h) { return h < layers_thickness(layers); }))
+  EXPECT_TRUE(std::ranges::any_of(front.thickness, [](double h) { return h < layers_thickness(ten_layers); }))
       << "the gap behind the body is narrow";
 }
 
 TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
   for (const double half_base : {0.3, 0.1, 0.03, 0.01}) {
-    const Geometry body = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
-                                            {{"body", {{-2, 0}, {2, half_base}, {2, -half_base}}, layers}}});
+    const Geometry body =
+        test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                          {{"body", {{-2, 0}, {2, half_base}, {2, -half_base}}, ten_layers}}});
     const LayerFront front = layer_front(body);
     std::vector<Point> points = front.points, mirrored;
     for (const Point p : points) mirrored.push_back({p.x, 0.0 - p.y});
@@ -140,20 +141,20 @@ TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
 
 /// The side on which a floor's last column lies has points of its own below the column's end.
 TEST(LayerFront, TheLastColumnTakesThePlaceOfPointsOnTheBoundaryBelowIt) {
-  const double thickness = layers_thickness(layers);
+  const double thickness = layers_thickness(ten_layers);
   std::vector<Point> rest{{8, 0}, {8, 4}, {0, 4}};
   for (double y = 3.9; y > 0.05; y -= 0.1) rest.push_back({0, y});
-  const LayerFront front = layer_front(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", rest}}}));
+  const LayerFront front = layer_front(test::outline_of({{{"floor", {{0, 0}}, ten_layers}, {"rest", rest}}}));
   EXPECT_NEAR(test::loop_area(front.outer, 0), 8 * (4 - thickness), 1e-12);
   for (const Point p : front.outer.points()) EXPECT_GE(p.y, thickness - 1e-12);
 }
 
 TEST(LayerFront, LayersAreNoThickerAtAnEndThanTheBoundaryThereIsStraight) {
   const Geometry g = test::outline_of(
-      {{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {-0.5, 4}, {-0.5, 0.4}, {0, 0.2}}}}});
+      {{{"floor", {{0, 0}}, ten_layers}, {"rest", {{8, 0}, {8, 4}, {-0.5, 4}, {-0.5, 0.4}, {0, 0.2}}}}});
   const LayerFront front = layer_front(g);
   EXPECT_NEAR(front.thickness[0], 0.18, 1e-12);
-  EXPECT_NEAR(front.thickness[front.line.size() - 1], layers_thickness(layers), 1e-12);
+  EXPECT_NEAR(front.thickness[front.line.size() - 1], layers_thickness(ten_layers), 1e-12);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers{0.02, 1.2, 1.2, 10};
+using test::ten_layers;
 
 /// A box round a body that is blunt at x = -1 and ends at x = 2, in a point or in a base of the given height.
-Geometry wedge(double base, const std::optional<LayerSpec>& of_wedge = layers) {
+Geometry wedge(double base, const std::optional<LayerSpec>& of_wedge = ten_layers) {
   std::vector<Point> points{{-1, -0.5}, {-1, 0.5}, {0, 0.5}, {2, base / 2}};
   if (base > 0) points.push_back({2, -base / 2});
   points.push_back({0, -0.5});
@@ -28,7 +28,7 @@ LayerLine wake_of(const std::string& name) {
 }
 
 TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
-  const Geometry g = test::rhombus_with_layers(layers, 0.25);
+  const Geometry g = test::rhombus_with_layers(ten_layers, 0.25);
   LayerLine wake = wake_of("body");
   EXPECT_NE(test::refusal([&] { place_lines(g, {wake}); }).find("there are 2 edges, at ("),
             std::string::npos);
@@ -37,7 +37,7 @@ TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
   ASSERT_EQ(placed[0].path.size(), 2U);
   EXPECT_NEAR(placed[0].path[1].x, 5, 1e-12);
   EXPECT_NEAR(placed[0].path[1].y, 0, 1e-12);
-  EXPECT_EQ(placed[0].layers, layers);
+  EXPECT_EQ(placed[0].layers, ten_layers);
 }
 
 TEST(PlaceLines, ABluntEdgesWakeBeginsInTheMiddleOfItsBase) {
@@ -58,7 +58,7 @@ TEST(PlaceLines, APathIsFollowedAsItIsGiven) {
   EXPECT_EQ(place_lines(wedge(0.1), {wake})[0].path, wanted) << "the edge may be named again";
   LayerLine free;
   free.path = {{-6, -6}, {-5, -6}};
-  free.layers = layers;
+  free.layers = ten_layers;
   const PlacedLine placed = place_lines(wedge(0.1), {free})[0];
   EXPECT_EQ(placed.edge, PlacedLine::nowhere);
   EXPECT_EQ(placed.path, free.path);
@@ -70,7 +70,7 @@ Geometry halves(double base) {
   if (base > 0) upper.push_back({2, base / 2});
   const std::vector<Point> lower{{2, -base / 2}, {0, -0.5}, {-1, -0.5}};
   return test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
-                           {{"upper", upper, layers}, {"lower", lower, layers}}});
+                           {{"upper", upper, ten_layers}, {"lower", lower, ten_layers}}});
 }
 
 TEST(PlaceLines, AWakeMayBeginWhereTwoBoundariesMeet) {
@@ -91,7 +91,7 @@ TEST(PlaceLines, AWakeMayBeginWhereTwoBoundariesMeet) {
 TEST(PlaceLines, LinesAreNamedByTheirKindAndNumber) {
   LayerLine free;
   free.path = {{-6, -6}, {-5, -6}};
-  free.layers = layers;
+  free.layers = ten_layers;
   free.where = "case.toml:7";
   std::vector<PlacedLine> placed = place_lines(wedge(0), {free, wake_of("wedge"), free});
   EXPECT_EQ(placed[0].name, "layer_line_1");

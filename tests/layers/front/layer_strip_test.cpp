@@ -10,16 +10,16 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers{0.01, 1.3, 1.3, 8};
+const LayerSpec line_layers{0.01, 1.3, 1.3, 8};
 
 PlacedLine straight(double length, double spacing) {
-  return {PlacedLine::nowhere, PlacedLine::nowhere, {{0, 0}, {length, 0}}, spacing, layers};
+  return {PlacedLine::nowhere, PlacedLine::nowhere, {{0, 0}, {length, 0}}, spacing, line_layers};
 }
 
 LayerStrip sharp_wake() {
   PlacedLine line = straight(6, 0.1);
   line.edge = line.base_end = 0;
-  const double h = layers_thickness(layers);
+  const double h = layers_thickness(line_layers);
   return layer_strip(line, WakeRoot{0, {0.02, h}, {0.02, -h}, {}, 0.04});
 }
 
@@ -42,11 +42,12 @@ void expect_positive(const LayerStrip& strip) {
 TEST(LayerStrip, AWakeBeginsWithTheWallsColumnsAndOpens) {
   const LayerStrip strip = sharp_wake();
   expect_positive(strip);
-  const auto rows = static_cast<std::size_t>(2 * layers.count), middle = rows / 2;
+  const auto rows = static_cast<std::size_t>(2 * line_layers.count), middle = rows / 2;
   for (const auto& column : strip.columns) ASSERT_EQ(column.size(), rows + 1);
   EXPECT_EQ(strip.columns[0].back(), strip.root->left);
   EXPECT_EQ(strip.columns[0].front(), strip.root->right);
-  EXPECT_NEAR(row_height(strip, 0, middle), layers.first, 1e-2 * layers.first) << "its column leans";
+  EXPECT_NEAR(row_height(strip, 0, middle), line_layers.first, 1e-2 * line_layers.first)
+      << "its column leans";
   for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
     const double ratio = row_height(strip, k + 1, middle) / row_height(strip, k, middle);
     EXPECT_GT(ratio, 0.95) << k;
@@ -76,17 +77,17 @@ TEST(LayerStrip, ABaseIsDividedAsFinelyAsTheLayersBesideIt) {
   PlacedLine line = straight(6, 0.1);
   line.edge = 0;
   line.base_end = 1;
-  const double h = layers_thickness(layers), half = 0.1;
+  const double h = layers_thickness(line_layers), half = 0.1;
   const LayerStrip strip =
       layer_strip(line, WakeRoot{0, {0, half + h}, {0, -half - h}, {{0, half}, {0, -half}}, 0.04});
   expect_positive(strip);
   EXPECT_EQ(strip.core % 2, 0);
-  EXPECT_EQ(strip.columns[0].size(), static_cast<std::size_t>(2 * layers.count + strip.core + 1));
-  for (int row = layers.count; row <= layers.count + strip.core; ++row)
+  EXPECT_EQ(strip.columns[0].size(), static_cast<std::size_t>(2 * line_layers.count + strip.core + 1));
+  for (int row = line_layers.count; row <= line_layers.count + strip.core; ++row)
     EXPECT_EQ(strip.columns[0][row].x, 0) << "on the base";
-  EXPECT_EQ(strip.columns[0][layers.count], (Point{0, -half}));
-  EXPECT_EQ(strip.columns[0][layers.count + strip.core], (Point{0, half}));
-  for (int row = layers.count - 1; row < layers.count + strip.core; ++row) {
+  EXPECT_EQ(strip.columns[0][line_layers.count], (Point{0, -half}));
+  EXPECT_EQ(strip.columns[0][line_layers.count + strip.core], (Point{0, half}));
+  for (int row = line_layers.count - 1; row < line_layers.count + strip.core; ++row) {
     const double ratio = row_height(strip, 0, row + 1) / row_height(strip, 0, row);
     EXPECT_LT(std::max(ratio, 1 / ratio), 1.35) << row;
   }
@@ -95,9 +96,9 @@ TEST(LayerStrip, ABaseIsDividedAsFinelyAsTheLayersBesideIt) {
 TEST(LayerStrip, AFreeLineIsFineAlongItAndCoarseAtBothEnds) {
   const LayerStrip strip = layer_strip(straight(4, 0.1), {});
   expect_positive(strip);
-  const std::size_t middle = layers.count, half = strip.columns.size() / 2;
-  EXPECT_NEAR(row_height(strip, half, middle), layers.first, 1e-9);
-  const double even = layers_thickness(layers) / layers.count;
+  const std::size_t middle = line_layers.count, half = strip.columns.size() / 2;
+  EXPECT_NEAR(row_height(strip, half, middle), line_layers.first, 1e-9);
+  const double even = layers_thickness(line_layers) / line_layers.count;
   EXPECT_NEAR(row_height(strip, 0, middle), even, 1e-9);
   EXPECT_NEAR(row_height(strip, strip.columns.size() - 1, middle), even, 1e-9);
   EXPECT_NEAR(strip.columns[half + 1][middle].x - strip.columns[half][middle].x, 0.1, 0.01);
@@ -113,7 +114,7 @@ double area_round(const std::vector<Point>& points) {
 
 TEST(LayerStrip, TheFrontGoesRoundItWithTheDomainToItsLeft) {
   const LayerStrip free = layer_strip(straight(4, 0.1), {});
-  EXPECT_LT(area_round(free.front), -4 * 2 * layers_thickness(layers));
+  EXPECT_LT(area_round(free.front), -4 * 2 * layers_thickness(line_layers));
   EXPECT_EQ(free.spacing.size(), free.front.size());
   const LayerStrip wake = sharp_wake();
   EXPECT_EQ(wake.spacing.size(), wake.front.size() + 1);

@@ -13,7 +13,7 @@
 namespace quadloop {
 namespace {
 
-const LayerSpec layers = test::equal_layers(0.5, 4);
+using test::four_layers;
 
 struct Fitted {
   explicit Fitted(Geometry g)
@@ -26,20 +26,20 @@ struct Fitted {
 /// A box of 16 by 16 round two bars of layers, `gap` apart from x = 0 to 4.
 Geometry two_bars(double gap) {
   return test::outline_of({{{"box", {{-6, -8}, {10, -8}, {10, 8}, {-6, 8}}}},
-                           {{"lower", {{0, -2}, {0, 0}, {4, 0}, {4, -2}}, layers}},
-                           {{"upper", {{0, gap}, {0, 2 + gap}, {4, 2 + gap}, {4, gap}}, layers}}});
+                           {{"lower", {{0, -2}, {0, 0}, {4, 0}, {4, -2}}, four_layers}},
+                           {{"upper", {{0, gap}, {0, 2 + gap}, {4, 2 + gap}, {4, gap}}, four_layers}}});
 }
 
 /// A floor with a notch.
 Geometry notch(double half_width, double depth) {
   return test::outline_of(
-      {{{"floor", {{0, 0}, {4 - half_width, 0}, {4, -depth}, {4 + half_width, 0}}, layers},
+      {{{"floor", {{0, 0}, {4 - half_width, 0}, {4, -depth}, {4 + half_width, 0}}, four_layers},
         {"rest", {{8, 0}, {8, 4}, {0, 4}}}}});
 }
 
 TEST(FitThickness, IsAsAskedWhereThereIsRoom) {
-  for (const Geometry& g : {test::floor_with_layers(layers), test::step_with_layers(layers),
-                            test::rhombus_with_layers(layers, 0.25), two_bars(3)}) {
+  for (const Geometry& g : {test::floor_with_layers(four_layers), test::step_with_layers(four_layers),
+                            test::rhombus_with_layers(four_layers, 0.25), two_bars(3)}) {
     const Fitted f(g);
     for (const double h : f.fitting.thickness) EXPECT_EQ(h, 0.5);
   }
@@ -77,8 +77,8 @@ TEST(FitThickness, WallsThatFaceEachOtherShareTheirGap) {
 TEST(FitThickness, FrontsThatPassEachOtherKeepRoomForCellsToo) {
   // The needle's tip is over the floor; columns of the floor beside it meet none of its walls, but its front.
   const double gap = 0.9;
-  const Fitted f(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
-                                   {{"needle", {{4, gap}, {3.8, 3}, {4.2, 3}}, layers}}}));
+  const Fitted f(test::outline_of({{{"floor", {{0, 0}}, four_layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
+                                   {{"needle", {{4, gap}, {3.8, 3}, {4.2, 3}}, four_layers}}}));
   double least = 1;
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     for (std::int32_t j = 0; j < f.line.size(); ++j) {
@@ -90,7 +90,7 @@ TEST(FitThickness, FrontsThatPassEachOtherKeepRoomForCellsToo) {
 }
 
 TEST(FitThickness, KeepsAwayFromBoundariesWithoutLayers) {
-  const Fitted f(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
+  const Fitted f(test::outline_of({{{"floor", {{0, 0}}, four_layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
                                    {{"bar", {{3, 0.5}, {3, 1}, {5, 1}, {5, 0.5}}}}}));
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const double x = f.line[i].wall.x;

@@ -11,9 +11,9 @@
 namespace quadloop {
 namespace {
 
-using Shape = Station::Shape;
+using test::four_layers;
 
-const LayerSpec layers = test::equal_layers(0.5, 4);
+using Shape = Station::Shape;
 
 /// An outline with its wall's stations.
 struct Wall {
@@ -34,7 +34,7 @@ struct Wall {
 };
 
 TEST(WallLine, StationsAreAnEighthOfTheThicknessApart) {
-  const Wall floor(test::floor_with_layers(layers));
+  const Wall floor(test::floor_with_layers(four_layers));
   EXPECT_EQ(floor.line.size(), 129);
   for (std::int32_t i = 0; i + 1 < floor.line.size(); ++i) {
     EXPECT_EQ(floor.line.width(i), 0.0625);
@@ -84,7 +84,8 @@ TEST(WallLine, ThinLayersTakeFewStations) {
 }
 
 TEST(WallLine, ARunEndsOnTheSideThatIsMetThere) {
-  const Wall slanted(test::outline_of({{{"floor", {{0, 0}}, layers}, {"rest", {{4, 0}, {3, 2}, {-1, 2}}}}}));
+  const Wall slanted(
+      test::outline_of({{{"floor", {{0, 0}}, four_layers}, {"rest", {{4, 0}, {3, 2}, {-1, 2}}}}}));
   const Station &first = slanted.line[0], &last = slanted.line[slanted.line.size() - 1];
   for (const Station &end : {first, last}) {
     EXPECT_EQ(end.shape, Shape::end);
@@ -98,7 +99,7 @@ TEST(WallLine, ARunEndsOnTheSideThatIsMetThere) {
 }
 
 TEST(WallLine, TellsCornersByTheirTurns) {
-  const Wall step(test::step_with_layers(layers));
+  const Wall step(test::step_with_layers(four_layers));
   const Station &in = step.line[step.at({4, 0})], &out = step.line[step.at({4, 2})];
   EXPECT_EQ(in.shape, Shape::concave);
   EXPECT_TRUE(in.kept);
@@ -114,7 +115,7 @@ TEST(WallLine, TellsCornersByTheirTurns) {
 }
 
 TEST(WallLine, ASharpEdgeHasAFan) {
-  const Wall body(test::rhombus_with_layers(layers, 0.25));
+  const Wall body(test::rhombus_with_layers(four_layers, 0.25));
   EXPECT_EQ(body.count(Shape::fan), 34);
   const std::int32_t first = body.at({2, 0});
   const Point up = body.line[first].direction;
@@ -137,13 +138,13 @@ TEST(WallLine, ASharpEdgeHasAFan) {
 
 TEST(WallLine, OneBisectorAtTheBluntCornersOfABase) {
   const Wall body(test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}},
-                                    {{"body", {{-2, 0}, {2, 0.25}, {2, -0.25}}, layers}}}));
+                                    {{"body", {{-2, 0}, {2, 0.25}, {2, -0.25}}, four_layers}}}));
   EXPECT_EQ(body.count(Shape::fan), 17) << "at the nose alone";
   EXPECT_EQ(body.line[body.at({2, 0.25})].shape, Shape::smooth);
 }
 
 TEST(WallLine, WalksMeasureAlongTheWallFromTheStationOn) {
-  const Wall step(test::step_with_layers(layers));
+  const Wall step(test::step_with_layers(four_layers));
   const std::int32_t corner = step.at({4, 0});
   std::vector<double> on, back;
   step.line.walk_on(corner, 0.2, [&](std::int32_t i, double distance) {
@@ -159,7 +160,7 @@ TEST(WallLine, WalksMeasureAlongTheWallFromTheStationOn) {
 }
 
 TEST(WallLine, AWalkRoundALoopVisitsEachStationOnce) {
-  const Wall body(test::rhombus_with_layers(layers, 0.25));
+  const Wall body(test::rhombus_with_layers(four_layers, 0.25));
   std::int32_t visits = 0;
   body.line.walk_on(5, 1e9, [&](std::int32_t i, double) { visits += i == 5 ? 1000 : 1; });
   EXPECT_EQ(visits, body.line.size() - 1);
@@ -169,13 +170,13 @@ TEST(WallLine, AWalkRoundALoopVisitsEachStationOnce) {
 }
 
 TEST(WallLine, CountsStepsOnOneLineOfWall) {
-  const Wall floor(test::floor_with_layers(layers)), body(test::rhombus_with_layers(layers, 0.25));
+  const Wall floor(test::floor_with_layers(four_layers)), body(test::rhombus_with_layers(four_layers, 0.25));
   EXPECT_EQ(floor.line.steps(3, 7), 4);
   EXPECT_EQ(floor.line.steps(7, 3), WallLine::none) << "an open one has no way back";
   EXPECT_EQ(body.line.steps(3, 7), 4);
   EXPECT_EQ(body.line.steps(7, 3), body.line.size() - 4);
-  const Wall two(test::outline_of({{{"box", {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, layers}},
-                                   {{"body", {{3, 3}, {3, 5}, {5, 5}, {5, 3}}, layers}}}));
+  const Wall two(test::outline_of({{{"box", {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, four_layers}},
+                                   {{"body", {{3, 3}, {3, 5}, {5, 5}, {5, 3}}, four_layers}}}));
   EXPECT_EQ(two.line.steps(0, two.line.size() - 1), WallLine::none);
 }
 

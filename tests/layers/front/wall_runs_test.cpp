@@ -11,9 +11,8 @@
 namespace quadloop {
 namespace {
 
+using test::four_layers;
 using test::outline_of;
-
-const LayerSpec layers = test::equal_layers(0.5, 4);
 
 /// A floor from (0, 0) to (4, 0) with layers, behind an "inlet" that comes down to it at `first` degrees
 /// inside the domain and before an "outlet" that leaves it at `last`.
@@ -23,14 +22,14 @@ Geometry floor_between(double first, double last) {
     return Point{2 * std::cos(angle), 2 * std::sin(angle)};
   };
   const Point a = at(first), b = at(last);
-  return outline_of({{{"floor", {{0, 0}}, layers},
+  return outline_of({{{"floor", {{0, 0}}, four_layers},
                       {"outlet", {{4, 0}, {4 - b.x, b.y}}},
                       {"lid", {{4 - b.x, 8}, {a.x, 8}}},
                       {"inlet", {a}}}});
 }
 
 TEST(WallRuns, AnOpenOneEndsOnTheSidesBesideIt) {
-  const auto runs = wall_runs(test::step_with_layers(layers));
+  const auto runs = wall_runs(test::step_with_layers(four_layers));
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_FALSE(runs[0].closed);
   EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{0, 1, 2}));
@@ -38,7 +37,7 @@ TEST(WallRuns, AnOpenOneEndsOnTheSidesBesideIt) {
 }
 
 TEST(WallRuns, AWholeLoopIsClosed) {
-  const auto runs = wall_runs(test::rhombus_with_layers(layers, 0.25));
+  const auto runs = wall_runs(test::rhombus_with_layers(four_layers, 0.25));
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_TRUE(runs[0].closed);
   EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{4, 5, 6, 7}));
@@ -46,7 +45,7 @@ TEST(WallRuns, AWholeLoopIsClosed) {
 
 TEST(WallRuns, OneThatPassesTheLoopsFirstPointIsOne) {
   const auto runs = wall_runs(outline_of(
-      {{{"floor", {{2, 0}}, layers}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}, {"floor", {{0, 0}, {1, 0}}}}}));
+      {{{"floor", {{2, 0}}, four_layers}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}, {"floor", {{0, 0}, {1, 0}}}}}));
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{4, 5, 0}));
 }
@@ -74,7 +73,7 @@ TEST(WallRuns, GoOnAlongASideThatLeavesOtherwiseUpToItsFirstCorner) {
 
 TEST(WallRuns, OfAPlateBehindASymmetryLineTakeTheLineAlong) {
   const auto runs = wall_runs(outline_of(
-      {{{"symmetry", {{-1, 0}}}, {"plate", {{0, 0}}, layers}, {"rest", {{2, 0}, {2, 1}, {-1, 1}}}}}));
+      {{{"symmetry", {{-1, 0}}}, {"plate", {{0, 0}}, four_layers}, {"rest", {{2, 0}, {2, 1}, {-1, 1}}}}}));
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(runs[0].layers, std::vector<BoundaryId>(2, BoundaryId{1}));
@@ -85,12 +84,12 @@ TEST(WallRuns, ThereIsNoneWithoutLayers) {
 }
 
 TEST(WallRuns, BoundariesThatMeetHaveOneCount) {
-  LayerSpec thicker = layers, more = layers;
+  LayerSpec thicker = four_layers, more = four_layers;
   thicker.first *= 2;
   more.count += 1;
   const auto floors = [](const LayerSpec& second) {
     return outline_of(
-        {{{"one", {{0, 0}}, layers}, {"two", {{2, 0}}, second}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}}});
+        {{{"one", {{0, 0}}, four_layers}, {"two", {{2, 0}}, second}, {"rest", {{4, 0}, {4, 4}, {0, 4}}}}});
   };
   EXPECT_EQ(wall_runs(floors(thicker))[0].layers, (std::vector<BoundaryId>{BoundaryId{0}, BoundaryId{1}}));
   EXPECT_EQ(test::refusal([&] { wall_runs(floors(more)); }),

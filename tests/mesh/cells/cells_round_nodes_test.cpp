@@ -15,7 +15,7 @@ using test::world;
 
 double linear(Point p) { return 3 - 2 * p.x + 5 * p.y; }
 
-Mesh jittered(std::int32_t n) {
+Mesh jittered_far_off(std::int32_t n) {
   const test::Grid grid{n, {4, 1}};
   Mesh whole = grid.mesh();
   test::jitter(grid, 0.2, 9, whole);
@@ -41,7 +41,7 @@ TEST(CellShape, OfAQuadIsThatOfItsTriangles) {
 }
 
 TEST(CellsRoundNodes, TellTheGradientOfALinearFunction) {
-  const Mesh part = scatter_mesh(world(), jittered(9), space_filling_order(jittered(9)));
+  const Mesh part = scatter_mesh(world(), jittered_far_off(9), space_filling_order(jittered_far_off(9)));
   const std::vector<AroundNode> around = CellsRoundNodes(world(), part).of(means(part));
   ASSERT_EQ(around.size(), part.points.size());
   std::int64_t with_gradient = 0;
@@ -59,7 +59,7 @@ TEST(CellsRoundNodes, TellTheGradientOfALinearFunction) {
 }
 
 TEST(CellsRoundNodes, HaveTheSameBitsOnAnyNumberOfRanks) {
-  const Mesh whole = jittered(8);
+  const Mesh whole = jittered_far_off(8);
   std::vector<double> of_whole;
   for (std::int64_t cell = 0; cell < std::ssize(means(whole)); ++cell)
     of_whole.push_back(test::scattered(4, cell, 0));
@@ -78,7 +78,7 @@ TEST(CellsRoundNodes, HaveTheSameBitsOnAnyNumberOfRanks) {
 }
 
 TEST(CellOwners, BringRowsOfCellsAnywhere) {
-  const Mesh whole = jittered(6);
+  const Mesh whole = jittered_far_off(6);
   const Mesh part = scatter_mesh(world(), whole, own_order(whole));
   const CellOwners owners(world(), part);
   std::vector<std::int64_t> rows, asked;

@@ -6,14 +6,14 @@
 #include <array>
 #include <cmath>
 
+#include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::node;
 using test::world;
-
-NodeId node(std::int32_t number) { return NodeId{number}; }
 
 TEST(Quality, OfTriangles) {
   const std::array<Point, 3> equilateral{Point{0, 0}, Point{1, 0}, Point{0.5, std::sqrt(3.0) / 2}},

@@ -7,11 +7,12 @@
 #include <numbers>
 
 #include "mesher/base/ids.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
-NodeId node(std::int32_t number) { return NodeId{number}; }
+using test::node;
 
 /// A unit square and, to its right, a right triangle of half its area.
 Mesh square_and_triangle() {

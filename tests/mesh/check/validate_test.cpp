@@ -8,15 +8,15 @@
 #include <limits>
 
 #include "tests/mesh/mixed_square.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
 
-NodeId node(std::int32_t number) { return NodeId{number}; }
+using test::mixed_square;
+using test::node;
 
-Mesh square() { return test::mixed_square(); }
-
-/// The outline of square(), as two chains.
+/// The outline of mixed_square(), as two chains.
 std::vector<Chain> outline() {
   return {{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""}, {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""}};
 }
@@ -27,16 +27,16 @@ bool has(const std::vector<MeshFault>& faults, MeshRule rule) {
 }
 
 void expect_fault(MeshRule rule, const std::function<void(Mesh&)>& spoil) {
-  Mesh mesh = square();
+  Mesh mesh = mixed_square();
   spoil(mesh);
   const std::vector<MeshFault> faults = validate(mesh);
   EXPECT_TRUE(has(faults, rule)) << name_of(rule) << " is missing among " << faults.size() << " faults";
 }
 
 TEST(Validate, ValidMeshHasNoFault) {
-  for (const MeshFault& fault : validate(square()))
+  for (const MeshFault& fault : validate(mixed_square()))
     ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
-  EXPECT_EQ(pinched_nodes(square(), MeshTopology(square())), 0);
+  EXPECT_EQ(pinched_nodes(mixed_square(), MeshTopology(mixed_square())), 0);
 }
 
 TEST(Validate, Indices) {
@@ -75,14 +75,14 @@ TEST(Validate, Conforming) {
 }
 
 TEST(Validate, TopologyIsWhatMovingNodesCannotCure) {
-  Mesh mesh = square();
+  Mesh mesh = mixed_square();
   mesh.points[4] = {5, 5};  // inverted cells, which overlap
   mesh.points[7] = mesh.points[8];
   EXPECT_FALSE(validate(mesh).empty());
   EXPECT_TRUE(validate_topology(mesh).empty());
   mesh.triangles.push_back(mesh.triangles[0]);
   EXPECT_TRUE(has(validate_topology(mesh), MeshRule::conforming));
-  mesh = square();
+  mesh = mixed_square();
   mesh.quads[0][2] = node(1);
   const std::vector<MeshFault> faults = validate_topology(mesh);
   ASSERT_TRUE(has(faults, MeshRule::conforming));
@@ -102,7 +102,7 @@ TEST(Validate, AreaAndOverlap) {
 }
 
 TEST(Validate, InterfaceNeedsTwoBlocks) {
-  Mesh mesh = square();
+  Mesh mesh = mixed_square();
   mesh.boundaries.push_back({"interface", "interface", {{node(3), node(4)}, {node(4), node(5)}}});
   EXPECT_TRUE(has(validate(mesh), MeshRule::conforming));
   const std::vector<std::int32_t> of_triangle(4, 1), of_quad(2, 0);
@@ -110,7 +110,7 @@ TEST(Validate, InterfaceNeedsTwoBlocks) {
 }
 
 TEST(Validate, FaultHasItsPlace) {
-  Mesh mesh = square();
+  Mesh mesh = mixed_square();
   std::swap(mesh.triangles[1][0], mesh.triangles[1][1]);
   const std::vector<MeshFault> faults = validate(mesh);
   ASSERT_FALSE(faults.empty());
@@ -136,7 +136,7 @@ TEST(Validate, PinchedNodesAreCountedButAllowed) {
 }
 
 TEST(ValidateGeometry, FollowsItsOutline) {
-  const GeometryFit fit = validate_geometry(square(), outline());
+  const GeometryFit fit = validate_geometry(mixed_square(), outline());
   EXPECT_TRUE(fit.faults.empty());
   EXPECT_EQ(fit.boundaries_dropped, 0);
   EXPECT_EQ(fit.sharp_corners, 4);  // the ends of the open chains
@@ -147,12 +147,12 @@ TEST(ValidateGeometry, FollowsItsOutline) {
 }
 
 TEST(ValidateGeometry, FindsWhatIsOff) {
-  Mesh moved = square();
+  Mesh moved = mixed_square();
   moved.points[1].y = 0.01;
   const GeometryFit fit = validate_geometry(moved, outline());
   EXPECT_TRUE(has(fit.faults, MeshRule::geometry));
   EXPECT_NEAR(fit.boundary_node_distance, 0.01, 1e-12);
-  Mesh renamed = square();
+  Mesh renamed = mixed_square();
   renamed.boundaries[0].name = "hull";
   const GeometryFit other = validate_geometry(renamed, outline());
   EXPECT_TRUE(has(other.faults, MeshRule::geometry));
@@ -163,14 +163,14 @@ TEST(ValidateGeometry, CountsLostCornersAndMissingArea) {
   const std::vector<Chain> spiked{{"wall", true, {{0, 0}, {2, 0}, {2, 2}}, ""},
                                   {"far", true, {{2, 2}, {0, 2}, {0, 0}}, ""},
                                   {"hole", false, {{0.4, 0.4}, {0.4, 1.6}, {1.6, 1.6}, {1.6, 0.4}}, ""}};
-  const GeometryFit fit = validate_geometry(square(), spiked);
+  const GeometryFit fit = validate_geometry(mixed_square(), spiked);
   EXPECT_EQ(fit.boundaries_dropped, 1);
   EXPECT_EQ(fit.sharp_corners, 8);
   EXPECT_EQ(fit.sharp_corners_lost, 4);
   EXPECT_NEAR(fit.area_error, 1.44 / 2.56, 1e-12);
   EXPECT_TRUE(has(fit.faults, MeshRule::geometry));
   const std::vector<Chain> empty{{"wall", true, {{0, 0}}, ""}, {"far", false, {}, ""}};
-  EXPECT_TRUE(has(validate_geometry(square(), empty).faults, MeshRule::geometry));
+  EXPECT_TRUE(has(validate_geometry(mixed_square(), empty).faults, MeshRule::geometry));
 }
 
 }  // namespace

@@ -9,11 +9,15 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/smoother/level_lines/turns.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::on_its_side;
+using test::upright;
+using test::upside_down;
 using test::world;
 
 constexpr std::int32_t coarse = 6;  ///< squares of edge 1 in a row
@@ -56,10 +60,6 @@ Mesh two_levels(const Place& place) {
   mesh.owned_nodes = size32(mesh.points);
   return mesh;
 }
-
-Point upright(Point p) { return p; }
-Point on_its_side(Point p) { return {-p.y, p.x}; }
-Point upside_down(Point p) { return {-p.x, -p.y}; }
 
 /// This rank's part with its lines moved.
 Mesh with_lines_moved(const Mesh& whole, const MeshOrder& order, const std::vector<char>& pinned = {},

@@ -13,6 +13,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "smoother/level_lines/level_lines.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/smoother/level_lines/turns.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 #include "tests/support/world.hpp"
 
@@ -20,9 +21,10 @@ namespace quadloop {
 namespace {
 
 using test::self;
+using test::upright;
 using test::world;
 
-constexpr double threshold = 0.05;
+constexpr double line_threshold = 0.05;
 constexpr int columns = 12, rows = 9;  ///< of squares of edge 2
 
 /// Squares of edge 2 above a line, halved ones of edge 1 below it, all of them halved: those on the lattice's
@@ -102,14 +104,13 @@ class Levels {
 
 int straight(int) { return 4; }
 int stepped(int i) { return i < 4 ? 4 : i < 6 ? 5 : i < 7 ? 6 : i < 10 ? 7 : 5; }
-Point upright(Point p) { return p; }
 
 Mesh moved(const Communicator& comm, Mesh part, const std::vector<char>& pinned = {}) {
   HaloMesh halo(comm, part);
   const NodeFlags near(part.points.size(), 1);
   NodeFlags pins;
   for (const char flag : pinned) pins.push_back(flag);
-  move_triangle_lines(comm, halo, near, pins, threshold);
+  move_triangle_lines(comm, halo, near, pins, line_threshold);
   std::copy_n(halo.points().begin(), part.points.size(), part.points.begin());
   return part;
 }

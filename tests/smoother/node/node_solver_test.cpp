@@ -6,17 +6,17 @@
 
 #include "smoother/node/method.hpp"
 #include "smoother/node/newton.hpp"
+#include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
 namespace {
 
 using test::Cells;
+using test::degrees_rounding;
 using test::Random;
+using test::rounding;
 using test::uniform;
-
-constexpr double rounding = 1e-12;
-constexpr double degrees_rounding = 1e-9;
 
 class EachSolver : public testing::TestWithParam<std::tuple<Method, Objective>> {
  protected:

@@ -8,15 +8,15 @@
 #include <numbers>
 #include <numeric>
 
+#include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
 namespace {
 
 using test::Random;
+using test::rounding;
 using test::uniform;
-
-constexpr double rounding = 1e-12;
 
 CornerForm corner_of(Point e1, Point e2) { return corner_form({0, 0}, e1, e2); }
 double cost_of(Point e1, Point e2, const CornerTarget& target) {

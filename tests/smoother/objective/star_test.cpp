@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "smoother/objective/objective.hpp"
+#include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
 namespace quadloop {
@@ -17,9 +18,8 @@ namespace {
 
 using test::Cells;
 using test::Random;
+using test::rounding;
 using test::uniform;
-
-constexpr double rounding = 1e-12;
 
 /// Calls `check(star, random)` for many stars of all kinds.
 template <class Check>

@@ -8,10 +8,13 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/smoother/rounding.hpp"
+
 namespace quadloop {
 namespace {
 
-constexpr double rounding = 1e-12;
+using test::rounding;
+
 const double slope_length = std::sqrt(4.04);  // of the two lower segments of the box
 
 /// A box, its lower side bent a little at vertex 0, round a square hole:

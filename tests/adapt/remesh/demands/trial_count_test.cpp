@@ -12,15 +12,8 @@ namespace {
 
 using test::world;
 
-/// A square of 8 x 8 leaves.
-MeshInput square_input() {
-  MeshInput input = test::square_input(0.125);
-  input.mesh.size.root = RootOptions{{0, 0}, 1, 1, 1};
-  return input;
-}
-
 TEST(TrialCount, IsThatOfTheMesh) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(0.125);
   const TrialCount count(world(), input, {});
   EXPECT_EQ(count.nodes_after({}).least, 81);
   EXPECT_EQ(count.nodes_after({}).most, 81);
@@ -38,7 +31,7 @@ TEST(TrialCount, IsThatOfTheMesh) {
 }
 
 TEST(TrialCount, KeepsToWhatIsAllowed) {
-  MeshInput input = square_input();
+  MeshInput input = test::square_of_one_tree(0.125);
   input.mesh.limit.cells = 8;
   const TrialCount count(world(), input, {});
   EXPECT_FALSE(count.allowed({}));

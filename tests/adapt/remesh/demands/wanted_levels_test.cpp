@@ -11,20 +11,15 @@
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/sensor/wanted_size.hpp"
 #include "mesher/base/error.hpp"
+#include "tests/adapt/remesh/circular_front.hpp"
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
 namespace {
 
+using test::circular_front;
 using test::world;
-
-/// A square of 16 x 16 leaves of level 4.
-MeshInput square_input() {
-  MeshInput input = test::square_input(1.0 / 16);
-  input.mesh.size.root = RootOptions{{0, 0}, 1, 1, 1};
-  return input;
-}
 
 AdaptOptions sizes_for(std::int64_t nodes) {
   AdaptOptions options;
@@ -35,7 +30,6 @@ AdaptOptions sizes_for(std::int64_t nodes) {
   return options;
 }
 
-double front(Point p) { return std::tanh(30 * (std::hypot(p.x, p.y) - 0.6)); }
 double quadratic(Point p) { return p.x * p.x; }
 double linear(Point p) { return p.x; }
 
@@ -54,7 +48,7 @@ std::int64_t leaves_of_level(const TreeRecord& tree, int level) {
 }
 
 TEST(SplitsForLevels, JumpUpAndDownByAnyNumber) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const SolvedMesh base = solved(world(), input, linear);
   ASSERT_EQ(leaves_of_level(base.tree, 4), 256);
   std::vector<std::int8_t> levels(base.tree.leaves.size(), 0);
@@ -90,7 +84,7 @@ TEST(SplitsForLevels, JumpUpAndDownByAnyNumber) {
 }
 
 TEST(WantedLevels, FollowTheFormula) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const SolvedMesh mesh = solved(world(), input, quadratic);  // of one size everywhere
   const WantedLevels wanted(world(), sizes_for(1000), mesh, 10);
   EXPECT_FALSE(wanted.flat());
@@ -110,7 +104,7 @@ TEST(WantedLevels, FollowTheFormula) {
 }
 
 TEST(WantedLevels, OfALinearFieldAskForNothing) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const SolvedMesh mesh = solved(world(), input, linear);
   EXPECT_TRUE(WantedLevels(world(), sizes_for(1000), mesh, 10).flat());
   const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(1000), mesh);
@@ -120,12 +114,12 @@ TEST(WantedLevels, OfALinearFieldAskForNothing) {
 }
 
 TEST(SizePlan, MeetsTheNumberOfNodesAndLowersTheError) {
-  const MeshInput input = square_input();
-  const SolvedMesh coarse = solved(world(), input, front);
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
+  const SolvedMesh coarse = solved(world(), input, circular_front);
   const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(3000), coarse);
   EXPECT_GT(plan.refined, 0);
   ASSERT_TRUE(plan.estimate.has_value());
-  const SolvedMesh fine = solved(world(), input, front, &plan);
+  const SolvedMesh fine = solved(world(), input, circular_front, &plan);
   const std::int64_t nodes = fine.tree.attributes.nodes;
   EXPECT_LE(nodes, 3000);
   EXPECT_GE(nodes, 2550);
@@ -134,20 +128,20 @@ TEST(SizePlan, MeetsTheNumberOfNodesAndLowersTheError) {
   // Fewer nodes than there are: leaves go that adaptation had made.
   const AdaptationPlan fewer = plan_adaptation(world(), input, sizes_for(1500), fine);
   EXPECT_GT(fewer.coarsened, 0);
-  const std::int64_t left = solved(world(), input, front, &fewer).tree.attributes.nodes;
+  const std::int64_t left = solved(world(), input, circular_front, &fewer).tree.attributes.nodes;
   EXPECT_LE(left, 1500);
   EXPECT_GE(left, 1200) << "few leaves, and large steps";
 }
 
 /// That of the error of sizes which follow the front, over that of one size everywhere with as many nodes.
 TEST(SizePlan, ConvergesWithSecondOrder) {
-  const MeshInput input = square_input();
-  SolvedMesh mesh = solved(world(), input, front);
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
+  SolvedMesh mesh = solved(world(), input, circular_front);
   AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(2000), mesh);
   std::vector<double> errors, nodes;
   for (const std::int64_t wanted : {2000, 4000, 8000, 16000}) {
     plan = plan_adaptation(world(), input, sizes_for(wanted), mesh);
-    mesh = solved(world(), input, front, &plan);
+    mesh = solved(world(), input, circular_front, &plan);
     nodes.push_back(static_cast<double>(mesh.tree.attributes.nodes));
     errors.push_back(*plan_adaptation(world(), input, sizes_for(wanted), mesh).estimate);
   }
@@ -156,43 +150,45 @@ TEST(SizePlan, ConvergesWithSecondOrder) {
 }
 
 TEST(SizePlan, GrowsByNoMoreThanItMay) {
-  const MeshInput input = square_input();
-  const SolvedMesh mesh = solved(world(), input, front);  // 289 nodes
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
+  const SolvedMesh mesh = solved(world(), input, circular_front);  // 289 nodes
   AdaptOptions options = sizes_for(5000);
   options.growth = 2;
   const AdaptationPlan plan = plan_adaptation(world(), input, options, mesh);
-  const std::int64_t nodes = solved(world(), input, front, &plan).tree.attributes.nodes;
+  const std::int64_t nodes = solved(world(), input, circular_front, &plan).tree.attributes.nodes;
   EXPECT_LE(nodes, 578);
   EXPECT_GE(nodes, 500);
 }
 
 TEST(SizePlan, SaysWhenCaseAndGeometryPassTheCap) {
-  const MeshInput input = square_input();
-  const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(20), solved(world(), input, front));
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
+  const AdaptationPlan plan =
+      plan_adaptation(world(), input, sizes_for(20), solved(world(), input, circular_front));
   EXPECT_EQ(plan.refined, 0);
   ASSERT_FALSE(plan.warnings.empty());
   EXPECT_NE(plan.warnings[0].find("adapt.max_nodes allows 20"), std::string::npos) << plan.warnings[0];
 }
 
 TEST(SizePlan, KeepsToWhatIsAllowedAndSaysSo) {
-  MeshInput input = square_input();
-  const SolvedMesh mesh = solved(world(), input, front);
+  MeshInput input = test::square_of_one_tree(1.0 / 16);
+  const SolvedMesh mesh = solved(world(), input, circular_front);
   input.mesh.limit.cells = 1500;
   const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(20000), mesh);
   ASSERT_FALSE(plan.warnings.empty());
   EXPECT_NE(plan.warnings[0].find("--max-cells"), std::string::npos) << plan.warnings[0];
   EXPECT_GT(plan.refined, 0);
   input.mesh.limit.cells = MeshLimit::none;
-  EXPECT_LT(solved(world(), input, front, &plan).tree.attributes.nodes, 2500);
+  EXPECT_LT(solved(world(), input, circular_front, &plan).tree.attributes.nodes, 2500);
   EXPECT_TRUE(plan_adaptation(world(), input, sizes_for(3000), mesh).warnings.empty());
 }
 
 TEST(SizePlan, IsTheSameOnAnyNumberOfRanks) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const Communicator alone(MPI_COMM_SELF);
   const auto points_by = [&](const Communicator& comm) {
-    const AdaptationPlan plan = plan_adaptation(comm, input, sizes_for(2000), solved(comm, input, front));
-    const SolvedMesh next = solved(comm, input, front, &plan);
+    const AdaptationPlan plan =
+        plan_adaptation(comm, input, sizes_for(2000), solved(comm, input, circular_front));
+    const SolvedMesh next = solved(comm, input, circular_front, &plan);
     std::vector<Point> points =
         comm.all_gather_values(std::span(next.mesh.points).first(next.mesh.owned_nodes));
     points.push_back({*plan.estimate, 0});
@@ -202,10 +198,10 @@ TEST(SizePlan, IsTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(SizePlan, NamesTheFileOfAMissingVariable) {
-  const MeshInput input = square_input();
+  const MeshInput input = test::square_of_one_tree(1.0 / 16);
   AdaptOptions options = sizes_for(1000);
   options.variables = {"entropy"};
-  const SolvedMesh mesh = solved(world(), input, front);
+  const SolvedMesh mesh = solved(world(), input, circular_front);
   try {
     plan_adaptation(world(), input, options, mesh);
     FAIL();

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "mesher/base/error.hpp"
+#include "tests/adapt/sensor/infinite.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -15,10 +16,10 @@ namespace quadloop {
 namespace {
 
 using test::field_of;
+using test::infinite;
 using test::world;
 
-constexpr double infinite = std::numeric_limits<double>::infinity(),
-                 not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A grid of 16 nodes at (i / 3, j / 3), spread over the ranks.
 Mesh grid_part() {

@@ -10,12 +10,12 @@
 namespace quadloop::euler {
 namespace {
 
-constexpr std::size_t rows = 7;
+constexpr std::size_t own_rows = 7;
 
 /// Each rank's own rows, coupled within the row alone: not symmetric, and of another size in each row.
 void multiply(NodeRows& x, NodeRows& product) {
   product.assign(x.size(), {});
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = 0; i < own_rows; ++i) {
     for (std::size_t k = 0; k < 4; ++k)
       product[i][k] = static_cast<double>(2 + i + k) * x[i][k] + 0.7 * x[i][(k + 1) % 4];
   }
@@ -23,14 +23,14 @@ void multiply(NodeRows& x, NodeRows& product) {
 
 KrylovSystem system_of_rows() {
   KrylovSystem system;
-  system.owned = rows;
+  system.owned = own_rows;
   system.multiply = multiply;
   system.precondition = [](const NodeRows& right, NodeRows& x) { x = right; };
   return system;
 }
 
 NodeRows right_side() {
-  NodeRows right(rows + 2);  // two that do not count
+  NodeRows right(own_rows + 2);  // two that do not count
   for (std::size_t i = 0; i < right.size(); ++i) {
     for (std::size_t k = 0; k < 4; ++k) right[i][k] = std::cos(static_cast<double>(4 * i + k));
   }
@@ -45,7 +45,7 @@ TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
     EXPECT_LE(end.residual, 1e-12) << restart;
     EXPECT_LE(end.iterations, restart == 40 ? 28 : 200);
     multiply(x, product);
-    for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t i = 0; i < own_rows; ++i) {
       for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(product[i][k], right[i][k], 1e-11);
     }
   }
@@ -57,7 +57,7 @@ TEST(Krylov, SolvesABadlyScaledSystemInOneGo) {
   const auto factor = [](std::size_t i) { return std::pow(10.0, static_cast<double>(i)); };
   system.multiply = [&](NodeRows& x, NodeRows& product) {
     multiply(x, product);
-    for (std::size_t i = 0; i < rows; ++i) {
+    for (std::size_t i = 0; i < own_rows; ++i) {
       for (double& value : product[i]) value *= factor(i);
     }
   };
@@ -79,7 +79,8 @@ TEST(Krylov, StopsAtWhatIsNoNumber) {
 TEST(Krylov, EndsWhereItMay) {
   NodeRows x;
   EXPECT_EQ(solve_by_gmres(test::world(), system_of_rows(), right_side(), x, 1e-12, 5, 5).iterations, 5);
-  const KrylovEnd nothing = solve_by_gmres(test::world(), system_of_rows(), NodeRows(rows), x, 1e-12, 50, 5);
+  const KrylovEnd nothing =
+      solve_by_gmres(test::world(), system_of_rows(), NodeRows(own_rows), x, 1e-12, 50, 5);
   EXPECT_EQ(nothing.iterations, 0);
   EXPECT_EQ(nothing.residual, 0);
 }

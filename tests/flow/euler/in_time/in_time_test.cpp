@@ -205,13 +205,13 @@ EulerOptions carried() {
   return options;
 }
 
-Mesh ring() {
+Mesh coarse_ring() {
   const Mesh whole = test::ring_mesh(24, 8, 0.3, 6);
   return scatter_mesh(world(), whole, space_filling_order(whole));
 }
 
 TEST(CarryOn, LeavesMeansAndTheFlowAtTheEnd) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   for (const std::optional<double> step : {std::optional<double>{}, std::optional{0.05}}) {
     EulerOptions options = carried();
     options.time_step = step;
@@ -235,7 +235,7 @@ TEST(CarryOn, LeavesMeansAndTheFlowAtTheEnd) {
 }
 
 TEST(CarryOn, GoesOnFromTheEndOfAMean) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   EulerOptions options = carried();
   options.time_step = 0.05;
   const EulerResult first = solve_euler(world(), mesh, options),
@@ -251,7 +251,7 @@ TEST(CarryOn, GoesOnFromTheEndOfAMean) {
 }
 
 TEST(CarryOn, EndsWhereTheFlowIsSteadyAfterAll) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   EulerOptions options = carried();
   options.alpha = 0;
   options.tolerance = 0.02;
@@ -289,7 +289,7 @@ Field hopeless_at_end(const Mesh& mesh) {
 }
 
 TEST(CarryOn, FallsBackToTheSteadyFlow) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   EulerOptions options = carried(), steady = options;
   steady.unsteady = EulerOptions::Unsteady::stop;
   const Field start = hopeless(mesh, euler_names);
@@ -312,7 +312,7 @@ TEST(CarryOn, FallsBackToTheSteadyFlow) {
 }
 
 TEST(CarryOn, FallsBackToASteadyFlowFromAStartThatCannotGoOn) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   const Field start = hopeless_at_end(mesh);
   for (const double viscosity : {0.0, 1e-3}) {  // with one the means slip along walls, as carried flows do
     EulerOptions options = carried();
@@ -354,7 +354,7 @@ TEST(MarchInTime, TellsOfStepsThatWereNotSolvedWithoutMeansToo) {
 }
 
 TEST(CarryOn, RefusesStepsWithoutEnd) {
-  const Mesh mesh = ring();
+  const Mesh mesh = coarse_ring();
   const auto refusal = [&mesh](const EulerOptions& options) -> std::string {
     try {
       solve_euler(world(), mesh, options);
