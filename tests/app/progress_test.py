@@ -78,7 +78,7 @@ class Progress(ProgramTest):
 
     def test_a_solver_shows_steps_residual_and_cycle(self):
         self.write("flow.toml", '[geometry]\nfile = "box.geom"\n[spacing]\nmin = 0.0025\nmax = 0.005\n[boundary.box]\nspacing = 0.005\nbc = "farfield"\n'
-                   '[solver]\nmach = 0.5\ninitial = "vortex"\niterations = 150\ntolerance = 1e-14\n[adapt]\nvariable = "density"\ncycles = 0\n')
+                   '[solver]\nmach = 0.5\ninitial = "vortex"\niterations = 30\ntolerance = 1e-14\n[adapt]\nvariable = "density"\ncycles = 0\n')
         status, text = self.on_terminal("adapt", "flow.toml", "-o", "run")
         self.assertEqual(status, 0, text)
         self.assertRegex(text, r"cycle 0 of 0: solving +\d+ %  step \d+  residual")

@@ -21,9 +21,13 @@ def lines_of_ours(text):
     return [line for line in text.splitlines() if line.startswith("quadloop")]
 
 
+# After a rank has ended with an error mpirun waits so many seconds before it kills the others, which have ended too.
+AT_ONCE = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0")
+
+
 def run(program, mpirun, ranks, arguments, folder):
     launcher = [mpirun, "-n", str(ranks)] if ranks > 1 else []
-    return subprocess.run(launcher + [program] + arguments, cwd=folder, capture_output=True, text=True, timeout=60)
+    return subprocess.run(launcher + [program] + arguments, cwd=folder, capture_output=True, text=True, timeout=60, env=AT_ONCE)
 
 
 def faults_of(refusal, program, mpirun, ranks):

@@ -1,6 +1,7 @@
 """What the tests of the adaptive loop share: a tiny case with a solver that can be told to fail, and folders compared. Standard library only."""
 import filecmp
 import json
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -96,7 +97,8 @@ def attempt(program, *words, ranks=1):
     """(exit status, what stands on stderr) of a command that may fail."""
     command = command_of(program, ranks, *words)
     print("+", " ".join(command), flush=True)
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    at_once = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0")  # mpirun would wait a second before it kills ranks that have ended too
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300, env=at_once)
     return done.returncode, done.stderr
 
 
