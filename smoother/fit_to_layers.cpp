@@ -13,9 +13,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr double lowest_cells = 0.75,
-                 highest_cells = 2;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;     // ratio of neighbouring widths that is left
+constexpr double least_height_ratio = 0.75,
+                 largest_height_ratio = 2;  // heights of cells, over that of the last layer, that are left
+constexpr double steepest = 1.3;            // ratio of neighbouring widths that is left
 constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
 constexpr double height_of_equilateral = 0.8660254;  // over its width
 constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes
@@ -135,7 +135,7 @@ class LayerFit {
     NodeFlags flags(mesh_.points().size(), 0);
     for (const FrontCell& cell : cells_) {
       const double ratio = height_of(cell) / cell.last_layer;
-      if (ratio < lowest_cells || ratio > highest_cells) flag_all(cell.all(), flags);
+      if (ratio < least_height_ratio || ratio > largest_height_ratio) flag_all(cell.all(), flags);
     }
     for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes()})) {
       if (is_uneven(node)) flags[node] = 1;

@@ -7,7 +7,7 @@ namespace quadloop::euler {
 namespace {
 
 constexpr int patience = 4, longer_patience = 40;  ///< turns in a row before the share falls; where it is
-                                                   ///< small_share already: then the node is slow
+                                                   ///< small already: then the node is slow
 /// A change counts as a turn where it takes back that much of the one before.
 constexpr float turned_back = -0.8F;
 constexpr double share_fall = 0.5, share_rise = 1.02, small_share = 0.03, least_step_share = 1e-3;

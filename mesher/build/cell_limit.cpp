@@ -12,7 +12,7 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_named = 3;
-constexpr double safety = 0.8;  // of a setting that is said to fit: it is known from a sample
+constexpr double share_that_fits = 0.8;  // of the limit: the share is estimated from a sample
 
 /// Rounded up to two digits.
 double rounded_up(double value) {
@@ -64,7 +64,7 @@ class Relaxation {
     const LeafEstimate leaves = estimate_leaves(domain.sizes);
     return share_of(limit_, estimate_mesh(geometry, type_, domain, leaves));
   }
-  bool fits(const SizeSettings& settings) const { return share_with(settings) <= safety; }
+  bool fits(const SizeSettings& settings) const { return share_with(settings) <= share_that_fits; }
 
   /// Changes the setting, which is then no longer among the demands.
   double loosen(std::vector<CellDemand>& demands, std::vector<CellDemand>::iterator demand) {
@@ -137,7 +137,8 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);
     const LeafEstimate leaves = estimate_leaves(domain.sizes);
-    const bool fits = share_of(limit, estimate_mesh(geometry, options.type, domain, leaves)) <= safety;
+    const bool fits =
+        share_of(limit, estimate_mesh(geometry, options.type, domain, leaves)) <= share_that_fits;
     if (fits && demanded.for_layers())
       return "the leaves that the case asks for are too large for its layers to stand on, and smaller ones "
              "there "

@@ -1,5 +1,4 @@
 # Every library that the door stands on, each as one imported target; those of the program alone are in ProgramDependencies.cmake.
-set(MPI_CXX_SKIP_MPICXX ON) # the C++ classes of mpi.h, which nobody calls, take the compiler half a second for each file
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Boost REQUIRED)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE) # a notice that tells a user of ours nothing

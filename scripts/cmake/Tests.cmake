@@ -35,8 +35,7 @@ function(quadloop_label_test name)
   if(NOT QUADLOOP_SANITIZED EQUAL -1)
     math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
   endif()
-  # Ranks wait for one another, and a launcher sleeps while it starts them, so scripts/test runs four tests at once on two cores. What may take
-  # longest starts first.
+  # The tests with the longest timeouts start first, so that none of them runs alone at the end.
   set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT ${TEST_TIMEOUT} COST ${TEST_TIMEOUT}
                                           ENVIRONMENT "${QUADLOOP_TEST_ENVIRONMENT}")
 endfunction()

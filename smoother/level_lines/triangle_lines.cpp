@@ -154,7 +154,7 @@ constexpr double least_side = 1e-300;  ///< length of a box's side
 
 bool near(double a, double b, double whole) { return std::abs(a - b) <= relative_rounding * whole; }
 
-/// From the least_side of three coordinates to the largest.
+/// From the least of three coordinates to the largest.
 struct Extent {
   double low, length;
 };

@@ -1,6 +1,7 @@
 """sources_alone.py SOURCES [PATTERN]: every source compiles by itself, as the preset `files` does it, and so includes what it uses: in a unit of the
 preset `release` the sources before it may have included that. The compiler checks without generating code; only sources that match PATTERN."""
 import json
+import os
 import re
 import subprocess
 import sys
@@ -19,7 +20,7 @@ with tempfile.TemporaryDirectory() as build:
         done = subprocess.run(command, shell=True, cwd=entry["directory"], stderr=subprocess.PIPE, text=True)
         return entry["file"], done.returncode, done.stderr
 
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
         failed = [(file, errors) for file, status, errors in pool.map(check, commands) if status != 0]
 for file, errors in failed:
     print(f"{file}:\n{errors[:2000]}")

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-build = Path(sys.argv[1]).resolve()
+build = Path(sys.argv[1]).absolute()
 copied = set()
 for script in build.rglob("cmake_install.cmake"):
     copied.update(re.findall(rf'"{re.escape(str(build))}/(\S+?(?:\.a|/quadloop))"', script.read_text()))

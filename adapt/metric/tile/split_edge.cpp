@@ -9,7 +9,7 @@ namespace quadloop {
 namespace {
 
 /// No new edge is shorter than this in the metric.
-constexpr double shortest_half = 0.5;
+constexpr double least_new_length = 0.5;
 
 /// Where an edge is divided.
 struct Division {
@@ -63,7 +63,7 @@ bool is_sound(const TileMesh& mesh, const TileMesh::Edge& edge, const Division& 
   const std::int32_t a = t == edge.left ? edge.a : edge.b, b = t == edge.left ? edge.b : edge.a;
   if (!is_positive(mesh.point(a), division.at, mesh.point(c))) return false;
   if (!is_positive(division.at, mesh.point(b), mesh.point(c))) return false;
-  if (length_between(exp_of(division.metric), mesh.metric(c), mesh.point(c) - division.at) < shortest_half)
+  if (length_between(exp_of(division.metric), mesh.metric(c), mesh.point(c) - division.at) < least_new_length)
     return false;
   return keeps_quality(mesh, t, {a, b, c}, division);
 }

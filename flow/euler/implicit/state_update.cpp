@@ -10,10 +10,10 @@ namespace {
 constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
 /// Of the free stream's density and pressure: a node that has less, as behind a blunt body while the flow
 /// starts, may gain faster, or it would take hundreds of steps to leave a vacuum.
-constexpr double small_relative = 0.1;
+constexpr double least_reference = 0.1;
 
-double relative_change(double change, double value, double least_value) {
-  return change < 0 ? -change / value : change / std::max(value, least_value);
+double relative_change(double change, double value, double least_divisor) {
+  return change < 0 ? -change / value : change / std::max(value, least_divisor);
 }
 
 }  // namespace
@@ -21,8 +21,8 @@ double relative_change(double change, double value, double least_value) {
 State updated(const Gas& gas, const State& state, const std::array<double, 4>& d) {
   const auto& [rho, u, v, p] = state;
   const double d_pressure = (gas.gamma - 1) * (0.5 * (u * u + v * v) * d[0] - u * d[1] - v * d[2] + d[3]);
-  const double relative = std::max(relative_change(d[0], rho, small_relative),
-                                   relative_change(d_pressure, p, small_relative / gas.gamma));
+  const double relative = std::max(relative_change(d[0], rho, least_reference),
+                                   relative_change(d_pressure, p, least_reference / gas.gamma));
   double share = relative > largest_share ? largest_share / relative : 1;
   const Conserved w = gas.conserved(state);
   for (int attempt = 0; attempt < 10; ++attempt) {
