@@ -107,6 +107,7 @@ Marks::Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
 
 std::int64_t Marks::refined() const { return plan_->refined; }
 std::int64_t Marks::coarsened() const { return plan_->coarsened; }
+bool Marks::changes_mesh() const { return plan_->changes_mesh(); }
 const std::vector<std::string>& Marks::warnings() const { return plan_->warnings; }
 
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {

@@ -100,7 +100,9 @@ class Marks {
   std::int64_t refined() const;  ///< leaves, of all ranks
   std::int64_t coarsened() const;
   const std::vector<std::string>& warnings() const;  ///< why nothing is marked, what was not reached
-  bool changes_mesh() const { return refined() + coarsened() > 0; }
+  /// Whether remesh() makes a mesh that differs from the last one: by refined or coarsened leaves, a metric,
+  /// targets of nodes, or new first heights of layers.
+  bool changes_mesh() const;
 
  private:
   Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan);

@@ -144,6 +144,13 @@ std::optional<std::string> CaseTable::text(const std::string& key) const {
   return Lookup(*this, key).text(*as_table(table_).get(key));
 }
 
+bool CaseTable::flag(const std::string& key) const {
+  if (!has(key)) return false;
+  const std::optional<bool> value = as_table(table_).get(key)->value_exact<bool>();
+  if (!value) refuse(key, "must be true or false");
+  return *value;
+}
+
 std::optional<std::string> CaseTable::choice(const std::string& key,
                                              const std::vector<std::string>& words) const {
   const auto word = text(key);

@@ -36,6 +36,8 @@ class CaseTable {
   bool is_text(const std::string& key) const;
   std::optional<double> number(const std::string& key, const Range& range = {}) const;
   std::optional<std::string> text(const std::string& key) const;
+  /// true or false; false where the key is absent.
+  bool flag(const std::string& key) const;
   /// One of the given words.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count,

@@ -23,7 +23,17 @@ std::map<std::string, GeometryReader>& readers() {
   return all;
 }
 
+/// In small letters.
+std::string suffix_of_geometry(const std::string& path) {
+  std::string suffix = std::filesystem::path(path).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
 }  // namespace
+
+bool is_airfoil_file(const std::string& path) { return suffix_of_geometry(path) == ".dat"; }
 
 std::vector<std::string> geometry_suffixes() {
   std::vector<std::string> all{".geom", ".dat"};
@@ -34,9 +44,7 @@ std::vector<std::string> geometry_suffixes() {
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
-  std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string suffix = suffix_of_geometry(path);
   const auto reader = readers().find(suffix);
   if (reader != readers().end()) return reader->second(path, warnings);
   if (std::find(gis_suffixes.begin(), gis_suffixes.end(), suffix) != gis_suffixes.end())

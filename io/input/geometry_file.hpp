@@ -15,6 +15,9 @@ namespace quadloop {
 /// told by a warning each.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings);
 
+/// Whether the suffix is that of a file of airfoil coordinates, which outline a body.
+bool is_airfoil_file(const std::string& path);
+
 /// The same as an outline, whose domain is known from a mesh on it: nobody is told of loops that were turned,
 /// nor of several domains. Throws InputError as assemble() does too.
 Geometry read_outline(const std::string& path, std::vector<std::string>& warnings);

@@ -179,7 +179,9 @@ std::vector<LoopNesting> Sweep::nestings() const {
     const LoopNesting& other =
         nestings[flat_.loop(below)];  // begun before: its first point lies further left
     const bool rightwards = flat_.point(below) < flat_.point(flat_.next(below));
-    loop.depth = other.depth + (rightwards == other.counter_clockwise ? 1 : 0);
+    const bool within = rightwards == other.counter_clockwise;
+    loop.depth = other.depth + (within ? 1 : 0);
+    loop.parent = within ? static_cast<std::int32_t>(flat_.loop(below)) : other.parent;
   }
   return nestings;
 }

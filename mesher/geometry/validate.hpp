@@ -10,6 +10,7 @@ namespace quadloop {
 /// How one loop lies among the others.
 struct LoopNesting {
   std::int32_t depth = 0;          ///< number of loops around it
+  std::int32_t parent = -1;        ///< the innermost of them; -1: none
   bool counter_clockwise = false;  ///< as it is given
 };
 

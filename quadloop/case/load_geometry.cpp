@@ -46,6 +46,7 @@ void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved) {
   std::vector<Chain> chains;
+  AssembleOptions options = settings.outline;
   for (const GeometryInput& input : settings.files) {
     std::error_code no_such_file;
     if (!std::filesystem::exists(input.path, no_such_file)) {
@@ -55,6 +56,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     }
     std::vector<Chain> of_file = read_geometry(input.path, warnings);
     apply(input.transform, of_file);
+    if (!settings.inside && is_airfoil_file(input.path)) {
+      for (const Chain& chain : of_file) options.bodies.push_back(chain.name);
+    }
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
   const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
@@ -63,8 +67,8 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     const auto& [half_width, where] = *settings.far_field;
     const Box square = far_field_box(chains, half_width, where);
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+    options.far_field = where;
   }
-  AssembleOptions options = settings.outline;
   if (settings.half)  // of the half alone there is a boundary of that name
     std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
   Geometry geometry = assemble(std::move(chains), options, warnings);

@@ -43,6 +43,7 @@ struct Settings {
   std::vector<std::pair<std::string, std::string>> values;
   std::vector<GeometryInput> files;
   std::optional<FarField> far_field;
+  bool inside = false;  ///< an airfoil without an outer boundary is meshed inside
   std::optional<HalfDomain> half;
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given

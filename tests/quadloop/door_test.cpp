@@ -63,6 +63,24 @@ TEST_F(Door, MeshesAdaptsAndChecks) {
   EXPECT_LT(std::abs(next.carried.relative_drift[0]), 0.05);
 }
 
+/// Neither a metric nor targets of nodes refine or coarsen a leaf, but the next mesh differs.
+TEST_F(Door, TheLoopGoesOnForAMetricAndForTargets) {
+  for (const std::vector<std::string>& settings :
+       {std::vector<std::string>{"mesh.type=metric", "adapt.norm=2", "adapt.max_nodes=900",
+                                 "adapt.min=0.005"},
+        std::vector<std::string>{"smooth.targets=solution", "adapt.min=0.1"}}) {
+    const Case square(world(), case_path(), settings);
+    NewMesh made = make_mesh(world(), square);
+    made.solved.solution = front(made.solved.mesh);
+    const Marks marks = sense(world(), square, made.solved);
+    EXPECT_EQ(marks.refined() + marks.coarsened(), 0) << settings.front();
+    ASSERT_TRUE(marks.changes_mesh()) << settings.front();
+    const NewMesh next = remesh(world(), square, marks, made.solved);
+    EXPECT_NE(next.solved.mesh.points, made.solved.mesh.points) << settings.front();
+    EXPECT_TRUE(check(world(), next.solved.mesh).empty()) << settings.front();
+  }
+}
+
 TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
   const Case square(world(), case_path());
   const Mesh mesh = make_mesh(world(), square).solved.mesh;

@@ -61,6 +61,35 @@ void warn_of_domains(const Outline& outline, const std::vector<LoopNesting>& nes
       outermost.size(), name, second.points.front().x, second.points.front().y));
 }
 
+const std::string& name_of(const Outline& outline, std::size_t loop) {
+  return outline.names[outline.loops[loop].boundary.front().value()];
+}
+
+/// A loop within a loop within the far field encloses a domain of its own, besides that of the far field.
+void require_far_field_only(const Outline& outline, const std::vector<LoopNesting>& nestings,
+                            const std::string& far_field) {
+  const auto inner = std::ranges::find(nestings, 2, &LoopNesting::depth);
+  if (far_field.empty() || inner == nestings.end()) return;
+  const std::size_t loop = inner - nestings.begin();
+  const Point at = outline.loops[loop].points.front();
+  throw InputError(fmt::format(
+      "{}: boundary '{}' already encloses a domain, with boundary '{}' at ({}, {}) in it; remove far_field, "
+      "or that inner boundary if '{}' is a solid body",
+      far_field, name_of(outline, inner->parent), name_of(outline, loop), at.x, at.y,
+      name_of(outline, inner->parent)));
+}
+
+void require_outer_boundary(const Outline& outline, const std::vector<LoopNesting>& nestings,
+                            const std::vector<std::string>& bodies) {
+  for (std::size_t l = 0; l < nestings.size(); ++l) {
+    if (nestings[l].depth > 0 || std::ranges::count(bodies, name_of(outline, l)) == 0) continue;
+    throw InputError(fmt::format(
+        "{}: boundary '{}' has no outer boundary around it; set geometry.far_field to add one, or "
+        "geometry.inside = true to mesh the inside of '{}'",
+        outline.loops[l].source, name_of(outline, l), name_of(outline, l)));
+  }
+}
+
 Geometry to_geometry(Outline outline, const AssembleOptions& options) {
   std::size_t size = 0;
   for (const OutlineLoop& loop : outline.loops) size += loop.points.size();
@@ -107,6 +136,8 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   }
   Outline outline = join_chains(std::move(chains));
   const std::vector<LoopNesting> nestings = validate(outline);
+  require_far_field_only(outline, nestings, options.far_field);
+  require_outer_boundary(outline, nestings, options.bodies);
   Warnings of_domain;
   orient(outline, nestings, of_domain);
   warn_of_domains(outline, nestings, of_domain);

@@ -16,6 +16,11 @@ struct AssembleOptions {
   double default_corner_degrees = 30;  ///< of boundaries without a rule of their own
   /// From a mesh, say: then nobody is told of loops that were turned, nor of several domains.
   bool domain_is_known = false;
+  /// The setting that added a boundary around all others, empty where none did. Then no other boundary may
+  /// enclose a domain.
+  std::string far_field;
+  /// Boundaries of bodies, such as airfoils: the flow is around them, so each needs an outer boundary.
+  std::vector<std::string> bodies;
 };
 
 /// Makes the outline of the domain from polylines: open chains are joined end to end (end points

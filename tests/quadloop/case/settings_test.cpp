@@ -91,6 +91,35 @@ formats = ["cgns"]
   EXPECT_EQ(g.boundary(BoundaryId{1}).corner_degrees, 20);
 }
 
+TEST_F(SettingsTest, AFarFieldRoundAnOuterBoundaryIsRefused) {
+  folder_.write("box.geom", "2\nbox\n4\n-4 -4\n6 -4\n6 4\n-4 4\nwedge\n3\n0 0\n1 0.2\n1 -0.2\n");
+  const std::string fault = refused("far_field = 20\n");
+  EXPECT_EQ(
+      fault.find("case.toml:3: 'geometry.far_field': boundary 'box' already encloses a domain, with boundary "
+                 "'wedge' at (0, 0) in it; remove far_field"),
+      0u)
+      << fault;
+  EXPECT_EQ(load(read("")).loop_count(), 2);
+}
+
+TEST_F(SettingsTest, AnAirfoilWithoutAnOuterBoundaryIsRefused) {
+  folder_.write("wing.dat", "wing\n1 0\n0.5 0.06\n0 0\n0.5 -0.06\n1 0\n");
+  const auto settings = [&](const std::string& keys) {
+    return read_settings(folder_.write("wing.toml", "[geometry]\nfile = \"wing.dat\"\n" + keys), {});
+  };
+  const std::string fault = test::refusal(folder_, [&] { load(settings("")); });
+  EXPECT_NE(
+      fault.find(
+          "has no outer boundary around it; set geometry.far_field to add one, or geometry.inside = true"),
+      std::string::npos)
+      << fault;
+  EXPECT_EQ(load(settings("inside = true\n")).loop_count(), 1);
+  EXPECT_EQ(load(settings("inside = false\nfar_field = 10\n")).loop_count(), 2);
+  EXPECT_NE(test::refusal(folder_, [&] { load(settings("inside = 1\n")); })
+                .find("'geometry.inside' must be true or false"),
+            std::string::npos);
+}
+
 TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
   const Settings open = read("far_field = 16\n[boundary.box]\nspacing = 0.125\n");
   const MeshOptions options = mesh_options(open, load(open));
