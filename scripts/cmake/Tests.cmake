@@ -73,7 +73,7 @@ function(quadloop_mpi_test name)
     endif()
     quadloop_label_test(${name}.${ranks} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" ${sanitize})
     if(ranks GREATER 1)
-      set_tests_properties(${name}.${ranks} PROPERTIES PROCESSORS 2) # its ranks do wait, but busily
+      set_tests_properties(${name}.${ranks} PROPERTIES PROCESSORS 2) # waiting ranks use their cores
     endif()
   endforeach()
 endfunction()
