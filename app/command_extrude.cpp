@@ -61,17 +61,35 @@ void require_one_way(const ExtrudeArguments& arguments) {
     throw UsageError("extrude wants both --layers N and --thickness T, the thickness of all layers together");
 }
 
+/// Beyond these bounds areas and volumes leave the range of double precision.
+void require_in_range(const std::vector<double>& heights, const std::string& source) {
+  constexpr double least = 1e-100, most = 1e100;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (std::abs(heights[i]) > most)
+      throw InputError(fmt::format("{}: the level at {} is out of range; heights reach to {:g} at most",
+                                   source, heights[i], most));
+    if (i > 0 && heights[i] - heights[i - 1] < least)
+      throw InputError(
+          fmt::format("{}: the layer from {} to {} is out of range; layers are {:g} thick at least", source,
+                      heights[i - 1], heights[i], least));
+  }
+}
+
 /// The same on every rank. *Collective.*
 std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
   std::vector<double> heights;
   if (arguments.heights.empty()) {
     heights = even_heights(arguments.layers, arguments.thickness);
-    if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) == heights.end()) return heights;
-    throw UsageError(fmt::format("--thickness {} is too little to be divided into {} layers",
-                                 arguments.thickness, arguments.layers));
+    if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) != heights.end())
+      throw UsageError(fmt::format("--thickness {} is too little to be divided into {} layers",
+                                   arguments.thickness, arguments.layers));
+    require_in_range(heights, "--thickness");
+    return heights;
   }
   comm.together([&] {
-    if (comm.is_root()) heights = read_heights(arguments.heights);
+    if (!comm.is_root()) return;
+    heights = read_heights(arguments.heights);
+    require_in_range(heights, arguments.heights);
   });
   comm.broadcast(heights);
   return heights;

@@ -80,6 +80,12 @@ class Extrude(ProgramTest):
         self.refused(1, ["1 heights"], "extrude", "a.mesh", "-o", "b.vtu", "--heights", "h.txt")
         self.assertFalse((self.folder / "b.vtu").exists())
 
+    def test_heights_out_of_range_are_refused(self):
+        self.write("far.txt", "0 1e308\n")
+        self.refused(1, ["far.txt: the level at 1e+308 is out of range", "1e+100"], "extrude", "a.mesh", "-o", "b.su2", "--heights", "far.txt")
+        self.refused(1, ["--thickness: the layer from 0 to ", "is out of range", "1e-100"],
+                     "extrude", "a.mesh", "-o", "b.su2", "--layers", "1", "--thickness", "1e-320")
+
     def test_the_solution_goes_along(self):
         (self.folder / "s.mesh").write_text(with_velocity((self.folder / "a.mesh").read_text()))
         self.done("extrude", "s.mesh", "-o", "s.vtu", *EVEN, "--axis", "y", "-q")
