@@ -107,7 +107,7 @@ int stepped(int i) { return i < 4 ? 4 : i < 6 ? 5 : i < 7 ? 6 : i < 10 ? 7 : 5; 
 
 Mesh moved(const Communicator& comm, Mesh part, const std::vector<char>& pinned = {}) {
   HaloMesh halo(comm, part);
-  const NodeFlags near(part.points.size(), 1);
+  const NodeFlags near(halo.points().size(), 1);
   NodeFlags pins;
   for (const char flag : pinned) pins.push_back(flag);
   move_triangle_lines(comm, halo, near, pins, line_threshold);
