@@ -22,6 +22,9 @@ install(TARGETS quadloop_options EXPORT quadloop)
 # instantiated once for all of them. Names in unnamed namespaces must therefore differ within a target.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
 
+# Targets in which meshing spends its time: each source is compiled by itself, as GCC inlines less in large units.
+set(QUADLOOP_HOT_MODULES geometry lattice delaunay sizes forest snap cut build smoother)
+
 # quadloop_compile_alone(source ...): sources that are compiled by themselves, as they need pragmas of their own or include a library that takes the
 # compiler long.
 function(quadloop_compile_alone)
@@ -40,6 +43,9 @@ function(quadloop_module name)
   add_library(quadloop::${name} ALIAS quadloop_${name})
   target_link_libraries(quadloop_${name} PUBLIC quadloop_options ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE})
   set_target_properties(quadloop_${name} PROPERTIES EXPORT_NAME ${name})
+  if(name IN_LIST QUADLOOP_HOT_MODULES)
+    set_target_properties(quadloop_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   if(NOT MODULE_PROGRAM)
     add_dependencies(installed quadloop_${name})
     install(TARGETS quadloop_${name} EXPORT quadloop${MODULE_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
