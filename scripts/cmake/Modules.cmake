@@ -25,8 +25,7 @@ set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
 # Targets in which meshing spends its time: each source is compiled by itself, as GCC inlines less in large units.
 set(QUADLOOP_HOT_MODULES geometry lattice delaunay sizes forest snap cut build smoother)
 
-# quadloop_compile_alone(source ...): sources that are compiled by themselves, as they need pragmas of their own or include a library that takes the
-# compiler long.
+# quadloop_compile_alone(source ...): sources that are compiled by themselves, as they include a library that takes the compiler long.
 function(quadloop_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
