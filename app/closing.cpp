@@ -24,12 +24,16 @@ bool print(const std::string& record) {
   return std::fputs(record.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
 }
 
+void print_line(const char* kind, std::string text) {
+  for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
+  fmt::print(stderr, "quadloop: {}: {}\n", kind, text);
+}
+
 void say(const Outcome& outcome) {
   print(outcome.record);
-  std::string line = "quadloop: error: " + outcome.message;
-  for (char& c : line) c = c == '\n' || c == '\r' ? ' ' : c;
   progress::clear();
-  fmt::print(stderr, "{}\n", line);
+  for (const std::string& warning : outcome.warnings) print_line("warning", warning);
+  print_line("error", outcome.message);
   std::fflush(stderr);
 }
 

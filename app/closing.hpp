@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mesher/base/error.hpp"
 
@@ -16,6 +17,7 @@ struct Outcome {
 
   ExitStatus status = ExitStatus::done;
   std::string message;  ///< one line, where the status is not `done`
+  std::vector<std::string> warnings;  ///< one line each, printed before that message
   /// For stdout: with `done` the root rank's is printed, else that of the rank that speaks.
   std::string record;
 };

@@ -1,6 +1,6 @@
 #include "app/command.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include "mesher/base/log.hpp"
 
@@ -17,15 +17,31 @@ std::string record_text(const CommandRecord& record, const Outcome& outcome) {
   return json.text() + "\n";
 }
 
-void CommandContext::warn(const std::vector<std::string>& warnings) const {
+namespace {
+
+/// Into the record. Returns those that are shown.
+std::vector<std::string> recorded(const CommandContext& context, std::vector<std::string> warnings) {
   constexpr std::size_t most_shown = 10;
+  std::vector<std::string>& all = context.record.warnings;
+  all.insert(all.end(), warnings.begin(), warnings.end());
+  if (context.quiet && context.json) return {};
+  if (context.verbose || warnings.size() <= most_shown) return warnings;
+  const std::size_t more = warnings.size() - most_shown;
+  warnings.resize(most_shown);
+  warnings.push_back(std::to_string(more) + " more warnings; --verbose shows them");
+  return warnings;
+}
+
+}  // namespace
+
+void CommandContext::warn(const std::vector<std::string>& warnings) const {
   if (!comm.is_root()) return;
-  record.warnings.insert(record.warnings.end(), warnings.begin(), warnings.end());
-  if (quiet && json) return;
-  const std::size_t shown = verbose ? warnings.size() : std::min(most_shown, warnings.size());
-  for (std::size_t i = 0; i < shown; ++i) log::warning(warnings[i]);
-  if (shown < warnings.size())
-    log::warning(std::to_string(warnings.size() - shown) + " more warnings; --verbose shows them");
+  for (const std::string& line : recorded(*this, std::exchange(record.noted, {}))) log::warning(line);
+  for (const std::string& line : recorded(*this, warnings)) log::warning(line);
+}
+
+std::vector<std::string> CommandContext::warnings_before_error() const {
+  return recorded(*this, std::exchange(record.noted, {}));
 }
 
 }  // namespace quadloop

@@ -16,6 +16,8 @@ struct CommandRecord {
   std::string command;
   JsonObject figures;                        ///< what the table says, on the root rank
   std::vector<std::string> warnings, files;  ///< all warnings; the files that were written
+  /// Warnings that the work has noted so far, which the user has not yet been told of. On every rank.
+  std::vector<std::string> noted = {};
 };
 
 /// The record of a command that ended so: {"command", "status", "error", figures ..., "warnings", "files"};
@@ -40,9 +42,11 @@ struct CommandContext {
 
   /// Whether this rank prints the table for people.
   bool shows_table() const { return comm.is_root() && !quiet && !json; }
-  /// From the root rank: the first few, unless `verbose`; all of them into the record, which with `quiet` is
-  /// the only place.
+  /// From the root rank, after those noted: the first few, unless `verbose`; all of them into the record,
+  /// which with `quiet` is the only place.
   void warn(const std::vector<std::string>& warnings) const;
+  /// Those noted join the record. Returns the lines to print of them before the error that ends the command.
+  std::vector<std::string> warnings_before_error() const;
 };
 
 void add_mesh_command(CommandLine& line, CommandContext& context);

@@ -68,8 +68,7 @@ std::string outline_to_keep(const CaseInput& input) {
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
                            std::optional<double>& morph_to, Warnings& warnings, std::string& note) {
-  CaseInput input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved});
-  warnings = std::move(input.warnings);
+  CaseInput input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
@@ -157,7 +156,6 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
-  Warnings warnings;
   std::string note;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
@@ -165,13 +163,12 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   comm.together([&] {
     std::optional<TreeAttributes> saved;
     if (former) saved = former->tree.attributes;
-    adaptive = adaptive_case(arguments, saved, morph_to, warnings, note);
+    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, note);
   });
   adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   if (comm.is_root() && !note.empty()) log::information(note);
   const std::string folder = folder_of(arguments);
-  if (former) context.warn(former->warnings);
-  context.warn(warnings);
+  context.warn(former ? former->warnings : Warnings{});
   std::set<std::string> told;
   std::vector<JsonObject> cycles;
   RunReport report;

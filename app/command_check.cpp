@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -56,12 +57,20 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   report.worst = worst_places(mesh, topology);
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh, topology);
+  report.regions = connected_regions(mesh, topology);
   report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});
   const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
   if (chains == nullptr || !has_cells) return report;
   report.fit = validate_geometry(mesh, *chains);
   report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
   return report;
+}
+
+std::string regions_warning(const CheckReport& report) {
+  const MeshRegions& regions = report.regions;
+  return fmt::format("{}: the mesh has {} connected regions; the smallest, of {} cells, has a node at ({}, {})",
+                     report.file, regions.count, regions.smallest_cells, regions.smallest_place.x,
+                     regions.smallest_place.y);
 }
 
 void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
@@ -84,6 +93,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded.blocks == 1);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
+  if (report.regions.count > 1) context.warn({regions_warning(report)});
   context.record.figures = report_record(report);
   if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
   if (!report.faults.empty()) refuse_invalid(report.file, report.faults);

@@ -188,18 +188,16 @@ void report(const CommandContext& context, const ConvertInput& input, const Conv
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
   ConvertInput input;
-  std::vector<std::string> warnings;
   comm.together([&] {
     output_format(arguments);
     if (!comm.is_root()) return;
     input = read_convert_input(arguments);
-    warnings = warnings_of(input, arguments);
+    context.record.noted = warnings_of(input, arguments);
   });
   PartFiles part_files(comm);
   const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
   write_output(comm, input, arguments);
   part_files.commit();
-  context.warn(warnings);
   if (comm.is_root()) report(context, input, arguments, parts);
 }
 

@@ -157,7 +157,7 @@ Figures figures_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, doubl
 void run_extrude(const CommandContext& context, const ExtrudeArguments& arguments) {
   const Communicator& comm = context.comm;
   require_one_way(arguments);
-  std::vector<std::string> warnings;
+  std::vector<std::string>& warnings = context.record.noted;
   std::vector<double> heights = heights_of(comm, arguments);
   LoadedMesh whole = load(context, arguments, warnings);
   const double area = comm.is_root() ? area_of(whole.mesh) : 0;
@@ -171,7 +171,6 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   OutputSet outputs(comm);
   write_solid(outputs, mesh, arguments.output);
   outputs.commit();
-  context.warn(warnings);
   if (!comm.is_root()) return;
   const Figures figures = figures_of(counts, mesh, area);
   context.record.figures = figures.record();

@@ -47,18 +47,19 @@ void require_prefix(const std::string& prefix) {
     throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
 }
 
-Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved) {
+Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved,
+                 Warnings& warnings) {
   require_prefix(arguments.prefix);
   Prepared prepared;
   CaseArguments of_case{arguments.case_path, arguments.assignments, {}, {}};
   if (!arguments.type.empty()) of_case.assignments.push_back("mesh.type=\"" + arguments.type + "\"");
   if (saved) of_case.saved = saved->attributes;
-  prepared.input = load_case(of_case);
+  prepared.input = load_case(of_case, warnings);
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
   std::erase_if(settings.formats, [&](const std::string& format) {
     if (format_named(format)->holds(Content::mesh)) return false;
-    prepared.input.warnings.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "output.formats: a .{} holds a solution alone, and a new mesh has none; it is left out", format));
     return true;
   });
@@ -147,7 +148,7 @@ Warnings first_mesh_warnings(const MeshInput& input) {
 }
 
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
-/// meshes, writes. Warnings come when all is done, so that a failure is one line.
+/// meshes, writes. Warnings come when all is done, or before the error.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
@@ -155,7 +156,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   std::optional<TreeRecord> saved;
   if (!arguments.tree.empty()) saved = read_tree(comm, arguments.tree);
   Prepared prepared;
-  comm.together([&] { prepared = prepare(arguments, saved); });
+  comm.together([&] { prepared = prepare(arguments, saved, context.record.noted); });
   MeshInput& input = *prepared.input.mesh;
   input.mesh.limit = mesh_limit(comm, arguments.max_cells);
   const DemandedSplits demanded(comm, saved ? standing_splits(*saved, input) : std::vector<SplitDemand>{});
@@ -169,7 +170,6 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const std::optional<PartFigures> parts =
       write_outputs(comm, generated.result, prepared, arguments.geometry_out);
   times.end();
-  context.warn(prepared.input.warnings);
   context.warn(generated.result.report.warnings);
   context.warn(
       saved ? unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes)

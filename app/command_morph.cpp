@@ -98,7 +98,7 @@ void require_other_outputs(const MorphArguments& arguments) {
 /// *Collective.*
 MorphInput load(const CommandContext& context, const MorphArguments& arguments) {
   MorphInput input;
-  Warnings warnings;
+  Warnings& warnings = context.record.noted;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
     require_outputs(arguments);
@@ -120,7 +120,6 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
     if (!arguments.output.empty()) append(losses_in(input.whole, arguments.output));
     input.order = space_filling_order(input.whole.mesh);
   });
-  context.warn(warnings);
   return input;
 }
 

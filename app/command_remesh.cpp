@@ -77,7 +77,9 @@ std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const Tre
   std::vector<MeshInput> inputs{*input.mesh};
   if (arguments.geometry.empty()) return inputs;
   try {
-    inputs.push_back(*load_case({arguments.case_path, arguments.assignments, {}, tree.attributes}).mesh);
+    Warnings of_other_outline;
+    inputs.push_back(
+        *load_case({arguments.case_path, arguments.assignments, {}, tree.attributes}, of_other_outline).mesh);
   } catch (const InputError& fault) {
     log::detail(std::string("the case's own outline is not at hand: ") + fault.what());
   }
@@ -140,7 +142,7 @@ std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& ca
 }
 
 /// *Collective.*
-RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments) {
+RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, Warnings& warnings) {
   if (arguments.tree.empty()) {
     throw UsageError(
         "--tree is required: 'quadloop mesh' writes it beside the mesh, as PREFIX.tree.h5; see 'quadloop "
@@ -150,7 +152,8 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments) {
   problem.tree = read_tree(comm, arguments.tree);
   comm.together([&] {
     const TreeAttributes& tree = problem.tree.attributes;
-    problem.input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, tree});
+    problem.input =
+        load_case({arguments.case_path, arguments.assignments, arguments.geometry, tree}, warnings);
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
@@ -232,20 +235,18 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
-  RemeshProblem problem = load(comm, arguments);
+  Warnings& warnings = context.record.noted;
+  RemeshProblem problem = load(comm, arguments, warnings);
   times.begin("compare");
-  Warnings warnings;
   const SolvedMesh solved = compare(comm, arguments, problem, warnings);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
   std::optional<CarriedMesh> carried = morph(comm, arguments, problem, solved, warnings);
-  warnings.insert(warnings.end(), problem.input.warnings.begin(), problem.input.warnings.end());
   if (!carried) carried = remesh(comm, problem, solved, times, warnings);
   times.append(carried->times);
   times.begin("write");
   const std::optional<PartFigures> parts = write(comm, *carried, problem);
   times.end();
-  context.warn(warnings);
   report(context, *carried, times, problem, parts);
 }
 

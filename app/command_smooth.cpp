@@ -86,7 +86,7 @@ void append(Warnings& warnings, const Warnings& more) {
 /// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Loaded loaded;
-  Warnings warnings;
+  Warnings& warnings = context.record.noted;
   std::vector<char> turned;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
@@ -114,7 +114,6 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   context.comm.broadcast(turned);
   if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
   loaded.delaunay = context.comm.any(loaded.delaunay);
-  context.warn(warnings);
   return loaded;
 }
 

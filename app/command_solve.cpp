@@ -41,7 +41,6 @@ struct SolveProblem {
   LoadedMesh whole;
   MeshOrder order;
   Field start;  ///< without variables: the flow starts as the case says
-  Warnings warnings;
 };
 
 void require_outputs(const std::string& output) {
@@ -92,9 +91,9 @@ SolveProblem load(const CommandContext& context, const SolveArguments& arguments
     if (!context.comm.is_root()) return;
     require_possible_outputs({arguments.output});
     problem.whole = read_mesh(arguments.input);
-    problem.warnings = problem.whole.warnings;
+    context.record.noted = problem.whole.warnings;
     problem.order = order_for_parts(problem.whole.mesh);
-    problem.start = start_of(problem.whole, arguments.input, problem.warnings);
+    problem.start = start_of(problem.whole, arguments.input, context.record.noted);
   });
   return problem;
 }
@@ -116,8 +115,9 @@ void write_text(OutputSet& outputs, const std::string& path, const std::string& 
 }
 
 /// Puts the flow into the whole mesh on the root and writes it, and the tables beside it. *Collective.*
-void write(const Communicator& comm, SolveProblem& problem, const Mesh& part, const EulerResult& result,
+void write(const CommandContext& context, SolveProblem& problem, const Mesh& part, const EulerResult& result,
            const std::string& path) {
+  const Communicator& comm = context.comm;
   const EulerOptions& options = problem.settings.solver.euler;
   const FreeStream stream = free_stream_of(options);
   std::vector<std::string> wall_names;
@@ -129,7 +129,7 @@ void write(const Communicator& comm, SolveProblem& problem, const Mesh& part, co
     if (!comm.is_root()) return;
     if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
     problem.whole.solution = std::move(solution);
-    for (std::string& loss : losses_in(problem.whole, path)) problem.warnings.push_back(std::move(loss));
+    for (std::string& loss : losses_in(problem.whole, path)) context.record.noted.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);
     OutputSet outputs(alone);
     write_mesh(outputs, problem.whole, path);
@@ -192,12 +192,11 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   times.begin("solve");
   const EulerResult result = solve(comm, problem, part);
   times.begin("write");
-  write(comm, problem, part, result, arguments.output);
+  write(context, problem, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
-  context.warn(problem.warnings);
   context.warn(shortfalls(result, problem.settings.solver.euler));
   const Figures figures = result_figures(nodes, result, problem.settings.solver.euler);
   context.record.figures = figures.record();

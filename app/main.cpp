@@ -78,23 +78,24 @@ void add_commands(CommandLine& line, CommandContext& context) {
                   about_quiet, about_verbose, about_json));
 }
 
-/// The command's name in `record` says that one was to run.
-void run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {
+/// The command's name in the record says that one was to run.
+void run(int argc, char** argv, CommandContext& context) {
+  const Communicator& comm = context.comm;
   CommandLine line("quadloop: parallel 2D mesh generation from named outlines", "quadloop",
                    "quadloop " QUADLOOP_VERSION);
-  CommandContext context{comm, false, false, false, record};
   add_commands(line, context);
-  const auto work = line.parse(argc, argv, comm, record.command);
+  const auto work = line.parse(argc, argv, comm, context.record.command);
   if (!work) return;
   allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   if (comm.is_root() && !context.quiet) progress::show();
   work();
+  context.warn({});  // what is noted
 }
 
-Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandRecord& record) {
+Outcome guarded_run(int argc, char** argv, CommandContext& context) {
   try {
-    run(argc, argv, comm, record);
+    run(argc, argv, context);
     std::cout.flush();
     if (!std::cout) return {ExitStatus::output_failed, "standard output cannot be written"};
     return {};
@@ -110,7 +111,9 @@ Outcome guarded_run(int argc, char** argv, const Communicator& comm, CommandReco
 /// Runs the command, and makes its record where the command line asks for one, be it never so wrong.
 Outcome recorded_run(int argc, char** argv, const Communicator& comm) {
   CommandRecord record;
-  Outcome outcome = guarded_run(argc, argv, comm, record);
+  CommandContext context{comm, false, false, false, record};
+  Outcome outcome = guarded_run(argc, argv, context);
+  if (outcome.status != ExitStatus::done) outcome.warnings = context.warnings_before_error();
   const bool wanted = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
   const bool has_run = !record.command.empty() || outcome.status != ExitStatus::done;  // no help, no version
   if (wanted && has_run) outcome.record = record_text(record, outcome);

@@ -24,6 +24,7 @@ namespace quadloop {
 struct CaseParts {
   CaseInput input;
   std::string path;
+  Warnings warnings;
 };
 
 namespace {
@@ -60,7 +61,10 @@ void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field
 
 Case::Case(const Communicator& comm, const std::string& path, const std::vector<std::string>& assignments) {
   auto parts = std::make_shared<CaseParts>();
-  comm.together([&] { *parts = {load_case({path, assignments, {}, {}}), path}; });
+  comm.together([&] {
+    parts->input = load_case({path, assignments, {}, {}}, parts->warnings);
+    parts->path = path;
+  });
   parts->input.mesh->mesh.limit = mesh_limit(comm, {});
   parts_ = std::move(parts);
 }
@@ -72,7 +76,7 @@ int Case::cycles() const {
   return adapt ? adapt->cycles : 0;
 }
 
-const std::vector<std::string>& Case::warnings() const { return parts_->input.warnings; }
+const std::vector<std::string>& Case::warnings() const { return parts_->warnings; }
 
 NewMesh make_mesh(const Communicator& comm, const Case& of) {
   MeshResult made = generate_mesh(comm, mesh_input(of)).result;
@@ -89,7 +93,8 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
 }
 
 FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
-  const auto& [input, path] = of.parts();
+  const CaseInput& input = of.parts().input;
+  const std::string& path = of.parts().path;
   std::optional<ChosenSolver> chosen;
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);

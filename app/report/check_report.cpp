@@ -121,6 +121,7 @@ Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   figures.add("triangles", quality.counts.triangles);
   figures.add("quads", quality.counts.quads);
   figures.add("blocks", report.blocks);
+  figures.add("regions", report.regions.count);
   figures.add("boundary edges", quality.counts.boundary_edges);
   figures.add_member("boundaries", boundaries_json(report));
   figures.add_lines(boundaries_text(report.boundaries, most));

@@ -27,6 +27,7 @@ struct CheckReport {
   WorstPlaces worst;
   double area = 0;
   std::int64_t pinched_nodes = 0;
+  MeshRegions regions;
   std::optional<GeometryFit> fit;  ///< its faults are in `faults` too
   std::vector<MeshFault> faults;
 };

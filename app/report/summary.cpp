@@ -81,6 +81,7 @@ void add_sizes(Figures& figures, const MeshResult& result) {
   figures.add("quads", counts.quads);
   figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
                   json_of(std::round(report.estimate.cells)), "cells_estimated");
+  figures.add("regions", report.regions);
   figures.add("leaves", report.leaves);
   figures.add("cut leaves", report.cut_leaves);
   figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),

@@ -84,6 +84,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   }
   SizedDomain domain(geometry, options.size, demanded);
   SizeTree& sizes = domain.sizes;
+  result.report.regions = regions_of(geometry);
   result.report.finest_allowed = sizes.finest_level();
 
   times.begin("estimate");

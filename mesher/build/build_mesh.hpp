@@ -67,6 +67,7 @@ struct MeshOptions {
 /// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
+  std::int64_t regions = 0;       ///< connected regions of the domain
   MeshEstimate estimate;          ///< as it was known before the meshing
   double area_dropped = 0;        ///< of the loops dropped; below 0 for islands
   std::int64_t corners_lost = 0;  ///< kept corners of the outline that are no nodes

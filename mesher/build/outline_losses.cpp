@@ -209,6 +209,12 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
   return twice / 2;
 }
 
+std::int64_t regions_of(const Geometry& geometry) {
+  std::int64_t regions = 0;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) regions += area_of_loop(geometry, loop) > 0;
+  return regions;
+}
+
 void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh,
                   bool smoothed) {
   std::vector<double> shares;

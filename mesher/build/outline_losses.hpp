@@ -20,6 +20,9 @@ void require_area(const Communicator& comm, const Geometry& geometry, double dro
 /// The signed area inside the loop: above 0 where its inside is domain.
 double area_of_loop(const Geometry& geometry, std::int32_t loop);
 
+/// How many connected regions the domain has: each has one loop with its inside in the domain.
+std::int64_t regions_of(const Geometry& geometry);
+
 /// Throws InputError for boundaries that vanish: the first with its size, how many more, and the cure. `why`
 /// ends "which ...".
 [[noreturn]] void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished,

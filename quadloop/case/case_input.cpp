@@ -35,7 +35,7 @@ void replace_geometry(const std::string& path, Settings& settings, Warnings& war
 
 }  // namespace
 
-CaseInput load_case(const CaseArguments& arguments) {
+CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   require_case_file(arguments.case_path);
   CaseInput input;
   Settings& settings = input.settings;
@@ -44,12 +44,11 @@ CaseInput load_case(const CaseArguments& arguments) {
     Warnings told_again_below;
     replace_geometry(arguments.geometry, settings, told_again_below);
   }
-  input.warnings = settings.warnings;
-  Geometry geometry = load_geometry(settings, input.warnings, arguments.saved);
+  warnings.insert(warnings.end(), settings.warnings.begin(), settings.warnings.end());
+  Geometry geometry = load_geometry(settings, warnings, arguments.saved);
   require_layers_that_doubles_hold(geometry);
   const MeshOptions options = mesh_options(settings, geometry);
-  for (std::string& warning : spacing_warnings(options, geometry))
-    input.warnings.push_back(std::move(warning));
+  for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
                                case_digest(options, settings.lines), settings.lines, settings.stretch});
   if (arguments.saved) keep_root(*arguments.saved, *input.mesh);

@@ -21,11 +21,11 @@ struct CaseArguments {
 struct CaseInput {
   Settings settings;
   std::optional<MeshInput> mesh;
-  Warnings warnings;
 };
 
-/// Reads case and geometry. On the calling rank alone. Throws InputError.
-CaseInput load_case(const CaseArguments& arguments);
+/// Reads case and geometry. On the calling rank alone. Throws InputError; `warnings` then has those that came
+/// before.
+CaseInput load_case(const CaseArguments& arguments, Warnings& warnings);
 
 /// What a mesh may cost: so many cells, or what free memory holds. *Collective.*
 MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells);

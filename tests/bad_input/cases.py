@@ -11,8 +11,9 @@ BAD_INPUT, WRONG_USAGE, OUTPUT_FAILED = 1, 2, 4
 @dataclass
 class Refusal:
     name: str
-    says: list  # pieces of the line on stderr
+    says: list  # pieces of the lines on stderr
     status: int = BAD_INPUT
+    warnings: int = 0  # lines before it
     geometry: str = SQUARE
     case: str = CASE
     arguments: list = field(default_factory=lambda: ["mesh", "case.toml", "-o", "out"])
@@ -33,6 +34,10 @@ def case_file(name, text, *says):
     return Refusal(name, list(says), case=text)
 
 
+def warned(name, text, *says, warnings=1):
+    return Refusal(name, list(says), warnings=warnings, geometry=text, arguments=["mesh", "case.toml", "-o", "out", "--max-cells", "3"])
+
+
 def usage(name, arguments, *says):
     return Refusal(name, list(says), status=WRONG_USAGE, arguments=arguments)
 
@@ -50,6 +55,8 @@ GEOMETRIES = [
     geometry("crosses itself", "1\nbox\n4\n0 0\n4 4\n4 0\n0 4\n", "'box'", "(2, 2)"),
     geometry("touches another", SQUARE.replace("1\n", "2\n", 1) + "two\n3\n4 2\n6 1\n6 3\n", "box.geom:2:", "'box'", "'two'", "(box.geom:8)", "(4, 2)"),
     geometry("same loop twice", SQUARE.replace("1\n", "2\n", 1) + "two\n4\n0 0\n4 0\n4 4\n0 4\n", "'box'", "'two'"),
+    warned("warning before an error of the reader", "1\nbox\n5\n0 0\n4 0\n4 0\n4 4\n1 -1\n", "'box'", "dropped 1 point", "neither cross nor touch"),
+    warned("warning before an error of the mesher", "1\nbox\n4\n0 4\n4 4\n4 0\n0 0\n", "'box'", "wound the wrong way round", "--max-cells"),
     geometry("spike", "1\nbox\n5\n0 0\n4 0\n4 4\n4 9\n4 4\n", "'box'"),
 ]
 

@@ -1,5 +1,5 @@
-"""Runs the program on every refusal of cases.py: the exit status must be right, stderr hold one line that names the place, and no
-new file be left behind.
+"""Runs the program on every refusal of cases.py: the exit status must be right, stderr hold one line that names the place, after the
+warnings that came before it, and no new file be left behind.
 
     python3 run.py QUADLOOP MPIRUN RANKS
 """
@@ -41,8 +41,9 @@ def faults_of(refusal, program, mpirun, ranks):
         lines = lines_of_ours(result.stderr)
         if result.returncode != refusal.status:
             yield f"exit status {result.returncode}, not {refusal.status}: {result.stderr}"
-        if len(lines) != 1 or (ranks == 1 and len(result.stderr.splitlines()) != 1):
-            yield f"not one line on stderr: {result.stderr!r}"
+        kinds = [line.split(":")[1].strip() for line in lines]
+        if kinds != ["warning"] * refusal.warnings + ["error"] or (ranks == 1 and len(result.stderr.splitlines()) != len(lines)):
+            yield f"not {refusal.warnings} warnings and one error on stderr: {result.stderr!r}"
         for piece in refusal.says:
             if piece not in result.stderr:
                 yield f"'{piece}' is not in: {result.stderr!r}"

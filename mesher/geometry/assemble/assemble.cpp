@@ -47,22 +47,21 @@ void orient(Outline& outline, const std::vector<LoopNesting>& nestings, Warnings
         fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
 }
 
-/// Several outermost loops are several domains: meant so, or a loop with wrong coordinates.
-void warn_of_domains(const Outline& outline, const std::vector<LoopNesting>& nestings, Warnings& warnings) {
-  std::vector<std::size_t> outermost;
-  for (std::size_t l = 0; l < nestings.size(); ++l) {
-    if (nestings[l].depth == 0) outermost.push_back(l);
-  }
-  if (outermost.size() < 2) return;
-  const OutlineLoop& second = outline.loops[outermost[1]];
-  const std::string& name = outline.names[second.boundary.front().value()];
-  warnings.push_back(fmt::format(
-      "the geometry has {} domains beside each other; that of boundary '{}' at ({}, {}) lies in no other",
-      outermost.size(), name, second.points.front().x, second.points.front().y));
-}
-
 const std::string& name_of(const Outline& outline, std::size_t loop) {
   return outline.names[outline.loops[loop].boundary.front().value()];
+}
+
+/// Several regions are meant so (a lake on an island), or come from a loop with wrong coordinates.
+void warn_of_regions(const Outline& outline, const std::vector<LoopNesting>& nestings, Warnings& warnings) {
+  std::vector<std::size_t> enclosing;  // a region each
+  for (std::size_t l = 0; l < nestings.size(); ++l) {
+    if (nestings[l].depth % 2 == 0) enclosing.push_back(l);
+  }
+  if (enclosing.size() < 2) return;
+  const OutlineLoop& second = outline.loops[enclosing[1]];
+  warnings.push_back(fmt::format(
+      "the domain has {} regions that are not connected; the second is inside boundary '{}', at ({}, {})",
+      enclosing.size(), name_of(outline, enclosing[1]), second.points.front().x, second.points.front().y));
 }
 
 /// A loop within a loop within the far field encloses a domain of its own, besides that of the far field.
@@ -140,7 +139,7 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   require_outer_boundary(outline, nestings, options.bodies);
   Warnings of_domain;
   orient(outline, nestings, of_domain);
-  warn_of_domains(outline, nestings, of_domain);
+  warn_of_regions(outline, nestings, of_domain);
   if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
   Geometry geometry = to_geometry(std::move(outline), options);
   require_extent(geometry);

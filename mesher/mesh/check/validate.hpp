@@ -49,6 +49,16 @@ std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blo
 /// Nodes where the boundary passes more than once (bow ties): allowed, but worth a figure. The mesh is valid.
 std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology);
 
+/// The connected regions of a mesh: cells that edges join, so a pinched node does not connect.
+struct MeshRegions {
+  std::int64_t count = 0;
+  std::int64_t smallest_cells = 0;  ///< cells of the region with the fewest
+  Point smallest_place;             ///< a node of it
+};
+
+/// Of a mesh that is whole on this rank; linear in time. `topology` keeps all edges.
+MeshRegions connected_regions(const Mesh& mesh, const MeshTopology& topology);
+
 /// How a mesh follows its geometry.
 struct GeometryFit {
   std::vector<MeshFault> faults;

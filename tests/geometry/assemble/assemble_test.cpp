@@ -46,9 +46,10 @@ TEST(Assemble, TurnsLoopsByNestingDepth) {
   EXPECT_GT(loop_area(g, 0), 0);
   EXPECT_LT(loop_area(g, 1), 0);
   EXPECT_GT(loop_area(g, 2), 0);
-  ASSERT_EQ(warnings.size(), 2u);
+  ASSERT_EQ(warnings.size(), 3u);
   EXPECT_NE(warnings[0].find("'lake'"), std::string::npos);
   EXPECT_NE(warnings[1].find("'island'"), std::string::npos);
+  EXPECT_NE(warnings[2].find("2 regions that are not connected"), std::string::npos) << warnings[2];
 }
 
 TEST(Assemble, SaysWhatALonelyOutlineEncloses) {

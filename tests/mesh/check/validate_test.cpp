@@ -39,6 +39,21 @@ TEST(Validate, ValidMeshHasNoFault) {
   EXPECT_EQ(pinched_nodes(mixed_square(), MeshTopology(mixed_square())), 0);
 }
 
+TEST(Validate, RegionsAreConnectedByEdges) {
+  const Mesh one = mixed_square();
+  const MeshRegions whole = connected_regions(one, MeshTopology(one));
+  EXPECT_EQ(whole.count, 1);
+  EXPECT_EQ(whole.smallest_cells, std::ssize(one.triangles) + std::ssize(one.quads));
+  Mesh two = one;  // a triangle that shares a node alone with the others
+  two.points.push_back({3, 2.5});
+  two.points.push_back({2.5, 3});
+  two.triangles.push_back({node(8), node(9), node(10)});
+  const MeshRegions regions = connected_regions(two, MeshTopology(two));
+  EXPECT_EQ(regions.count, 2);
+  EXPECT_EQ(regions.smallest_cells, 1);
+  EXPECT_EQ(regions.smallest_place, two.points[8]);
+}
+
 TEST(Validate, Indices) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   expect_fault(MeshRule::indices, [](Mesh& m) { m.triangles[0][1] = node(9); });

@@ -23,6 +23,10 @@ struct Case : testing::Test {
   std::string case_file(const std::string& more = "") const {
     return folder.write("case.toml", "[geometry]\nfile = \"box.geom\"\n" + more);
   }
+  static CaseInput loaded(const CaseArguments& arguments) {
+    Warnings not_looked_at;
+    return load_case(arguments, not_looked_at);
+  }
   test::InputFolder folder;
 };
 
@@ -163,7 +167,7 @@ TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
 
 TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
   const CaseInput input =
-      load_case({case_file("[boundary.box]\nbc = \"wall\"\n[solver]\nmach = 2\ngamma = 1.3\n"), {}, "", {}});
+      loaded({case_file("[boundary.box]\nbc = \"wall\"\n[solver]\nmach = 2\ngamma = 1.3\n"), {}, "", {}});
   SolverSettings settings = input.settings.solver;
   const Geometry& geometry = input.mesh->geometry;
   const ChosenSolver euler =
@@ -178,38 +182,38 @@ TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
 
 TEST_F(Case, AnOutlineIsNoCaseFile) {
   const std::string refusal = test::refusal(folder, [&] {
-    load_case({(folder.path() / "box.geom").string(), {}, "", {}});
+    loaded({(folder.path() / "box.geom").string(), {}, "", {}});
   });
   EXPECT_NE(refusal.find("is an outline, not a case file"), std::string::npos) << refusal;
 }
 
 TEST_F(Case, AnotherOutlineTakesThePlaceOfTheCases) {
   const std::string other = folder.write("other.geom", "1\nbox\n3\n0 0\n2 0\n0 2\n");
-  const CaseInput input = load_case({case_file("scale = 2\n"), {"spacing.min=0.125"}, other, {}});
+  const CaseInput input = loaded({case_file("scale = 2\n"), {"spacing.min=0.125"}, other, {}});
   EXPECT_EQ(input.mesh->geometry.size(), 3);
   EXPECT_EQ(input.mesh->geometry.box().high.x, 4) << "placed as the case's own";
   EXPECT_EQ(input.mesh->mesh.size.min, 0.125);
   EXPECT_NE(input.mesh->digest,
-            load_case({case_file("scale = 2\n"), {"spacing.min=0.25"}, other, {}}).mesh->digest);
+            loaded({case_file("scale = 2\n"), {"spacing.min=0.25"}, other, {}}).mesh->digest);
 }
 
 TEST_F(Case, AFarFieldOfTheOutlinesOwnIsTaken) {
   const std::string case_path = case_file("far_field = 10\n");
   const std::string other =
       folder.write("other.geom", "2\nfarfield\n4\n-9 -9\n9 -9\n9 9\n-9 9\nwall\n4\n0 0\n1 0\n1 1\n0 1\n");
-  EXPECT_EQ(load_case({case_path, {}, other, {}}).mesh->geometry.box().high.x, 9);
-  EXPECT_GT(load_case({case_path, {}, "", {}}).mesh->geometry.box().high.x, 9);
+  EXPECT_EQ(loaded({case_path, {}, other, {}}).mesh->geometry.box().high.x, 9);
+  EXPECT_GT(loaded({case_path, {}, "", {}}).mesh->geometry.box().high.x, 9);
 }
 
 TEST_F(Case, TheRootOfASavedTreeStays) {
   TreeAttributes saved;
   saved.root_x = saved.root_y = -2;
   saved.tree_edge = 8;
-  const CaseInput input = load_case({case_file(), {}, "", saved});
+  const CaseInput input = loaded({case_file(), {}, "", saved});
   ASSERT_TRUE(input.mesh->mesh.size.root.has_value());
   EXPECT_EQ(input.mesh->mesh.size.root->corner, (Point{-2, -2}));
   saved.tree_edge = 3;
-  EXPECT_THROW(load_case({case_file(), {}, "", saved}), InputError);
+  EXPECT_THROW(loaded({case_file(), {}, "", saved}), InputError);
 }
 
 TEST(MeshLimit, IsTheCellsAllowedOrTheMemoryThatIsFree) {
