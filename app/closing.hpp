@@ -16,7 +16,7 @@ struct Outcome {
   Outcome(ExitStatus how, std::string why) : status{how}, message{std::move(why)} {}
 
   ExitStatus status = ExitStatus::done;
-  std::string message;  ///< one line, where the status is not `done`
+  std::string message;                ///< one line, where the status is not `done`
   std::vector<std::string> warnings;  ///< one line each, printed before that message
   /// For stdout: with `done` the root rank's is printed, else that of the rank that speaks.
   std::string record;

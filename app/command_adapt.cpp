@@ -68,7 +68,8 @@ std::string outline_to_keep(const CaseInput& input) {
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
                            std::optional<double>& morph_to, Warnings& warnings, std::string& note) {
-  CaseInput input = load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
+  CaseInput input =
+      load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
   const Settings& settings = input.settings;
   const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);

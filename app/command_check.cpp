@@ -49,12 +49,14 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   report.shape =
       shape_statistics(mesh, topology, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
   report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
+  LayerPlaces places;
   if (has_layers(mesh)) {
-    const LayerPlaces places = layer_places(Communicator(MPI_COMM_SELF), mesh);
+    places = layer_places(Communicator(MPI_COMM_SELF), mesh);
     report.layers = layer_figures(mesh, places);
     report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
   }
-  report.worst = worst_places(mesh, topology);
+  report.faces = face_figures(Communicator(MPI_COMM_SELF), mesh, places);
+  report.worst = worst_places(mesh, topology, places);
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh, topology);
   report.regions = connected_regions(mesh, topology);
@@ -68,9 +70,9 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
 
 std::string regions_warning(const CheckReport& report) {
   const MeshRegions& regions = report.regions;
-  return fmt::format("{}: the mesh has {} connected regions; the smallest, of {} cells, has a node at ({}, {})",
-                     report.file, regions.count, regions.smallest_cells, regions.smallest_place.x,
-                     regions.smallest_place.y);
+  return fmt::format(
+      "{}: the mesh has {} connected regions; the smallest, of {} cells, has a node at ({}, {})", report.file,
+      regions.count, regions.smallest_cells, regions.smallest_place.x, regions.smallest_place.y);
 }
 
 void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,

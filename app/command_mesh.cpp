@@ -47,8 +47,7 @@ void require_prefix(const std::string& prefix) {
     throw UsageError("-o " + prefix + ": give the prefix without " + suffix + ", which is added");
 }
 
-Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved,
-                 Warnings& warnings) {
+Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>& saved, Warnings& warnings) {
   require_prefix(arguments.prefix);
   Prepared prepared;
   CaseArguments of_case{arguments.case_path, arguments.assignments, {}, {}};

@@ -79,12 +79,6 @@ void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool wi
   if (verbose) figures.add_lines(places_text(shape.passages));
 }
 
-/// A row below that of a figure: where it is.
-void add_place(Figures& figures, Point place, const char* key) {
-  figures.add_lines(fmt::format("    {:>38}\n", fmt::format("at ({:.6g}, {:.6g})", place.x, place.y)));
-  figures.add_member(key, json_of(std::vector{place.x, place.y}));
-}
-
 void add_shape(Figures& figures, const CheckReport& report, bool verbose) {
   const ShapeStatistics& shape = report.shape;
   const ShapeFigures& shares = report.figures;
@@ -97,7 +91,7 @@ void add_shape(Figures& figures, const CheckReport& report, bool verbose) {
   figures.add_member("min_angle_made", json_of(shape.smallest_degrees));
   figures.add_member("max_angle_made", json_of(shape.largest_degrees));
   figures.add("largest area ratio", shape.area_ratio_max, number_pattern, "area_ratio_max");
-  if (shape.area_ratio_max > 0) add_place(figures, report.worst.largest_area_ratio, "area_ratio_max_at");
+  if (shape.area_ratio_max > 0) figures.add_place(report.worst.largest_area_ratio, "area_ratio_max_at");
   figures.add("area ratio, 99 %", shape.area_ratio_p99, number_pattern, "area_ratio_p99");
   figures.add("share of quads", shape.quad_share, number_pattern, "quad_share");
   figures.add("parallelograms", shares.parallelogram_share(), number_pattern, "parallelogram_share");
@@ -126,17 +120,10 @@ Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   figures.add_member("boundaries", boundaries_json(report));
   figures.add_lines(boundaries_text(report.boundaries, most));
   figures.add("area", report.area, number_pattern);
-  figures.add("smallest angle", quality.smallest_degrees, number_pattern, "min_angle");
-  const bool has_cells = quality.counts.triangles + quality.counts.quads > 0;
-  if (has_cells) add_place(figures, report.worst.smallest_angle, "min_angle_at");
-  figures.add("largest angle", quality.largest_degrees, number_pattern, "max_angle");
-  if (has_cells) add_place(figures, report.worst.largest_angle, "max_angle_at");
+  add_quality(figures, quality, report.by_layers, report.faces, &report.worst);
   add_shape(figures, report, verbose);
-  figures.add("worst quality", quality.worst, number_pattern);
-  if (has_cells) add_place(figures, report.worst.worst_quality, "worst_quality_at");
-  figures.add("mean quality", quality.mean, number_pattern);
   figures.add("pinched nodes", report.pinched_nodes);
-  add_quality(figures, report.by_layers);
+  add_objections(figures, report.faces, report.figures);
   add_layers(figures, report.layers, most);
   if (report.fit) add_fit(figures, *report.fit);
   return figures;

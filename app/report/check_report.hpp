@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
+#include "mesher/mesh/check/face_figures.hpp"
 #include "mesher/mesh/check/layer_figures.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
@@ -24,7 +25,8 @@ struct CheckReport {
   ShapeFigures figures;
   std::vector<LayerFigures> layers;
   QualityByLayers by_layers;  ///< where there are any
-  WorstPlaces worst;
+  FaceFiguresByLayers faces;
+  WorstPlaces worst;  ///< of the cells outside layers, but for the area ratio
   double area = 0;
   std::int64_t pinched_nodes = 0;
   MeshRegions regions;

@@ -21,6 +21,11 @@ void Figures::add_raw(const std::string& name, const std::string& text, const st
   figures_.push_back({name, key.empty() ? derived : key, text, json});
 }
 
+void Figures::add_place(Point place, const std::string& key) {
+  add_lines(fmt::format("    {:>38}\n", fmt::format("at ({:.6g}, {:.6g})", place.x, place.y)));
+  add_member(key, json_of(std::vector{place.x, place.y}));
+}
+
 std::string Figures::table(int width, int value_width) const {
   std::string text;
   for (const Figure& figure : figures_)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
+#include "mesher/geometry/point.hpp"
 
 namespace quadloop {
 
@@ -27,6 +28,8 @@ class Figures {
   /// `text` for the table; `json` for the record, JSON already.
   void add_raw(const std::string& name, const std::string& text, const std::string& json,
                const std::string& key = {});
+  /// Where the figure before is found: a row of the table, and [x, y] in the record.
+  void add_place(Point place, const std::string& key);
   /// A member of the record alone; lines of the table alone.
   void add_member(const std::string& key, const std::string& json) {
     figures_.push_back({{}, key, {}, json});

@@ -90,6 +90,18 @@ void add_count(Figures& figures, const char* name, const MeshCounts& counts, con
   figures.add_raw(name, std::to_string(cells), json_of(cells), key);
 }
 
+void add_shapes(Figures& figures, const QualitySummary& quality, const std::string& indent,
+                const std::string& key, const WorstPlaces* worst) {
+  if (quality.counts.triangles + quality.counts.quads == 0) worst = nullptr;
+  figures.add(indent + "worst quality", quality.worst, "{:.3f}", key + "worst_quality");
+  if (worst != nullptr) figures.add_place(worst->worst_quality, key + "worst_quality_at");
+  figures.add(indent + "mean quality", quality.mean, "{:.3f}", key + "mean_quality");
+  figures.add(indent + "smallest angle", quality.smallest_degrees, "{:.2f} degrees", key + "min_angle");
+  if (worst != nullptr) figures.add_place(worst->smallest_angle, key + "min_angle_at");
+  figures.add(indent + "largest angle", quality.largest_degrees, "{:.2f} degrees", key + "max_angle");
+  if (worst != nullptr) figures.add_place(worst->largest_angle, key + "max_angle_at");
+}
+
 }  // namespace
 
 void add_layers(Figures& figures, const LayerReport& report, std::size_t most) {
@@ -105,17 +117,55 @@ void add_layers(Figures& figures, const std::vector<LayerFigures>& layers, std::
   add_rows(figures, layers, columns, most);
 }
 
-void add_quality(Figures& figures, const QualityByLayers& quality) {
-  const MeshCounts& counts = quality.layers.counts;
-  if (counts.triangles + counts.quads == 0) return;
+void add_quality(Figures& figures, const QualitySummary& all, const QualityByLayers& by_layers,
+                 const FaceFiguresByLayers& faces, const WorstPlaces* worst) {
+  const MeshCounts& counts = by_layers.layers.counts;
+  const bool has_layers = counts.triangles + counts.quads > 0;
+  if (!has_layers) return add_shapes(figures, all, "", "", worst);
+  figures.add_member("worst_quality", json_of(all.worst));
+  figures.add_member("mean_quality", json_of(all.mean));
+  figures.add_member("min_angle", json_of(all.smallest_degrees));
+  figures.add_member("max_angle", json_of(all.largest_degrees));
   add_count(figures, "cells in layers", counts, "layer_cells");
-  figures.add("  smallest angle", quality.layers.smallest_degrees, "{:.2f} degrees", "layer_min_angle");
-  figures.add("  largest angle", quality.layers.largest_degrees, "{:.2f} degrees", "layer_max_angle");
-  figures.add("  worst quality", quality.layers.worst, "{:.3g}", "layer_worst_quality");
-  add_count(figures, "outside layers", quality.others.counts, "outer_cells");
-  figures.add("  smallest angle", quality.others.smallest_degrees, "{:.2f} degrees", "outer_min_angle");
-  figures.add("  largest angle", quality.others.largest_degrees, "{:.2f} degrees", "outer_max_angle");
-  figures.add("  worst quality", quality.others.worst, "{:.3f}", "outer_worst_quality");
+  figures.add("  aspect ratio", faces.layers.aspect_ratio, "{:.4g}", "layer_aspect_ratio");
+  figures.add("  non-orthog.", faces.layers.non_orthogonality, "{:.2f} degrees", "layer_non_orthogonality");
+  figures.add("  skewness", faces.layers.skewness, "{:.3f}", "layer_skewness");
+  figures.add_member("layer_min_angle", json_of(by_layers.layers.smallest_degrees));
+  figures.add_member("layer_max_angle", json_of(by_layers.layers.largest_degrees));
+  figures.add_member("layer_worst_quality", json_of(by_layers.layers.worst));
+  add_count(figures, "outside layers", by_layers.others.counts, "outer_cells");
+  add_shapes(figures, by_layers.others, "  ", "outer_", worst);
+}
+
+void add_objections(Figures& figures, const FaceFiguresByLayers& faces, const ShapeFigures& shape) {
+  const auto& [layers, others] = faces;
+  const double angle = std::max(layers.non_orthogonality, others.non_orthogonality),
+               skewness = std::max(layers.skewness, others.skewness);
+  const std::int64_t non_orthogonal = layers.non_orthogonal + others.non_orthogonal,
+                     skew = layers.skew + others.skew, flat = layers.flat + others.flat;
+  figures.add_member("non_orthogonality", json_of(angle));
+  figures.add_member("skewness", json_of(skewness));
+  figures.add_member("aspect_ratio", json_of(std::max(layers.aspect_ratio, others.aspect_ratio)));
+  figures.add_member("non_orthogonal_edges", json_of(non_orthogonal));
+  figures.add_member("skew_edges", json_of(skew));
+  figures.add_member("flat_cells", json_of(flat));
+  std::vector<std::string> objections;
+  if (non_orthogonal > 0)
+    objections.push_back(fmt::format("{} faces of non-orthogonality above {} degrees", non_orthogonal,
+                                     FaceFigures::severe_degrees));
+  if (skew > 0)
+    objections.push_back(fmt::format("{} faces of skewness above {}", skew, FaceFigures::severe_skewness));
+  if (flat > 0)
+    objections.push_back(
+        fmt::format("{} cells of aspect ratio above {}", flat, FaceFigures::severe_aspect_ratio));
+  if (objections.empty())
+    objections.push_back(
+        fmt::format("no objection (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
+  const std::string su2 = shape.inexact_nodes == 0
+                              ? "no objection"
+                              : fmt::format("{:.2g} % of the quads are no parallelograms",
+                                            100 * (1 - shape.parallelogram_share()));
+  figures.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));
 }
 
 }  // namespace quadloop

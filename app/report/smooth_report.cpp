@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mesher/mesh/check/layer_figures.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -24,7 +26,9 @@ std::string range_of(const Histogram& h, std::size_t i) {
 }  // namespace
 
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
-  return {summarise_quality(comm, mesh), shape_histograms(comm, mesh),
+  std::optional<QualitySummary> outside;
+  if (has_layers(mesh)) outside = quality_by_layers(comm, mesh, layer_places(comm, mesh)).others;
+  return {summarise_quality(comm, mesh), outside, shape_histograms(comm, mesh),
           comm.is_root() ? area_ratios(whole) : AreaRatios{}};
 }
 
@@ -48,19 +52,19 @@ JsonObject record_of(const ShapeReport& report) {
 }
 
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after) {
-  std::string text = row("", "before", "after");
-  text += row("worst quality", before.quality.worst, after.quality.worst) +
-          row("mean quality", before.quality.mean, after.quality.mean);
-  text += row("smallest angle, degrees", before.quality.smallest_degrees, after.quality.smallest_degrees);
-  text += row("largest angle, degrees", before.quality.largest_degrees, after.quality.largest_degrees);
+  const QualitySummary b = before.outside.value_or(before.quality), a = after.outside.value_or(after.quality);
+  std::string text = row(before.outside ? "outside layers" : "", "before", "after");
+  text += row("worst quality", b.worst, a.worst) + row("mean quality", b.mean, a.mean);
+  text += row("smallest angle, degrees", b.smallest_degrees, a.smallest_degrees);
+  text += row("largest angle, degrees", b.largest_degrees, a.largest_degrees);
   text += row("largest area ratio", before.areas.largest, after.areas.largest);
   text += row("area ratio, 99 %", before.areas.of_99_percent, after.areas.of_99_percent);
   for (std::size_t k = 0; k < before.histograms.size(); ++k) {
-    const Histogram &b = before.histograms[k], &a = after.histograms[k];
-    text += fmt::format("  {}\n", b.name);
-    for (std::size_t i = 0; i < b.counts.size(); ++i) {
-      if (b.counts[i] == 0 && a.counts[i] == 0) continue;
-      text += row(range_of(b, i), std::to_string(b.counts[i]), std::to_string(a.counts[i]));
+    const Histogram &was = before.histograms[k], &is = after.histograms[k];
+    text += fmt::format("  {}\n", was.name);
+    for (std::size_t i = 0; i < was.counts.size(); ++i) {
+      if (was.counts[i] == 0 && is.counts[i] == 0) continue;
+      text += row(range_of(was, i), std::to_string(was.counts[i]), std::to_string(is.counts[i]));
     }
   }
   return text;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace quadloop {
 /// What a mesh was like at one moment, over all ranks.
 struct ShapeReport {
   QualitySummary quality;
+  std::optional<QualitySummary> outside;  ///< of the cells outside layers, where there are layers
   std::vector<Histogram> histograms;
   AreaRatios areas;  ///< on the root rank alone
 };
@@ -23,7 +25,8 @@ ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh
 /// The report as members of a record; each histogram as {"limits", "counts"}.
 JsonObject record_of(const ShapeReport& report);
 
-/// Worst and mean quality, angles, ratios of areas and histograms in two columns.
+/// Worst and mean quality and angles (of the cells outside layers, where there are layers), ratios of areas
+/// and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
 
 }  // namespace quadloop

@@ -38,11 +38,6 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
                      fmt::join(boundaries.begin(), boundaries.begin() + named, ", "), more);
 }
 
-/// Nothing where there are no layers. *Collective.*
-QualityByLayers quality_of_layers(const Communicator& comm, const Mesh& mesh) {
-  return has_layers(mesh) ? quality_by_layers(comm, mesh, layer_places(comm, mesh)) : QualityByLayers{};
-}
-
 }  // namespace
 
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
@@ -88,10 +83,7 @@ void add_sizes(Figures& figures, const MeshResult& result) {
                   json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
 }
 
-void add_shapes(Figures& figures, const QualitySummary& quality, const ShapeFigures& shape) {
-  figures.add("worst quality", quality.worst, "{:.3f}");
-  figures.add("mean quality", quality.mean, "{:.3f}");
-  figures.add("smallest angle", quality.smallest_degrees, "{:.2f} degrees", "min_angle");
+void add_shapes(Figures& figures, const ShapeFigures& shape) {
   figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
   figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
   figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
@@ -117,15 +109,22 @@ MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, 
                       files,
                       result.report.boundaries_vanished};
   const QualitySummary quality = summarise_quality(comm, result.mesh);
-  const QualityByLayers by_layers = quality_of_layers(comm, result.mesh);
+  LayerPlaces places;
+  QualityByLayers by_layers;
+  if (has_layers(result.mesh)) {
+    places = layer_places(comm, result.mesh);
+    by_layers = quality_by_layers(comm, result.mesh, places);
+  }
+  const FaceFiguresByLayers faces = face_figures(comm, result.mesh, places);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
   Figures& figures = summary.figures;
   add_sizes(figures, result);
-  add_shapes(figures, quality, summary.shape);
+  add_quality(figures, quality, by_layers, faces);
+  add_shapes(figures, summary.shape);
+  add_objections(figures, faces, summary.shape);
   add_memory(figures, memory, result.report.estimate, comm.size());
   figures.add("imbalance", result.report.imbalance, "{:.3f}");
-  add_quality(figures, by_layers);
   add_layers(figures, generated.layers);
   return summary;
 }

@@ -211,7 +211,8 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
 
 std::int64_t regions_of(const Geometry& geometry) {
   std::int64_t regions = 0;
-  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) regions += area_of_loop(geometry, loop) > 0;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop)
+    regions += area_of_loop(geometry, loop) > 0;
   return regions;
 }
 

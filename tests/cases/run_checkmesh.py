@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """OpenFOAM's checkMesh on cases' meshes, each extruded to one layer of cells: it says "Mesh OK."; where a case has layers, no check fails but that of the
-aspect ratio, which is what layers are. checkMesh must have as many prisms and hexahedra as the mesh has triangles and quads, and all of its boundaries.
+aspect ratio, which is what layers are. checkMesh must have as many prisms and hexahedra as the mesh has triangles and quads, and all of its boundaries;
+`quadloop check` must foretell its non-orthogonality and skewness.
 
     run_checkmesh.py --quadloop PROGRAM --case CASE.toml [...] [--type delaunay] [--fractal]
 
@@ -8,6 +9,7 @@ checkMesh is looked for on the path, or named by QUADLOOP_CHECKMESH. No angle be
 not asked of thin quadrilaterals divided in two, and with --fractal of none: cells in the clefts of a coast have the angles of the coast.
 """
 import argparse
+import json
 import os
 import re
 import shutil
@@ -90,6 +92,15 @@ def faults_of(mesh, said, layers, limit):
         yield f"non-orthogonality {angle} is above {limit}"
 
 
+def own_figures_that_differ(quadloop, mesh, said):
+    """What `quadloop check` foretells of checkMesh, by its own figures."""
+    record = json.loads(subprocess.run([quadloop, "check", mesh, "--json"], capture_output=True, text=True, check=False).stdout)
+    for key, label in (("non_orthogonality", "Mesh non-orthogonality Max:"), ("skewness", "Max skewness =")):
+        theirs = number_after(label, said)
+        if not abs(record[key] - theirs) <= 1e-3 * max(theirs, 1):
+            yield f"check says {key} {record[key]}, checkMesh {theirs}"
+
+
 def check(args, case, checkmesh, folder):
     """A line of the table, and whether all is well."""
     program, environment = checkmesh
@@ -102,7 +113,7 @@ def check(args, case, checkmesh, folder):
     said = done.stdout + done.stderr
     layers = has_layers(case)
     limit = 90 if args.fractal or (layers and args.type == "delaunay") else ORTHOGONALITY
-    faults = list(faults_of(mesh, said, layers, limit)) + [f"exit status {done.returncode}"] * (done.returncode != 0)
+    faults = list(faults_of(mesh, said, layers, limit)) + list(own_figures_that_differ(args.quadloop, f"{prefix}.mesh", said)) + [f"exit status {done.returncode}"] * (done.returncode != 0)
     print(f"{case.parent.name}/{case.stem} {args.type}: {len(mesh.points)} nodes, {'layers, ' * layers}non-orthogonality "
           f"{number_after('Mesh non-orthogonality Max:', said)}, skewness {number_after('Max skewness =', said)}, "
           f"aspect ratio {number_after('Max aspect ratio =', said)}: {'; '.join(faults) or 'good'}", flush=True)

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
+#include "mesher/mesh/check/cell_pairs.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
@@ -150,55 +150,15 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
 
 /// The largest ratio at edges between nodes round which the areas differ by `least` or more, as far as this
 /// rank knows: of owned nodes.
-class LargestRatio {
- public:
-  LargestRatio(const HaloMesh& mesh, const AreaRanges& ranges, double least)
-      : mesh_{mesh}, last_(mesh.points().size(), unwanted) {
-    for (const NodeId node : ranges.ids()) last_[node] = ranges[node].ratio() < least ? unwanted : none;
-    mesh.for_each_cell([&](const auto& nodes) {
-      if (std::ranges::any_of(nodes, [&](NodeId node) { return is_wanted(node); })) add_cell(nodes);
-    });
-  }
-  double value() const { return value_; }
-
- private:
-  static constexpr std::int32_t none = -1, unwanted = -2;
-  /// Of the cell that an edge was seen with first.
-  struct Side {
-    NodeId other;
-    std::int32_t next;  ///< of the same node
-    double area;
-  };
-
-  bool is_wanted(NodeId node) const { return last_[node] != unwanted; }
-
-  template <std::size_t width>
-  void add_cell(const std::array<NodeId, width>& nodes) {
-    const double area = area_of(mesh_, nodes);
-    for (std::size_t k = 0; k < width; ++k) {
-      const NodeId node = nodes[k];
-      if (!is_wanted(node)) continue;
-      for (const NodeId other : {nodes[(k + 1) % width], nodes[(k + width - 1) % width]}) {
-        const bool counts = !mesh_.owns(other) || (node < other && is_wanted(other));
-        if (counts) add_side(node, other, area);
-      }
-    }
-  }
-
-  void add_side(NodeId node, NodeId other, double area) {
-    for (std::int32_t i = last_[node]; i != none; i = sides_[i].next) {
-      if (sides_[i].other != other) continue;
-      value_ = std::max(value_, area_ratio(area, sides_[i].area));
-      return;
-    }
-    sides_.push_back({other, std::exchange(last_[node], size32(sides_)), area});
-  }
-
-  const HaloMesh& mesh_;
-  std::vector<Side> sides_;
-  IdVector<NodeId, std::int32_t> last_;  ///< of each node its last side; only owned ones are wanted
-  double value_ = 0;
-};
+double largest_ratio(const HaloMesh& mesh, const AreaRanges& ranges, double least) {
+  double largest = 0;
+  CellPairs<double> pairs(mesh, [&](NodeId node) { return ranges[node].ratio() >= least; });
+  pairs.for_each([&](const auto& nodes, std::int32_t) { return area_of(mesh, nodes); },
+                 [&](NodeId, NodeId, double area, double other) {
+                   largest = std::max(largest, area_ratio(area, other));
+                 });
+  return largest;
+}
 
 /// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
 /// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
@@ -206,10 +166,10 @@ double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh, const 
   double bound = 1;
   for (const AreaRange& range : ranges) bound = std::max(bound, range.largest > 0 ? range.ratio() : 1);
   bound = comm.maximum(bound);
-  if (!std::isfinite(bound)) return comm.maximum(LargestRatio(mesh, ranges, 1).value());
+  if (!std::isfinite(bound)) return comm.maximum(largest_ratio(mesh, ranges, 1));
   for (;;) {
     bound = std::max(1.0, bound / 2);
-    const double found = comm.maximum(LargestRatio(mesh, ranges, bound).value());
+    const double found = comm.maximum(largest_ratio(mesh, ranges, bound));
     if (found >= bound || bound == 1) return found;
   }
 }

@@ -12,7 +12,7 @@ namespace {
 
 class WorstCells {
  public:
-  explicit WorstCells(const Mesh& mesh) : mesh_{mesh} {
+  WorstCells(const Mesh& mesh, const LayerPlaces& layers) : mesh_{mesh}, layers_{layers} {
     look_at(mesh.triangles);
     look_at(mesh.quads);
   }
@@ -22,6 +22,7 @@ class WorstCells {
   template <std::size_t width>
   void look_at(const std::vector<std::array<NodeId, width>>& cells) {
     for (const auto& nodes : cells) {
+      if (!layers_.empty() && is_layer_cell(layers_, nodes)) continue;
       std::array<Point, width> cell;
       Point sum;
       for (std::size_t k = 0; k < width; ++k) {
@@ -47,6 +48,7 @@ class WorstCells {
   }
 
   const Mesh& mesh_;
+  const LayerPlaces& layers_;
   CornerRange angles_;
   double worst_ = std::numeric_limits<double>::infinity();
   WorstPlaces places_;
@@ -70,10 +72,10 @@ Point place_of_largest_ratio(const Mesh& mesh, const MeshTopology& topology) {
 
 }  // namespace
 
-WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology) {
-  WorstPlaces places = WorstCells(whole_mesh).places();
-  places.largest_area_ratio = place_of_largest_ratio(whole_mesh, topology);
-  return places;
+WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology, const LayerPlaces& places) {
+  WorstPlaces worst = WorstCells(whole_mesh, places).places();
+  worst.largest_area_ratio = place_of_largest_ratio(whole_mesh, topology);
+  return worst;
 }
 
 }  // namespace quadloop

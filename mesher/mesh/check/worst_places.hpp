@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -12,7 +13,8 @@ struct WorstPlaces {
   Point largest_area_ratio;             ///< the middle of the edge
 };
 
-/// Of a mesh with cells that is whole on this rank and names existing nodes. Linear in time.
-WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology);
+/// Of a mesh with cells that is whole on this rank and names existing nodes. Angles and quality are those of
+/// cells outside layers; `places` is empty where there are none. Linear in time.
+WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology, const LayerPlaces& places);
 
 }  // namespace quadloop

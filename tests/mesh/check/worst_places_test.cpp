@@ -20,7 +20,7 @@ Mesh uneven() {
 
 TEST(WorstPlaces, AreThoseOfTheWorstCells) {
   const Mesh mesh = uneven();
-  const WorstPlaces places = worst_places(mesh, MeshTopology(mesh));
+  const WorstPlaces places = worst_places(mesh, MeshTopology(mesh), {});
   EXPECT_EQ(places.smallest_angle, (Point{1, 0}));     // 11.3 degrees, as at (1, 1), which comes later
   EXPECT_EQ(places.largest_angle, (Point{1.1, 0.5}));  // 157.4
   EXPECT_NEAR(places.worst_quality.x, 3.1 / 3, 1e-15);
@@ -31,7 +31,7 @@ TEST(WorstPlaces, AreThoseOfTheWorstCells) {
 TEST(WorstPlaces, OfACellWithoutAreaIsItsEdge) {
   Mesh mesh = uneven();
   mesh.points[5] = {1.1, 0.5};
-  EXPECT_EQ(worst_places(mesh, MeshTopology(mesh)).largest_area_ratio, (Point{1.05, 0.75}));
+  EXPECT_EQ(worst_places(mesh, MeshTopology(mesh), {}).largest_area_ratio, (Point{1.05, 0.75}));
 }
 
 }  // namespace

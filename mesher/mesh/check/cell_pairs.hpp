@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "mesher/mesh/halo_mesh.hpp"
+
+namespace quadloop {
+
+/// Finds the two cells at each edge that touches a wanted owned node, each as a Value of the caller's: its
+/// number, its area. Linear in the number of cells.
+template <class Value>
+class CellPairs {
+ public:
+  /// `is_wanted(node)` is asked of owned nodes.
+  template <class IsWanted>
+  CellPairs(const HaloMesh& mesh, const IsWanted& is_wanted)
+      : mesh_{mesh}, last_(mesh.points().size(), unwanted) {
+    for (std::int32_t i = 0; i < mesh.owned_nodes(); ++i) {
+      if (is_wanted(NodeId{i})) last_[NodeId{i}] = none;
+    }
+  }
+
+  /// Calls `value_of(nodes, number)` for the cells at wanted nodes, numbered as HaloMesh::for_each_cell()
+  /// visits them, and `visit(from, to, first, second)` once for each edge inside the domain. Of an edge
+  /// between owned nodes both must be wanted. An edge between ranks is visited on each rank that owns one of
+  /// its nodes.
+  template <class ValueOf, class Visit>
+  void for_each(const ValueOf& value_of, const Visit& visit) {
+    std::int32_t number = 0;
+    mesh_.for_each_cell([&](const auto& nodes) {
+      const bool wanted = std::ranges::any_of(nodes, [&](NodeId node) { return last_[node] != unwanted; });
+      if (wanted) add_cell(nodes, value_of(nodes, number), visit);
+      ++number;
+    });
+  }
+
+  /// After for_each(): calls `visit(from, to, value)` for each edge with one cell. Where all nodes are
+  /// wanted, these are the edges of the boundary.
+  template <class Visit>
+  void for_each_single(const Visit& visit) const {
+    for (std::int32_t i = 0; i < mesh_.owned_nodes(); ++i) {
+      for (std::int32_t s = last_[NodeId{i}]; s >= 0; s = sides_[s].next) {
+        if (sides_[s].other.valid()) visit(NodeId{i}, sides_[s].other, sides_[s].value);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::int32_t none = -1, unwanted = -2;
+  /// An edge, and the cell that it was met with first.
+  struct Side {
+    NodeId other;       ///< not valid once the second cell was met
+    std::int32_t next;  ///< of the same node
+    Value value;
+  };
+
+  template <std::size_t width, class Visit>
+  void add_cell(const std::array<NodeId, width>& nodes, const Value& value, const Visit& visit) {
+    for (std::size_t k = 0; k < width; ++k) {
+      const NodeId node = nodes[k];
+      if (last_[node] == unwanted) continue;
+      for (const NodeId other : {nodes[(k + 1) % width], nodes[(k + width - 1) % width]}) {
+        const bool counts = !mesh_.owns(other) || (node < other && last_[other] != unwanted);
+        if (counts) add_side(node, other, value, visit);
+      }
+    }
+  }
+
+  template <class Visit>
+  void add_side(NodeId node, NodeId other, const Value& value, const Visit& visit) {
+    for (std::int32_t s = last_[node]; s != none; s = sides_[s].next) {
+      if (sides_[s].other != other) continue;
+      sides_[s].other = {};
+      visit(node, other, sides_[s].value, value);
+      return;
+    }
+    sides_.push_back({other, std::exchange(last_[node], size32(sides_)), value});
+  }
+
+  const HaloMesh& mesh_;
+  std::vector<Side> sides_;
+  IdVector<NodeId, std::int32_t> last_;  ///< of each node its last side
+};
+
+}  // namespace quadloop
