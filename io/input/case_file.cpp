@@ -130,7 +130,10 @@ CaseTable::CaseTable(std::shared_ptr<Data> data, const void* table, std::string 
       known_{std::make_shared<std::vector<std::string>>()} {}
 
 bool CaseTable::has(const std::string& key) const {
-  if (std::find(known_->begin(), known_->end(), key) == known_->end()) known_->push_back(key);
+  if (std::find(known_->begin(), known_->end(), key) == known_->end()) {
+    known_->push_back(key);
+    data_->asked.push_back(full_name(key));
+  }
   return as_table(table_).contains(key);
 }
 
@@ -264,7 +267,16 @@ void CaseTable::finish() const {
   }
   if (first == nullptr) return;
   throw InputError(fmt::format("{}: unknown key '{}'; known here: {}{}", place(first_key),
-                               full_name(first_key), join(*known_), guess_for(first_key, *known_)));
+                               full_name(first_key), join(*known_), guess_for_key(first_key)));
+}
+
+/// A key of this table with a similar name, else one of the same name in another table.
+std::string CaseTable::guess_for_key(const std::string& key) const {
+  const std::string guess = guess_for(key, *known_);
+  if (!guess.empty()) return guess;
+  const auto other =
+      std::ranges::find_if(data_->asked, [&](const std::string& name) { return name.ends_with("." + key); });
+  return other == data_->asked.end() ? "" : fmt::format("; do you mean '{}'?", *other);
 }
 
 std::string CaseTable::place(const std::string& key) const {

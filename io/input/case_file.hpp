@@ -71,6 +71,7 @@ class CaseTable {
 
  private:
   void refuse_slip_for(const std::string& key) const;
+  std::string guess_for_key(const std::string& key) const;
 
   std::shared_ptr<Data> data_;
   const void* table_;

@@ -28,6 +28,13 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Whether one of two words is how the other begins, as max and maximum.
+bool one_begins_other(std::string_view a, std::string_view b) {
+  constexpr std::size_t least = 3;
+  const std::size_t shorter = std::min(a.size(), b.size());
+  return shorter >= least && slips_between(a.substr(0, shorter), b.substr(0, shorter)) == 0;
+}
+
 }  // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
@@ -39,7 +46,10 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     fewest = slips;
     nearest = candidate;
   }
-  return nearest;
+  if (!nearest.empty()) return nearest;
+  const auto begun = std::ranges::find_if(
+      words, [&](const std::string& candidate) { return one_begins_other(word, candidate); });
+  return begun == words.end() ? "" : *begun;
 }
 
 std::string guess_for(std::string_view word, const std::vector<std::string>& words) {

@@ -62,6 +62,8 @@ GEOMETRIES = [
 
 CASES = [
     case_file("unknown key", CASE + "foo = 1\n", "case.toml:6:", "spacing.foo", "known here"),
+    case_file("longer key", CASE + "maximum = 1\n", "case.toml:6:", "spacing.maximum", "do you mean 'max'?"),
+    case_file("key of another table", "max = 1\n" + CASE, "case.toml:1:", "'max'", "do you mean 'spacing.max'?"),
     case_file("unknown table", CASE + "[spacings]\n", "case.toml:6:", "spacings"),
     case_file("later key", CASE + "[[block]]\nname = \"gas\"\n", "case.toml:6:", "block"),
     case_file("unknown threshold", CASE + "[adapt]\nthreshold = \"best\"\n", "case.toml:7:", "threshold", "deviation"),

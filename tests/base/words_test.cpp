@@ -31,6 +31,9 @@ TEST(NearestWord, IsOneSlipForEachThirdOfTheWord) {
   EXPECT_EQ(nearest_word("m", words), "");
   EXPECT_EQ(nearest_word("", words), "");
   EXPECT_EQ(nearest_word("--nonsense", words), "");
+  EXPECT_EQ(nearest_word("maximum", words), "max");
+  EXPECT_EQ(nearest_word("--win", words), "--window");
+  EXPECT_EQ(nearest_word("mi--", words), "");
   EXPECT_EQ(guess_for("mesg", words), "; do you mean 'mesh'?");
   EXPECT_EQ(guess_for("solver", words), "");
 }
