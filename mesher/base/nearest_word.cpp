@@ -57,4 +57,11 @@ std::string guess_for(std::string_view word, const std::vector<std::string>& wor
   return nearest.empty() ? "" : "; do you mean '" + nearest + "'?";
 }
 
+std::string first_few(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) text += (i == 0 ? "" : ", ") + words[i];
+  return words.size() > most ? text + " and " + std::to_string(words.size() - most) + " more" : text;
+}
+
 }  // namespace quadloop

@@ -15,4 +15,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 /// "; do you mean 'X'?" with the nearest word; empty where none is near.
 std::string guess_for(std::string_view word, const std::vector<std::string>& words);
 
+/// The first words, for a user who mistyped one: "a, b, c and 9 more".
+std::string first_few(const std::vector<std::string>& words);
+
 }  // namespace quadloop

@@ -26,14 +26,6 @@ bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name)
                      [&name](const BoundaryRule& rule) { return rule.claims && rule.pattern == name; });
 }
 
-/// The first few names, for a user who mistyped one.
-std::string shown(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
-}
-
 }  // namespace
 
 bool matches(std::string_view pattern, std::string_view name) {
@@ -74,7 +66,7 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
         const std::string hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field"
                                                             : guess_for(rule.pattern, names);
         throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where,
-                                     rule.pattern, shown(names), hint));
+                                     rule.pattern, first_few(names), hint));
       }
     }
   }

@@ -9,6 +9,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/nearest_word.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -31,8 +32,7 @@ class WakeWall {
       : g_{g}, has_(g.boundaries().size(), 0) {
     for (const std::string& name : line.from) {
       const auto found = std::ranges::find(g.boundaries(), name, &Boundary::name);
-      if (found == g.boundaries().end())
-        throw InputError(fmt::format("{}: the geometry has no boundary '{}'", said, name));
+      if (found == g.boundaries().end()) refuse_unknown(name, said);
       if (!found->layers)
         throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
       has_[BoundaryId{size32(std::vector<char>(found - g.boundaries().begin()))}] = 1;
@@ -42,6 +42,13 @@ class WakeWall {
   bool has(std::int32_t segment) const { return has_[g_.boundary_of(segment)] != 0; }
 
  private:
+  [[noreturn]] void refuse_unknown(const std::string& name, const std::string& said) const {
+    std::vector<std::string> names;
+    for (const Boundary& boundary : g_.boundaries()) names.push_back(boundary.name);
+    throw InputError(fmt::format("{}: the geometry has no boundary '{}'; it has: {}{}", said, name,
+                                 first_few(names), guess_for(name, names)));
+  }
+
   const Geometry& g_;
   IdVector<BoundaryId, char> has_;
 };

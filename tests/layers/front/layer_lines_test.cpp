@@ -115,7 +115,7 @@ TEST(PlaceLines, AWakeNeedsAnEdgeOfABoundaryWithLayers) {
     const std::string message = test::refusal([&] { place_lines(g, {wake_of(name)}); });
     EXPECT_NE(message.find(wanted), std::string::npos) << message;
   };
-  says(wedge(0.1), "wing", "the geometry has no boundary 'wing'");
+  says(wedge(0.1), "wing", "the geometry has no boundary 'wing'; it has: ");
   says(wedge(0.1, std::nullopt), "wedge", "has no layers");
   says(wedge(0.8), "wedge", "there is no edge");
 }
