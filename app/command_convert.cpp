@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <mpi.h>
 
 #include <filesystem>
 #include <iostream>
@@ -157,14 +158,16 @@ std::optional<WrittenParts> write_parts(const Communicator& comm, const ConvertI
   return WrittenParts{request, write_parts_of_root(files, comm, input.whole, request)};
 }
 
-/// *Collective.*
-void write_output(const Communicator& comm, const ConvertInput& input, const ConvertArguments& arguments) {
-  if (!comm.any(input.solid.has_value())) {
-    write_mesh_of_root(comm, input.whole, arguments.output, arguments.format);
-    return;
-  }
-  const SolidMesh none;
-  write_solid_of_root(comm, input.solid ? *input.solid : none, arguments.output, arguments.format);
+/// On the root rank alone, whose communicator `outputs` has for itself. *Collective.*
+void write_output(const Communicator& comm, const ConvertInput& input, const ConvertArguments& arguments,
+                  OutputSet& outputs) {
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    if (input.solid)
+      write_solid(outputs, *input.solid, arguments.output, arguments.format);
+    else
+      write_mesh(outputs, input.whole, arguments.output, arguments.format);
+  });
 }
 
 /// On the root rank.
@@ -196,8 +199,10 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
   });
   PartFiles part_files(comm);
   const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
-  write_output(comm, input, arguments);
-  part_files.commit();
+  const Communicator alone(MPI_COMM_SELF);
+  OutputSet outputs(alone);
+  write_output(comm, input, arguments, outputs);
+  part_files.commit(outputs);
   if (comm.is_root()) report(context, input, arguments, parts);
 }
 

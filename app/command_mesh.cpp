@@ -102,8 +102,7 @@ std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshRes
   if (settings.partitions > 0)
     parts = write_parts(part_files, comm, result.mesh, {},
                         {settings.output_prefix, settings.partitions, part_formats(settings.formats)});
-  outputs.commit();
-  part_files.commit();
+  part_files.commit(outputs);
   return parts;
 }
 

@@ -136,8 +136,7 @@ std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& ca
   }
   if (!problem.part_files.empty())
     parts = write_parts(part_files, comm, result.mesh, {.field = &carried.start}, problem.parts);
-  outputs.commit();
-  part_files.commit();
+  part_files.commit(outputs);
   return parts;
 }
 

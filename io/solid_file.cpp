@@ -1,7 +1,6 @@
 #include "io/solid_file.hpp"
 
 #include <fmt/format.h>
-#include <mpi.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -77,17 +76,6 @@ void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string
 void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& path,
                  const std::string& format) {
   write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
-}
-
-void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const std::string& path,
-                         const std::string& format) {
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    const Communicator alone(MPI_COMM_SELF);
-    OutputSet outputs(alone);
-    write_solid(outputs, mesh, path, format);
-    outputs.commit();
-  });
 }
 
 std::optional<SolidMesh> read_solid(const std::string& path) {

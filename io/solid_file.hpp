@@ -23,10 +23,6 @@ void write_solid(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string
 void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& path,
                  const std::string& format = {});
 
-/// The same for the mesh that the root rank of `comm` holds, as the only output of a set. *Collective.*
-void write_solid_of_root(const Communicator& comm, const SolidMesh& mesh, const std::string& path,
-                         const std::string& format = {});
-
 /// The 3D mesh in a file, on the calling rank alone; nothing where the format has none, or the file holds a
 /// plane one. What comes through a pipe is taken for a plane one. Throws InputError.
 std::optional<SolidMesh> read_solid(const std::string& path);

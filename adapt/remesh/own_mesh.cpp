@@ -33,10 +33,7 @@ std::vector<double> centres(const Mesh& mesh, const LayerPlaces& places, double 
   return values;
 }
 
-Lattice lattice_of(const TreeAttributes& a) {
-  const Point low{a.root_x, a.root_y};
-  return {{low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x, a.trees_y};
-}
+Lattice lattice_of(const TreeAttributes& a) { return {root_box(a), a.trees_x, a.trees_y}; }
 
 bool is_untouched(const Communicator& comm, const SolvedMesh& solved) {
   return coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest;

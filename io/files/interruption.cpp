@@ -15,6 +15,7 @@ namespace quadloop {
 struct Temporary::Entry {
   std::string path;
   std::atomic<Entry*> next = nullptr;
+  Entry* before = nullptr;  ///< not for the handler
 };
 
 namespace {
@@ -94,20 +95,20 @@ void remove_temporaries_when_killed() {
 }
 
 Temporary::Temporary(std::string path) : entry_{new Entry{std::move(path)}} {
-  entry_->next = static_cast<Entry*>(newest_entry.load());
+  auto* const next = static_cast<Entry*>(newest_entry.load());
+  entry_->next = next;
+  if (next != nullptr) next->before = entry_;
   newest_entry = entry_;
 }
 
 Temporary::~Temporary() {
   if (entry_ == nullptr) return;
   Entry* const next = entry_->next;
-  if (newest_entry.load() == entry_) {
+  if (entry_->before == nullptr)
     newest_entry = next;
-  } else {
-    auto* before = static_cast<Entry*>(newest_entry.load());
-    while (before->next != entry_) before = before->next;
-    before->next = next;
-  }
+  else
+    entry_->before->next = next;
+  if (next != nullptr) next->before = entry_->before;
   delete entry_;
 }
 
@@ -116,6 +117,8 @@ Temporary::Temporary(Temporary&& other) noexcept : entry_{std::exchange(other.en
 const std::string& Temporary::path() const { return entry_->path; }
 
 SignalsWait::SignalsWait() { ++waits; }
+
+bool SignalsWait::has_come() { return waiting_signal != 0; }
 
 SignalsWait::~SignalsWait() {
   if (--waits > 0) return;

@@ -33,6 +33,9 @@ class SignalsWait {
   ~SignalsWait();
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
+
+  /// Whether one has come that ends the process when the last of these is gone.
+  static bool has_come();
 };
 
 }  // namespace quadloop

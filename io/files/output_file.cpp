@@ -105,10 +105,8 @@ StagedFile OutputSet::stage(const std::string& path) {
   comm_.together([&] {
     if (!comm_.is_root()) return;
     const std::string target = output_target(path);
-    for (const Output& other : outputs_) {
-      if (other.target == target)
-        throw OutputError(path + ": two outputs are to be written to this file; name another one");
-    }
+    if (!targets_.insert(target).second)
+      throw OutputError(path + ": two outputs are to be written to this file; name another one");
     file.temporary = staging_beside(target, path).new_file(path);
     outputs_.push_back({file, target});
   });
@@ -125,11 +123,29 @@ std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
   return staged;
 }
 
-void OutputSet::commit() {
+void OutputSet::commit() { commit_together(comm_, {this}); }
+
+/// A rank that a signal ends while the others wait for it leaves no name given: the launcher ends them too.
+void OutputSet::commit_together(const Communicator& comm, std::initializer_list<OutputSet*> sets) {
+  for (OutputSet* set : sets) comm.together([&] { set->bring_to_disk(); });
+  comm.barrier();
+  std::optional<SignalsWait> until_named(std::in_place);
+  if (comm.any(SignalsWait::has_come())) {
+    until_named.reset();
+    comm.barrier();
+  }
+  for (OutputSet* set : sets) comm.together([&] { set->give_names(); });
+}
+
+void OutputSet::bring_to_disk() {
   comm_.together([&] {
     bring_written_to_disk();
-    for (const Output& output : outputs_) bring_to_disk(output.staged.temporary, output.staged.path);
+    for (const Output& output : outputs_)
+      quadloop::bring_to_disk(output.staged.temporary, output.staged.path);
   });
+}
+
+void OutputSet::give_names() {
   comm_.together([&] {
     if (!outputs_.empty()) put_in_place();
   });
@@ -148,13 +164,13 @@ void OutputSet::bring_written_to_disk() {
 void OutputSet::put_in_place() {
   for (const auto deadline = Clock::now() + patience; Clock::now() < deadline;
        std::this_thread::sleep_for(between_attempts)) {
-    const SignalsWait until_whole;
     const auto locks = lock_all(staging_);
     if (!locks) continue;
     Renaming renaming;
     for (const Output& output : outputs_) renaming.rename(output.staged, output.target);
     renaming.keep();
     outputs_.clear();
+    targets_.clear();
     staging_.clear();
     for (NewFolder& folder : folders_) folder.keep();
     folders_.clear();

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <initializer_list>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +55,11 @@ class OutputSet {
   /// Brings all outputs to the disk, then gives them their names. *Collective.*
   void commit();
 
+  /// The same of several sets, each of all ranks or of this one alone, as if they were one: a signal finds
+  /// all files of all ranks under their names, or none. Each set's files appear all or not at all in any
+  /// case. *Collective* over `comm`.
+  static void commit_together(const Communicator& comm, std::initializer_list<OutputSet*> sets);
+
  private:
   struct Output {
     StagedFile staged;
@@ -65,13 +72,16 @@ class OutputSet {
     std::string path;
   };
 
+  void bring_to_disk();
   void bring_written_to_disk();
+  void give_names();
   StagingFolder& staging_beside(const std::string& target, const std::string& shown);
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<NewFolder> folders_;  ///< the first three on rank 0 only; before what is staged in them
+  std::vector<NewFolder> folders_;  ///< the first four on rank 0 only; before what is staged in them
   std::vector<Output> outputs_;
+  std::set<std::string> targets_;  ///< theirs
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
   std::vector<Written> written_;
 };

@@ -76,9 +76,9 @@ void PartFiles::write_part(const std::string& prefix, const PartIndex& index, co
   write_part_links(outputs_, part, index.parts, part_path(prefix, part.number, "links"));
 }
 
-void PartFiles::commit() {
-  comm_.together([&] { outputs_.commit(); });
-}
+void PartFiles::commit(OutputSet& whole) { OutputSet::commit_together(comm_, {&whole, &outputs_}); }
+
+void PartFiles::commit() { OutputSet::commit_together(comm_, {&outputs_}); }
 
 PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t parts,
                      const std::vector<std::string>& formats, const std::vector<std::string>& blocks) {

@@ -28,8 +28,10 @@ class PartFiles {
   /// formats are of part_formats(). *Collective.* Throws OutputError on all ranks.
   void write(const std::string& prefix, const PartIndex& index, const std::vector<MeshPart>& parts);
 
-  /// Gives the files their names. A rank's files appear all or not at all. *Collective.* Throws OutputError
-  /// on all ranks.
+  /// Gives the files their names, those of `whole` with them: a signal finds all of them or none. What a disk
+  /// refuses of one rank's files takes back all of that rank's alone. *Collective.* Throws OutputError on all
+  /// ranks.
+  void commit(OutputSet& whole);
   void commit();
 
  private:

@@ -77,10 +77,18 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
                                  const std::string& path) {
   const auto refuse = [&](const std::string& what) { throw InputError(path + ": " + what + cure); };
   const auto& [root_x, root_y, tree_edge, trees_x, trees_y, gradation, geometry, of_case, nodes, triangles,
-               quads, coordinates] = attributes;
+               quads, coordinates, root_far] = attributes;
   if (!std::isfinite(root_x) || !std::isfinite(root_y))
     refuse(fmt::format("its root lies at ({}, {})", root_x, root_y));
   if (!(tree_edge > 0) || !std::isfinite(tree_edge)) refuse(fmt::format("its tree edge is {}", tree_edge));
+  const auto are_near = [](double a, double b, double side) {  // but for rounding
+    return std::abs(a - b) <= 1e-9 * side + 1e-15 * (std::abs(a) + std::abs(b));
+  };
+  const Point end = Point{root_x, root_y} + Point{trees_x * tree_edge, trees_y * tree_edge};
+  if (root_far &&
+      !(are_near(root_far->x, end.x, end.x - root_x) && are_near(root_far->y, end.y, end.y - root_y)))
+    refuse(fmt::format("its root ends at ({}, {}), but its trees at ({}, {})", root_far->x, root_far->y,
+                       end.x, end.y));
   const bool enough =
       trees_x >= 1 && trees_y >= 1 && std::int64_t{trees_x} * trees_y <= leaves;  // each tree has a leaf
   if (!enough) refuse(fmt::format("it has {} by {} trees, but {} leaves", trees_x, trees_y, leaves));

@@ -42,6 +42,9 @@ class TreeFrame {
     put_text("format", tree_format_name);
     put_number("format_version", tree_format_version);
     for_each_attribute(attributes, [&](const char* name, auto value) { put_number(name, value); });
+    if (!attributes.root_far) return;
+    put_number(root_far_names[0], attributes.root_far->x);
+    put_number(root_far_names[1], attributes.root_far->y);
   }
 
   void put_measured_wall(const MeasuredWall& wall) {

@@ -31,6 +31,9 @@ void for_each_attribute(Attributes& attributes, const Visit& visit) {
   visit("coordinate_digest", attributes.coordinate_digest);
 }
 
+/// The attributes of TreeAttributes::root_far, which files without one lack: those of earlier versions too.
+inline constexpr std::array root_far_names{"root_far_x", "root_far_y"};
+
 /// The dataset of TreeRecord::measured_wall, which files without one lack: a row an edge.
 inline constexpr const char* measured_wall_name = "measured_wall";
 inline constexpr std::size_t measured_wall_columns = 6;  ///< x, y of its ends, then wall units at either

@@ -33,6 +33,11 @@ class TreeSource {
     }
     TreeAttributes result;
     for_each_attribute(result, [&](const char* name, auto& value) { read_number(name, value); });
+    if (H5Aexists(file_.id(), root_far_names[0]) > 0) {
+      Point& far = result.root_far.emplace();
+      read_number(root_far_names[0], far.x);
+      read_number(root_far_names[1], far.y);
+    }
     return result;
   }
 

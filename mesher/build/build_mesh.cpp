@@ -45,6 +45,7 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   a.tree_edge = lattice.tree_edge();
   a.trees_x = lattice.trees_x();
   a.trees_y = lattice.trees_y();
+  if (root_box(a).high != lattice.box().high) a.root_far = lattice.box().high;
   a.gradation = options.size.gradation;
   a.geometry_digest = geometry.digest();
   a.nodes = comm.sum(result.mesh.owned_nodes);

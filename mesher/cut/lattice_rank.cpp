@@ -26,10 +26,10 @@ TieRank tie_rank(const Lattice& lattice, int finest_level, Point position, std::
   TieRank rank = tie_rank(lattice.box().centre(), position);
   // The coordinate along the axis goes first: it is the image's too.
   if (mirror == MirrorAxis::y) std::swap(rank.x, rank.y);
-  const std::int64_t column = lattice.column_at(position.x), row = lattice.row_at(position.y);
-  if (lattice.x(column) != position.x || lattice.y(row) != position.y) return rank;
-  const TieRank lines = line_rank(column, row);
-  if (lines.coarser < Quadrant::unit_level - finest_level) return rank;  // on no line of the tree
+  const auto column = lattice.column_on(position.x, finest_level),
+             row = lattice.row_on(position.y, finest_level);
+  if (!column || !row) return rank;  // on no lines of the tree
+  const TieRank lines = line_rank(*column, *row);
   rank.coarser = lines.coarser;
   rank.finer = lines.finer;
   return rank;

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "mesher/base/log.hpp"
@@ -15,6 +18,7 @@
 #include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
+#include "mesher/mesh/check/require_sound.hpp"
 #include "mesher/mesh/mirror_images.hpp"
 #include "smoother/smooth_mesh.hpp"
 
@@ -203,10 +207,9 @@ void add_dropped(const MeshReport& dropped, MeshReport& report) {
   report.islands_dropped += dropped.islands_dropped;
   report.area_dropped += dropped.area_dropped;
   report.warnings.insert(report.warnings.begin(), dropped.warnings.begin(), dropped.warnings.end());
-  for (const std::string& name : dropped.boundaries_vanished) {
-    if (std::ranges::find(report.boundaries_vanished, name) == report.boundaries_vanished.end())
-      report.boundaries_vanished.push_back(name);
-  }
+  const std::set<std::string> known(report.boundaries_vanished.begin(), report.boundaries_vanished.end());
+  std::ranges::copy_if(dropped.boundaries_vanished, std::back_inserter(report.boundaries_vanished),
+                       [&](const std::string& name) { return !known.contains(name); });
 }
 
 /// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
@@ -256,6 +259,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   for (std::string& warning : warnings_of_strips(front, input.mesh.size.min))
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
+  require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh);
   if (wants_y_plus(input.geometry)) generated.result.tree.measured_wall = measured;
   times.end();
   generated.times = times;
@@ -286,6 +290,9 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured, change)
                                               : generate_plain(comm, input, demanded, change);
   MeshResult& result = generated.result;
+  generated.times.begin("check");
+  require_sound(comm, result.mesh);
+  generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);

@@ -135,6 +135,15 @@ std::int64_t Lattice::Axis::line_before(double coordinate) const {
   return i;
 }
 
+std::optional<std::int64_t> Lattice::Axis::line_on(double coordinate, int level) const {
+  const std::int64_t step = std::int64_t{1} << (Quadrant::unit_level - level);
+  const double steps = (coordinate - low) / (static_cast<double>(step) * unit);
+  if (!(steps > -1 && steps < static_cast<double>(count / step + 1))) return std::nullopt;
+  const std::int64_t nearest =
+      std::clamp(step * static_cast<std::int64_t>(std::round(steps)), std::int64_t{0}, count);
+  return at(nearest) == coordinate ? std::optional(nearest) : std::nullopt;
+}
+
 Lattice::Lattice(const Box& box, int trees_x, int trees_y)
     : box_{box},
       trees_x_{trees_x},

@@ -88,6 +88,10 @@ class Lattice {
   /// square right of it, above it holds the coordinate.
   std::int64_t column_at(double x) const { return x_.line_before(x); }
   std::int64_t row_at(double y) const { return y_.line_before(y); }
+  /// The line of squares of this level that lies at just this coordinate, if there is one. Their lines lie at
+  /// different doubles where finest_level() allows the level; lattice lines between them may not.
+  std::optional<std::int64_t> column_on(double x, int level) const { return x_.line_on(x, level); }
+  std::optional<std::int64_t> row_on(double y, int level) const { return y_.line_on(y, level); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
   /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than
@@ -106,6 +110,7 @@ class Lattice {
     }
     double rounded_at(std::int64_t i) const;
     std::int64_t line_before(double coordinate) const;
+    std::optional<std::int64_t> line_on(double coordinate, int level) const;
   };
   static Axis make_axis(double low, double high, int trees);
 

@@ -48,8 +48,9 @@ class StripBuilder {
 
   std::size_t boundary() const { return front_.strip_boundary().value(); }
   void find_fronts();
-  std::vector<FrontEdge> front_of(const LayerStrip& strip, const std::map<GlobalNodeId, FrontEdge>& by_first,
-                                  const std::vector<FrontEdge>& edges) const;
+  static std::vector<FrontEdge> front_of(const LayerStrip& strip,
+                                         const std::map<GlobalNodeId, FrontEdge>& by_first,
+                                         const std::map<Point, const FrontEdge*>& by_place);
   std::vector<std::int32_t> nodes_behind();
   void exchange_numbers();
   GrownNode node(std::size_t strip, const FilledStrip::Corner& c) const;
@@ -84,22 +85,28 @@ void StripBuilder::find_fronts() {
   }
   const std::vector<FrontEdge> all = comm_.all_gather_values(std::span<const FrontEdge>(own));
   std::map<GlobalNodeId, FrontEdge> by_first;
-  for (const FrontEdge& edge : all) by_first.emplace(edge.nodes[0], edge);
+  std::map<Point, const FrontEdge*> by_place;
+  for (const FrontEdge& edge : all) {
+    by_first.emplace(edge.nodes[0], edge);
+    by_place.emplace(edge.points[0], &edge);
+  }
   strips_.reserve(front_.strips.size());
   comm_.together([&] {
-    for (const LayerStrip& strip : front_.strips) strips_.emplace_back(strip, front_of(strip, by_first, all));
+    for (const LayerStrip& strip : front_.strips)
+      strips_.emplace_back(strip, front_of(strip, by_first, by_place));
   });
 }
 
 /// One after another, as far as there are any or the first one comes again.
 std::vector<FrontEdge> StripBuilder::front_of(const LayerStrip& strip,
                                               const std::map<GlobalNodeId, FrontEdge>& by_first,
-                                              const std::vector<FrontEdge>& edges) const {
+                                              const std::map<Point, const FrontEdge*>& by_place) {
   const Point begin = strip.root ? strip.root->left : strip.front[strip.corners[3]];
-  const auto first = std::ranges::find(edges, begin, [](const FrontEdge& e) { return e.points[0]; });
-  if (first == edges.end()) refuse_narrow(strip, begin);
-  std::vector<FrontEdge> front{*first};
-  for (auto next = by_first.find(first->nodes[1]); next != by_first.end() && next->first != first->nodes[0];
+  const auto first = by_place.find(begin);
+  if (first == by_place.end()) refuse_narrow(strip, begin);
+  std::vector<FrontEdge> front{*first->second};
+  for (auto next = by_first.find(front[0].nodes[1]);
+       next != by_first.end() && next->first != front[0].nodes[0];
        next = by_first.find(next->second.nodes[1]))
     front.push_back(next->second);
   return front;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/point.hpp"
 
 namespace quadloop {
 
@@ -29,7 +31,15 @@ struct TreeAttributes {
   std::uint64_t geometry_digest = 0, case_digest = 0;
   std::int64_t nodes = 0, triangles = 0, quads = 0;
   std::uint64_t coordinate_digest = 0;
+  /// The root's upper right corner where it is not root + trees times edge, to the bit.
+  std::optional<Point> root_far = {};
 };
+
+/// The root, to the bit.
+inline Box root_box(const TreeAttributes& a) {
+  const Point low{a.root_x, a.root_y};
+  return {low, a.root_far.value_or(low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge})};
+}
 
 /// One rank's leaves, in the order of the space-filling curve; ranks follow each other along it.
 struct TreeRecord {

@@ -22,7 +22,7 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
                        std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
   if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
-  return {low, low + Point{saved.tree_edge, saved.tree_edge}};
+  return root_box(saved);
 }
 
 /// Their images stand for them.

@@ -3,11 +3,14 @@
 //   QUADLOOP_DISK_CALL    write, fsync, close or rename
 //   QUADLOOP_DISK_FULL    the number of the first such call that fails with ENOSPC; all later ones fail too
 //   QUADLOOP_DISK_DELAY   milliseconds before each such call
+//   QUADLOOP_DISK_SIGNAL  the number of the call before which the process sends itself SIGTERM, on the rank
+//                         QUADLOOP_DISK_RANK alone
 #include <dlfcn.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -28,14 +31,21 @@ int setting(const char* name) {
   return text == nullptr ? 0 : std::atoi(text);
 }
 
+bool is_chosen_rank() {
+  const char* const rank = std::getenv("OMPI_COMM_WORLD_RANK");
+  return (rank == nullptr ? 0 : std::atoi(rank)) == setting("QUADLOOP_DISK_RANK");
+}
+
 template <class File>
 bool fails(std::string_view call, File file) {
   static int calls = 0;
   const char* const chosen = std::getenv("QUADLOOP_DISK_CALL");
   if (chosen == nullptr || call != chosen || !is_under_way(file)) return false;
   ::usleep(static_cast<useconds_t>(setting("QUADLOOP_DISK_DELAY")) * 1000);
+  ++calls;
+  if (calls == setting("QUADLOOP_DISK_SIGNAL") && is_chosen_rank()) ::raise(SIGTERM);
   const int first = setting("QUADLOOP_DISK_FULL");
-  if (first == 0 || ++calls < first) return false;
+  if (first == 0 || calls < first) return false;
   errno = ENOSPC;
   return true;
 }

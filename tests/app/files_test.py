@@ -218,6 +218,34 @@ class Signals(FilesTest):
         self.assertEqual(self.ended(run)[0], -signal.SIGTERM)
         self.assertEqual(self.names(), sorted("a" + suffix for suffix in SUFFIXES))
 
+    def test_parts_and_the_whole_get_their_names_together(self):
+        """Whichever rank is ended, and when, while files come to the disk and get their names: all files of all ranks are those of one run. On one
+        rank the last call is reached; elsewhere a rank is ended in each part of the work."""
+        def files():
+            return {path.name: path.read_bytes() for path in self.out.iterdir() if not path.name.startswith(".quadloop")}
+
+        def parts(spacing, **how):
+            return self.mesh("--set", "output.partitions=4", "--set", f"spacing.max={spacing}", "--set", 'output.formats=["mesh"]', **how)
+
+        def kept(ranks, rank, call, number, sets):
+            code, _ = self.ended(parts(0.25, ranks=ranks, environment=dict(disk(call), QUADLOOP_DISK_SIGNAL=str(number), QUADLOOP_DISK_RANK=str(rank))))
+            self.assertIn(files(), sets, f"ranks {ranks}, rank {rank}: before {call} {number}")
+            self.assertEqual(self.ended(parts(0.5)), (0, ""))
+            return code == 0
+
+        sets = []
+        for spacing in (0.25, 0.5):
+            self.assertEqual(self.ended(parts(spacing)), (0, ""))
+            sets.append(files())
+        for call in ("fsync", "rename"):
+            number = 1
+            while not kept(1, 0, call, number, sets):
+                number += 1
+            self.assertGreater(number, 8)
+            for rank in range(3):
+                for number in (1, 3):
+                    kept(3, rank, call, number, sets)
+
     def test_killed_runs_are_cleaned_up_after(self):
         for call, wait_for in (("write", ".quadloop-"), ("rename", ".quadloop.lock")):
             run = self.under_way(call=call, wait_for=wait_for)

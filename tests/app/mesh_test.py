@@ -137,6 +137,16 @@ class MeshWarnings(ProgramTest):
         _, warnings = self.mesh(kite, case + "corner_spacing = 0.01\n")
         self.assertIn("boundary 'kite' asks for a corner_spacing of 0.01, but spacing.min = 0.02", warnings)
 
+    def test_a_restart_has_the_same_root_to_the_bit(self):
+        """The trees' edge times their number rounds to another corner than the user's edge does."""
+        blob = "1\nblob\n5\n-1 -1\n1.3 -0.9\n1.1 0.4\n0.2 1.1\n-0.9 0.8\n"
+        case = CASE.replace("min = 0.5", "min = 0.05").replace("max = 1", "max = 0.5") + "[mesh]\nroot = "
+        for root in ("[-1.3339617893959435, -1.4407207143346492, 0.9241473904555819, 3, 4]", "[-1.3, -1.4, 0.9, 3, 3]"):
+            self.mesh(blob, case + root)
+            self.done("mesh", "case.toml", "-o", "again", "--tree", "a.tree.h5")
+            for suffix in (".mesh", ".tree.h5"):
+                self.assertEqual((self.folder / f"again{suffix}").read_bytes(), (self.folder / f"a{suffix}").read_bytes(), root)
+
     def test_a_new_mesh_has_no_solution_for_a_csv(self):
         table, warnings = self.mesh("1\n" + BOX, CASE + '[output]\nformats = ["mesh", "csv"]\n')
         self.assertIn("a .csv holds a solution alone", warnings)

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 namespace quadloop {
 namespace {
 
@@ -35,6 +38,24 @@ TEST(LatticeRank, MirrorImagesDifferInTheirCoordinatesAlone) {
       EXPECT_EQ(own.finer, other.finer);
       EXPECT_NEAR(own.farther, other.farther, 1e-15);
       EXPECT_NEAR(own.nearer, other.nearer, 1e-15);
+    }
+  }
+}
+
+// Two of the lattice's lines have the same double there, the tree's are 2^22 apart.
+TEST(LatticeRank, FarFromTheOriginTheTreesOwnLineIsTaken) {
+  const Point corner{2e8 + 0.25, 2e8 + 0.25};
+  constexpr int level = 8;
+  constexpr std::int64_t step = std::int64_t{1} << (Quadrant::unit_level - level);
+  for (const double size : {16.0, 3.0}) {
+    const Lattice lattice({corner, corner + Point{size, size}}, 1, 1);
+    ASSERT_EQ(lattice.x(step), lattice.x(step + 1)) << "they do round to one";
+    for (std::int64_t i = 0; i <= std::int64_t{1} << level; ++i) {
+      const TieRank rank = tie_rank(lattice, level, lattice.corner(step * i, step)),
+                    lines = line_rank(step * i, step);
+      EXPECT_EQ(std::pair(rank.coarser, rank.finer), std::pair(lines.coarser, lines.finer)) << i;
+      EXPECT_EQ(lattice.column_on(lattice.x(step * i), level), step * i);
+      EXPECT_FALSE(lattice.column_on(std::nextafter(lattice.x(step * i), 0), level));
     }
   }
 }

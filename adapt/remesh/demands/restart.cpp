@@ -136,15 +136,13 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
 }
 
 void keep_root(const TreeAttributes& tree, MeshInput& input) {
+  const Box root = root_box(tree);
   if (!input.mesh.size.root) {
     const Lattice lattice = choose_root(input.geometry, {});
-    const bool same = lattice.box().low == Point{tree.root_x, tree.root_y} &&
-                      lattice.tree_edge() == tree.tree_edge && lattice.trees_x() == tree.trees_x &&
-                      lattice.trees_y() == tree.trees_y;
+    const bool same = lattice.box().low == root.low && lattice.tree_edge() == tree.tree_edge &&
+                      lattice.trees_x() == tree.trees_x && lattice.trees_y() == tree.trees_y;
     if (same) return;
   }
-  const Point low{tree.root_x, tree.root_y};
-  const Box root{low, low + Point{tree.trees_x * tree.tree_edge, tree.trees_y * tree.tree_edge}};
   const Geometry& geometry = input.geometry;
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     const Point p = geometry.point(v);
@@ -155,7 +153,7 @@ void keep_root(const TreeAttributes& tree, MeshInput& input) {
                     geometry.boundary(geometry.boundary_of(v)).name, p.x, p.y, root.low.x, root.low.y,
                     root.high.x, root.high.y));
   }
-  input.mesh.size.root = RootOptions{{tree.root_x, tree.root_y}, tree.tree_edge, tree.trees_x, tree.trees_y};
+  input.mesh.size.root = RootOptions{root.low, tree.tree_edge, tree.trees_x, tree.trees_y, root.high};
 }
 
 }  // namespace quadloop

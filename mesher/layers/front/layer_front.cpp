@@ -9,7 +9,9 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "mesher/geometry/validate.hpp"
 #include "mesher/layers/front/followed_layers.hpp"
 #include "mesher/layers/front/thickness.hpp"
 
@@ -40,8 +42,9 @@ class OuterOutline {
         fitting_{fitting},
         curvature_{curvature},
         first_of_segment_(g_.points().size(), WallLine::none),
-        covered_(g_.points().size(), 0) {
-    bases_ = bases_of(g_, lines_);
+        covered_(g_.points().size(), 0),
+        is_base_(g_.points().size(), 0) {
+    for (const std::int32_t s : bases_of(g_, lines_)) is_base_[s] = 1;
     cover_ends();
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
@@ -94,7 +97,7 @@ class OuterOutline {
     if (!base.empty()) base.push_back(g_.point(wake.base_end));
     return base;
   }
-  bool is_base(std::int32_t s) const { return std::ranges::find(bases_, s) != bases_.end(); }
+  bool is_base(std::int32_t s) const { return is_base_[s] != 0; }
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
   void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept,
@@ -122,6 +125,7 @@ class OuterOutline {
   std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
   std::vector<char> covered_;  ///< vertices on which a run's last column lies
+  std::vector<char> is_base_;  ///< of segments: whether a wake begins behind it
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
   std::vector<BoundaryId> boundary_;
@@ -130,7 +134,6 @@ class OuterOutline {
   std::vector<char> kept_;
   std::vector<double> bend_;
   std::vector<LayerStrip> strips_;
-  std::vector<std::int32_t> bases_;  ///< segments
 };
 
 void OuterOutline::cover_ends() {
@@ -273,26 +276,6 @@ bool is_in_domain(const Geometry& g, Point p) {
   return inside;
 }
 
-/// No strip has a body within it, and free lines lie in the domain; what crosses a strip's front is told by
-/// require_disjoint().
-void require_room(const LayerFront& front) {
-  const Geometry& g = front.line.geometry();
-  for (const LayerStrip& strip : front.strips) {
-    if (!strip.root && !is_in_domain(g, strip.front[0]))
-      throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere",
-                                   strip.place, strip.name, strip.front[0].x, strip.front[0].y));
-    const std::int32_t own = strip.root ? g.loop_of(front.line[strip.root->station].segment) : -1;
-    for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
-      const Point p = g.point(g.loop_start(loop));
-      if (loop == own || !goes_round(strip.front, p)) continue;
-      throw InputError(
-          fmt::format("{}the layers of {} run over boundary {} at ({}, {}); lead it elsewhere, or make it "
-                      "shorter",
-                      strip.place, strip.name, g.boundary(g.boundary_of(g.loop_start(loop))).name, p.x, p.y));
-    }
-  }
-}
-
 /// The strip on whose front a segment of the outer outline lies.
 const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
   const Point p = front.outer.point(s);
@@ -333,6 +316,79 @@ void require_disjoint(const LayerFront& front) {
   }
 }
 
+/// The outer outline, with loops as the sweep over an outline takes them.
+Outline as_outline(const Geometry& g) {
+  Outline outline;
+  for (const Boundary& boundary : g.boundaries()) outline.names.push_back(boundary.name);
+  for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+    OutlineLoop& to = outline.loops.emplace_back();
+    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
+      to.points.push_back(g.point(v));
+      to.boundary.push_back(g.boundary_of(v));
+    }
+  }
+  return outline;
+}
+
+/// Of a loop's segments on fronts, or on those of strips alone, the one nearest to p.
+std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, bool strips_alone) {
+  const Geometry& g = front.outer;
+  std::int32_t nearest = g.loop_start(loop);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int32_t s = g.loop_start(loop); s < g.loop_start(loop + 1); ++s) {
+    if (strips_alone ? g.boundary_of(s) != front.strip_boundary() : !front.is_front(s)) continue;
+    const double distance = place_on_segment(p, g.point(s), g.point(g.next(s))).squared_distance;
+    if (distance >= least) continue;
+    least = distance;
+    nearest = s;
+  }
+  return nearest;
+}
+
+/// A boundary round which the layers of a line go.
+[[noreturn]] void refuse_body_within(const LayerFront& front, std::int32_t loop, std::int32_t parent) {
+  const Geometry& g = front.line.geometry();
+  const std::int32_t begin = g.loop_start(loop);
+  const Point p = g.point(begin);
+  const LayerStrip& strip = strip_at(front, nearest_front(front, parent, p, true));
+  throw InputError(
+      fmt::format("{}the layers of {} run over boundary {} at ({}, {}); lead it elsewhere, or make it "
+                  "shorter",
+                  strip.place, strip.name, g.boundary(g.boundary_of(begin)).name, p.x, p.y));
+}
+
+/// A free line outside of the domain, or within the layers that end on another loop.
+[[noreturn]] void refuse_line(const LayerFront& front, std::int32_t loop, std::int32_t parent) {
+  const std::int32_t begin = front.outer.loop_start(loop);
+  const Point p = front.outer.point(begin);
+  const LayerStrip& strip = strip_at(front, begin);
+  if (!is_in_domain(front.line.geometry(), p))
+    throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere",
+                                 strip.place, strip.name, p.x, p.y));
+  const std::int32_t around = nearest_front(front, parent, p, false);
+  const BoundaryId boundary = front.outer.boundary_of(around);
+  const std::string whose = boundary == front.strip_boundary()
+                                ? strip_at(front, around).name
+                                : "boundary " + front.outer.boundary(boundary).name;
+  throw InputError(
+      fmt::format("{}{} lies within the layers of {}, at ({}, {}); lead it elsewhere, or make those thinner",
+                  strip.place, strip.name, whose, p.x, p.y));
+}
+
+/// Every loop of the outer outline has the domain to its left: no body and no line lies within the layers of
+/// another one. Comes after require_disjoint().
+void require_room(const LayerFront& front) {
+  if (!front.has_strips()) return;
+  const std::vector<LoopNesting> nestings = validate(as_outline(front.outer));
+  for (std::size_t loop = 0; loop < nestings.size(); ++loop) {
+    const LoopNesting& nesting = nestings[loop];
+    if (nesting.counter_clockwise == (nesting.depth % 2 == 0)) continue;
+    const auto at = static_cast<std::int32_t>(loop);
+    if (at < front.line.geometry().loop_count()) refuse_body_within(front, at, nesting.parent);
+    refuse_line(front, at, nesting.parent);
+  }
+}
+
 }  // namespace
 
 void LayerFront::keep(const std::vector<std::int32_t>& stations) {
@@ -360,8 +416,8 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
   OuterOutline(front.line, fitting, placed, curvature).build(front);
-  require_room(front);
   require_disjoint(front);
+  require_room(front);
   front.thickness = std::move(fitting.thickness);
   front.columns = std::move(fitting.columns);
   front.points = std::move(fitting.front);

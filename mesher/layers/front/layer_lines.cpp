@@ -25,19 +25,34 @@ std::string said(const PlacedLine& line, const LayerLine& asked) {
   return fmt::format("{}{}, from = \"{}\"", line.place, line.name, fmt::join(asked.from, "\", \""));
 }
 
+/// Each boundary's, in ascending order.
+using SegmentsOfBoundaries = IdVector<BoundaryId, std::vector<std::int32_t>>;
+
+SegmentsOfBoundaries segments_of_boundaries(const Geometry& g) {
+  SegmentsOfBoundaries segments(g.boundaries().size());
+  for (std::int32_t s = 0; s < g.size(); ++s) segments[g.boundary_of(s)].push_back(s);
+  return segments;
+}
+
 /// The boundaries that a wake begins at, as a flag for each of the geometry's.
 class WakeWall {
  public:
-  WakeWall(const Geometry& g, const LayerLine& line, const std::string& said)
+  WakeWall(const Geometry& g, const SegmentsOfBoundaries& segments, const LayerLine& line,
+           const std::string& said)
       : g_{g}, has_(g.boundaries().size(), 0) {
     for (const std::string& name : line.from) {
       const auto found = std::ranges::find(g.boundaries(), name, &Boundary::name);
       if (found == g.boundaries().end()) refuse_unknown(name, said);
       if (!found->layers)
         throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
-      has_[BoundaryId{size32(std::vector<char>(found - g.boundaries().begin()))}] = 1;
+      const BoundaryId boundary{static_cast<std::int32_t>(found - g.boundaries().begin())};
+      if (std::exchange(has_[boundary], 1) != 0) continue;
+      segments_.insert(segments_.end(), segments[boundary].begin(), segments[boundary].end());
     }
+    std::ranges::sort(segments_);
   }
+  /// In ascending order.
+  const std::vector<std::int32_t>& segments() const { return segments_; }
   /// Whether a segment is of one of them.
   bool has(std::int32_t segment) const { return has_[g_.boundary_of(segment)] != 0; }
 
@@ -51,6 +66,7 @@ class WakeWall {
 
   const Geometry& g_;
   IdVector<BoundaryId, char> has_;
+  std::vector<std::int32_t> segments_;
 };
 
 /// By how much the wall turns away from the domain: the cosine; 1 where it does not.
@@ -82,14 +98,13 @@ std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall) {
   constexpr double base_over_box = 0.05;
   std::vector<Edge> sharp, blunt;
   double low = g.box().high.x, high = g.box().low.x, bottom = g.box().high.y, top = g.box().low.y;
-  for (std::int32_t v = 0; v < g.size(); ++v) {
-    if (!wall.has(v)) continue;
+  for (const std::int32_t v : wall.segments()) {
     low = std::min(low, g.point(v).x), high = std::max(high, g.point(v).x);
     bottom = std::min(bottom, g.point(v).y), top = std::max(top, g.point(v).y);
   }
   const double longest_base = base_over_box * std::max(high - low, top - bottom);
-  for (std::int32_t v = 0; v < g.size(); ++v) {
-    if (!wall.has(v) || !wall.has(g.previous(v))) continue;
+  for (const std::int32_t v : wall.segments()) {
+    if (!wall.has(g.previous(v))) continue;
     if (cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge) sharp.push_back({v, v});
     if (const auto base = base_from(g, wall, v, longest_base)) blunt.push_back(*base);
   }
@@ -124,8 +139,9 @@ PlacedLine named(const std::vector<LayerLine>& lines, std::size_t number) {
   return placed;
 }
 
-void place_wake(const Geometry& g, const LayerLine& line, PlacedLine& placed) {
-  const WakeWall wall(g, line, said(placed, line));
+void place_wake(const Geometry& g, const SegmentsOfBoundaries& segments, const LayerLine& line,
+                PlacedLine& placed) {
+  const WakeWall wall(g, segments, line, said(placed, line));
   const auto [first, last] = edge_of(g, wall, said(placed, line));
   std::vector<Point> path{first == last ? g.point(first) : 0.5 * (g.point(first) + g.point(last))};
   const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
@@ -158,6 +174,8 @@ void require_edge_of_its_own(const std::vector<PlacedLine>& before, const Placed
 
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines) {
   std::vector<PlacedLine> all;
+  const bool any_wake = std::ranges::any_of(lines, [](const LayerLine& l) { return !l.from.empty(); });
+  const SegmentsOfBoundaries segments = any_wake ? segments_of_boundaries(geometry) : SegmentsOfBoundaries{};
   for (std::size_t number = 0; number < lines.size(); ++number) {
     const LayerLine& line = lines[number];
     PlacedLine placed = named(lines, number);
@@ -165,7 +183,7 @@ std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<
       placed.path = line.path;
       placed.layers = *line.layers;
     } else {
-      place_wake(geometry, line, placed);
+      place_wake(geometry, segments, line, placed);
       require_edge_of_its_own(all, placed);
     }
     all.push_back(std::move(placed));

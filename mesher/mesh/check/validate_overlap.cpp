@@ -12,8 +12,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double area_tolerance = 1e-10;  // relative: rounding of a sum over many cells
-constexpr double turn_tolerance = 1e-4;   // degrees
+constexpr double turn_tolerance = 1e-4;  // degrees
 constexpr double full_turn = 360;
 constexpr std::size_t most_components = 2000;  // whose winding is counted; beyond, the other rules must do
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// Inside validate() only: the rules one by one. All but the first want a mesh that keeps the first.
+// Inside validate() and require_sound() only: the rules one by one. All but the first want a mesh that keeps
+// the first.
 
 #include <vector>
 
@@ -10,6 +11,8 @@
 namespace quadloop {
 
 using Faults = std::vector<MeshFault>;
+
+inline constexpr double area_tolerance = 1e-10;  ///< relative: rounding of a sum over many cells
 
 void check_indices(const Mesh& mesh, Faults& faults);
 void check_coincident(const Mesh& mesh, Faults& faults);

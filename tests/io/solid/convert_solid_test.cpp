@@ -12,6 +12,7 @@
 #include "mesher/mesh/topology.hpp"
 #include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -47,7 +48,7 @@ SolidMesh sample() {
 }
 
 SolidMesh through_file(const SolidMesh& mesh, const std::string& path) {
-  write_solid_of_root(Communicator(MPI_COMM_SELF), mesh, path);
+  test::write_alone(Communicator(MPI_COMM_SELF), mesh, path);
   std::optional<SolidMesh> back = read_solid(path);
   EXPECT_TRUE(back);
   EXPECT_TRUE(back->warnings.empty());
@@ -160,8 +161,8 @@ TEST(ConvertSolid, PiecesArePutTogether) {
   first.patches = {whole.patches[0], whole.patches[1]};
   first.patches[0].faces.pop_back();
   second.patches = {{"floor", "none", {whole.patches[0].faces[2]}}};
-  write_solid_of_root(alone, first, folder.file("a.vtu"));
-  write_solid_of_root(alone, second, folder.file("b.vtu"));
+  test::write_alone(alone, first, folder.file("a.vtu"));
+  test::write_alone(alone, second, folder.file("b.vtu"));
   const auto list = [](const std::string& sources) {
     return "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid>" + sources +
            "</PUnstructuredGrid></VTKFile>\n";
@@ -180,7 +181,7 @@ TEST(ConvertSolid, PiecesArePutTogether) {
   test::write_bytes(folder.file("one.pvtu"), list(b));
   EXPECT_EQ(read_solid(folder.file("one.pvtu"))->pyramids, whole.pyramids);
   second.solution->cells.names = {"p", "level"};
-  write_solid_of_root(alone, second, folder.file("b.vtu"));
+  test::write_alone(alone, second, folder.file("b.vtu"));
   EXPECT_THROW(read_solid(folder.file("all.pvtu")), InputError);
 }
 
@@ -189,8 +190,8 @@ TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
   if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
   for (const char* name : {"su2", "lb8.ugrid", "msh"}) {
-    write_solid_of_root(alone, sample(), folder.file(std::string("a.") + name));
-    write_solid_of_root(alone, sample(), folder.file("b.x"), name);
+    test::write_alone(alone, sample(), folder.file(std::string("a.") + name));
+    test::write_alone(alone, sample(), folder.file("b.x"), name);
     EXPECT_EQ(test::bytes_of(folder.file("b.x")), test::bytes_of(folder.file(std::string("a.") + name)));
   }
 }
@@ -214,8 +215,8 @@ TEST(ConvertSolid, FormatsOfFacesNeedEachFaceOnce) {
   twice.patches[1].faces.push_back(twice.patches[0].faces[0]);
   stray.patches[1].faces.push_back({0, 2, 5, none});
   for (const SolidMesh* mesh : {&open, &twice, &stray}) {
-    EXPECT_THROW(write_solid_of_root(alone, *mesh, folder.file("a.polyMesh")), OutputError);
-    EXPECT_THROW(write_solid_of_root(alone, *mesh, folder.file("a.fluent.msh")), OutputError);
+    EXPECT_THROW(test::write_alone(alone, *mesh, folder.file("a.polyMesh")), OutputError);
+    EXPECT_THROW(test::write_alone(alone, *mesh, folder.file("a.fluent.msh")), OutputError);
   }
 }
 

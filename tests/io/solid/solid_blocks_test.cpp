@@ -17,6 +17,7 @@
 #include "mesher/solid/cell_faces.hpp"
 #include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -119,9 +120,9 @@ TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
   for (const std::string& first : formats_with_blocks()) {
     for (const std::string& second : formats_with_blocks()) {
       SCOPED_TRACE(first + " to " + second);
-      write_solid_of_root(alone, mesh, path_of(folder, first));
+      test::write_alone(alone, mesh, path_of(folder, first));
       const std::optional<SolidMesh> between = read_solid(path_of(folder, first));
-      write_solid_of_root(alone, *between, folder.file("b." + second));
+      test::write_alone(alone, *between, folder.file("b." + second));
       const std::optional<SolidMesh> back = read_solid(folder.file("b." + second));
       EXPECT_TRUE(back->warnings.empty());
       EXPECT_EQ(blocks_by_nodes(*back), blocks_by_nodes(mesh));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -127,6 +128,12 @@ TEST(TreeAttributes, ArePossible) {
   EXPECT_NE(
       fault([](TreeAttributes& a) { a.trees_x = a.trees_y = std::numeric_limits<std::int32_t>::max(); }), "");
   EXPECT_NE(fault([](TreeAttributes& a) { a.nodes = -1; }), "");
+  EXPECT_EQ(fault([](TreeAttributes& a) { a.root_far = Point{1 + 1e-15, 1 - 1e-15}; }), "");
+  EXPECT_NE(fault([](TreeAttributes& a) {
+              a.root_far = Point{1, 1.1};
+            }).find("its root ends at (1, 1.1)"),
+            std::string::npos);
+  EXPECT_NE(fault([&](TreeAttributes& a) { a.root_far = Point{1, none}; }), "");
 }
 
 /// Its leaves are all on rank 0.
@@ -145,6 +152,11 @@ TEST(TreeFile, AHandMadeTreeComesBackWhole) {
   write_tree(world(), tree, folder.file("a.tree.h5"));
   const TreeRecord read = read_tree(world(), folder.file("a.tree.h5"));
   EXPECT_EQ(read.attributes.tree_edge, 0.5);
+  EXPECT_FALSE(read.attributes.root_far.has_value());
+  const Point far{std::nextafter(1, 2), 0.5};
+  tree.attributes.root_far = far;
+  write_tree(world(), tree, folder.file("b.tree.h5"));
+  EXPECT_EQ(read_tree(world(), folder.file("b.tree.h5")).attributes.root_far, far) << "to the bit";
   EXPECT_EQ(world().sum(std::ssize(read.leaves)), 8) << "though most ranks wrote none";
   const std::int64_t first = world().exclusive_sum(std::ssize(read.leaves));
   for (std::size_t i = 0; i < read.leaves.size(); ++i) {

@@ -140,6 +140,61 @@ TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
 }
 
 /// The side on which a floor's last column lies has points of its own below the column's end.
+/// A free line with thin layers of its own; the third in its case file.
+LayerLine line_at(std::vector<Point> path) {
+  LayerLine line;
+  line.path = std::move(path);
+  line.spacing = 0.05;
+  line.layers = test::equal_layers(0.02, 2);
+  line.where = "case.toml:9";
+  return line;
+}
+
+TEST(LayerFront, NoLineLiesWithinTheLayersOfAnotherThing) {
+  const Geometry body =
+      test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                        {{"body", {{-2, 0}, {0, 1}, {2, 0}, {0, -1}}, test::equal_layers(1, 4)}}});
+  const LayerLine outside = line_at({{-4, 4}, {-3, 4}}), in_layers = line_at({{-0.2, 1.4}, {0.2, 1.4}});
+  LayerLine thick = line_at({{-5, 5}, {-2, 5}});
+  thick.layers = test::equal_layers(1, 4);
+  const LayerLine in_thick = line_at({{-4, 5.4}, {-3, 5.4}});
+  LayerLine wake;
+  wake.from = {"body"};
+  wake.length = 3;
+  wake.spacing = 0.2;
+  const Geometry sharp =
+      test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                        {{"body", {{-2, 0}, {-1, 1}, {2, 0}, {-1, -1}}, test::equal_layers(0.5, 4)}}});
+  const LayerLine in_wake = line_at({{3, 0.2}, {3.5, 0.2}});
+  const auto said = [](const Geometry& g, const std::vector<LayerLine>& lines) {
+    return test::refusal([&] { layer_front(g, {}, lines); });
+  };
+  const auto expect_within = [&](const std::string& message, const std::string& what,
+                                 const std::string& whose) {
+    EXPECT_EQ(message.find("case.toml:9: " + what + " lies within the layers of " + whose + ", at ("), 0U)
+        << message;
+  };
+  EXPECT_EQ(layer_front(body, {}, {outside}).strips.size(), 1U);
+  expect_within(said(body, {in_layers}), "layer_line", "boundary body");
+  expect_within(said(body, {outside, in_layers}), "layer_line_2", "boundary body");
+  expect_within(said(body, {thick, in_thick}), "layer_line_2", "layer_line_1");
+  expect_within(said(body, {in_thick, thick}), "layer_line_1", "layer_line_2");
+  expect_within(said(sharp, {wake, in_wake}), "layer_line", "wake");
+  EXPECT_NE(said(body, {line_at({{-0.2, 0}, {0.2, 0}})}).find("layer_line lies outside of the domain, at ("),
+            std::string::npos);
+  EXPECT_NE(said(body, {line_at({{9, 0}, {10, 0}})}).find("layer_line lies outside of the domain, at ("),
+            std::string::npos);
+}
+
+TEST(LayerFront, NoLineGoesRoundABody) {
+  const Geometry mote = test::outline_of(
+      {{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}}, {{"mote", {{0, 0}, {0, 0.1}, {0.1, 0}}}}});
+  LayerLine thick = line_at({{-2, 0}, {2, 0}});
+  thick.layers = test::equal_layers(1, 4);
+  const std::string message = test::refusal([&] { layer_front(mote, {}, {thick}); });
+  EXPECT_EQ(message.find("case.toml:9: the layers of layer_line run over boundary mote at ("), 0U) << message;
+}
+
 TEST(LayerFront, TheLastColumnTakesThePlaceOfPointsOnTheBoundaryBelowIt) {
   const double thickness = layers_thickness(ten_layers);
   std::vector<Point> rest{{8, 0}, {8, 4}, {0, 4}};

@@ -233,6 +233,11 @@ TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {
   keep_root(larger, input);
   ASSERT_TRUE(input.mesh.size.root.has_value());
   EXPECT_EQ(input.mesh.size.root->tree_edge, larger.tree_edge);
+  const Point end = root_box(larger).high, beyond{std::nextafter(end.x, 100), std::nextafter(end.y, 0)};
+  EXPECT_EQ(input.mesh.size.root->far_corner, end);
+  larger.root_far = beyond;
+  keep_root(larger, input);
+  EXPECT_EQ(choose_root(input.geometry, input.mesh.size.root).box().high, beyond) << "to the bit";
   elsewhere.root_x += 0.5;
   EXPECT_THROW(keep_root(elsewhere, input), InputError);
 }

@@ -1,0 +1,193 @@
+#include "mesher/mesh/check/require_sound.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/base/error.hpp"
+#include "mesher/base/mixed_bits.hpp"
+#include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/mesh/box_over_ranks.hpp"
+#include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate_rules.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+[[noreturn]] void report_unsound(const std::string& what, Point place) {
+  throw Fault(fmt::format("the mesh that was made is not valid, and nothing is written: {} at ({}, {}); please "
+                          "report it with the case",
+                          what, place.x, place.y));
+}
+
+/// A node's place at random in the plane of 64-bit integers, where products wrap around.
+struct RandomPlace {
+  std::uint64_t x, y;
+
+  friend RandomPlace operator-(RandomPlace a, RandomPlace b) { return {a.x - b.x, a.y - b.y}; }
+  friend std::uint64_t cross(RandomPlace a, RandomPlace b) { return a.x * b.y - a.y * b.x; }
+};
+
+std::vector<RandomPlace> random_places(const Mesh& mesh) {
+  std::vector<RandomPlace> places;
+  places.reserve(mesh.points.size());
+  for (const NodeId node : ids_below(NodeId{size32(mesh.points)})) {
+    const std::uint64_t twice = 2 * static_cast<std::uint64_t>(mesh.global(node).value());
+    places.push_back({mixed_bits(golden_step * (twice + 1)), mixed_bits(golden_step * (twice + 2))});
+  }
+  return places;
+}
+
+/// Whether the corner at a turns left for certain, exactly and in rounded arithmetic: seen from any of its
+/// three points, as rounding changes no product by as much.
+bool surely_turns_left(Point to_next, Point to_previous) {
+  constexpr double rounding = 1e-13;
+  const double reach =
+      std::abs(to_next.x) + std::abs(to_next.y) + std::abs(to_previous.x) + std::abs(to_previous.y);
+  return cross(to_next, to_previous) > rounding * reach * reach;
+}
+
+bool surely_positive(const std::array<Point, 3>& p) { return surely_turns_left(p[1] - p[0], p[2] - p[0]); }
+bool surely_positive(const std::array<Point, 4>& p) {
+  return surely_turns_left(p[1] - p[0], p[3] - p[0]) && surely_turns_left(p[2] - p[1], p[0] - p[1]) &&
+         surely_turns_left(p[3] - p[2], p[1] - p[2]) && surely_turns_left(p[0] - p[3], p[2] - p[3]);
+}
+
+template <class Place>
+auto twice_area(const std::array<Place, 3>& p) {
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+template <class Place>
+auto twice_area(const std::array<Place, 4>& p) {
+  return cross(p[2] - p[0], p[3] - p[1]);
+}
+
+/// One rank's cells and boundary edges, each looked at once.
+class Tally {
+ public:
+  /// `box` and `count` are those of all ranks' nodes, and of their cells and boundary edges.
+  Tally(const Mesh& mesh, const Box& box, std::int64_t count)
+      : mesh_{mesh},
+        places_{random_places(mesh)},
+        centre_{box.centre()},
+        twice_areas_{2, (box.width() + box.height()) * (box.width() + box.height()), count} {
+    add_cells(mesh.triangles);
+    add_cells(mesh.quads);
+    add_boundaries();
+  }
+
+  bool all_surely_positive() const { return surely_positive_; }
+  /// Over all ranks 0 where the edges of cells and boundary cancel each other: then only, but for once in
+  /// about 2^60 times, as an area is a polynomial of the places with a term for each edge.
+  std::uint64_t random_area() const { return random_area_; }
+  /// Twice what the cells cover and what the boundary encloses, over all ranks. *Collective.*
+  std::vector<double> twice_areas(const Communicator& comm) const { return twice_areas_.over(comm); }
+
+ private:
+  template <std::size_t width>
+  void add_cells(const std::vector<std::array<NodeId, width>>& cells) {
+    for (const auto& nodes : cells) {
+      std::array<Point, width> points;
+      std::array<RandomPlace, width> places;
+      for (std::size_t k = 0; k < width; ++k) {
+        points[k] = mesh_.point(nodes[k]);
+        places[k] = places_[nodes[k].value()];
+      }
+      surely_positive_ = surely_positive_ && surely_positive(points);
+      twice_areas_.add(0, twice_area(points));
+      random_area_ += twice_area(places);
+    }
+  }
+
+  void add_boundaries() {
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& [from, to] : boundary.edges) {
+        twice_areas_.add(1, cross(mesh_.point(from) - centre_, mesh_.point(to) - centre_));
+        random_area_ -= cross(places_[from.value()], places_[to.value()]);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<RandomPlace> places_;
+  Point centre_;
+  ReproducibleSums twice_areas_;
+  std::uint64_t random_area_ = 0;
+  bool surely_positive_ = true;
+};
+
+/// The lower number first.
+using UndirectedEdge = std::pair<GlobalNodeId, GlobalNodeId>;
+
+/// An edge whose uses do not cancel, with the place of an end.
+struct UnmatchedEdge {
+  GlobalNodeId low, high;
+  int uses;
+  Point place;
+};
+
+/// Where there are some. *Collective.*
+[[noreturn]] void report_unmatched(const Communicator& comm, const Mesh& mesh) {
+  std::map<UndirectedEdge, std::pair<int, Point>> uses;
+  const auto add = [&](GlobalNodeId a, GlobalNodeId b, int way, Point place) {
+    auto& [count, at] = uses[std::minmax(a, b)];
+    count += a < b ? way : -way;
+    at = place;
+  };
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    add(mesh.global(from), mesh.global(to), 1, mesh.point(from));
+  });
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& [from, to] : boundary.edges)
+      add(mesh.global(from), mesh.global(to), -1, mesh.point(from));
+  }
+  std::vector<UnmatchedEdge> own;
+  for (const auto& [edge, use] : uses) {
+    if (use.first != 0) own.push_back({edge.first, edge.second, use.first, use.second});
+  }
+  uses.clear();
+  for (const UnmatchedEdge& edge : comm.all_gather_values(std::span<const UnmatchedEdge>(own)))
+    add(edge.low, edge.high, edge.uses, edge.place);
+  for (const auto& [edge, use] : uses) {
+    if (use.first != 0)
+      report_unsound("an edge does not have a cell, or the boundary, on either side", use.second);
+  }
+  report_unsound("some edges do not have a cell, or the boundary, on either side", {});
+}
+
+/// Of every cell, exactly. *Collective.*
+void require_positive(const Communicator& comm, const Mesh& mesh) {
+  comm.together([&] {
+    Faults faults;
+    check_positive(mesh, faults);
+    if (!faults.empty()) report_unsound(faults.front().what, faults.front().place);
+  });
+}
+
+}  // namespace
+
+void require_sound(const Communicator& comm, const Mesh& mesh) {
+  const Box box = box_over_ranks(comm, mesh.points);
+  const MeshCounts counts = count(comm, mesh);
+  const Tally tally(mesh, box, counts.triangles + counts.quads + counts.boundary_edges);
+  if (comm.any(!tally.all_surely_positive())) require_positive(comm, mesh);
+  const std::vector<std::uint64_t> random_areas = comm.all_gather(tally.random_area());
+  if (std::accumulate(random_areas.begin(), random_areas.end(), std::uint64_t{0}) != 0)
+    report_unmatched(comm, mesh);
+  const std::vector<double> twice = tally.twice_areas(comm);
+  if (std::abs(twice[0] - twice[1]) <= area_tolerance * std::abs(twice[1])) return;
+  report_unsound(fmt::format("the cells cover {}, the boundary encloses {}", twice[0] / 2, twice[1] / 2),
+                 box.centre());
+}
+
+}  // namespace quadloop
