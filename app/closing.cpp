@@ -11,6 +11,7 @@
 
 #include "mesher/base/ids.hpp"
 #include "mesher/base/progress.hpp"
+#include "mesher/base/utf8.hpp"
 
 namespace quadloop {
 
@@ -26,7 +27,7 @@ bool print(const std::string& record) {
 
 void print_line(const char* kind, std::string text) {
   for (char& c : text) c = c == '\n' || c == '\r' ? ' ' : c;
-  fmt::print(stderr, "quadloop: {}: {}\n", kind, text);
+  fmt::print(stderr, "quadloop: {}: {}\n", kind, printable(text));
 }
 
 void say(const Outcome& outcome) {

@@ -2,7 +2,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +21,7 @@
 #include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
@@ -45,7 +45,7 @@ struct PlotTask {
 };
 
 PlotFormat picture_format_of(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
+  const std::string suffix = suffix_of(path);
   if (suffix == ".png") return PlotFormat::png;
   if (suffix == ".svg") return PlotFormat::svg;
   if (suffix == ".pdf") return PlotFormat::pdf;

@@ -42,7 +42,7 @@ struct SmoothArguments {
 struct Loaded {
   LoadedMesh whole;
   MeshOrder order;
-  NodeFlags pinned;  ///< those that cells of two blocks share
+  NodeFlags pinned;  ///< nodes_that_stay()
   std::optional<Geometry> geometry;
   bool delaunay = false;  ///< on every rank
 };
@@ -103,7 +103,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
       turned = loops_against(*loaded.geometry, loaded.whole.mesh);
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
-    if (loaded.whole.blocks > 1) loaded.pinned = interface_nodes(loaded.whole);
+    loaded.pinned = nodes_that_stay(loaded.whole);
     loaded.delaunay = is_delaunay_outside_layers(loaded.whole);
     append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)

@@ -9,6 +9,7 @@
 #include "adapt/solvers/cycle_paths.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 
 namespace quadloop {
 
@@ -44,7 +45,7 @@ constexpr const char* cure =
 
 /// The table itself, or that beside a mesh with a flow.
 std::string table_of(const std::string& input, const char* suffix) {
-  if (input.ends_with(".csv")) return input;
+  if (suffix_of(input) == ".csv") return input;
   const std::string table = fs::path(input).replace_extension().string() + suffix;
   if (!fs::exists(table))
     throw InputError(table + ": is not there; 'quadloop solve' writes it beside the flow");

@@ -11,10 +11,12 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
 #include "io/files/output_path.hpp"
+#include "io/files/reading/file_kind.hpp"
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_solid_file.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_plane_file.hpp"
+#include "io/medit/medit_file.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/msh/msh_solid_file.hpp"
 #include "io/native/binary_file.hpp"
@@ -30,6 +32,8 @@
 #include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop {
@@ -65,7 +69,7 @@ template <MshVersion version>
 FileFormat msh_row(const std::string& name) {
   return {.name = name,
           .program = "Gmsh",
-          .places = {Content::mesh, Content::blocks, Content::solid},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::solid},
           .read_mesh = read_msh_or_fluent,
           .write_mesh = [](OutputSet& outputs, const Mesh& mesh, const std::string& path,
                            const Field*) { write_msh(outputs, mesh, path, version); },
@@ -92,17 +96,35 @@ FileFormat ugrid_row(const std::string& name) {
           .conditions_in_solid = true};
 }
 
+/// Medit's text has the suffix of the program's own; what comes through a pipe is the program's.
+LoadedMesh read_native_or_medit(const std::string& path) {
+  std::error_code failure;
+  const bool is_file = std::filesystem::is_regular_file(path, failure);
+  return is_file && is_medit(path) ? read_medit(path) : read_native(path);
+}
+
+/// Written by its name alone.
+FileFormat medit_row() {
+  return {.name = "medit",
+          .program = "MMG, FreeFEM",
+          .places = {Content::mesh, Content::blocks},
+          .read_mesh = read_medit,
+          .write_mesh = write_mesh_alone<write_medit>,
+          .write_blocks = write_medit,
+          .boundary_names = medit_boundary_names};
+}
+
 /// The program's own: as text, and binary.
 std::vector<FileFormat> native_rows() {
   using enum Content;
   return {{.name = "mesh",
            .places = {mesh, solution, constants, blocks, layers},
            .by_default = true,
-           .read_mesh = read_native,
+           .read_mesh = read_native_or_medit,
            .write_mesh = write_native,
            .write_blocks = write_native},
           {.name = "qmesh",
-           .places = {mesh, solution, constants, blocks, conditions, layers},
+           .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
            .read_mesh = read_binary,
            .write_mesh = write_binary,
            .write_blocks = write_binary}};
@@ -128,7 +150,7 @@ FileFormat cgns_row() {
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
-           .places = {mesh, solution, blocks, layers, solid},
+           .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read_mesh = read_vtu,
            .write_mesh = write_vtu,
@@ -139,7 +161,7 @@ std::vector<FileFormat> vtk_rows() {
            .blocks_in_solid = true},
           {.name = "pvtu",
            .program = "VTK",
-           .places = {mesh, solution, blocks, layers, solid},
+           .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read_mesh = read_pvtu,
            .write_mesh = write_pvtu,
@@ -166,7 +188,7 @@ FileFormat fluent_row() {
   using enum Content;
   return {.name = "fluent.msh",
           .program = "Fluent",
-          .places = {mesh, blocks, conditions, solid},
+          .places = {mesh, blocks, block_names, conditions, solid},
           .read_mesh = read_fluent,
           .write_mesh = write_mesh_alone<write_fluent>,
           .write_blocks = write_fluent,
@@ -187,14 +209,14 @@ FileFormat plane_ugrid_row() {
           .write_mesh = write_mesh_alone<write_ugrid_plane>,
           .boundary_names = mapbc_names,
           .unknown_boundary = "of type 0 in the .mapbc",
-          .file_beside = mapbc_path};
+          .file_beside = plane_mapbc_path};
 }
 
 FileFormat foam_row() {
   using enum Content;
   return {.name = "polyMesh",
           .program = "OpenFOAM",
-          .places = {mesh, blocks, conditions, solid},
+          .places = {mesh, blocks, block_names, conditions, solid},
           .read_mesh = read_foam_plane,
           .write_mesh = write_mesh_alone<write_foam_plane>,
           .write_blocks = write_foam_plane,
@@ -205,6 +227,7 @@ FileFormat foam_row() {
           .patch_names = foam_patch_names,
           .conditions_in_solid = true,
           .blocks_in_solid = true,
+          .single_block_name = false,
           .is_folder = true};
 }
 
@@ -233,7 +256,7 @@ const std::vector<FileFormat>& file_formats() {
     for (const FileFormat& row :
          {su2_row(), fluent_row(), msh_row<MshVersion::msh_2_2>("msh"), msh_row<MshVersion::msh_4_1>("msh41"),
           ugrid_row<std::endian::big>("b8.ugrid"), ugrid_row<std::endian::little>("lb8.ugrid"),
-          plane_ugrid_row(), foam_row()})
+          plane_ugrid_row(), medit_row(), foam_row()})
       all.push_back(row);
     std::ranges::move(rows_of_solutions(), std::back_inserter(all));
     return all;
@@ -259,6 +282,19 @@ std::string renames_of_variables(const FileFormat& format, const Field& solution
                      path, renamed, renamed == 1 ? " is" : "s are", first);
 }
 
+void require_kind_of_suffix(const std::string& path) {
+  const std::optional<FileKind> kind = kind_of_file(path);
+  if (!kind || std::ranges::count(kind->suffixes, suffix_of(path)) > 0) return;
+  throw InputError(fmt::format(
+      "{}: is {}; {}", path, kind->what,
+      kind->suffixes.empty() ? kind->cure : "give it a name that ends in " + kind->suffixes.front()));
+}
+
+void append_names(Field& solution, std::vector<std::string*>& names) {
+  for (std::string& name : solution.names) names.push_back(&name);
+  for (std::string& name : solution.cells.names) names.push_back(&name);
+}
+
 void require_distinct_variables(const Field& solution, const std::string& path) {
   require_distinct(solution.names, path);
   require_distinct(solution.cells.names, path);
@@ -272,10 +308,11 @@ const FileFormat* format_named(const std::string& name) {
 const FileFormat* format_of(const std::string& path) {
   std::filesystem::path file = path;
   if (!file.has_filename()) file = file.parent_path();  // a folder with a slash behind it
-  const std::string name = file.filename();
+  const std::string name = small_letters(file.filename());
   const auto found = std::ranges::find_if(file_formats(), [&](const FileFormat& format) {
-    const bool is_suffix = name.ends_with("." + format.name) && name.size() > format.name.size() + 1;
-    return is_suffix || (format.is_folder && name == format.name);
+    const std::string ending = small_letters(format.name);
+    const bool is_suffix = name.ends_with("." + ending) && name.size() > ending.size() + 1;
+    return is_suffix || (format.is_folder && name == ending);
   });
   return found == file_formats().end() ? nullptr : &*found;
 }

@@ -19,6 +19,7 @@ enum class Content {
   solution,
   constants,  ///< of the solution
   blocks,
+  block_names,
   conditions,  ///< of boundaries
   layers,      ///< on boundaries: how many
   solid        ///< a 3D mesh
@@ -70,6 +71,7 @@ struct FileFormat {
   bool solution_in_solid = false;  ///< whether a 3D mesh has a place for one
   bool conditions_in_solid = false;
   bool blocks_in_solid = false;
+  bool single_block_name = true;  ///< whether names of blocks have a place also where there is only one
   bool is_folder = false;
 
   bool holds(Content content) const;
@@ -81,6 +83,13 @@ const std::vector<FileFormat>& file_formats();
 
 /// A line on variables whose names a format cannot hold; empty where there are none.
 std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path);
+
+/// Throws InputError where a file is by its first bytes of a kind that is not read under its suffix, and says
+/// what it is.
+void require_kind_of_suffix(const std::string& path);
+
+/// Adds the names of all variables, of nodes and of cells, to a list for clean_names().
+void append_names(Field& solution, std::vector<std::string*>& names);
 
 /// Throws InputError where two variables, of nodes or of cells, have one name to the letter.
 void require_distinct_variables(const Field& solution, const std::string& path);

@@ -6,26 +6,37 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <numeric>
 #include <system_error>
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/loaded/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
+#include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 
 namespace {
 
-std::string suffix_of(const std::string& path) { return std::filesystem::path(path).extension(); }
-
 /// The one that is named, else that of the suffix; null where it holds no mesh.
 const FileFormat* mesh_format(const std::string& path, const std::string& name = {}) {
   const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
   return format != nullptr && format->holds(Content::mesh) ? format : nullptr;
+}
+
+void clean_names_of(LoadedMesh& loaded, const std::string& path) {
+  std::vector<std::string*> names;
+  for (BoundaryEdges& boundary : loaded.mesh.boundaries) names.push_back(&boundary.name);
+  for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
+  for (std::string& block : loaded.block_names) names.push_back(&block);
+  if (loaded.solution) append_names(*loaded.solution, names);
+  std::ranges::move(clean_names(names, path), std::back_inserter(loaded.warnings));
 }
 
 void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solution, std::int32_t blocks,
@@ -50,10 +61,29 @@ void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solu
     losses.push_back(path + ": this format has no place for the number of layers, which is left out");
 }
 
+/// A line where blocks have names of their own, not "domain" or "block_<number>", and the format none.
+void append_block_names(const FileFormat& format, const LoadedMesh& whole, const std::string& path,
+                        std::vector<std::string>& losses) {
+  const bool blocks_are_kept = whole.blocks == 1 || format.holds(Content::blocks);
+  const bool names_are_kept =
+      format.holds(Content::block_names) && (whole.blocks > 1 || format.single_block_name);
+  if (!blocks_are_kept || names_are_kept) return;
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < whole.block_names.size(); ++b) {
+    const std::string usual = whole.blocks == 1 ? "domain" : fmt::format("block_{}", b + 1);
+    if (whole.block_names[b] != usual) names.push_back(whole.block_names[b]);
+  }
+  if (!names.empty())
+    losses.push_back(
+        fmt::format("{}: this format has no place for the names of blocks, which are left out: {}", path,
+                    some_names(names)));
+}
+
 }  // namespace
 
 void require_readable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr || is_part_index(path)) return;
+  require_kind_of_suffix(path);
   std::error_code no_such_file;
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
@@ -65,8 +95,10 @@ void require_readable_suffix(const std::string& path) {
 }
 
 LoadedMesh read_mesh(const std::string& path) {
+  require_kind_of_suffix(path);
   require_readable_suffix(path);
   LoadedMesh loaded = is_part_index(path) ? read_parts(path) : mesh_format(path)->read_mesh(path);
+  clean_names_of(loaded, path);
   if (loaded.solution) require_distinct_variables(*loaded.solution, path);
   return loaded;
 }
@@ -129,6 +161,7 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
   std::vector<std::string> losses = renames_in(whole.mesh, path, format);
   if (const FileFormat* row = mesh_format(path, format)) {
     append_losses(*row, whole.mesh, whole.solution ? &*whole.solution : nullptr, whole.blocks, path, losses);
+    append_block_names(*row, whole, path, losses);
     const bool any_known = std::ranges::any_of(
         whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.condition != "none"; });
     if (row->unknown_boundary != nullptr && !any_known && !whole.mesh.boundaries.empty())

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
+#include "mesher/solid/orient_solid.hpp"
 
 namespace quadloop {
 
@@ -60,6 +63,14 @@ void append_unknown(const FileFormat& format, const Boundaries& boundaries, cons
                   path, format.unknown_boundary));
 }
 
+void clean_solid_names(SolidMesh& mesh, const std::string& path) {
+  std::vector<std::string*> names;
+  for (SolidPatch& patch : mesh.patches) names.push_back(&patch.name);
+  for (std::string& block : mesh.block_names) names.push_back(&block);
+  if (mesh.solution) append_names(*mesh.solution, names);
+  std::ranges::move(clean_names(names, path), std::back_inserter(mesh.warnings));
+}
+
 }  // namespace
 
 void require_solid_suffix(const std::string& path) {
@@ -79,13 +90,19 @@ void write_solid(OutputSet& outputs, const SolidMesh& mesh, const std::string& p
 }
 
 std::optional<SolidMesh> read_solid(const std::string& path) {
+  require_kind_of_suffix(path);
   const FileFormat* format = solid_format(path);
   std::error_code failure;
   const bool in_place = format != nullptr && (std::filesystem::is_regular_file(path, failure) ||
                                               format->is_folder || !format->holds(Content::mesh));
   std::optional<SolidMesh> solid;
   if (in_place) solid = format->read_solid(path);
-  if (solid && solid->solution) require_distinct_variables(*solid->solution, path);
+  if (!solid) return solid;
+  clean_solid_names(*solid, path);
+  if (solid->solution) require_distinct_variables(*solid->solution, path);
+  if (const std::int64_t turned = orient_solid(*solid); turned > 0)
+    solid->warnings.push_back(fmt::format("{}: {} inside out and turned", path,
+                                          turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
   return solid;
 }
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
@@ -87,6 +88,9 @@ LoadedSolution read_solution(const std::string& path) {
   const auto read_solution_alone = format_of(path)->read_solution;
   LoadedSolution result = read_solution_alone != nullptr ? read_solution_alone(path) : read_with_mesh(path);
   Field& solution = result.solution;
+  std::vector<std::string*> names;
+  append_names(solution, names);
+  clean_names(names, path);
   solution.names = distinct_words(solution.names, path);
   solution.cells.names = distinct_words(solution.cells.names, path);
   require_usable(solution.names, solution.values, "node", path);
@@ -97,8 +101,7 @@ LoadedSolution read_solution(const std::string& path) {
 void require_solution_suffix(const std::string& path) {
   const FileFormat* format = format_of(path);
   if (format != nullptr && format->holds(Content::solution)) return;
-  throw InputError(path + ": no solution is read from the format '" +
-                   std::filesystem::path(path).extension().string() + "'; give a " +
+  throw InputError(path + ": no solution is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::solution}) + " file");
 }
 

@@ -29,7 +29,7 @@ void CgnsBoundaries::read_families(const File& file, int base) {
     file.check(cg_family_read(file.id(), base, f, name.data(), &conditions, &geometries));
     if (conditions == 0) continue;
     file.check(cg_fambc_read(file.id(), base, f, 1, condition.data(), &type));
-    families_->emplace(name.data(), condition_of_cgns(type));
+    families_->emplace(name.data(), condition_of_cgns_family(type, condition.data()));
   }
 }
 

@@ -102,6 +102,17 @@ int cgns_condition(const std::string& condition) {
   return BCTypeUserDefined;
 }
 
+std::string cgns_family_condition(const std::string& condition) {
+  const bool has_type = cgns_condition(condition) != BCTypeUserDefined || condition == "none";
+  return has_type ? "FamBC" : condition;
+}
+
+std::string condition_of_cgns_family(int type, const std::string& name) {
+  const bool is_word =
+      std::ranges::any_of(boundary_conditions, [&](const BoundaryCondition& c) { return name == c.word; });
+  return type == BCTypeUserDefined && is_word ? name : condition_of_cgns(type);
+}
+
 /// Types that a word of ours names come before those that it merely comprises.
 std::string condition_of_cgns(int type) {
   if (type == BCTypeUserDefined) return "none";

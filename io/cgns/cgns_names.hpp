@@ -12,6 +12,9 @@ inline constexpr const char* layers_descriptor = "Layers";
 /// And of that of a zone which tells of strips, as comments_of() does.
 inline constexpr const char* strips_descriptor = "Strips";
 
+/// The name of a family's boundary condition: one that CGNS has no type for stands there as a word.
+std::string cgns_family_condition(const std::string& condition);
+
 /// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
 /// the base already uses. The same names always give the same answer.
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
@@ -26,5 +29,7 @@ std::vector<std::string> cgns_variable_renames(const std::vector<std::string>& n
 /// The number of the BCType_t for Boundary::condition, and back ("none" for what has no word of ours).
 int cgns_condition(const std::string& condition);
 std::string condition_of_cgns(int type);
+/// The same for the condition of a family, which may have one of our words as its name.
+std::string condition_of_cgns_family(int type, const std::string& name);
 
 }  // namespace quadloop

@@ -36,7 +36,7 @@ void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& bo
   const std::array<cgsize_t, 2> range{first_, next_ - 1};
   const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
   const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
-  nodes_.add_text(family, "FamBC", "FamilyBC_t", type);
+  nodes_.add_text(family, cgns_family_condition(boundary.condition), "FamilyBC_t", type);
   if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
   const CgnsNodes::Node condition =
       nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));

@@ -216,7 +216,7 @@ class CgnsSolidReader {
       file_.check(cg_family_read(file_.id(), 1, f, name.data(), &conditions, &geometries));
       if (conditions == 0 || std::string(name.data()) != family.data()) continue;
       file_.check(cg_fambc_read(file_.id(), 1, f, 1, its_condition.data(), &type));
-      return condition_of_cgns(type);
+      return condition_of_cgns_family(type, its_condition.data());
     }
     return "none";
   }

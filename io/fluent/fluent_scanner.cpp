@@ -8,12 +8,12 @@ namespace quadloop {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+bool is_fluent_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 }  // namespace
 
 bool FluentScanner::at_end() {
-  while (at_ < scan_.text().size() && is_blank(scan_.text()[at_])) ++at_;
+  while (at_ < scan_.text().size() && is_fluent_blank(scan_.text()[at_])) ++at_;
   return at_ == scan_.text().size();
 }
 
@@ -26,9 +26,12 @@ std::string_view FluentScanner::token(std::string_view expected) {
   if (is_sign(text[at_])) {
     ++at_;
   } else if (text[at_] == '"') {
-    at_ = std::min(text.find('"', at_ + 1), text.size() - 1) + 1;
+    do {
+      at_ = std::min(text.find('"', at_ + 1), text.size() - 1);
+    } while (text[at_ - 1] == '\\' && at_ + 1 < text.size());
+    ++at_;
   } else {
-    while (at_ < text.size() && !is_blank(text[at_]) && !is_sign(text[at_])) ++at_;
+    while (at_ < text.size() && !is_fluent_blank(text[at_]) && !is_sign(text[at_])) ++at_;
   }
   return text.substr(token_, at_ - token_);
 }
@@ -40,6 +43,11 @@ std::string_view FluentScanner::peek() {
   at_ = at;
   token_ = before;
   return found;
+}
+
+bool FluentScanner::is_number_next() {
+  const std::string_view next = peek();
+  return !next.empty() && (next.front() == '-' || (next.front() >= '0' && next.front() <= '9'));
 }
 
 void FluentScanner::expect(std::string_view sign) {

@@ -22,6 +22,7 @@ class FluentScanner {
   std::string_view token(std::string_view expected);
   /// The next token without taking it; empty at the end.
   std::string_view peek();
+  bool is_number_next();
   void expect(std::string_view sign);
   std::int64_t hexadecimal(std::string_view expected) { return integer(expected, 16); }
   std::int64_t decimal(std::string_view expected) { return integer(expected, 10); }

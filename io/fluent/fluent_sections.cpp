@@ -38,6 +38,7 @@ FluentSections::FluentSections(const std::string& path, std::int64_t dimension)
 
 void FluentSections::read_section() {
   scan_.expect("(");
+  if (!scan_.is_number_next()) return scan_.skip_list();
   const std::int64_t section = scan_.decimal("the number of a section");
   switch (section) {
     case fluent_dimension_section: read_dimension(); break;
@@ -216,6 +217,10 @@ std::int64_t fluent_dimension(const std::string& path) {
   FluentScanner scan(path);
   while (!scan.at_end()) {
     scan.expect("(");
+    if (!scan.is_number_next()) {
+      scan.skip_list();
+      continue;
+    }
     const std::int64_t section = scan.decimal("the number of a section");
     if (section == fluent_dimension_section) return scan.decimal("the dimension");
     if (section == fluent_nodes || section == fluent_cells || section == fluent_faces || section >= 2000)

@@ -24,7 +24,7 @@ class FluentWriter {
                const LoadedMesh* whole = nullptr)
       : comm_{outputs.communicator()},
         mesh_{mesh},
-        whole_{whole != nullptr && whole->blocks > 1 ? whole : nullptr},
+        whole_{whole != nullptr && has_named_blocks(*whole) ? whole : nullptr},
         file_{outputs, path},
         boundaries_{comm_, mesh},
         cells_{edge_cells(comm_, mesh)},

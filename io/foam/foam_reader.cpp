@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <unordered_map>
 #include <utility>
 
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_patches.hpp"
+#include "io/foam/foam_polygons.hpp"
 #include "io/foam/foam_scanner.hpp"
+#include "io/loaded/repeated_rows.hpp"
 #include "io/solid/block_collector.hpp"
 #include "io/solid/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
@@ -21,6 +25,7 @@ class FoamReader {
 
   SolidMesh read() {
     if (!std::filesystem::is_directory(path_)) throw InputError(path_ + ": is no folder of an OpenFOAM mesh");
+    patches_ = read_foam_boundary(file("boundary"));
     read_points();
     read_faces();
     const std::int64_t most_cells = 2 * std::ssize(faces_);
@@ -51,21 +56,41 @@ class FoamReader {
   void read_faces() {
     FoamScanner scan(file("faces"));
     for (std::size_t left = scan.begin_list("faces", 8); left > 0; --left) {
-      const std::int64_t width = scan.integer("the number of a face's points");
-      if (width != 3 && width != 4)
-        scan.refuse(fmt::format("a face of {} points; only triangles and quads can be read", width));
-      SolidPatch::Face& face = faces_.emplace_back();
-      face.fill(SolidPatch::no_node);
-      scan.expect("(");
-      for (std::int64_t k = 0; k < width; ++k) {
-        const std::int64_t node = scan.integer("a point of a face");
-        if (node < 0 || node >= std::ssize(mesh_.points))
-          scan.refuse(fmt::format("point {} is none of the points 0 to {}", node, mesh_.points.size() - 1));
-        face[k] = static_cast<std::int32_t>(node);
-      }
-      scan.expect(")");
+      read_face(scan);
     }
     scan.end_file();
+  }
+
+  bool is_plane() const {
+    return std::ranges::any_of(patches_, [](const FoamPatch& patch) { return patch.type == "empty"; });
+  }
+
+  /// A polygon of a plane mesh has no nodes among the faces; it is kept apart.
+  void read_face(FoamScanner& scan) {
+    const std::int64_t width = scan.integer("the number of a face's points");
+    const bool is_polygon = width > 4 && is_plane();
+    if (width != 3 && width != 4 && !is_polygon)
+      scan.refuse(
+          fmt::format("a face of {} points; only triangles and quads can be read, and polygons of plane "
+                      "meshes",
+                      width));
+    if (width > std::ssize(mesh_.points))
+      scan.refuse(fmt::format("a face of {} points, more than there are", width));
+    scan.expect("(");
+    std::vector<std::int32_t> nodes;
+    for (std::int64_t k = 0; k < width; ++k) {
+      const std::int64_t node = scan.integer("a point of a face");
+      if (node < 0 || node >= std::ssize(mesh_.points))
+        scan.refuse(fmt::format("point {} is none of the points 0 to {}", node, mesh_.points.size() - 1));
+      nodes.push_back(static_cast<std::int32_t>(node));
+    }
+    scan.expect(")");
+    SolidPatch::Face& face = faces_.emplace_back();
+    face.fill(SolidPatch::no_node);
+    if (is_polygon)
+      polygons_[faces_.size() - 1].nodes = std::move(nodes);
+    else
+      std::ranges::copy(nodes, face.begin());
   }
 
   /// Sides of each cell, one cell's after the other's, from owners and neighbours.
@@ -82,19 +107,72 @@ class FoamReader {
     std::int64_t total = 0;
     for (std::int64_t& end : ends) total += std::exchange(end, total);
     std::vector<CellSide> sides(total);
+    std::vector<std::size_t> face_of(total);
+    const auto put = [&](std::int32_t cell, std::size_t face, bool looks_out) {
+      face_of[ends[cell]] = face;
+      sides[ends[cell]++] = {faces_[face], looks_out};
+    };
     for (std::size_t face = 0; face < faces_.size(); ++face) {
-      sides[ends[owner_[face]]++] = {faces_[face], true};
-      if (face < neighbour_.size()) sides[ends[neighbour_[face]]++] = {faces_[face], false};
+      put(owner_[face], face, true);
+      if (face < neighbour_.size()) put(neighbour_[face], face, false);
     }
     const std::vector<std::int32_t> block_of = blocks_of_cells(std::ssize(ends));
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < ends.size(); ++cell) {
-      const std::string fault = add_cell(mesh_, std::span(sides).subspan(begin, ends[cell] - begin));
+      const auto own = std::span(sides).subspan(begin, ends[cell] - begin);
+      const auto own_faces = std::span<const std::size_t>(face_of).subspan(begin, own.size());
+      const bool divide =
+          std::ranges::any_of(own_faces, [&](std::size_t face) { return polygons_.contains(face); });
+      const std::string fault = divide ? add_polygonal_cell(own, own_faces) : add_cell(mesh_, own);
       if (!fault.empty()) throw InputError(fmt::format("{}: cell {} {}", path_, cell, fault));
       begin = ends[cell];
       blocks_.take(mesh_, block_of[cell]);
     }
     blocks_.put_into(mesh_);
+  }
+
+  /// A cell between two polygons becomes prisms and hexahedra. What is wrong where it is no such cell.
+  std::string add_polygonal_cell(std::span<const CellSide> sides, std::span<const std::size_t> faces) {
+    std::vector<CellSide> quads;
+    std::vector<std::size_t> ends;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      polygons_.contains(faces[k]) ? ends.push_back(k) : quads.push_back(sides[k]);
+    }
+    const auto nodes_of = [&](std::size_t end) { return polygons_[faces[ends[end]]].nodes; };
+    if (ends.size() != 2 || nodes_of(0).size() != quads.size() || nodes_of(1).size() != quads.size())
+      return "has polygons, but does not lie between two of the same number of points";
+    if (quads.size() > most_polygon_corners)
+      return fmt::format("lies between polygons of {} points; those of {} can be divided", quads.size(),
+                         most_polygon_corners);
+    std::vector<std::int32_t> base = nodes_of(0), top;
+    if (sides[ends[0]].looks_out) std::ranges::reverse(base);
+    for (const std::int32_t node : base) top.push_back(opposite_node(quads, base, node));
+    if (!std::ranges::is_permutation(top, nodes_of(1))) return "has faces that do not fit together";
+    std::vector<Point3> corners;
+    for (const std::int32_t node : base) corners.push_back(mesh_.points[node]);
+    const std::vector<PolygonPiece> pieces = divide_polygon(corners);
+    if (pieces.empty())
+      return fmt::format("lies between polygons of {} points that cannot be divided into triangles and quads",
+                         base.size());
+    for (const PolygonPiece& piece : pieces) add_piece(piece, base, top, {faces[ends[0]], faces[ends[1]]});
+    ++divided_;
+    pieces_ += std::ssize(pieces);
+    return {};
+  }
+
+  void add_piece(const PolygonPiece& piece, const std::vector<std::int32_t>& base,
+                 const std::vector<std::int32_t>& top, const std::array<std::size_t, 2>& ends) {
+    std::array<SolidPatch::Face, 2> faces;
+    for (std::size_t k = 0; k < 4; ++k) {
+      faces[0][k] = piece[k] < 0 ? SolidPatch::no_node : base[piece[k]];
+      faces[1][k] = piece[k] < 0 ? SolidPatch::no_node : top[piece[k]];
+    }
+    const auto& [b, t] = faces;
+    if (piece[3] < 0)
+      mesh_.prisms.push_back({b[0], b[1], b[2], t[0], t[1], t[2]});
+    else
+      mesh_.hexahedra.push_back({b[0], b[1], b[2], b[3], t[0], t[1], t[2], t[3]});
+    for (std::size_t end = 0; end < 2; ++end) polygons_[ends[end]].pieces.push_back(faces[end]);
   }
 
   /// Zones of cells, where there are any; of a cell in several the first counts.
@@ -121,18 +199,35 @@ class FoamReader {
   }
 
   void read_patches() {
-    const std::string path = file("boundary");
-    for (const FoamPatch& given : read_foam_boundary(path)) {
+    std::vector<std::string> cyclic;
+    for (const FoamPatch& given : patches_) {
       const std::int64_t start = given.first_face;
       if (given.faces < 0 || start < std::ssize(neighbour_) || start + given.faces > std::ssize(faces_))
-        throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}", path,
-                                     given.name, given.faces, start, faces_.size()));
+        throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}",
+                                     file("boundary"), given.name, given.faces, start, faces_.size()));
       SolidPatch& patch = mesh_.patches.emplace_back();
       patch.name = given.name;
       patch.condition = condition_of(given.type);
       patch.is_empty = given.type == "empty";
-      patch.faces.assign(faces_.begin() + start, faces_.begin() + start + given.faces);
+      if (given.type.starts_with("cyclic")) cyclic.push_back(given.name);
+      for (std::int64_t face = start; face < start + given.faces; ++face) put_face(patch, face);
     }
+    if (!cyclic.empty())
+      mesh_.warnings.push_back(
+          fmt::format("{}: patches of a cyclic type are plain boundaries here, not periodic: {}", path_,
+                      some_names(cyclic)));
+    if (divided_ > 0)
+      mesh_.warnings.push_back(fmt::format("{}: {} polygonal cells are divided into {} triangles and quads",
+                                           path_, divided_, pieces_));
+  }
+
+  /// Of a polygon the pieces into which its cell is divided.
+  void put_face(SolidPatch& patch, std::size_t face) const {
+    const auto polygon = polygons_.find(face);
+    if (polygon == polygons_.end())
+      patch.faces.push_back(faces_[face]);
+    else
+      patch.faces.insert(patch.faces.end(), polygon->second.pieces.begin(), polygon->second.pieces.end());
   }
 
   static std::string condition_of(std::string_view type) {
@@ -140,8 +235,17 @@ class FoamReader {
     return type.starts_with("symmetry") || type == "empty" ? "symmetry" : "none";
   }
 
+  /// A face of more than four points, and the pieces of its cell on it.
+  struct Polygon {
+    std::vector<std::int32_t> nodes;
+    std::vector<SolidPatch::Face> pieces;
+  };
+
   std::string path_;
+  std::vector<FoamPatch> patches_;
   std::vector<SolidPatch::Face> faces_;
+  std::unordered_map<std::size_t, Polygon> polygons_;  ///< by their places among the faces
+  std::int64_t divided_ = 0, pieces_ = 0;
   std::vector<std::int32_t> owner_, neighbour_;
   SolidMesh mesh_;
   BlockCollector blocks_;

@@ -3,13 +3,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
+#include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
@@ -23,17 +24,9 @@ std::map<std::string, GeometryReader>& readers() {
   return all;
 }
 
-/// In small letters.
-std::string suffix_of_geometry(const std::string& path) {
-  std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
-
 }  // namespace
 
-bool is_airfoil_file(const std::string& path) { return suffix_of_geometry(path) == ".dat"; }
+bool is_airfoil_file(const std::string& path) { return suffix_of(path) == ".dat"; }
 
 std::vector<std::string> geometry_suffixes() {
   std::vector<std::string> all{".geom", ".dat"};
@@ -44,9 +37,15 @@ std::vector<std::string> geometry_suffixes() {
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
-  const std::string suffix = suffix_of_geometry(path);
+  const std::string suffix = suffix_of(path);
   const auto reader = readers().find(suffix);
-  if (reader != readers().end()) return reader->second(path, warnings);
+  if (reader != readers().end()) {
+    std::vector<Chain> chains = reader->second(path, warnings);
+    std::vector<std::string*> names;
+    for (Chain& chain : chains) names.push_back(&chain.name);
+    std::ranges::move(clean_names(names, path), std::back_inserter(warnings));
+    return chains;
+  }
   if (std::find(gis_suffixes.begin(), gis_suffixes.end(), suffix) != gis_suffixes.end())
     throw InputError(
         fmt::format("{}: this program was linked without GDAL, which reads {} files", path, suffix));

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "io/loaded/orient_cells.hpp"
+#include "io/loaded/repeated_rows.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -34,45 +37,27 @@ void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::
   std::sort(cell_to_block.begin(), cell_to_block.end());
 }
 
-/// Which of the rows have the nodes, in any order, of an earlier one.
-template <class Row, class NodesOf>
-std::vector<char> repeated(const std::vector<Row>& rows, const NodesOf& nodes_of) {
-  std::vector<std::pair<std::decay_t<decltype(nodes_of(rows[0]))>, std::size_t>> keys;
-  keys.reserve(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    keys.emplace_back(nodes_of(rows[i]), i);
-    std::sort(keys.back().first.begin(), keys.back().first.end());
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<char> is_repeated(rows.size(), 0);
-  for (std::size_t k = 1; k < keys.size(); ++k)
-    is_repeated[keys[k].second] = keys[k].first == keys[k - 1].first ? 1 : 0;
-  return is_repeated;
+std::int64_t size_of_group(const std::vector<std::int64_t>& sizes, std::int32_t group) {
+  return group < std::ssize(sizes) ? sizes[group] : 0;
 }
 
-/// Takes the flagged rows out; the number of them.
-template <class Rows>
-std::int64_t drop(Rows& rows, const std::vector<char>& flags) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (flags[i] == 0) rows[kept++] = rows[i];
-  }
-  rows.resize(kept);
-  return flags.size() - kept;
-}
-
-/// The rows of values of those that stay are appended to `kept`.
+/// The rows of values of those that stay are appended to `kept_values`.
 template <class Cells>
-std::int64_t drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block,
-                                 std::span<const double> rows, std::vector<double>& kept) {
-  const std::vector<char> is_repeated = repeated(cells, [](const auto& nodes) { return nodes; });
+void drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block, const LoadedMesh& loaded,
+                         const GroupSizes& sizes, std::span<const double> rows,
+                         std::vector<double>& kept_values, RepeatedElements& repeated) {
+  const auto kept = kept_rows(
+      cells, [](const auto& nodes) { return nodes; },
+      [&](std::size_t i) { return size_of_group(sizes.of_blocks, cell_to_block[i]); });
   const std::size_t width = cells.empty() ? 0 : rows.size() / cells.size();
-  for (std::size_t i = 0; width > 0 && i < cells.size(); ++i) {
+  const auto name = [&](std::size_t i) { return loaded.block_names[cell_to_block[i]]; };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto row = rows.subspan(i * width, width);
-    if (is_repeated[i] == 0) kept.insert(kept.end(), row.begin(), row.end());
+    if (kept[i] == i) kept_values.insert(kept_values.end(), row.begin(), row.end());
+    if (kept[i] != i) ++repeated[{name(kept[i]), name(i)}];
   }
-  drop(cell_to_block, is_repeated);
-  return drop(cells, is_repeated);
+  keep_rows(cell_to_block, kept);
+  keep_rows(cells, kept);
 }
 
 std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
@@ -110,24 +95,36 @@ void drop_empty_blocks(LoadedMesh& loaded) {
                                          name, a.x, a.y, b.x, b.y));
 }
 
-/// Gives the edges to their boundaries; the number of those that lie inside a block.
-std::int64_t place_edges(ForeignMesh& foreign, const TextScanner& scan) {
+/// Gives the edges to their boundaries; of each boundary the number of those that lie inside a block.
+std::vector<std::int64_t> place_edges(ForeignMesh& foreign, const TextScanner& scan) {
   LoadedMesh& loaded = foreign.loaded;
   const EdgeTable table(loaded.mesh);
-  std::int64_t inside = 0;
+  std::vector<std::int64_t> inside(loaded.mesh.boundaries.size(), 0);
   for (const ForeignEdge& edge : foreign.edges) {
     auto [from, to] = edge.nodes;
     const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
     if (left < 0 && right < 0) refuse_edge(foreign, edge, scan);
     const bool between = left >= 0 && right >= 0;
     if (between && block_of(loaded, left) == block_of(loaded, right)) {
-      ++inside;
+      ++inside[edge.boundary];
       continue;
     }
     if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
     loaded.mesh.boundaries[edge.boundary].edges.push_back({from, to});
   }
   return inside;
+}
+
+void warn_of_inner_edges(const Mesh& mesh, const std::vector<std::int64_t>& inside, const std::string& path,
+                         std::vector<std::string>& warnings) {
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < inside.size(); ++b) {
+    if (inside[b] > 0) names.push_back(mesh.boundaries[b].name);
+  }
+  if (names.empty()) return;
+  warnings.push_back(
+      fmt::format("{}: {} edges between two cells are no boundary and were left out: those of {}", path,
+                  std::accumulate(inside.begin(), inside.end(), std::int64_t{0}), some_names(names)));
 }
 
 void add_outer_boundary(Mesh& mesh) {
@@ -153,21 +150,30 @@ std::int32_t ForeignMesh::block_named(const std::string& name) {
   return number;
 }
 
-void drop_repeated(ForeignMesh& foreign, const std::string& path) {
+void drop_repeated(ForeignMesh& foreign, const std::string& path, const GroupSizes& sizes) {
   LoadedMesh& loaded = foreign.loaded;
+  Mesh& mesh = loaded.mesh;
   Field none;
   CellValues& values = (loaded.solution ? *loaded.solution : none).cells;
   const std::span<const double> rows = values.values;
-  const std::size_t quad_rows = loaded.mesh.triangles.size() * values.width();
-  std::vector<double> kept;
-  std::int64_t dropped =
-      drop_repeated_cells(loaded.mesh.triangles, loaded.triangle_to_block, rows.first(quad_rows), kept);
-  dropped += drop_repeated_cells(loaded.mesh.quads, loaded.quad_to_block, rows.subspan(quad_rows), kept);
-  dropped += drop(foreign.edges, repeated(foreign.edges, [](const ForeignEdge& edge) { return edge.nodes; }));
-  values.values = std::move(kept);
-  if (dropped > 0)
-    loaded.warnings.push_back(fmt::format(
-        "{}: {} elements stand there more than once; the first of each was taken", path, dropped));
+  const std::size_t quad_rows = mesh.triangles.size() * values.width();
+  std::vector<double> kept_values;
+  RepeatedElements repeated;
+  drop_repeated_cells(mesh.triangles, loaded.triangle_to_block, loaded, sizes, rows.first(quad_rows),
+                      kept_values, repeated);
+  drop_repeated_cells(mesh.quads, loaded.quad_to_block, loaded, sizes, rows.subspan(quad_rows), kept_values,
+                      repeated);
+  auto& edges = foreign.edges;
+  const auto kept = kept_rows(
+      edges, [](const ForeignEdge& edge) { return edge.nodes; },
+      [&](std::size_t i) { return size_of_group(sizes.of_boundaries, edges[i].boundary); });
+  const auto name = [&](std::size_t i) { return mesh.boundaries[edges[i].boundary].name; };
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (kept[i] != i) ++repeated[{name(kept[i]), name(i)}];
+  }
+  keep_rows(edges, kept);
+  values.values = std::move(kept_values);
+  warn_of_repeated(repeated, path, loaded.warnings);
 }
 
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
@@ -215,14 +221,14 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
   order_by_blocks(loaded);
-  const std::int64_t inside = place_edges(foreign, scan);
+  const std::vector<std::int64_t> inside = place_edges(foreign, scan);
+  std::vector<std::string> losses;
+  warn_of_inner_edges(mesh, inside, scan.path(), losses);
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   if (mesh.boundaries.empty()) add_outer_boundary(mesh);
   if (turned > 0)
     loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
-  if (inside > 0)
-    loaded.warnings.push_back(
-        fmt::format("{}: {} edges between two cells are no boundary and were left out", scan.path(), inside));
+  std::ranges::move(losses, std::back_inserter(loaded.warnings));
   return std::move(loaded);
 }
 

@@ -39,9 +39,16 @@ struct ForeignMesh {
   }
 };
 
-/// Keeps the first of cells, with its values, and of edges that have the same nodes: an element that belongs
-/// to several groups stands once for each.
-void drop_repeated(ForeignMesh& foreign, const std::string& path);
+/// How many members the groups have that the boundaries and blocks of a mesh were made from, by number; those
+/// behind the end have none.
+struct GroupSizes {
+  std::vector<std::int64_t> of_boundaries, of_blocks;
+};
+
+/// Keeps one of cells, with its values, and of edges that have the same nodes: an element that belongs to
+/// several groups stands once for each. It is the one of the smallest group, the first where several are as
+/// small. A warning names the groups.
+void drop_repeated(ForeignMesh& foreign, const std::string& path, const GroupSizes& sizes = {});
 
 /// Drops nodes that neither a cell nor an edge names; the others keep their order.
 void drop_unused_nodes(ForeignMesh& foreign, const std::string& path);
@@ -53,7 +60,8 @@ void order_by_blocks(LoadedMesh& loaded);
 /// inverted ones are validate()'s), the cells of a block one after another with their values, each boundary
 /// edge with its cell to the left, or between two blocks the one with the smaller number. Edges inside a
 /// block, and boundaries without edges, are left out; where no boundary is left, all edges of one cell make
-/// up the boundary "boundary". What was changed is said in the result's warnings. Refuses a mesh without
+/// up the boundary "boundary". What was changed or left out is said in the result's warnings, with the names
+/// of boundaries. Refuses a mesh without
 /// cells, and by place an edge that no cell has.
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan);
 

@@ -1,5 +1,7 @@
 #include "io/loaded/interface_nodes.hpp"
 
+#include "mesher/geometry/point_table.hpp"
+
 namespace quadloop {
 
 NodeFlags interface_nodes(const LoadedMesh& loaded) {
@@ -18,6 +20,18 @@ NodeFlags interface_nodes(const LoadedMesh& loaded) {
   visit(mesh.triangles, loaded.triangle_to_block);
   visit(mesh.quads, loaded.quad_to_block);
   return shared;
+}
+
+NodeFlags nodes_that_stay(const LoadedMesh& loaded) {
+  const std::vector<Point>& points = loaded.mesh.points;
+  const PointTable table(points);
+  if (loaded.blocks == 1 && !table.any_twice()) return {};
+  NodeFlags flags = interface_nodes(loaded);
+  for (const NodeId node : flags.ids()) {
+    const NodeId first{table.find(points[node.value()])};
+    if (first != node) flags[node] = flags[first] = 1;
+  }
+  return flags;
 }
 
 }  // namespace quadloop

@@ -22,6 +22,11 @@ struct LoadedMesh {
   std::vector<std::string> warnings;  ///< what the reader turned round or left out, with the file's name
 };
 
+/// Whether there are several blocks, or one with a name of its own.
+inline bool has_named_blocks(const LoadedMesh& loaded) {
+  return loaded.blocks > 1 || (!loaded.block_names.empty() && loaded.block_names[0] != "domain");
+}
+
 /// The cells of one block, which follow each other.
 template <class Cell>
 std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,

@@ -1,63 +1,13 @@
 #include "io/loaded/orient_cells.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
-#include <utility>
+
+#include "mesher/base/parity_sets.hpp"
 
 namespace quadloop {
 
 namespace {
-
-/// Cells that hang together, each with its direction relative to the piece's root: disjoint sets with a
-/// parity on every link.
-class Pieces {
- public:
-  explicit Pieces(std::size_t cells)
-      : parents_(cells), sizes_(cells, 1), opposed_(cells, 0), torn_(cells, 0) {
-    std::iota(parents_.begin(), parents_.end(), std::size_t{0});
-  }
-
-  struct Member {
-    std::size_t root;
-    bool opposed;  ///< whether the cell has to be turned where the root is not
-  };
-
-  Member member_of(std::size_t cell) {
-    bool opposed = false;
-    while (parents_[cell] != cell) {
-      const std::size_t parent = parents_[cell];
-      opposed_[cell] ^= opposed_[parent];  // a root is never opposed to itself
-      parents_[cell] = parents_[parent];
-      opposed ^= opposed_[cell] != 0;
-      cell = parents_[cell];
-    }
-    return {cell, opposed};
-  }
-
-  /// Says that exactly one of two cells has to be turned (`opposed`), or both or none. Where that contradicts
-  /// what was said before, the piece is torn.
-  void join(std::size_t first, std::size_t second, bool opposed) {
-    Member a = member_of(first), b = member_of(second);
-    const bool roots_opposed = (a.opposed != b.opposed) != opposed;
-    if (a.root == b.root) {
-      if (roots_opposed) torn_[a.root] = 1;
-      return;
-    }
-    if (sizes_[a.root] < sizes_[b.root]) std::swap(a, b);
-    parents_[b.root] = a.root;
-    sizes_[a.root] += sizes_[b.root];
-    opposed_[b.root] = roots_opposed ? 1 : 0;
-    torn_[a.root] |= torn_[b.root];
-  }
-
-  bool is_torn(std::size_t root) const { return torn_[root] != 0; }
-
- private:
-  std::vector<std::size_t> parents_, sizes_;
-  std::vector<char> opposed_;  ///< to the parent
-  std::vector<char> torn_;     ///< of a root
-};
 
 /// An edge as one cell has it.
 struct Side {
@@ -81,8 +31,8 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   return sides;
 }
 
-Pieces pieces_of(const Mesh& mesh) {
-  Pieces pieces(mesh.triangles.size() + mesh.quads.size());
+ParitySets pieces_of(const Mesh& mesh) {
+  ParitySets pieces(mesh.triangles.size() + mesh.quads.size());
   const std::vector<Side> sides = sorted_sides(mesh);
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end =
@@ -111,7 +61,7 @@ void for_each_cell(AnyMesh& mesh, const Visit& visit) {
 }
 
 /// For each root twice the signed area of its piece, run as the root runs now.
-std::vector<double> areas_of(const Mesh& mesh, Pieces& pieces) {
+std::vector<double> areas_of(const Mesh& mesh, ParitySets& pieces) {
   std::vector<double> areas(mesh.triangles.size() + mesh.quads.size(), 0);
   for_each_cell(mesh, [&](const auto& nodes, std::size_t cell) {
     const auto [root, opposed] = pieces.member_of(cell);
@@ -130,7 +80,7 @@ bool surely_oriented(const Mesh& mesh, const EdgeTable& table) {
 }
 
 std::int64_t orient_cells(Mesh& mesh) {
-  Pieces pieces = pieces_of(mesh);
+  ParitySets pieces = pieces_of(mesh);
   const std::vector<double> areas = areas_of(mesh, pieces);
   std::int64_t turned = 0;
   for_each_cell(mesh, [&](auto& nodes, std::size_t cell) {

@@ -31,11 +31,12 @@ std::string msh_group_name(std::string boundary);
 
 /// Reads a 2D mesh of Gmsh, MSH 2.2 or 4.1 text, on the calling rank alone. Nodes lie in a plane z =
 /// constant; those of no cell are left out. Physical surfaces become blocks, physical curves boundaries (of
-/// an element in several groups the first); without a physical group the block is "domain" and the boundary
-/// "boundary_<tag of the curve>", where a group has no name "physical_<tag>". Lines inside a block are left
-/// out; a file without other lines gets the boundary "boundary". Cells are turned counter-clockwise piece by
-/// piece (orient_cells), edges with their cell to the left. Throws InputError "file:line: ..." on anything
-/// that is not such a mesh; geometric faults, inverted cells too, are left to validate().
+/// an element in several groups the one with the fewest curves or surfaces); without a physical group the
+/// block is "domain" and the boundary "boundary_<tag of the curve>", where a group has no name
+/// "physical_<tag>". Lines inside a block are left out; a file without other lines gets the boundary
+/// "boundary". Cells are turned counter-clockwise piece by piece (orient_cells), edges with their cell to the
+/// left. Throws InputError "file:line: ..." on anything that is not such a mesh; geometric faults, inverted
+/// cells too, are left to validate().
 LoadedMesh read_msh(const std::string& path);
 
 }  // namespace quadloop

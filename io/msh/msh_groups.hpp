@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/loaded/foreign_mesh.hpp"
 
@@ -13,12 +14,23 @@ namespace quadloop {
 /// and surfaces in them.
 class MshGroups {
  public:
-  /// Of dimension 1 (curves), 2 (surfaces) or 3 (volumes); the tag's sign says nothing but a direction.
+  /// Of dimension 0 (points), 1 (curves), 2 (surfaces) or 3 (volumes); the tag's sign says nothing but a
+  /// direction.
   void name_physical(int dimension, std::int64_t physical, std::string name);
   void put_in_physical(int dimension, std::int64_t entity, std::int64_t physical);
 
-  /// The physical group of a curve or surface; 0 where it is in none.
+  /// The physical group of a point, curve, surface or volume; 0 where it is in none. Of several the one that
+  /// has the fewest of them, the first where several are as small; so it is to be asked when all are put in.
   std::int64_t physical_of(int dimension, std::int64_t entity) const;
+
+  /// How many entities a group has; and those of the boundaries and blocks.
+  std::int64_t members_of(int dimension, std::int64_t physical) const;
+  GroupSizes sizes() const;
+
+  /// For warnings, without the file's name: entities of that dimension or more in several groups, and named
+  /// groups of fewer dimensions, which are left out.
+  std::vector<std::string> overlaps(int lowest) const;
+  std::vector<std::string> dropped(int lowest) const;
 
   /// The boundary (of lines) or block (of cells) in the mesh, made at its first element. `physical` is 0 for
   /// none.
@@ -34,9 +46,10 @@ class MshGroups {
  private:
   using Key = std::pair<std::int64_t, std::int64_t>;
 
-  std::map<Key, std::string> names_;           ///< by dimension and tag
-  std::map<Key, std::int64_t> entity_groups_;  ///< by dimension and tag
-  std::map<Key, std::int32_t> boundaries_;     ///< by physical group and, where that is 0, curve
+  std::map<Key, std::string> names_;                        ///< by dimension and tag
+  std::map<Key, std::vector<std::int64_t>> entity_groups_;  ///< by dimension and tag
+  std::map<Key, std::int64_t> members_;                     ///< of groups, by dimension and tag
+  std::map<Key, std::int32_t> boundaries_;                  ///< by physical group and, where that is 0, curve
   std::map<std::int64_t, std::int32_t> blocks_;
 };
 

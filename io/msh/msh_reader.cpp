@@ -21,7 +21,7 @@ class MshReader {
                [this](const MshElement& element) { put_element(element); });
     drop_unused_tags();
     read_solution();
-    if (text_.may_repeat()) drop_repeated(foreign_, text_.scan().path());
+    if (text_.may_repeat()) drop_repeated(foreign_, text_.scan().path(), text_.groups().sizes());
     drop_unused_nodes(foreign_, text_.scan().path());
     warn_of_names();
     return finish(std::move(foreign_), text_.scan());
@@ -29,6 +29,7 @@ class MshReader {
 
  private:
   void warn_of_names() {
+    for (const std::string& warning : text_.warnings(1)) foreign_.loaded.warnings.push_back(warning);
     const std::int64_t curves = text_.groups().curves_without_group();
     if (curves == 0) return;
     foreign_.loaded.warnings.push_back(

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "io/loaded/repeated_rows.hpp"
 #include "io/msh/msh_solid_file.hpp"
 #include "io/msh/msh_text.hpp"
 #include "io/solid/block_collector.hpp"
@@ -16,7 +17,8 @@ class MshSolidReader {
     text_.read([this](std::int64_t, Point3 point) { mesh_.points.push_back(point); },
                [this](const MshElement& element) { put_element(element); });
     if (cells() == 0) return std::nullopt;
-    if (text_.may_repeat()) drop_repeated_cells();
+    if (text_.may_repeat()) drop_repeated();
+    for (const std::string& warning : text_.warnings(2)) mesh_.warnings.push_back(warning);
     if (!text_.read_values().empty())
       mesh_.warnings.push_back(text_.scan().path() +
                                ": of three dimensions its solution ($NodeData, $ElementData) is not read");
@@ -66,24 +68,61 @@ class MshSolidReader {
     return mesh_.patches[found->second];
   }
 
-  /// A cell in several groups stands there once for each, one after another in the order of the groups: it is
-  /// of the first.
-  void drop_repeated_cells() {
-    if (volumes_.size() < 2) return;
+  /// An element in several groups stands there once for each; it is of the smallest.
+  void drop_repeated() {
+    RepeatedElements repeated;
+    const std::vector<std::int64_t> sizes = block_sizes();
     for_each_kind_of_cell([&]<std::size_t width>() {
       auto& cells = cells_of<width>(mesh_);
-      std::map<std::array<std::int32_t, width>, bool> seen;
-      std::vector<char> again;
-      for (const auto& cell : cells) again.push_back(seen.try_emplace(cell, true).second ? 0 : 1);
-      drop(blocks_.of<width>(), again);
-      drop(cells, again);
+      std::vector<std::int32_t>& blocks = blocks_.of<width>();
+      const auto kept = kept_rows(
+          cells, [](const auto& nodes) { return nodes; }, [&](std::size_t i) { return sizes[blocks[i]]; });
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (kept[i] != i) ++repeated[{blocks_.name(blocks[kept[i]]), blocks_.name(blocks[i])}];
+      }
+      keep_rows(blocks, kept);
+      keep_rows(cells, kept);
     });
+    drop_repeated_faces(repeated);
+    warn_of_repeated(repeated, text_.scan().path(), mesh_.warnings);
   }
 
-  template <class Row>
-  static void drop(std::vector<Row>& rows, const std::vector<char>& flags) {
-    std::size_t i = 0;
-    std::erase_if(rows, [&](const Row&) { return flags[i++] != 0; });
+  void drop_repeated_faces(RepeatedElements& repeated) {
+    std::vector<SolidPatch::Face> faces;
+    std::vector<std::size_t> patch_of;
+    for (std::size_t patch = 0; patch < mesh_.patches.size(); ++patch) {
+      auto& own = mesh_.patches[patch].faces;
+      faces.insert(faces.end(), own.begin(), own.end());
+      patch_of.resize(faces.size(), patch);
+    }
+    const std::vector<std::int64_t> sizes = patch_sizes();
+    const auto kept = kept_rows(
+        faces, [](const SolidPatch::Face& face) { return face; },
+        [&](std::size_t i) { return sizes[patch_of[i]]; });
+    for (SolidPatch& patch : mesh_.patches) patch.faces.clear();
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (kept[i] == i) {
+        mesh_.patches[patch_of[i]].faces.push_back(faces[i]);
+      } else {
+        ++repeated[{mesh_.patches[patch_of[kept[i]]].name, mesh_.patches[patch_of[i]].name}];
+      }
+    }
+    std::erase_if(mesh_.patches, [](const SolidPatch& patch) { return patch.faces.empty(); });
+  }
+
+  /// How many volumes or surfaces the groups of blocks and of patches have.
+  std::vector<std::int64_t> block_sizes() const {
+    std::vector<std::int64_t> sizes;
+    for (const auto& [physical, block] : volumes_) {
+      if (block >= std::ssize(sizes)) sizes.resize(block + 1, 0);
+      sizes[block] += text_.groups().members_of(3, physical);
+    }
+    return sizes;
+  }
+  std::vector<std::int64_t> patch_sizes() const {
+    std::vector<std::int64_t> sizes(mesh_.patches.size(), 0);
+    for (const auto& [key, patch] : patches_) sizes[patch] = text_.groups().members_of(2, key.first);
+    return sizes;
   }
 
   MshText text_;

@@ -1,6 +1,7 @@
 #include "io/msh/msh_text.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "mesher/base/ids.hpp"
@@ -18,7 +19,24 @@ std::string element_name(std::int64_t type) {
     case 8: return "8 (line of second order)";
     case 9: return "9 (triangle of second order)";
     case 10: return "10 (quadrilateral of second order, 9 nodes)";
+    case 11: return "11 (tetrahedron of second order)";
+    case 12: return "12 (hexahedron of second order, 27 nodes)";
+    case 13: return "13 (prism of second order, 18 nodes)";
+    case 14: return "14 (pyramid of second order, 14 nodes)";
     case 16: return "16 (quadrilateral of second order, 8 nodes)";
+    case 17: return "17 (hexahedron of second order, 20 nodes)";
+    case 18: return "18 (prism of second order, 15 nodes)";
+    case 19: return "19 (pyramid of second order, 13 nodes)";
+    case 20:
+    case 21: return std::to_string(type) + " (triangle of third order)";
+    case 22:
+    case 23: return std::to_string(type) + " (triangle of fourth order)";
+    case 26: return "26 (line of third order)";
+    case 27: return "27 (line of fourth order)";
+    case 29: return "29 (tetrahedron of third order)";
+    case 36: return "36 (quadrilateral of third order)";
+    case 37: return "37 (quadrilateral of fourth order)";
+    case 92: return "92 (hexahedron of third order)";
     default: return std::to_string(type);
   }
 }
@@ -43,6 +61,12 @@ std::size_t width_of(std::int64_t type) {
   }
 }
 
+int dimension_of(std::int64_t type) {
+  if (type == msh_point) return 0;
+  if (type == msh_line) return 1;
+  return type == msh_triangle || type == msh_quad ? 2 : 3;
+}
+
 }  // namespace
 
 void MshText::read(const PutPoint& put_point, const PutElement& put_element) {
@@ -58,6 +82,14 @@ void MshText::read(const PutPoint& put_point, const PutElement& put_element) {
     read_nodes();
     read_elements();
   }
+}
+
+/// In version 2.2 drop_repeated() reports elements of several groups.
+std::vector<std::string> MshText::warnings(int lowest) const {
+  std::vector<std::string> lines = groups_.dropped(lowest);
+  if (!is_old_) std::ranges::move(groups_.overlaps(lowest), std::back_inserter(lines));
+  for (std::string& line : lines) line.insert(0, scan_.path() + ": ");
+  return lines;
 }
 
 bool MshText::go_to_section(const std::string& name) {
@@ -147,10 +179,7 @@ void MshText::read_entity(int dimension, const char* expected) {
   const std::int64_t entity = scan_.integer(expected);
   for (int k = 0; k < 6; ++k) scan_.token("a bound of its box");
   const std::size_t groups = scan_.count("physical groups", 1);
-  for (std::size_t k = 0; k < groups; ++k) {
-    const std::int64_t physical = physical_tag();
-    if (k == 0) groups_.put_in_physical(dimension, entity, physical);
-  }
+  for (std::size_t k = 0; k < groups; ++k) groups_.put_in_physical(dimension, entity, physical_tag());
   const std::size_t bounds = scan_.count("bounding entities", 1);
   for (std::size_t k = 0; k < bounds; ++k) scan_.integer("the tag of a bounding entity");
 }
@@ -163,10 +192,10 @@ void MshText::read_point(std::int64_t tag) {
   (*put_point_)(tag, {x, y, z});
 }
 
-void MshText::end_nodes() {
+void MshText::end_nodes(const std::string& section) {
   const std::int64_t twice = tags_.sort();
   if (twice != 0) scan_.refuse("two nodes have the tag " + std::to_string(twice));
-  end_section("Nodes");
+  end_section(section);
 }
 
 std::int64_t MshText::node_tag() {
@@ -175,12 +204,17 @@ std::int64_t MshText::node_tag() {
   return tag;
 }
 
+/// With parameters each row goes on with the entity's dimension and tag, and what the point's place on it is.
 void MshText::read_old_nodes() {
-  go_to_needed("Nodes");
+  const bool parametric = go_to_section("ParametricNodes");
+  if (!parametric) go_to_needed("Nodes");
   const std::size_t count = scan_.count("nodes", 4);
   tags_.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) read_point(node_tag());
-  end_nodes();
+  for (std::size_t i = 0; i < count; ++i) {
+    read_point(node_tag());
+    if (parametric) scan_.rest_of_line();
+  }
+  end_nodes(parametric ? "ParametricNodes" : "Nodes");
 }
 
 void MshText::read_nodes() {
@@ -204,7 +238,7 @@ void MshText::read_nodes() {
   }
   if (points_ != count)
     scan_.refuse("the blocks hold " + std::to_string(points_) + " nodes, not " + std::to_string(count));
-  end_nodes();
+  end_nodes("Nodes");
 }
 
 void MshText::refuse_unknown(std::int64_t type) const {
@@ -241,9 +275,17 @@ void MshText::read_old_elements() {
       if (k == 0) physical = tag;
       if (k == 1) entity = tag;
     }
+    note_member(dimension_of(type), entity, physical);
     read_element(number, type, physical, entity);
   }
   end_section("Elements");
+}
+
+/// Elements of one entity follow each other.
+void MshText::note_member(int dimension, std::int64_t entity, std::int64_t physical) {
+  const std::array member{std::int64_t{dimension}, entity, physical};
+  if (physical != 0 && member != last_member_) groups_.put_in_physical(dimension, entity, physical);
+  last_member_ = member;
 }
 
 void MshText::read_elements() {

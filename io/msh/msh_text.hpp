@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "io/msh/msh_groups.hpp"
 #include "io/msh/msh_nodes.hpp"
@@ -64,6 +65,9 @@ class MshText {
   bool may_repeat() const { return is_old_; }
   const TextScanner& scan() const { return scan_; }
   MshGroups& groups() { return groups_; }
+  const MshGroups& groups() const { return groups_; }
+  /// On groups, where those of `lowest` dimensions are boundaries.
+  std::vector<std::string> warnings(int lowest) const;
 
  private:
   /// Goes behind the line "$name"; false where the file has no such section.
@@ -78,7 +82,7 @@ class MshText {
   /// Tag, six numbers of a box, the physical groups, and what bounds it.
   void read_entity(int dimension, const char* expected);
   void read_point(std::int64_t tag);
-  void end_nodes();
+  void end_nodes(const std::string& section);
   std::int64_t node_tag();
   void read_old_nodes();
   /// Blocks, all nodes, smallest and largest tag; then blocks of nodes on one entity, first their tags, then
@@ -88,6 +92,7 @@ class MshText {
   void read_element(std::int64_t tag, std::int64_t type, std::int64_t physical, std::int64_t entity);
   /// Each row: number, type, tags (the first the physical group, the second the entity), nodes.
   void read_old_elements();
+  void note_member(int dimension, std::int64_t entity, std::int64_t physical);
   /// Blocks, all elements, smallest and largest tag; then blocks of elements of one type on one entity.
   void read_elements();
   std::size_t read_element_block();
@@ -96,6 +101,7 @@ class MshText {
   int dimension_;
   bool is_old_ = false;
   MshGroups groups_;
+  std::array<std::int64_t, 3> last_member_{-1, 0, 0};  ///< dimension, entity, group
   NodeTags tags_;
   std::size_t points_ = 0;
   const PutPoint* put_point_ = nullptr;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "io/loaded/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
 
 namespace quadloop {
@@ -45,9 +45,7 @@ void read_strips(const TextScanner& scan, PartIndex& index) {
 
 }  // namespace
 
-bool is_part_index(const std::string& path) {
-  return std::filesystem::path(path).extension() == part_index_suffix;
-}
+bool is_part_index(const std::string& path) { return suffix_of(path) == part_index_suffix; }
 
 std::string part_path(const std::string& prefix, std::int32_t part, const std::string& suffix) {
   return prefix + "." + part_name(part) + "." + suffix;

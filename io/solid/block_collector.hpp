@@ -20,6 +20,8 @@ class BlockCollector {
     return found->second;
   }
 
+  const std::string& name(std::int32_t block) const { return names_[block]; }
+
   /// The cells that the mesh has got since the last call are of this block.
   void take(const SolidMesh& mesh, std::int32_t block) {
     for_each_kind_of_cell(

@@ -18,9 +18,18 @@ std::vector<std::int32_t> seen_from_inside(const CellSide& side) {
   return nodes;
 }
 
-/// The node that a side has beside `node` and that is not of the base; -1 where there is none.
-std::int32_t opposite(std::span<const CellSide> sides, const std::vector<std::int32_t>& base,
-                      std::int32_t node) {
+template <std::size_t width>
+std::string add(std::vector<std::array<std::int32_t, width>>& cells, const std::vector<std::int32_t>& nodes) {
+  if (nodes.size() != width || std::ranges::count(nodes, SolidPatch::no_node) > 0)
+    return "has faces that do not fit together";
+  std::copy(nodes.begin(), nodes.end(), cells.emplace_back().begin());
+  return {};
+}
+
+}  // namespace
+
+std::int32_t opposite_node(std::span<const CellSide> sides, std::span<const std::int32_t> base,
+                           std::int32_t node) {
   for (const CellSide& side : sides) {
     const std::size_t width = width_of(side.nodes);
     for (std::size_t k = 0; k < width; ++k) {
@@ -32,16 +41,6 @@ std::int32_t opposite(std::span<const CellSide> sides, const std::vector<std::in
   }
   return SolidPatch::no_node;
 }
-
-template <std::size_t width>
-std::string add(std::vector<std::array<std::int32_t, width>>& cells, const std::vector<std::int32_t>& nodes) {
-  if (nodes.size() != width || std::ranges::count(nodes, SolidPatch::no_node) > 0)
-    return "has faces that do not fit together";
-  std::copy(nodes.begin(), nodes.end(), cells.emplace_back().begin());
-  return {};
-}
-
-}  // namespace
 
 std::string add_cell(SolidMesh& mesh, std::span<const CellSide> sides) {
   const auto quads =
@@ -58,7 +57,7 @@ std::string add_cell(SolidMesh& mesh, std::span<const CellSide> sides) {
   const std::vector<std::int32_t> first = seen_from_inside(*base);
   std::vector<std::int32_t> nodes = first;
   for (const std::int32_t node : first) {
-    nodes.push_back(opposite(sides, first, node));
+    nodes.push_back(opposite_node(sides, first, node));
     if (tetrahedron || pyramid) break;  // one apex
   }
   if (tetrahedron) return add(mesh.tetrahedra, nodes);

@@ -24,8 +24,9 @@ void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& pa
 std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries);
 
 /// Reads a 2D SU2 mesh on the calling rank alone: the keys in any order, those that are no part of the mesh
-/// passed over with their rows. Each marker becomes a boundary, those of the same name one; a file without
-/// markers gets the boundary "boundary". Cells are turned counter-clockwise piece by piece (orient_cells),
+/// passed over with their rows, markers SEND_RECEIVE too. Each marker becomes a boundary, those of the same
+/// name one; a file without markers gets the boundary "boundary". Zones become blocks "zone_1", "zone_2" ...,
+/// each with its own nodes and markers. Cells are turned counter-clockwise piece by piece (orient_cells),
 /// edges with their cell to the left. Throws InputError "file:line: ..." on anything that is not such a mesh;
 /// geometric faults, inverted cells too, are left to validate().
 LoadedMesh read_su2(const std::string& path);

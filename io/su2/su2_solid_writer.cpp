@@ -1,4 +1,5 @@
 #include "io/solid/solid_stream.hpp"
+#include "io/solid/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_solid_file.hpp"
 #include "io/text/text_output.hpp"
@@ -9,12 +10,19 @@ namespace {
 
 /// VTK's numbers of kinds of cells, by how many nodes they have.
 template <std::size_t width>
-constexpr int su2_solid = width == 4   ? 10
-                          : width == 5 ? 14
-                          : width == 6 ? 13
-                                       : 12;
+constexpr int su2_solid = width == 4   ? vtk_tetrahedron
+                          : width == 5 ? vtk_pyramid
+                          : width == 6 ? vtk_wedge
+                                       : vtk_hexahedron;
 template <std::size_t width>
-constexpr int vtk_face = width == 3 ? 5 : 9;
+constexpr int vtk_face = width == 3 ? vtk_triangle : vtk_quad;
+
+/// That of VTK (the faces of SU2's CPrism).
+template <std::size_t width>
+std::array<SolidNode, width> in_su2_order(const std::array<SolidNode, width>& cell) {
+  if constexpr (width == 6) return vtk_wedge_order(cell);
+  return cell;
+}
 
 template <std::size_t width>
 void put_element(TextRows& text, int type, const std::array<SolidNode, width>& nodes) {
@@ -31,7 +39,7 @@ class Su2SolidWriter {
     file_.write("NDIME= 3\nNELEM= " + std::to_string(stream_.counts().cells()) + "\n");
     for_each_kind_of_cell([&]<std::size_t width>() {
       file_.write_rows(stream_.cell_rows<width>(), width + 1, [&](TextRows& text, std::int64_t i) {
-        put_element(text, su2_solid<width>, stream_.cell<width>(i));
+        put_element(text, su2_solid<width>, in_su2_order(stream_.cell<width>(i)));
       });
     });
     write_points();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace quadloop {
 
@@ -15,21 +16,10 @@ std::string_view without_blanks_around(std::string_view text) {
 
 }  // namespace
 
-std::string su2_element_name(std::int64_t vtk_type) {
-  switch (vtk_type) {
-    case 1: return "1 (vertex)";
-    case 3: return "3 (line)";
-    case 5: return "5 (triangle)";
-    case 9: return "9 (quadrilateral)";
-    case 10: return "10 (tetrahedron)";
-    case 12: return "12 (hexahedron)";
-    case 13: return "13 (prism)";
-    case 14: return "14 (pyramid)";
-    default: return std::to_string(vtk_type);
-  }
+Su2Text::Su2Text(const std::string& path) : scan_{path, '%'} {
+  find_keys();
+  find_zones();
 }
-
-Su2Text::Su2Text(const std::string& path) : scan_{path, '%'} { find_keys(); }
 
 /// The keys may stand in any order, so that their lines are found first: those where a "=" follows.
 void Su2Text::find_keys() {
@@ -47,16 +37,36 @@ void Su2Text::find_keys() {
   check_rows_end_before(0);
 }
 
-std::int64_t Su2Text::dimension() {
-  const std::size_t zones = find("NZONE");
-  if (zones < keys_.size() && number_of(zones, "the number of zones") != 1)
-    scan_.refuse("a file of several zones; only one can be read");
-  return number_of(find_one("NDIME"), "the dimension");
+/// Each begins with its IZONE, what stands before the first is the head; a file without is one zone.
+void Su2Text::find_zones() {
+  for (std::size_t key = 0; key < keys_.size(); ++key) {
+    if (keys_[key].key == "IZONE") zone_begins_.push_back(key);
+  }
+  const std::size_t found = std::max<std::size_t>(zone_begins_.size(), 1);
+  if (zone_begins_.empty()) zone_begins_.push_back(0);
+  zone_begins_.push_back(keys_.size());
+  const auto head = std::ranges::find(keys_, "NZONE", &Su2Key::key);
+  if (head == keys_.end()) return;
+  const std::int64_t count = number_of(head - keys_.begin(), "the number of zones");
+  if (count != static_cast<std::int64_t>(found))
+    scan_.refuse("the file has " + std::to_string(found) + (found == 1 ? " zone" : " zones") +
+                 " (IZONE=), not " + std::to_string(count));
 }
+
+void Su2Text::go_to_zone(std::size_t zone) {
+  zone_ = zone;
+  first_point_ += std::exchange(points_, 0);
+}
+
+std::size_t Su2Text::end_of_zone() const {
+  return zone_end() == keys_.size() ? scan_.text().size() : keys_[zone_end()].begin;
+}
+
+std::int64_t Su2Text::dimension() { return number_of(find_one("NDIME"), "the dimension"); }
 
 std::size_t Su2Text::find(const std::string& key) const {
   std::size_t found = keys_.size();
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
+  for (std::size_t k = zone_begin(); k < zone_end(); ++k) {
     if (keys_[k].key != key) continue;
     if (found < keys_.size()) scan_.refuse_at(keys_[k].begin, key + "= stands in the file a second time");
     found = k;
@@ -67,8 +77,8 @@ std::size_t Su2Text::find(const std::string& key) const {
 std::size_t Su2Text::find_one(const std::string& key) const {
   const std::size_t found = find(key);
   if (found == keys_.size())
-    scan_.refuse_at(scan_.text().size(),
-                    "the file ends without " + key + "=; it is cut short, or no SU2 mesh");
+    scan_.refuse_at(end_of_zone(), std::string(zones() == 1 ? "the file" : "a zone") + " ends without " +
+                                       key + "=; it is cut short, or no SU2 mesh");
   return found;
 }
 
@@ -107,10 +117,18 @@ void Su2Text::read_points(std::size_t dimension, const std::function<void(std::s
       if (k > 0) expect_in_row(names[k]);
       p[k] = scan_.real(names[k]);
     }
-    end_row();
+    pass_over_rest_of_point();
     put(p.data());
   }
   check_rows_end_before(key + 1);
+}
+
+/// SU2 takes the first numbers of the row. Behind them usually stands the point's number.
+void Su2Text::pass_over_rest_of_point() {
+  if (scan_.at_line_end()) return;
+  const std::string_view rest = scan_.rest_of_line();
+  if (rest.find_first_not_of("0123456789 \t\r") == std::string_view::npos) return;
+  if (odd_rows_++ == 0) first_odd_row_ = scan_.place();
 }
 
 /// A row is one line: a number that is missing is not taken from the next.
@@ -127,7 +145,7 @@ std::int32_t Su2Text::node_in_row() {
     scan_.refuse("point " + std::to_string(number) + " is none of the points 0 to " +
                  std::to_string(points_ - 1));
   }
-  return static_cast<std::int32_t>(number);
+  return static_cast<std::int32_t>(first_point_ + number);
 }
 
 void Su2Text::end_row() {
@@ -147,7 +165,7 @@ void Su2Text::check_rows_end_before(std::size_t next) {
 void Su2Text::read_markers(const std::function<void(std::size_t, const std::string&)>& read) {
   std::size_t tags = 0;
   std::string name;
-  for (std::size_t key = 0; key < keys_.size(); ++key) {
+  for (std::size_t key = zone_begin(); key < zone_end(); ++key) {
     if (keys_[key].key == "MARKER_TAG") {
       if (!name.empty()) scan_.refuse_at(keys_[key].begin, "marker " + name + " has no MARKER_ELEMS=");
       go_to_value(key, "the marker's name");
@@ -156,12 +174,15 @@ void Su2Text::read_markers(const std::function<void(std::size_t, const std::stri
     } else if (keys_[key].key == "MARKER_ELEMS") {
       if (name.empty())
         scan_.refuse_at(keys_[key].begin, "MARKER_ELEMS= stands without a MARKER_TAG= before it");
-      read(key, name);
+      if (name == "SEND_RECEIVE") {
+        ++passed_markers_;
+      } else {
+        read(key, name);
+      }
       name.clear();
     }
   }
-  if (!name.empty())
-    scan_.refuse_at(scan_.text().size(), "the file ends without MARKER_ELEMS= for marker " + name);
+  if (!name.empty()) scan_.refuse_at(end_of_zone(), "the file ends without MARKER_ELEMS= for marker " + name);
   check_marker_count(tags);
 }
 
@@ -173,6 +194,19 @@ void Su2Text::check_marker_count(std::size_t tags) {
     scan_.refuse("the file has " + std::to_string(tags) + " markers (MARKER_TAG=), not " +
                  std::to_string(count));
   }
+}
+
+std::vector<std::string> Su2Text::warnings() const {
+  std::vector<std::string> lines;
+  if (odd_rows_ > 0)
+    lines.push_back(
+        scan_.place_text(first_odd_row_) + ": " + std::to_string(odd_rows_) +
+        " rows of points have more behind their coordinates than a number of the point, here first; "
+        "as in SU2 it is ignored");
+  if (passed_markers_ > 0)
+    lines.push_back(scan_.path() + ": " + std::to_string(passed_markers_) +
+                    " markers SEND_RECEIVE are passed over; they are of ranks and no boundaries");
+  return lines;
 }
 
 }  // namespace quadloop

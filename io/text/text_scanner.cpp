@@ -155,9 +155,13 @@ std::string_view TextScanner::last_comment_with(std::string_view text) const {
   return {};
 }
 
-void TextScanner::refuse_at(std::size_t place, const std::string& message) const {
+std::string TextScanner::place_text(std::size_t place) const {
   const auto line = 1 + std::count(text_.data(), text_.data() + place, '\n');
-  throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
+  return path_ + ":" + std::to_string(line);
+}
+
+void TextScanner::refuse_at(std::size_t place, const std::string& message) const {
+  throw InputError(place_text(place) + ": " + message);
 }
 
 }  // namespace quadloop

@@ -52,6 +52,8 @@ class TextScanner {
   [[noreturn]] void refuse(const std::string& message) const { refuse_at(place(), message); }
   [[noreturn]] void refuse_at(std::size_t place, const std::string& message) const;
   const std::string& path() const { return path_; }
+  /// "file:line" of a place.
+  std::string place_text(std::size_t place) const;
 
  private:
   void skip();

@@ -20,8 +20,10 @@ namespace quadloop {
 template <std::endian order>
 void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
-/// The file of patches that goes with a mesh: "a.b8.ugrid" has "a.mapbc".
+/// The file of patches that goes with a 3D mesh: "a.b8.ugrid" has "a.mapbc". A plane one, which FUN3D does
+/// not read, has its own: "a.ugrid" has "a.ugrid.mapbc".
 std::string mapbc_path(const std::string& path);
+std::string plane_mapbc_path(const std::string& path);
 
 /// A patch as a .mapbc has it.
 struct MapbcPatch {

@@ -5,6 +5,7 @@
 #include "io/text/plain_names.hpp"
 #include "io/text/text_scanner.hpp"
 #include "io/ugrid/ugrid_file.hpp"
+#include "mesher/base/suffix.hpp"
 
 namespace quadloop {
 
@@ -26,10 +27,12 @@ constexpr int symmetry_x = 6661;  // and y, z after it: the plane normal to the 
 std::string mapbc_path(const std::string& path) {
   std::string stem = path;
   for (const std::string ending : {".ugrid", ".b8", ".lb8"}) {
-    if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+    if (small_letters(stem).ends_with(ending)) stem.resize(stem.size() - ending.size());
   }
   return stem + ".mapbc";
 }
+
+std::string plane_mapbc_path(const std::string& path) { return path + ".mapbc"; }
 
 std::vector<std::string> mapbc_names(const std::vector<std::string>& names) { return plain_names(names); }
 

@@ -11,7 +11,7 @@ namespace quadloop {
 /// Writes the mesh as a 2D UGRID file in text, the form that AFLR2 takes (SimCenter, Mississippi State
 /// University: UG_IO, 2D grid file types): seven counts, the last four 0; x, y and z = 0 of the nodes; the
 /// nodes of triangles and quads; an identifier for each, 1; the number of boundary edges; the two nodes of
-/// each and the number of its boundary. Beside it a .mapbc with the number, condition and name of each
+/// each and the number of its boundary. Beside it a .ugrid.mapbc with the number, condition and name of each
 /// boundary. The bytes are the same on any number of ranks. *Collective.* Throws OutputError on all ranks.
 void write_ugrid_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/ugrid/ugrid_file.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 class UgridPlaneReader {
  public:
-  explicit UgridPlaneReader(const std::string& path) : scan_{path}, names_{read_mapbc(mapbc_path(path))} {}
+  explicit UgridPlaneReader(const std::string& path) : scan_{path}, names_{read_mapbc(names_of(path))} {}
 
   LoadedMesh read() {
     const std::size_t nodes = scan_.count("nodes", 3), triangles = scan_.count("triangles", 3),
@@ -36,6 +37,12 @@ class UgridPlaneReader {
   }
 
  private:
+  /// Other programs may give it the name that goes with a 3D mesh.
+  static std::string names_of(const std::string& path) {
+    const std::string own = plane_mapbc_path(path);
+    return std::filesystem::exists(own) ? own : mapbc_path(path);
+  }
+
   template <std::size_t width>
   std::array<NodeId, width> row() {
     const std::int64_t points = std::ssize(foreign_.loaded.mesh.points);

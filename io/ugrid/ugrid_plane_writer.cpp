@@ -14,7 +14,7 @@ class UgridPlaneWriter {
       : comm_{outputs.communicator()},
         mesh_{mesh},
         file_{outputs, path},
-        names_{outputs, mapbc_path(path)},
+        names_{outputs, plane_mapbc_path(path)},
         boundaries_{comm_, mesh} {}
 
   void write() {

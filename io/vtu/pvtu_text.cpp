@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/vtu/vtu_text.hpp"
+#include "mesher/base/suffix.hpp"
 
 namespace quadloop {
 
@@ -26,7 +27,7 @@ std::string pvtu_text(const PvtuList& list) {
 
 std::string pvtu_piece_path(const std::string& path) {
   std::filesystem::path piece = path;
-  const std::string stem = piece.extension() == ".pvtu" ? piece.stem() : piece.filename();
+  const std::string stem = suffix_of(path) == ".pvtu" ? piece.stem() : piece.filename();
   return piece.replace_filename(stem + "_0.vtu").string();
 }
 

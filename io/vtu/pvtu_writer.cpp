@@ -44,8 +44,8 @@ void write_pvtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
 }
 
 void write_pvtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  write_list(outputs, list_of(whole.mesh, whole.solution ? &*whole.solution : nullptr, whole.blocks > 1),
-             path);
+  write_list(outputs,
+             list_of(whole.mesh, whole.solution ? &*whole.solution : nullptr, has_named_blocks(whole)), path);
   write_vtu(outputs, whole, pvtu_piece_path(path));
 }
 

@@ -21,8 +21,8 @@ void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path,
 void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path,
                const Field* solution = nullptr);
 
-/// Writes a mesh that the set's only rank holds whole, with its solution; several blocks are told by the cell
-/// data "block". Throws OutputError.
+/// Writes a mesh that the set's only rank holds whole, with its solution; blocks (has_named_blocks()) are
+/// told by the cell data "block". Throws OutputError.
 void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
 
 /// Reads one piece of a VTK XML unstructured grid on the calling rank alone: ASCII, base64 and raw, inline

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/loaded/strip_text.hpp"
+#include "io/solid/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
-#include "io/vtu/vtu_cell.hpp"
+#include "io/vtu/vtu_boundaries.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 
@@ -76,7 +78,8 @@ class VtuReader {
     const std::vector<std::int64_t> offsets = numbers_.integers(offsets_array, document_.cells);
     const std::vector<std::int64_t> nodes =
         numbers_.integers(connectivity, offsets.empty() ? 0 : offsets.back());
-    const std::vector<std::int64_t> boundaries = cell_numbers("boundary"), blocks = cell_numbers("block");
+    find_boundaries(types);
+    const std::vector<std::int64_t> blocks = cell_numbers("block");
     read_names();
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
@@ -88,10 +91,26 @@ class VtuReader {
       const auto of_cell = std::span(nodes).subspan(begin, end - begin);
       place_ = connectivity.place;
       cell_ = cell + 1;
-      add_cell(types[cell], of_cell, boundaries.empty() ? 0 : boundaries[cell],
-               blocks.empty() ? 0 : blocks[cell]);
+      add_cell(types[cell], of_cell, boundary_of(cell), blocks.empty() ? 0 : blocks[cell]);
       begin = end;
     }
+  }
+
+  void find_boundaries(const std::vector<std::int64_t>& types) {
+    boundaries_ = find_boundary_numbers(document_, numbers_, types, vtk_line, vtk_line);
+    if (!boundaries_.warning.empty())
+      foreign_.loaded.warnings.push_back(scan_.path() + ": " + boundaries_.warning);
+  }
+  std::int64_t boundary_of(std::size_t cell) const {
+    return boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell];
+  }
+
+  std::string boundary_name(std::int64_t number) {
+    if (boundaries_.is_ours || boundaries_.of_cells.empty())
+      return name_of(boundary_names_, number, "boundary", "boundary");
+    const auto [name, is_new] = group_names_.try_emplace(number);
+    if (is_new) name->second = vtu_group_name(document_, numbers_, number, 1);
+    return name->second;
   }
 
   /// Whole numbers of our own cell data; empty where there are none.
@@ -164,8 +183,7 @@ class VtuReader {
     if (type == vtk_vertex || type == vtk_poly_vertex) return;
     if (type == vtk_line) {
       foreign_.edges.push_back(
-          {nodes_of<2>(nodes),
-           foreign_.boundary_named(name_of(boundary_names_, boundary, "boundary", "boundary")), place_});
+          {nodes_of<2>(nodes), foreign_.boundary_named(boundary_name(boundary)), place_});
       return;
     }
     const std::int32_t to_block = foreign_.block_named(name_of(block_names_, block, "block", "domain"));
@@ -180,7 +198,7 @@ class VtuReader {
     } else {
       scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "
                                           "quads (9) and lines (3) can be read",
-                                          cell_, type, nodes.size()));
+                                          cell_, vtk_cell_name(type), nodes.size()));
     }
   }
 
@@ -239,6 +257,8 @@ class VtuReader {
   VtuNumbers numbers_;
   ForeignMesh foreign_;
   std::vector<std::string> boundary_names_, block_names_;
+  VtuBoundaryNumbers boundaries_;
+  std::unordered_map<std::int64_t, std::string> group_names_;  ///< of other programs' numbers
   bool has_layers_ = false;
   std::vector<std::int64_t> triangle_cells_, quad_cells_;  ///< their places among all of the file's cells
   std::size_t place_ = 0, cell_ = 0;                       ///< of the cell under way, for a refusal

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <unordered_map>
 
 #include "io/solid/block_collector.hpp"
+#include "io/solid/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
-#include "io/vtu/vtu_cell.hpp"
+#include "io/vtu/vtu_boundaries.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 
 namespace quadloop {
@@ -64,9 +66,8 @@ class VtuSolidReader {
     if (const VtuArray* array = document_.find("FieldData", "boundary_names")) {
       for (const std::string& name : numbers_.texts(*array)) mesh_.patches.push_back({name, "none", {}});
     }
-    const VtuArray* array = document_.find("CellData", "boundary");
-    if (array != nullptr && array->components == 1 && !array->type.starts_with("Float"))
-      patch_of_ = numbers_.integers(*array, document_.cells);
+    boundaries_ = find_boundary_numbers(document_, numbers_, types_, vtk_triangle, vtk_quad);
+    if (!boundaries_.warning.empty()) mesh_.warnings.push_back(scan_.path() + ": " + boundaries_.warning);
   }
 
   /// Those that the file names; others are named as cells have them.
@@ -128,11 +129,7 @@ class VtuSolidReader {
     switch (types_[cell]) {
       case vtk_tetrahedron: add_cell(cell, nodes_of<4>(cell, nodes)); break;
       case vtk_pyramid: add_cell(cell, nodes_of<5>(cell, nodes)); break;
-      case vtk_wedge: {
-        const auto n = nodes_of<6>(cell, nodes);  // its first triangle looks outwards
-        add_cell(cell, std::array{n[0], n[2], n[1], n[3], n[5], n[4]});
-        break;
-      }
+      case vtk_wedge: add_cell(cell, vtk_wedge_order(nodes_of<6>(cell, nodes))); break;
       case vtk_voxel: {
         const auto n = nodes_of<8>(cell, nodes);
         add_cell(cell, std::array{n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
@@ -149,18 +146,27 @@ class VtuSolidReader {
         if (types_[cell] < vtk_triangle) break;  // points and lines
         scan_.refuse_at(place_,
                         fmt::format("cell {} is of VTK type {}; only tetrahedra (10), voxels (11), "
-                                    "hexahedra (12), wedges (13), pyramids (14), triangles (5) and quads "
+                                    "hexahedra (12), prisms (13), pyramids (14), triangles (5) and quads "
                                     "(9) can be read of three dimensions",
-                                    cell + 1, types_[cell]));
+                                    cell + 1, vtk_cell_name(types_[cell])));
     }
   }
 
   SolidPatch& patch_of(std::size_t cell) {
-    const std::int64_t number = patch_of_.empty() ? 0 : patch_of_[cell];
-    if (number >= 1 && number <= std::ssize(mesh_.patches)) return mesh_.patches[number - 1];
-    const std::string name = number <= 0 ? "boundary" : "boundary_" + std::to_string(number);
+    const std::int64_t number = boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell];
+    const bool is_ours = boundaries_.is_ours || boundaries_.of_cells.empty();
+    if (is_ours && number >= 1 && number <= std::ssize(mesh_.patches)) return mesh_.patches[number - 1];
+    const std::string name = !is_ours      ? group_name(number)
+                             : number <= 0 ? "boundary"
+                                           : "boundary_" + std::to_string(number);
     const auto found = std::ranges::find(mesh_.patches, name, &SolidPatch::name);
     return found != mesh_.patches.end() ? *found : mesh_.patches.emplace_back(SolidPatch{name, "none", {}});
+  }
+
+  const std::string& group_name(std::int64_t number) {
+    const auto [name, is_new] = group_names_.try_emplace(number);
+    if (is_new) name->second = vtu_group_name(document_, numbers_, number, 2);
+    return name->second;
   }
 
   /// Point data of numbers and cell data of real ones; of several components each is a variable.
@@ -204,7 +210,9 @@ class VtuSolidReader {
   VtuDocument document_;
   VtuNumbers numbers_;
   SolidMesh mesh_;
-  std::vector<std::int64_t> types_, patch_of_, block_of_;
+  std::vector<std::int64_t> types_, block_of_;
+  VtuBoundaryNumbers boundaries_;
+  std::unordered_map<std::int64_t, std::string> group_names_;  ///< of other programs' numbers
   std::vector<std::string> block_names_;
   BlockCollector blocks_;
   std::array<std::vector<std::int32_t>, 9>

@@ -1,8 +1,8 @@
 #include "io/solid/solid_blocks.hpp"
 #include "io/solid/solid_cell_values.hpp"
 #include "io/solid/solid_stream.hpp"
+#include "io/solid/vtk_cell.hpp"
 #include "io/vtu/vtu_appended.hpp"
-#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_solid_file.hpp"
 #include "io/vtu/vtu_text.hpp"
 
@@ -10,10 +10,10 @@ namespace quadloop {
 
 namespace {
 
-/// In the order of VTK: of a wedge the first triangle looks outwards.
+/// In the order of VTK.
 template <std::size_t width>
 std::array<SolidNode, width> as_vtk(const std::array<SolidNode, width>& cell) {
-  if constexpr (width == 6) return {cell[0], cell[2], cell[1], cell[3], cell[5], cell[4]};
+  if constexpr (width == 6) return vtk_wedge_order(cell);
   return cell;
 }
 

@@ -2,9 +2,9 @@
 #include <span>
 
 #include "io/loaded/strip_text.hpp"
+#include "io/solid/vtk_cell.hpp"
 #include "io/text/text_output.hpp"
 #include "io/vtu/vtu_appended.hpp"
-#include "io/vtu/vtu_cell.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 #include "io/vtu/vtu_text.hpp"
@@ -229,7 +229,7 @@ void write_vtu(OutputSet& outputs, const Mesh& mesh, const std::string& path, co
 
 void write_vtu(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
   VtuWriter(outputs, whole.mesh, path)
-      .write(whole.blocks > 1 ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
+      .write(has_named_blocks(whole) ? &whole : nullptr, whole.solution ? &*whole.solution : nullptr);
 }
 
 void write_vtu(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {

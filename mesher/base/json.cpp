@@ -5,26 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/utf8.hpp"
+
 namespace quadloop {
-
-namespace {
-
-/// Bytes of the UTF-8 character that `text` begins with; 0 where it is none.
-std::size_t utf8_length(std::string_view text) {
-  const unsigned char first = text[0];
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((text[k] & 0xC0) != 0x80) return 0;
-  }
-  return length;
-}
-
-}  // namespace
 
 std::string json_of(std::string_view text) {
   std::string quoted = "\"";

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "mesher/base/progress.hpp"
+#include "mesher/base/utf8.hpp"
 
 namespace quadloop::log {
 
@@ -39,20 +40,20 @@ void configure(const Options& options) {
   }
 }
 
-// The message is an argument, not the format: a file name may hold braces.
+// The message is an argument, not the format: a file name may hold braces. It may quote damaged input.
 void warning(const std::string& message) {
   progress::clear();
-  logger().warn("{}", message);
+  logger().warn("{}", printable(message));
 }
 
 void information(const std::string& message) {
   progress::clear();
-  logger().info("{}", message);
+  logger().info("{}", printable(message));
 }
 
 void detail(const std::string& message) {
   progress::clear();
-  logger().debug("{}", message);
+  logger().debug("{}", printable(message));
 }
 
 }  // namespace quadloop::log

@@ -67,4 +67,21 @@ SolidPatch::Face face_of(const std::array<std::int32_t, width>& cell, const Loca
   return face;
 }
 
+/// The signed volume within flat faces, quads cut along a diagonal: above 0 for nodes in the order of
+/// SolidMesh.
+template <std::size_t width>
+double cell_volume(const SolidMesh& mesh, const std::array<std::int32_t, width>& cell) {
+  const Point3 origin = mesh.points[cell[0]];
+  const auto six_times = [&](std::int8_t a, std::int8_t b, std::int8_t c) {
+    return dot(mesh.points[cell[a]] - origin,
+               cross(mesh.points[cell[b]] - origin, mesh.points[cell[c]] - origin));
+  };
+  double sum = 0;
+  for (const LocalFace& face : CellFaces<width>::faces) {
+    sum += six_times(face[0], face[1], face[2]);
+    if (face[3] >= 0) sum += six_times(face[0], face[2], face[3]);
+  }
+  return sum / 6;
+}
+
 }  // namespace quadloop

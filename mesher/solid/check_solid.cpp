@@ -121,28 +121,13 @@ class SolidCheck {
     return cross(at(2) - at(0), at(3) - at(1));
   }
 
-  template <std::size_t width>
-  double volume_of(const std::array<std::int32_t, width>& cell) const {
-    const Point3 origin = mesh_.points[cell[0]];
-    const auto six_times = [&](std::int8_t a, std::int8_t b, std::int8_t c) {
-      return dot(mesh_.points[cell[a]] - origin,
-                 cross(mesh_.points[cell[b]] - origin, mesh_.points[cell[c]] - origin));
-    };
-    double sum = 0;
-    for (const LocalFace& face : CellFaces<width>::faces) {
-      sum += six_times(face[0], face[1], face[2]);
-      if (face[3] >= 0) sum += six_times(face[0], face[2], face[3]);
-    }
-    return sum / 6;
-  }
-
   void measure_cells() {
     LongSum sum;
     std::vector<LongSum> of_blocks(mesh_.block_names.size());
     for (const std::string& name : mesh_.block_names) figures_.blocks.push_back({name});
     figures_.least_volume = std::numeric_limits<double>::infinity();
     for_each_cell(mesh_, [&](const auto& nodes, std::int64_t cell) {
-      const double volume = volume_of(nodes);
+      const double volume = cell_volume(mesh_, nodes);
       sum.add(volume);
       if (!of_blocks.empty()) {
         of_blocks[mesh_.cell_to_block[cell]].add(volume);

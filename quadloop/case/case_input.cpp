@@ -1,12 +1,12 @@
 #include "quadloop/case/case_input.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/free_memory.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/generate/digests.hpp"
 #include "quadloop/case/layer_settings.hpp"
 
@@ -16,8 +16,7 @@ namespace {
 
 /// An outline in the place of a case file is a likely slip.
 void require_case_file(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension();
-  if (std::ranges::count(geometry_suffixes(), suffix) > 0) {
+  if (std::ranges::count(geometry_suffixes(), suffix_of(path)) > 0) {
     throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
                      "\" in its table [geometry]");
   }

@@ -12,6 +12,7 @@
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/base/suffix.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
@@ -310,7 +311,7 @@ const AdaptOptions& adapt_options(const Settings& settings, const std::string& c
 
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
-  return format_of(prefix) != nullptr || suffix == ".h5" ? suffix : std::string();
+  return format_of(prefix) != nullptr || suffix_of(prefix) == ".h5" ? suffix : std::string();
 }
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {

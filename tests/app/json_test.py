@@ -82,7 +82,7 @@ class Json(ProgramTest):
         self.assertEqual(record["files"], ["r.mesh", "r.cgns", "r.tree.h5"])
         record = self.record("remesh", "a.toml", "--tree", "loop/cycle_00/mesh.tree.h5", "--solution", "loop/cycle_00/mesh.mesh", "-o", "s",
                              "--set", 'output.formats=["ugrid", "pvtu"]')
-        self.assertEqual(record["files"], ["s.ugrid", "s.mapbc", "s.pvtu", "s_0.vtu", "s.tree.h5"])
+        self.assertEqual(record["files"], ["s.ugrid", "s.ugrid.mapbc", "s.pvtu", "s_0.vtu", "s.tree.h5"])
         for key in ("nodes", "outside", "drift_of_density", "seconds"):
             self.assertIn(key, record)
 
@@ -100,12 +100,12 @@ class Json(ProgramTest):
 
     def test_files_written_in_twos_are_both_listed(self):
         self.assertEqual(self.record("mesh", "a.toml", "-o", "a", "--set", 'output.formats=["mesh", "ugrid"]')["files"],
-                         ["a.mesh", "a.ugrid", "a.mapbc", "a.tree.h5"])
-        self.assertEqual(self.record("convert", "a.mesh", "b.ugrid")["files"], ["b.ugrid", "b.mapbc"])
+                         ["a.mesh", "a.ugrid", "a.ugrid.mapbc", "a.tree.h5"])
+        self.assertEqual(self.record("convert", "a.mesh", "b.ugrid")["files"], ["b.ugrid", "b.ugrid.mapbc"])
         self.assertEqual(self.record("convert", "a.mesh", "c", "--format", "ugrid")["files"], ["c", "c.mapbc"])
         self.assertEqual(self.record("smooth", "a.mesh", "-o", "s.pvtu")["files"], ["s.pvtu", "s_0.vtu"])
         self.assertEqual(self.record("extrude", "a.mesh", "-o", "e.b8.ugrid", "--layers", "1", "--thickness", "1")["files"], ["e.b8.ugrid", "e.mapbc"])
-        self.assertIn("  wrote d.ugrid, d.mapbc\n", self.done("convert", "a.mesh", "d.ugrid")[0])
+        self.assertIn("  wrote d.ugrid, d.ugrid.mapbc\n", self.done("convert", "a.mesh", "d.ugrid")[0])
 
     def test_check(self):
         self.done("mesh", "a.toml", "-o", "a", "-q")

@@ -6,6 +6,8 @@
 
 #include "mesher/base/json.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/base/suffix.hpp"
+#include "mesher/base/utf8.hpp"
 #include "mesher/base/word_table.hpp"
 
 namespace quadloop {
@@ -19,6 +21,26 @@ TEST(WordTable, GivesWordsInTheirOrderAndTheirValues) {
   EXPECT_EQ(value_of(table, "blue"), Colour::blue);
   EXPECT_EQ(value_of(table, "Red"), std::nullopt);
   EXPECT_EQ(value_of(table, ""), std::nullopt);
+}
+
+TEST(Utf8, OtherTextIsTakenAsLatin1) {
+  EXPECT_EQ(as_utf8("Fl\xc3\xbcgel"), "Fl\xc3\xbcgel");
+  EXPECT_EQ(as_utf8("Fl\xfcgel"), "Fl\xc3\xbcgel");
+  EXPECT_EQ(as_utf8("cut \xe2\x82"), "cut \xc3\xa2\xc2\x82");
+  EXPECT_EQ(as_utf8(""), "");
+}
+
+TEST(Utf8, ControlCharactersReachNoTerminal) {
+  EXPECT_EQ(printable("a\x1b[31mred\x07\x7f"), "a\\x1b[31mred\\x07\\x7f");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m \xff"),
+            "\\xc2\\x9b31m \\xff");
+  EXPECT_EQ(printable("two\nlines\tand \xe2\x82\xac"), "two\nlines\tand \xe2\x82\xac");
+}
+
+TEST(Suffix, ComesInSmallLetters) {
+  EXPECT_EQ(suffix_of("a/B.MSH"), ".msh");
+  EXPECT_EQ(suffix_of("a.b/c"), "");
 }
 
 TEST(NearestWord, IsOneSlipForEachThirdOfTheWord) {

@@ -149,6 +149,17 @@ TEST(DamagedFile, OfSu2) { damage_written("m.su2"); }
 TEST(DamagedFile, OfGmsh) { damage_written("m.msh"); }
 TEST(DamagedFile, OfFluent) { damage_written("m.fluent.msh"); }
 TEST(DamagedFile, OfUgrid) { damage_written("m.ugrid"); }
+TEST(DamagedFile, OfMedit) { damage_written("m.medit"); }
+
+TEST(DamagedFile, OfSu2WithZones) {
+  const TemporaryFolder folder;
+  const std::string zone =
+      "NDIME= 2\nNELEM= 2\n9 0 1 2 3 0\n5 3 2 4 1\nNPOIN= 5\n0 0 0\n1 0 1\n1 1 2\n0 1 3\n0.5 1.5 4\n"
+      "NMARK= 2\nMARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 1\nSEND_TO= 1\n1 0 0\n"
+      "MARKER_TAG= walls\nMARKER_ELEMS= 5\n3 0 1\n3 1 2\n3 2 4\n3 4 3\n3 3 0\n";
+  test::write_bytes(folder.file("m.su2"), "NZONE= 2\nIZONE= 1\n" + zone + "IZONE= 2\n" + zone);
+  expect_read_or_refused(folder.file("m.su2"), read_and_look);
+}
 
 TEST(DamagedFile, OfGmshsNewFormat) {
   const TemporaryFolder folder;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "tests/io/sample_mesh.hpp"
 
@@ -15,12 +16,13 @@ namespace {
 using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
-  EXPECT_EQ(formats_for({}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
-                                    "msh41", "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh", "csv", "dat"}));
+  EXPECT_EQ(formats_for({}),
+            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "b8.ugrid",
+                   "lb8.ugrid", "ugrid", "medit", "polyMesh", "csv", "dat"}));
   EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
                                                   "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh",
-                                                 "msh", "msh41", "ugrid", "polyMesh"}));
+                                                 "msh", "msh41", "ugrid", "medit", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh", "qmesh"}));
   EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"qmesh", "fluent.msh", "polyMesh"}));
@@ -29,7 +31,7 @@ TEST(Formats, AreListedByWhatTheyHold) {
 
 TEST(Formats, StandInASentenceBySuffix) {
   EXPECT_EQ(suffixes_for({Content::mesh}),
-            ".mesh, .qmesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid or polyMesh");
+            ".mesh, .qmesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid, .medit or polyMesh");
   EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .qmesh, .cgns, .vtu, .pvtu, .csv and .dat");
   EXPECT_EQ(suffixes_for({Content::conditions}), ".qmesh, .cgns, .fluent.msh, .ugrid or polyMesh");
 }
@@ -41,7 +43,10 @@ TEST(Formats, AreFoundByNameAndSuffix) {
   EXPECT_EQ(format_of("a.fluent.msh")->name, "fluent.msh");
   EXPECT_EQ(format_of("a.ugrid")->name, "ugrid");
   EXPECT_EQ(format_of("a.b8.ugrid")->name, "b8.ugrid");
-  for (const char* path : {"a", "a.MESH", "mesh", "a.mesh/b", ".mesh", "a.tree.h5", "a."})
+  EXPECT_EQ(format_of("a.MSH")->name, "msh");
+  EXPECT_EQ(format_of("A.B8.UGRID")->name, "b8.ugrid");
+  EXPECT_EQ(format_of("a.POLYMESH/")->name, "polyMesh");
+  for (const char* path : {"a", "mesh", "a.mesh/b", ".mesh", "a.tree.h5", "a."})
     EXPECT_EQ(format_of(path), nullptr) << path;
   EXPECT_EQ(format_named(""), nullptr);
   EXPECT_EQ(format_named(".vtu"), nullptr);
@@ -97,7 +102,44 @@ TEST(Formats, EachReadsWhatItWrites) {
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
   EXPECT_EQ(written_formats(), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
-                                      "msh41", "ugrid", "polyMesh", "csv", "dat"}));
+                                      "msh41", "ugrid", "medit", "polyMesh", "csv", "dat"}));
+}
+
+/// What a file is counts more than what its name says.
+TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& name, const std::string& bytes) {
+    const std::string path = folder.file(name);
+    test::write_bytes(path, bytes);
+    try {
+      require_kind_of_suffix(path);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(path.size());
+    }
+    return std::string();
+  };
+  const std::string no_end(1, '\0');
+  EXPECT_EQ(refusal("a.vtu", "# vtk DataFile Version 3.0\n"),
+            ": is a VTK file in the legacy format; save it as an unstructured grid in XML (.vtu)");
+  EXPECT_EQ(refusal("a.su2", "$MeshFormat\n4.1 0 8\n"),
+            ": is a mesh of Gmsh; give it a name that ends in .msh");
+  EXPECT_EQ(refusal("a.e", "CDF\1" + no_end).find(": is a NetCDF file, such as Exodus II; save the mesh as"),
+            0U);
+  EXPECT_EQ(refusal("a.cas.h5", "\x89HDF\r\n").find(": is a mesh of Fluent in HDF5"), 0U);
+  EXPECT_EQ(refusal("a.msh", "solid part\n facet normal 0 0 1\n").find(": is an STL surface"), 0U);
+  std::string stl(84 + 2 * 50, ' ');
+  stl[80] = 2;
+  stl[81] = stl[82] = stl[83] = '\0';
+  EXPECT_EQ(refusal("a.stl", stl).find(": is a binary STL surface"), 0U);
+  for (const auto& [name, bytes] : {std::pair{"a.MSH", "\n$MeshFormat\n"},
+                                    {"b.msh", "(0 \"Fluent\")"},
+                                    {"a.mesh", "MeshVersionFormatted 2\n"},
+                                    {"b.mesh", "#Number of grid points\n"},
+                                    {"a.cgns", "\x89HDF\r\n"},
+                                    {"c.vtu", "<?xml version=\"1.0\"?>\n<VTKFile "},
+                                    {"b.su2", "NDIME= 2"},
+                                    {"d.vtu", ""}})
+    EXPECT_EQ(refusal(name, bytes), "") << name;
 }
 
 TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {

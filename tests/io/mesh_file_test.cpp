@@ -42,6 +42,9 @@ LoadedMesh sample(Kind kind, bool solved) {
   return loaded;
 }
 
+/// Medit's files number the boundaries.
+bool numbers_names(const std::string& format) { return format == "medit"; }
+
 LoadedMesh through_file(const LoadedMesh& loaded, const std::string& path) {
   const Communicator alone(MPI_COMM_SELF);
   write_mesh_of_root(alone, loaded, path);
@@ -78,7 +81,11 @@ void expect_same_cells(const Mesh& back, const Mesh& mesh, bool to_the_node) {
 }
 
 /// From a file in the one format to one in the other.
-void convert_and_compare(const LoadedMesh& loaded, const std::string& first, const std::string& second) {
+void convert_and_compare(LoadedMesh loaded, const std::string& first, const std::string& second) {
+  if (numbers_names(first) || numbers_names(second)) {
+    for (std::size_t b = 0; b < loaded.mesh.boundaries.size(); ++b)
+      loaded.mesh.boundaries[b].name = "boundary_" + std::to_string(b + 3);
+  }
   const test::TemporaryFolder folder;
   const LoadedMesh between = through_file(loaded, folder.file("a." + first));
   const LoadedMesh back = through_file(between, folder.file("b." + second));
@@ -131,6 +138,56 @@ TEST(MeshFile, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
     EXPECT_EQ(test::bytes_of(folder.file(name)), test::bytes_of(folder.file("a.su2")));
   }
   EXPECT_EQ(losses_in(sample(Kind::hybrid, true), folder.file("b.mesh"), "su2").size(), 3U);
+}
+
+/// One block with a name, then two: kept, or a line says that they are not.
+TEST(MeshFile, NamesOfBlocksAreKeptOrReported) {
+  for (const std::string& format : formats_for({Content::mesh})) {
+    for (const bool two : {false, true}) {
+      SCOPED_TRACE(format + (two ? ", two" : ", one"));
+      if (two && !format_named(format)->holds(Content::blocks)) continue;
+      const test::TemporaryFolder folder;
+      const std::string path = folder.file("a." + format);
+      LoadedMesh loaded = sample(Kind::hybrid, false);
+      loaded.mesh.strips.clear();
+      loaded.block_names = {"water"};
+      if (two) {
+        loaded.block_names.emplace_back("steel");
+        loaded.blocks = 2;
+        loaded.quad_to_block.back() = 1;
+      }
+      std::string losses;
+      for (const std::string& loss : losses_in(loaded, path)) losses += loss + "\n";
+      write_mesh_of_root(Communicator(MPI_COMM_SELF), loaded, path);
+      const FileFormat& row = *format_named(format);
+      const bool kept = row.holds(Content::block_names) && (two || row.single_block_name);
+      EXPECT_EQ(losses.find("names of blocks, which are left out: 'water'") == std::string::npos, kept)
+          << losses;
+      EXPECT_EQ(read_mesh(path).block_names == loaded.block_names, kept);
+    }
+  }
+}
+
+TEST(MeshFile, ConditionsOfInterfacesStay) {
+  for (const char* format : {"cgns", "qmesh"}) {
+    const test::TemporaryFolder folder;
+    LoadedMesh loaded = sample(Kind::hybrid, false);
+    loaded.mesh.boundaries[0].condition = "interface";
+    const LoadedMesh back = through_file(loaded, folder.file(std::string("a.") + format));
+    EXPECT_EQ(back.mesh.boundaries[0].condition, "interface") << format;
+    EXPECT_EQ(back.mesh.boundaries[1].condition, loaded.mesh.boundaries[1].condition) << format;
+  }
+}
+
+TEST(MeshFile, NamesInOtherCodesBecomeUtf8) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("a.su2");
+  test::write_bytes(path,
+                    "NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= 3\n0 0\n1 0\n0 1\nNMARK= 1\n"
+                    "MARKER_TAG= Fl\xfcgel\x07\nMARKER_ELEMS= 3\n3 0 1\n3 1 2\n3 2 0\n");
+  const LoadedMesh loaded = read_mesh(path);
+  EXPECT_EQ(loaded.mesh.boundaries.at(0).name, "Fl\xc3\xbcgel_");
+  EXPECT_EQ(loaded.warnings.size(), 1U);
 }
 
 TEST(MeshFile, AFormatThatHoldsNoMeshIsOurOwnMistake) {

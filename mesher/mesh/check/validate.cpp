@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/point_table.hpp"
@@ -59,6 +60,22 @@ struct ConformingFaults {
 };
 
 using BoundaryEdge = std::array<NodeId, 2>;
+
+/// Flags the ends of boundary edges on which another one lies in the opposite direction.
+NodeFlags nodes_at_cracks(const Mesh& mesh) {
+  using Ends = std::pair<Point, Point>;
+  std::vector<Ends> edges;
+  for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const BoundaryEdge& edge) {
+    edges.emplace_back(mesh.point(edge[0]), mesh.point(edge[1]));
+  });
+  std::sort(edges.begin(), edges.end());
+  NodeFlags flags(mesh.points.size(), 0);
+  for_each_boundary_edge(mesh, [&](const BoundaryEdges&, const BoundaryEdge& edge) {
+    const Ends opposite{mesh.point(edge[1]), mesh.point(edge[0])};
+    if (std::binary_search(edges.begin(), edges.end(), opposite)) flags[edge[0]] = flags[edge[1]] = 1;
+  });
+  return flags;
+}
 
 /// Returns the boundaries' edges, sorted.
 std::vector<BoundaryEdge> check_boundary_edges(const Mesh& mesh, const CellBlocks& blocks,
@@ -130,12 +147,14 @@ void check_indices(const Mesh& mesh, Faults& faults) {
 
 void check_coincident(const Mesh& mesh, Faults& faults) {
   if (!PointTable(mesh.points).any_twice()) return;
+  const NodeFlags at_crack = nodes_at_cracks(mesh);
   std::vector<std::int32_t> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto at = [&](std::int32_t i) { return mesh.points[i]; };
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) { return at(i) < at(j); });
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (at(order[k]) != at(order[k - 1])) continue;
+    if (at_crack[NodeId{order[k]}] != 0 && at_crack[NodeId{order[k - 1]}] != 0) continue;
     faults.push_back(
         {MeshRule::coincident,
          "nodes " + std::to_string(order[k - 1] + 1) + " and " + std::to_string(order[k] + 1) + " coincide",

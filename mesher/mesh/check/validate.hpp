@@ -15,7 +15,8 @@ namespace quadloop {
 enum class MeshRule {
   indices,  ///< connectivity names existing nodes; every node belongs to a cell; coordinates are finite; no
             ///< boundary is empty
-  coincident,  ///< no two nodes share a position
+  coincident,  ///< no two nodes share a position but on the two sides of a crack: boundary edges that lie on
+               ///< each other and run in opposite directions
   positive,    ///< cells are strictly convex and counter-clockwise, exactly and in rounded arithmetic
   conforming,  ///< no cell has a node twice; an edge has two cells in opposite directions, or one cell and
                ///< one boundary edge in its direction

@@ -20,11 +20,11 @@ struct Segment {
   Point from, to;
 };
 
-/// Whether two boundary edges meet but at a common end.
+/// Whether two boundary edges meet but at a common end, or as the two sides of a crack.
 bool meet_wrongly(const Segment& s, const Segment& t) {
   const bool common_from = s.from == t.from || s.from == t.to, common_to = s.to == t.from || s.to == t.to;
   if (!common_from && !common_to) return segments_meet(s.from, s.to, t.from, t.to);
-  if (common_from && common_to) return true;  // one on the other: a slit without width
+  if (common_from && common_to) return s.from == t.from;  // opposite directions: the sides of a crack
   const Point common = common_from ? s.from : s.to, s_end = common_from ? s.to : s.from;
   const Point t_end = common == t.from ? t.to : t.from;
   return on_segment(s_end, common, t_end) || on_segment(t_end, common, s_end);

@@ -80,6 +80,7 @@ TEST(CgnsNames, ConditionsComeBack) {
     const int type = cgns_condition(word);
     EXPECT_STREQ(cg_BCTypeName(static_cast<BCType_t>(type)), cgns_type);
     EXPECT_EQ(condition_of_cgns(type), type == BCTypeUserDefined ? "none" : word);
+    EXPECT_EQ(condition_of_cgns_family(type, cgns_family_condition(word)), word);
   }
   EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), "viscous_wall");
   EXPECT_TRUE(is_wall(condition_of_cgns(BCWallViscousHeatFlux)));

@@ -48,6 +48,11 @@ TEST(FluentReader, ReadsCellsAndZones) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(FluentReader, PassesOverSectionsWithoutANumber) {
+  const std::string cad = "(cad/adv-options ((recursive? #f) (unit \"mm\") (note \"a ) b ( \\\" c\")))\n";
+  EXPECT_EQ(check.of(cad + house).mesh.quads, check.of(house).mesh.quads);
+}
+
 TEST(FluentReader, TurnsCellsThatLieToTheRight) {
   std::string turned = replaced(replaced(house, "3 4 1 2", "4 3 1 2"), "\n1 2 1 0", "\n2 1 1 0");
   turned = replaced(replaced(turned, "2 2 3 1 0", "2 3 2 1 0"), "2 1 4 0 1", "2 4 1 0 1");

@@ -126,8 +126,24 @@ TEST(ForeignMesh, RepeatedElementsStandOnce) {
   EXPECT_EQ(f.mesh.loaded.mesh.quads.size(), 2U);
   EXPECT_EQ(f.mesh.loaded.quad_to_block, (std::vector<std::int32_t>{0, 1})) << "the first was taken";
   EXPECT_EQ(f.mesh.edges.size(), 1U);
-  ASSERT_EQ(f.mesh.loaded.warnings.size(), 1U);
-  EXPECT_NE(f.mesh.loaded.warnings[0].find("a.msh: 2 elements"), std::string::npos);
+  EXPECT_EQ(f.mesh.loaded.warnings,
+            (std::vector<std::string>{
+                "a.msh: 1 elements are in the groups 'a' and 'b'; they are taken for 'a'",
+                "a.msh: 1 elements are in the groups 'wall' and 'again'; they are taken for 'wall'"}));
+}
+
+TEST(ForeignMesh, OfRepeatedElementsThoseOfTheSmallestGroupStay) {
+  Foreign f;
+  f.add_squares("a", "b");
+  f.mesh.add_quad({node(3), node(0), node(1), node(4)}, f.mesh.block_named("c"));
+  f.mesh.loaded.solution = Field{{}, {}, {}, {{"p"}, {1, 2, 3}}};
+  f.add_edge("wall", 0, 1);
+  f.add_edge("inlet", 1, 0);
+  drop_repeated(f.mesh, "a.msh", {{5, 1}, {5, 5, 1}});
+  EXPECT_EQ(f.mesh.loaded.quad_to_block, (std::vector<std::int32_t>{1, 2}));
+  EXPECT_EQ(f.mesh.loaded.solution->cells.values, (std::vector<double>{2, 3}));
+  ASSERT_EQ(f.mesh.edges.size(), 1U);
+  EXPECT_EQ(f.mesh.loaded.mesh.boundaries[f.mesh.edges[0].boundary].name, "inlet");
 }
 
 TEST(ForeignMesh, UnusedNodesGoAndTheOthersKeepTheirOrder) {

@@ -3,9 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/node.hpp"
 
 namespace quadloop {
 namespace {
+
+/// Two squares that touch along x = 1, each with its own nodes there.
+TEST(NodesThatStay, AreThoseOfInterfacesAndCracks) {
+  LoadedMesh loaded;
+  loaded.mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
+  loaded.mesh.quads = {{test::node(0), test::node(1), test::node(2), test::node(3)},
+                       {test::node(4), test::node(5), test::node(6), test::node(7)}};
+  loaded.quad_to_block = {0, 0};
+  const NodeFlags flags = nodes_that_stay(loaded);
+  EXPECT_EQ(std::vector<char>(flags.begin(), flags.end()), (std::vector<char>{0, 1, 1, 0, 1, 0, 0, 1}));
+  loaded.mesh.points[4].x = loaded.mesh.points[7].x = 1.5;
+  EXPECT_TRUE(nodes_that_stay(loaded).empty());
+}
 
 TEST(InterfaceNodes, AreThoseThatCellsOfTwoBlocksShare) {
   LoadedMesh loaded;

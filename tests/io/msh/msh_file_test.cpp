@@ -35,7 +35,7 @@ const std::string old_house =
 const std::string new_house =
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"                                                     // 1-3
     "$PhysicalNames\n3\n1 7 \"ground floor\"\n1 8 \"walls\"\n2 9 \"room\"\n$EndPhysicalNames\n"  // 4-9
-    "$Entities\n1 3 1 0\n1 0 0 3 0\n1 0 0 3 1 0 3 1 7 2 1 -2\n2 0 0 3 1 2 3 2 8 7 2 2 -3\n3 0 0 3 1 2 3 1 -8 "
+    "$Entities\n1 3 1 0\n1 0 0 3 0\n1 0 0 3 1 0 3 1 7 2 1 -2\n2 0 0 3 1 2 3 1 8 2 2 -3\n3 0 0 3 1 2 3 1 -8 "
     "0\n"                                        // 10-15
     "1 0 0 3 1 2 3 1 9 3 1 2 3\n$EndEntities\n"  // 16-17
     "$Nodes\n2 5 5 40\n1 1 1 2\n10\n20\n0 0 3 0.5\n1 0 3 0.75\n2 1 0 3\n30\n40\n5\n1 1 3\n0 1 3\n0.5 1.5 "
@@ -220,7 +220,61 @@ TEST(MshReader, TakesAnElementOfTwoGroupsOnce) {
   const std::string again = "9 1 2 8 1 10 20\n10 2 2 12 1 40 30 5\n$EndEl";
   const LoadedMesh loaded = check.of(replaced(replaced(old_house, "ments\n8", "ments\n10"), "$EndEl", again));
   expect_house(loaded);
-  EXPECT_NE(loaded.warnings.front().find("2 elements"), std::string::npos);
+  ASSERT_EQ(loaded.warnings.size(), 3U);  // the last is on the node of no cell
+  EXPECT_NE(
+      loaded.warnings[0].find("1 elements are in the groups 'ground floor' and 'walls'; they are taken for "
+                              "'ground floor'"),
+      std::string::npos)
+      << loaded.warnings[0];
+  EXPECT_NE(loaded.warnings[1].find("'room' and 'physical_12'"), std::string::npos) << loaded.warnings[1];
+}
+
+/// The left wall is a part of all walls, which the file lists first: the smaller group keeps its name.
+TEST(MshReader, TakesTheSmallestOfSeveralGroups) {
+  const std::string old_overlap = replaced(replaced(old_house, "ments\n8", "ments\n9"), "$EndEl",
+                                           "9 1 2 7 3 40 10\n$EndEl");  // curve 3: 8, then 7
+  const LoadedMesh old = check.of(replaced(old_overlap, "2 1 2 7 1 10 20", "2 1 2 8 1 10 20"));
+  EXPECT_EQ(old.mesh.boundaries.at(1).name, "ground floor");
+  EXPECT_EQ(old.mesh.boundaries[1].edges, (std::vector<std::array<NodeId, 2>>{{node(3), node(0)}}));
+  std::string new_overlap = new_house;
+  for (const auto& [from, to] : {std::pair{"3 1 7 2 1 -2", "3 1 8 2 1 -2"},
+                                 {"3 1 8 2 2 -3", "3 2 8 7 2 2 -3"},
+                                 {" 3 1 -8 ", " 3 2 8 7 "}})
+    new_overlap = replaced(new_overlap, from, to);
+  const LoadedMesh both = check.of(new_overlap);
+  EXPECT_EQ(both.mesh.boundaries.at(0).name, "walls");
+  EXPECT_EQ(both.mesh.boundaries.at(0).edges.size(), 1U);
+  EXPECT_EQ(both.mesh.boundaries.at(1).name, "ground floor");
+  ASSERT_EQ(both.warnings.size(), 1U);
+  EXPECT_NE(
+      both.warnings[0].find("m.msh: curve 2 is in the physical groups 'walls' and 'ground floor' and is "
+                            "taken for 'ground floor', the smallest; likewise 1 more curves"),
+      std::string::npos)
+      << both.warnings[0];
+}
+
+TEST(MshReader, NamesTheGroupsThatItLeavesOut) {
+  const std::string probe =
+      replaced(replaced(old_house, "Names\n3", "Names\n4"), "1 7 ", "0 3 \"probe\"\n1 7 ");
+  EXPECT_NE(check.of(probe).warnings.at(1).find("physical groups of points are left out: 'probe'"),
+            std::string::npos);
+  const std::string inner =
+      replaced(replaced(replaced(probe, "Names\n4", "Names\n5"), "1 7 ", "1 9 \"fracture\"\n1 7 "),
+               "ments\n8", "ments\n9");
+  EXPECT_NE(check.of(replaced(inner, "$EndEl", "9 1 2 9 4 40 30\n$EndEl"))
+                .warnings.back()
+                .find("1 edges between two cells are no boundary and were left out: those of 'fracture'"),
+            std::string::npos);
+}
+
+TEST(MshReader, ReadsNodesWithParameters) {
+  std::string text = old_house;
+  for (const auto& [from, to] : {std::pair{"$Nodes", "$ParametricNodes"},
+                                 {"$EndNodes", "$EndParametricNodes"},
+                                 {"10 0 0 3\n", "10 0 0 3 0 1\n"},
+                                 {"20 1 0 3\n", "20 1 0 3 1 2 0.5\n"}})
+    text = replaced(text, from, to);
+  expect_house(check.of(text));
 }
 
 TEST(MshReader, RefusesWrongCounts) {

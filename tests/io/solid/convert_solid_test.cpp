@@ -4,6 +4,8 @@
 #include <mpi.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "io/formats.hpp"
 #include "io/solid/solid_cell_values.hpp"
@@ -106,6 +108,55 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
       EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
     }
   }
+}
+
+/// The first triangle of a prism looks outwards in VTK's and SU2's files, inwards in those of Gmsh and CGNS.
+TEST(ConvertSolid, PrismsHaveTheOrderOfEachFormat) {
+  const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
+  SolidMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  mesh.prisms = {{0, 1, 2, 3, 4, 5}};
+  mesh.patches = {
+      {"all", "none", {{0, 2, 1, none}, {3, 4, 5, none}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}}};
+  for (const auto& [format, row] : {std::pair{"su2", "13 0 2 1 3 5 4"}, {"msh", "6 2 2 2 1 2 3 4 5 6"}}) {
+    const std::string path = folder.file(std::string("a.") + format);
+    EXPECT_EQ(through_file(mesh, path).prisms, mesh.prisms);
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    EXPECT_NE(text.str().find(row), std::string::npos) << text.str();
+  }
+}
+
+TEST(ConvertSolid, CellsThatAreInsideOutAreTurned) {
+  const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
+  const std::string path = folder.file("a.su2");
+  std::ofstream(path)
+      << "NDIME= 3\nNELEM= 1\n13 0 1 2 3 4 5\nNPOIN= 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n";
+  const std::optional<SolidMesh> mesh = read_solid(path);
+  ASSERT_EQ(mesh->warnings, std::vector<std::string>{path + ": 1 cell was inside out and turned"});
+  EXPECT_EQ(mesh->prisms, (std::vector<std::array<std::int32_t, 6>>{{0, 1, 2, 3, 4, 5}}));
+}
+
+TEST(ConvertSolid, Su2ZonesAreBlocks) {
+  const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
+  const std::string tetrahedron = "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n";
+  const std::string marker =
+      "NMARK= 1\nMARKER_TAG= all\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 3\n";
+  const std::string path = folder.file("a.su2");
+  std::ofstream(path) << "NZONE= 2\nIZONE= 1\n"
+                      << tetrahedron << "0 0 1\n"
+                      << marker << "IZONE= 2\n"
+                      << tetrahedron << "0 0 -2\n"
+                      << marker;
+  const std::optional<SolidMesh> mesh = read_solid(path);
+  EXPECT_EQ(mesh->block_names, (std::vector<std::string>{"zone_1", "zone_2"}));
+  EXPECT_EQ(mesh->cell_to_block, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(mesh->tetrahedra[1], (std::array{4, 6, 5, 7}));
+  ASSERT_EQ(mesh->patches.size(), 1);
+  EXPECT_EQ(mesh->patches[0].faces.size(), 8);
 }
 
 TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {

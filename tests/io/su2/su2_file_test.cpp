@@ -105,7 +105,6 @@ TEST(Su2Reader, RefusesBadRowsByLine) {
   check.expect_refusal(replaced(house, "3 0 1", "3 0 -1"), "m.su2:14: ", "point -1");
   check.expect_refusal(replaced(house, "1 1 2\n", "1 nan 2\n"), "m.su2:8: ", "nan");
   check.expect_refusal(replaced(house, "1 1 2\n", "1\n"), "m.su2:8: ", "this line ends");
-  check.expect_refusal(replaced(house, "1 1 2\n", "1 1 0 2\n"), "m.su2:8: ", "too many");
   check.expect_refusal(replaced(house, "9 0 1 2 3 0", "9 0 1 2"), "m.su2:3: ", "this line ends");
   check.expect_refusal(replaced(house, "3 2 4\n", "3 0 4\n"),
                        "m.su2:18: ", "walls, from (0, 0) to (0.5, 1.5), belongs to no cell");
@@ -113,14 +112,61 @@ TEST(Su2Reader, RefusesBadRowsByLine) {
 
 TEST(Su2Reader, RefusesWhatItDoesNotKnow) {
   check.expect_refusal(replaced(house, "9 0 1 2 3", "10 0 1 2 3"), "m.su2:3: ", "tetrahedron");
-  check.expect_refusal(replaced(house, "9 0 1 2 3", "77 0 1 2 3"), "m.su2:3: ", "type 77;");
+  check.expect_refusal(replaced(house, "9 0 1 2 3", "66 0 1 2 3"), "m.su2:3: ", "type 66;");
   check.expect_refusal(replaced(house, "3 0 1\n", "1 0\n"),
                        "m.su2:14: ", "marker floor has an element of type 1 (vertex)");
   check.expect_refusal(replaced(house, "NDIME= 2", "NDIME= 3"), "m.su2:1: ", "3 dimensions");
-  check.expect_refusal("NZONE= 2\n" + house, "m.su2:1: ", "several zones");
+  check.expect_refusal(replaced(house, "5 3 2 4", "22 3 2 4 0 1 2"),
+                       "m.su2:4: ", "22 (triangle of second order)");
+  check.expect_refusal(replaced(house, "5 3 2 4", "105 3 2 4 0 1 2"),
+                       "m.su2:4: ", "105 (triangle of order 2)");
+  check.expect_refusal("NZONE= 2\n" + house, "m.su2:1: ", "1 zone (IZONE=), not 2");
   check.expect_refusal("no mesh at all\n", "m.su2:1: ", "no SU2 mesh");
   check.expect_refusal("", "m.su2:1: ", "no SU2 mesh");
   check.expect_refusal("NDIME= 2\nNELEM= 0\nNPOIN= 0\nNMARK= 0\n", "m.su2:", "needs cells");
+}
+
+TEST(Su2Reader, IgnoresWhatFollowsCoordinates) {
+  const Mesh plain = check.of(house).mesh;
+  const LoadedMesh numbered = check.of(replaced(house, "1 1 2\n", "1 1 2 2\n"));
+  EXPECT_EQ(numbered.mesh.points, plain.points);
+  EXPECT_TRUE(numbered.warnings.empty());
+  const LoadedMesh in_space =
+      check.of(replaced(replaced(house, "1 1 2\n", "1 1 0.5 2\n"), "0 1 3\n", "0 1 0. 3\n"));
+  EXPECT_EQ(in_space.mesh.points, plain.points);
+  ASSERT_EQ(in_space.warnings.size(), 1U);
+  EXPECT_NE(in_space.warnings[0].find("m.su2:8: 2 rows of points"), std::string::npos)
+      << in_space.warnings[0];
+}
+
+TEST(Su2Reader, PassesOverMarkersOfRanks) {
+  const std::string ranks = "MARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_TO= 1\n1 0 1\n1 2 0\n";
+  const LoadedMesh loaded = check.of(replaced(house, "NMARK= 2", "NMARK= 3") + ranks);
+  EXPECT_EQ(loaded.mesh.boundaries.size(), 2U);
+  EXPECT_TRUE(validate(loaded.mesh).empty());
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("1 markers SEND_RECEIVE"), std::string::npos) << loaded.warnings[0];
+}
+
+TEST(Su2Reader, MakesBlocksOfZones) {
+  std::string right = house;
+  for (const auto& [from, to] : {std::pair{"0 0 0\n", "5 0 0\n"},
+                                 {"1 0 1\n1 1 2\n0 1 3", "6 0 1\n6 1 2\n5 1 3"},
+                                 {"0.5 1.5", "5.5 1.5"},
+                                 {"floor", "right_floor"}})
+    right = replaced(right, from, to);
+  const LoadedMesh loaded = check.of("NZONE= 2\nIZONE= 1\n" + house + "IZONE= 2\n" + right);
+  EXPECT_EQ(loaded.block_names, (std::vector<std::string>{"zone_1", "zone_2"}));
+  EXPECT_EQ(loaded.blocks, 2);
+  EXPECT_EQ(loaded.mesh.points.size(), 10U);
+  EXPECT_EQ(loaded.mesh.quads.at(1), (std::array{node(5), node(6), node(7), node(8)}));
+  EXPECT_EQ(loaded.quad_to_block, (std::vector<std::int32_t>{0, 1}));
+  ASSERT_EQ(loaded.mesh.boundaries.size(), 3U);
+  EXPECT_EQ(loaded.mesh.boundaries[1].edges.size(), 8U);  // the walls of both
+  EXPECT_EQ(loaded.mesh.boundaries[2].name, "right_floor");
+  EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+  check.expect_refusal("NZONE= 2\nIZONE= 1\n" + replaced(house, "NPOIN", "POIN") + "IZONE= 2\n" + right,
+                       "m.su2:23: ", "a zone ends without NPOIN");
 }
 
 TEST(Su2Reader, RefusesEarlyEnd) {

@@ -46,6 +46,8 @@ TEST(UgridPlane, NamesStandInTheMapbc) {
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "floor");
   EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
   EXPECT_EQ(loaded.mesh.boundaries[1].condition, "farfield");
+  test::write_bytes(folder.file("m.ugrid.mapbc"), "2\n1 0 own\n7 5000 walls\n");
+  EXPECT_EQ(read_ugrid_plane(folder.file("m.ugrid")).mesh.boundaries[0].name, "own");
 }
 
 TEST(UgridPlane, RefusesWhatItCannotRead) {
@@ -63,6 +65,8 @@ TEST(UgridPlane, WallsOfTwoKindsHaveNumbersOfFun3d) {
   EXPECT_EQ(mapbc_path("a.b8.ugrid"), "a.mapbc");
   EXPECT_EQ(mapbc_path("a.ugrid"), "a.mapbc");
   EXPECT_EQ(mapbc_path("a"), "a.mapbc");
+  EXPECT_EQ(mapbc_path("A.B8.UGRID"), "A.mapbc");
+  EXPECT_EQ(plane_mapbc_path("a.ugrid"), "a.ugrid.mapbc");
 }
 
 }  // namespace

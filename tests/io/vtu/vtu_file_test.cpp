@@ -158,6 +158,55 @@ std::string appended(const std::string& text, bool raw) {
   return replaced(changed, "</VTKFile>", tag + data + "\n</AppendedData>\n</VTKFile>");
 }
 
+/// The square with lines below it and on its right, as meshio writes them with physical groups of Gmsh.
+std::string with_lines(const std::string& cell_data, const std::string& field_data = "") {
+  std::string text = house;
+  for (const auto& [from, to] :
+       {std::pair{std::string("NumberOfCells=\"2\""), std::string("NumberOfCells=\"7\"")},
+        {"3 2 4</DataArray>", "3 2 4 0 1 1 2 2 4 4 3 3 0</DataArray>"},
+        {">4 7</", ">4 7 9 11 13 15 17</"},
+        {">9 5</", ">9 5 3 3 3 3 3</"},
+        {"</Piece>", "<CellData>" + cell_data + "</CellData></Piece>"},
+        {"<Piece", "<FieldData>" + field_data + "</FieldData><Piece"}})
+    text = replaced(text, from, to);
+  return text;
+}
+
+TEST(VtuReader, TakesBoundariesFromPhysicalGroups) {
+  const std::string groups =
+      "<DataArray type=\"Int64\" Name=\"gmsh:physical\" format=\"ascii\">1 1 12 12 7 7 7</DataArray>";
+  const std::string inlet =
+      "<DataArray type=\"Int64\" Name=\"inlet\" NumberOfTuples=\"2\" format=\"ascii\">12 1</DataArray>";
+  for (const auto& [field_data, name] : {std::pair{std::string(), "boundary_12"}, {inlet, "inlet"}}) {
+    const LoadedMesh loaded = check.of(with_lines(groups, field_data));
+    expect_house(loaded);
+    ASSERT_EQ(loaded.mesh.boundaries.size(), 2U);
+    EXPECT_EQ(loaded.mesh.boundaries[0].name, name);
+    EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 2U);
+    EXPECT_EQ(loaded.mesh.boundaries[1].name, "boundary_7");
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_NE(loaded.warnings[0].find("the cell data 'gmsh:physical' tell its boundaries apart"),
+              std::string::npos);
+  }
+}
+
+TEST(VtuReader, WarnsWhereNothingTellsBoundariesApart) {
+  const std::string same =
+      "<DataArray type=\"Int64\" Name=\"medit:ref\" format=\"ascii\">1 2 3 3 3 3 3</DataArray>";
+  const LoadedMesh loaded = check.of(with_lines(same));
+  EXPECT_EQ(loaded.mesh.boundaries.size(), 1U);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("no cell data tell its boundaries apart, they are one; where 'medit:ref' "
+                                    "numbers them, call these cell data 'boundary'"),
+            std::string::npos)
+      << loaded.warnings[0];
+}
+
+TEST(VtuReader, NamesCellsOfHigherOrder) {
+  check.expect_refusal(replaced(house, ">9 5</", ">9 22</"),
+                       "m.vtu:", "VTK type 22 (triangle of second order)");
+}
+
 TEST(VtuReader, ReadsBase64) {
   EXPECT_EQ(check.of(inline_base64(house)).solution->values, check.of(house).solution->values);
   expect_house(check.of(inline_base64(house)));

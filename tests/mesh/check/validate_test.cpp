@@ -73,6 +73,27 @@ TEST(Validate, Coincident) {
                });
 }
 
+/// Two squares that touch along x = 1, each with its own nodes there.
+TEST(Validate, BothSidesOfACrackAreBoundary) {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
+  mesh.owned_nodes = 8;
+  mesh.quads = {{node(0), node(1), node(2), node(3)}, {node(4), node(5), node(6), node(7)}};
+  mesh.boundaries = {
+      {"left", "none", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(3)}, {node(3), node(0)}}},
+      {"right", "none", {{node(4), node(5)}, {node(5), node(6)}, {node(6), node(7)}, {node(7), node(4)}}}};
+  for (const MeshFault& fault : validate(mesh)) ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
+  mesh.points[4].x = mesh.points[7].x = 0.5;  // the cells lie on each other
+  EXPECT_TRUE(has(validate(mesh), MeshRule::overlap));
+  mesh.points[4] = {1, 0};
+  mesh.points[7] = {1, 0.5};  // the sides lie on each other, but their nodes do not
+  EXPECT_TRUE(has(validate(mesh), MeshRule::coincident));
+  EXPECT_TRUE(has(validate(mesh), MeshRule::overlap));
+  mesh.points[7] = {1, 1};
+  mesh.boundaries.pop_back();
+  EXPECT_TRUE(has(validate(mesh), MeshRule::coincident));
+}
+
 TEST(Validate, Positive) {
   expect_fault(MeshRule::positive, [](Mesh& m) { std::swap(m.triangles[0][0], m.triangles[0][1]); });
   expect_fault(MeshRule::positive, [](Mesh& m) { m.points[4] = {1, 0}; });

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "io/loaded/foreign_mesh.hpp"
+#include "io/medit/medit_file.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr std::string_view medit_head = "MeshVersionFormatted";
+
+class MeditReader {
+ public:
+  explicit MeditReader(const std::string& path) : scan_{path} {}
+
+  LoadedMesh read() {
+    if (scan_.token(medit_head) != medit_head) scan_.refuse("is no mesh of Medit");
+    scan_.integer("the version of the format");
+    while (!scan_.at_end()) {
+      const std::string section(scan_.token(""));
+      if (section == "End") break;
+      read_section(section);
+    }
+    if (foreign_.loaded.mesh.points.empty())
+      scan_.refuse_at(scan_.text().size(), "the file ends without Vertices; it is cut short, or no mesh");
+    name_blocks();
+    drop_unused_nodes(foreign_, scan_.path());
+    return finish(std::move(foreign_), scan_);
+  }
+
+ private:
+  void read_section(const std::string& section) {
+    if (section == "Dimension") {
+      dimension_ = scan_.integer("the dimension");
+      if (dimension_ != 2 && dimension_ != 3)
+        scan_.refuse(fmt::format("a mesh of {} dimensions; there are 2 and 3", dimension_));
+    } else if (section == "Vertices") {
+      read_vertices();
+    } else if (section == "Edges") {
+      read_edges();
+    } else if (section == "Triangles") {
+      read_cells<3>("triangles", [&](const auto& nodes, std::int32_t block) { foreign_.add_triangle(nodes, block); });
+    } else if (section == "Quadrilaterals") {
+      read_cells<4>("quadrilaterals", [&](const auto& nodes, std::int32_t block) { foreign_.add_quad(nodes, block); });
+    } else {
+      pass_over(section);
+    }
+  }
+
+  void read_vertices() {
+    if (dimension_ == 0) scan_.refuse("Vertices without a Dimension before them");
+    if (!foreign_.loaded.mesh.points.empty()) scan_.refuse("a second section Vertices; only one can be read");
+    const std::size_t count = scan_.count("vertices", dimension_ + 1);
+    foreign_.loaded.mesh.points.reserve(count);
+    double first_z = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = scan_.real("an x coordinate"), y = scan_.real("a y coordinate");
+      const double z = dimension_ == 3 ? scan_.real("a z coordinate") : 0;
+      if (i == 0) first_z = z;
+      if (z != first_z)
+        scan_.refuse(fmt::format("vertex {} does not lie in the first one's plane z = constant; only plane "
+                                 "meshes can be read",
+                                 i + 1));
+      scan_.integer("the reference of a vertex");
+      foreign_.loaded.mesh.points.push_back({x, y});
+    }
+  }
+
+  template <std::size_t width>
+  std::array<NodeId, width> row() {
+    const std::int64_t points = std::ssize(foreign_.loaded.mesh.points);
+    std::array<NodeId, width> nodes;
+    for (NodeId& node : nodes) {
+      const std::int64_t number = scan_.integer("the number of a vertex");
+      if (number < 1 || number > points)
+        scan_.refuse(fmt::format("vertex {} is none of the vertices 1 to {}", number, points));
+      node = NodeId{static_cast<std::int32_t>(number - 1)};
+    }
+    return nodes;
+  }
+
+  void read_edges() {
+    for (std::size_t left = scan_.count("edges", 3); left > 0; --left) {
+      const std::array<NodeId, 2> nodes = row<2>();
+      const std::size_t place = scan_.place();
+      const std::int64_t reference = scan_.integer("the reference of an edge");
+      foreign_.edges.push_back({nodes, foreign_.boundary_named(fmt::format("boundary_{}", reference)), place});
+    }
+  }
+
+  template <std::size_t width, class Add>
+  void read_cells(const char* of, const Add& add) {
+    for (std::size_t left = scan_.count(of, width + 1); left > 0; --left) {
+      const std::array<NodeId, width> nodes = row<width>();
+      add(nodes, foreign_.block_named(fmt::format("block_{}", scan_.integer("the reference of a cell"))));
+    }
+  }
+
+  void pass_over(const std::string& section) {
+    for (const char* solid : {"Tetrahedra", "Pyramids", "Prisms", "Hexahedra"}) {
+      if (section == solid && scan_.count("3D cells", 4) > 0)
+        scan_.refuse("a mesh of three dimensions; of Medit's only plane ones can be read");
+    }
+    for (const char* curved : {"EdgesP2", "TrianglesP2", "QuadrilateralsQ2"}) {
+      if (section == curved) scan_.refuse(section + ", of second order; only cells of first order can be read");
+    }
+    const bool is_word = (section[0] >= 'A' && section[0] <= 'Z') || (section[0] >= 'a' && section[0] <= 'z');
+    if (!is_word) scan_.refuse("expected the name of a section, found \"" + section.substr(0, 40) + "\"; a row too many, or a count too small");
+    while (!scan_.at_end() && is_number_next()) scan_.token("");
+  }
+
+  bool is_number_next() {
+    const std::size_t next = scan_.text().size() - scan_.bytes_left();
+    const char c = scan_.text()[next];
+    return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+  }
+
+  void name_blocks() {
+    if (foreign_.loaded.block_names.size() == 1) foreign_.loaded.block_names[0] = "domain";
+  }
+
+  TextScanner scan_;
+  std::int64_t dimension_ = 0;
+  ForeignMesh foreign_;
+};
+
+}  // namespace
+
+bool is_medit(const std::string& path) {
+  std::ifstream file(path);
+  std::string first;
+  for (char c = 0; first.size() < medit_head.size() && file.get(c);) {
+    if (first.empty() && (c == ' ' || (c >= '\t' && c <= '\r'))) continue;
+    first += c;
+  }
+  return first == medit_head;
+}
+
+LoadedMesh read_medit(const std::string& path) { return MeditReader(path).read(); }
+
+}  // namespace quadloop

@@ -1,0 +1,68 @@
+#include "io/vtu/vtu_boundaries.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "io/loaded/repeated_rows.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// meshio's for Gmsh and Medit; VTK's and ParaView's for entities of Gmsh.
+constexpr std::array group_arrays{"gmsh:physical", "medit:ref", "CellEntityIds", "gmsh:geometrical"};
+
+bool is_of_numbers(const VtuArray& array) {
+  return array.section == "CellData" && array.components == 1 && !array.type.starts_with("Float") &&
+         array.type != "String";
+}
+
+}  // namespace
+
+VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuNumbers& numbers,
+                                         const std::vector<std::int64_t>& types, std::int64_t first_type,
+                                         std::int64_t last_type) {
+  const auto of = [&](const std::string& name) {
+    const VtuArray* array = document.find("CellData", name);
+    return array != nullptr && is_of_numbers(*array) ? numbers.integers(*array, document.cells)
+                                                     : std::vector<std::int64_t>{};
+  };
+  if (auto ours = of("boundary"); !ours.empty()) return {std::move(ours), true, {}};
+  const auto is_boundary = [&](std::size_t cell) { return types[cell] >= first_type && types[cell] <= last_type; };
+  std::size_t elements = 0;
+  for (std::size_t cell = 0; cell < types.size(); ++cell) elements += is_boundary(cell) ? 1 : 0;
+  if (elements < 2) return {};
+  for (const char* name : group_arrays) {
+    std::vector<std::int64_t> found = of(name);
+    std::optional<std::int64_t> first;
+    bool differ = false;
+    for (std::size_t cell = 0; cell < found.size(); ++cell) {
+      if (!is_boundary(cell)) continue;
+      differ = differ || (first && *first != found[cell]);
+      first = found[cell];
+    }
+    if (differ) return {std::move(found), false, fmt::format("the cell data '{}' tell its boundaries apart", name)};
+  }
+  std::vector<std::string> others;
+  for (const VtuArray& array : document.arrays) {
+    if (is_of_numbers(array)) others.push_back(array.name);
+  }
+  std::string warning = "no cell data tell its boundaries apart, they are one";
+  if (!others.empty())
+    warning += fmt::format("; where {} number{} them, call these cell data 'boundary'", some_names(others),
+                           others.size() == 1 ? "s" : "");
+  return {{}, false, warning};
+}
+
+std::string vtu_group_name(const VtuDocument& document, const VtuNumbers& numbers, std::int64_t number,
+                           std::int64_t dimension) {
+  for (const VtuArray& array : document.arrays) {
+    if (array.section != "FieldData" || array.type.starts_with("Float") || array.type == "String") continue;
+    const std::vector<std::int64_t> group = numbers.integers(array, std::nullopt);
+    if (group.size() == 2 && group[0] == number && group[1] == dimension) return array.name;
+  }
+  return fmt::format("boundary_{}", number);
+}
+
+}  // namespace quadloop
