@@ -10,6 +10,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 
 namespace quadloop {
 
@@ -49,7 +50,7 @@ std::string config_text(const Su2Solver& solver, bool restarts) {
   config.set("RESTART_SOL", restarts ? "YES" : "NO");
   config.set("SOLUTION_FILENAME", command.state());
   config.set("RESTART_FILENAME", command.solution);
-  config.set("READ_BINARY_RESTART", command.solution.ends_with(".dat") ? "YES" : "NO");
+  config.set("READ_BINARY_RESTART", suffix_of(command.solution) == ".dat" ? "YES" : "NO");
   config.set("CONV_FILENAME", history_name);
   return config.text();
 }

@@ -12,7 +12,9 @@ namespace {
 class PolygonDivision {
  public:
   explicit PolygonDivision(std::span<const Point3> corners)
-      : corners_{corners}, count_{static_cast<std::int32_t>(corners.size())}, best_(corners.size() * corners.size()) {
+      : corners_{corners},
+        count_{static_cast<std::int32_t>(corners.size())},
+        best_(corners.size() * corners.size()) {
     for (std::int32_t i = 0; i < count_; ++i)
       normal_ = normal_ + cross(corners_[i] - corners_[0], corners_[(i + 1) % count_] - corners_[0]);
   }

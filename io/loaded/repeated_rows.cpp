@@ -14,8 +14,9 @@ void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
     if (kept == other) {
       same += count;
     } else if (++lines <= most_lines) {
-      warnings.push_back(fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are taken for '{}'",
-                                     path, count, kept, other, kept));
+      warnings.push_back(
+          fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are taken for '{}'", path, count,
+                      kept, other, kept));
     }
   }
   if (lines > most_lines)

@@ -42,9 +42,11 @@ class MeditReader {
     } else if (section == "Edges") {
       read_edges();
     } else if (section == "Triangles") {
-      read_cells<3>("triangles", [&](const auto& nodes, std::int32_t block) { foreign_.add_triangle(nodes, block); });
+      read_cells<3>("triangles",
+                    [&](const auto& nodes, std::int32_t block) { foreign_.add_triangle(nodes, block); });
     } else if (section == "Quadrilaterals") {
-      read_cells<4>("quadrilaterals", [&](const auto& nodes, std::int32_t block) { foreign_.add_quad(nodes, block); });
+      read_cells<4>("quadrilaterals",
+                    [&](const auto& nodes, std::int32_t block) { foreign_.add_quad(nodes, block); });
     } else {
       pass_over(section);
     }
@@ -61,9 +63,10 @@ class MeditReader {
       const double z = dimension_ == 3 ? scan_.real("a z coordinate") : 0;
       if (i == 0) first_z = z;
       if (z != first_z)
-        scan_.refuse(fmt::format("vertex {} does not lie in the first one's plane z = constant; only plane "
-                                 "meshes can be read",
-                                 i + 1));
+        scan_.refuse(
+            fmt::format("vertex {} does not lie in the first one's plane z = constant; only plane "
+                        "meshes can be read",
+                        i + 1));
       scan_.integer("the reference of a vertex");
       foreign_.loaded.mesh.points.push_back({x, y});
     }
@@ -87,7 +90,8 @@ class MeditReader {
       const std::array<NodeId, 2> nodes = row<2>();
       const std::size_t place = scan_.place();
       const std::int64_t reference = scan_.integer("the reference of an edge");
-      foreign_.edges.push_back({nodes, foreign_.boundary_named(fmt::format("boundary_{}", reference)), place});
+      foreign_.edges.push_back(
+          {nodes, foreign_.boundary_named(fmt::format("boundary_{}", reference)), place});
     }
   }
 
@@ -105,10 +109,13 @@ class MeditReader {
         scan_.refuse("a mesh of three dimensions; of Medit's only plane ones can be read");
     }
     for (const char* curved : {"EdgesP2", "TrianglesP2", "QuadrilateralsQ2"}) {
-      if (section == curved) scan_.refuse(section + ", of second order; only cells of first order can be read");
+      if (section == curved)
+        scan_.refuse(section + ", of second order; only cells of first order can be read");
     }
     const bool is_word = (section[0] >= 'A' && section[0] <= 'Z') || (section[0] >= 'a' && section[0] <= 'z');
-    if (!is_word) scan_.refuse("expected the name of a section, found \"" + section.substr(0, 40) + "\"; a row too many, or a count too small");
+    if (!is_word)
+      scan_.refuse("expected the name of a section, found \"" + section.substr(0, 40) +
+                   "\"; a row too many, or a count too small");
     while (!scan_.at_end() && is_number_next()) scan_.token("");
   }
 

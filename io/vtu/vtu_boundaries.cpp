@@ -5,6 +5,7 @@
 #include <array>
 
 #include "io/loaded/repeated_rows.hpp"
+#include "io/solid/vtk_cell.hpp"
 
 namespace quadloop {
 
@@ -18,6 +19,18 @@ bool is_of_numbers(const VtuArray& array) {
          array.type != "String";
 }
 
+/// Field data of two numbers each: that of a physical group, and its dimension.
+std::unordered_map<std::int64_t, std::string> group_names(const VtuDocument& document,
+                                                          const VtuNumbers& numbers, std::int64_t dimension) {
+  std::unordered_map<std::int64_t, std::string> names;
+  for (const VtuArray& array : document.arrays) {
+    if (array.section != "FieldData" || array.type.starts_with("Float") || array.type == "String") continue;
+    const std::vector<std::int64_t> group = numbers.integers(array, std::nullopt);
+    if (group.size() == 2 && group[1] == dimension) names.try_emplace(group[0], array.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuNumbers& numbers,
@@ -29,7 +42,9 @@ VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuN
                                                      : std::vector<std::int64_t>{};
   };
   if (auto ours = of("boundary"); !ours.empty()) return {std::move(ours), true, {}};
-  const auto is_boundary = [&](std::size_t cell) { return types[cell] >= first_type && types[cell] <= last_type; };
+  const auto is_boundary = [&](std::size_t cell) {
+    return types[cell] >= first_type && types[cell] <= last_type;
+  };
   std::size_t elements = 0;
   for (std::size_t cell = 0; cell < types.size(); ++cell) elements += is_boundary(cell) ? 1 : 0;
   if (elements < 2) return {};
@@ -42,7 +57,9 @@ VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuN
       differ = differ || (first && *first != found[cell]);
       first = found[cell];
     }
-    if (differ) return {std::move(found), false, fmt::format("the cell data '{}' tell its boundaries apart", name)};
+    if (differ)
+      return {std::move(found), false, fmt::format("the cell data '{}' tell its boundaries apart", name),
+              group_names(document, numbers, first_type == vtk_line ? 1 : 2)};
   }
   std::vector<std::string> others;
   for (const VtuArray& array : document.arrays) {
@@ -55,14 +72,9 @@ VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuN
   return {{}, false, warning};
 }
 
-std::string vtu_group_name(const VtuDocument& document, const VtuNumbers& numbers, std::int64_t number,
-                           std::int64_t dimension) {
-  for (const VtuArray& array : document.arrays) {
-    if (array.section != "FieldData" || array.type.starts_with("Float") || array.type == "String") continue;
-    const std::vector<std::int64_t> group = numbers.integers(array, std::nullopt);
-    if (group.size() == 2 && group[0] == number && group[1] == dimension) return array.name;
-  }
-  return fmt::format("boundary_{}", number);
+std::string VtuBoundaryNumbers::name_of(std::int64_t number) const {
+  const auto found = names.find(number);
+  return found == names.end() ? fmt::format("boundary_{}", number) : found->second;
 }
 
 }  // namespace quadloop

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "io/vtu/vtu_arrays.hpp"
@@ -16,6 +17,11 @@ struct VtuBoundaryNumbers {
   std::vector<std::int64_t> of_cells;  ///< empty where the file has none
   bool is_ours = false;                ///< the cell data "boundary": 0 is no number
   std::string warning;                 ///< without the file's name; empty where there is none
+  /// Of other programs' numbers: meshio keeps the name of a physical group as field data.
+  std::unordered_map<std::int64_t, std::string> names = {};
+
+  /// Of another program's number; "boundary_<number>" where the file gives none.
+  std::string name_of(std::int64_t number) const;
 };
 
 /// The cell data "boundary", or else those by which meshio, Gmsh and others number physical groups, where
@@ -24,10 +30,5 @@ struct VtuBoundaryNumbers {
 VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuNumbers& numbers,
                                          const std::vector<std::int64_t>& types, std::int64_t first_type,
                                          std::int64_t last_type);
-
-/// The name of a boundary by such a number: that of the field data which meshio keeps for a physical group of
-/// this dimension, else "boundary_<number>".
-std::string vtu_group_name(const VtuDocument& document, const VtuNumbers& numbers, std::int64_t number,
-                           std::int64_t dimension);
 
 }  // namespace quadloop

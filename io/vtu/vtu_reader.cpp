@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/loaded/strip_text.hpp"
@@ -105,12 +104,10 @@ class VtuReader {
     return boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell];
   }
 
-  std::string boundary_name(std::int64_t number) {
+  std::string boundary_name(std::int64_t number) const {
     if (boundaries_.is_ours || boundaries_.of_cells.empty())
       return name_of(boundary_names_, number, "boundary", "boundary");
-    const auto [name, is_new] = group_names_.try_emplace(number);
-    if (is_new) name->second = vtu_group_name(document_, numbers_, number, 1);
-    return name->second;
+    return boundaries_.name_of(number);
   }
 
   /// Whole numbers of our own cell data; empty where there are none.
@@ -258,7 +255,6 @@ class VtuReader {
   ForeignMesh foreign_;
   std::vector<std::string> boundary_names_, block_names_;
   VtuBoundaryNumbers boundaries_;
-  std::unordered_map<std::int64_t, std::string> group_names_;  ///< of other programs' numbers
   bool has_layers_ = false;
   std::vector<std::int64_t> triangle_cells_, quad_cells_;  ///< their places among all of the file's cells
   std::size_t place_ = 0, cell_ = 0;                       ///< of the cell under way, for a refusal

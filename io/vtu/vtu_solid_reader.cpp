@@ -156,17 +156,14 @@ class VtuSolidReader {
     const std::int64_t number = boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell];
     const bool is_ours = boundaries_.is_ours || boundaries_.of_cells.empty();
     if (is_ours && number >= 1 && number <= std::ssize(mesh_.patches)) return mesh_.patches[number - 1];
-    const std::string name = !is_ours      ? group_name(number)
+    const auto [patch, is_new] = patch_of_number_.try_emplace(number, mesh_.patches.size());
+    if (!is_new) return mesh_.patches[patch->second];
+    const std::string name = !is_ours      ? boundaries_.name_of(number)
                              : number <= 0 ? "boundary"
                                            : "boundary_" + std::to_string(number);
     const auto found = std::ranges::find(mesh_.patches, name, &SolidPatch::name);
+    patch->second = found - mesh_.patches.begin();
     return found != mesh_.patches.end() ? *found : mesh_.patches.emplace_back(SolidPatch{name, "none", {}});
-  }
-
-  const std::string& group_name(std::int64_t number) {
-    const auto [name, is_new] = group_names_.try_emplace(number);
-    if (is_new) name->second = vtu_group_name(document_, numbers_, number, 2);
-    return name->second;
   }
 
   /// Point data of numbers and cell data of real ones; of several components each is a variable.
@@ -212,7 +209,7 @@ class VtuSolidReader {
   SolidMesh mesh_;
   std::vector<std::int64_t> types_, block_of_;
   VtuBoundaryNumbers boundaries_;
-  std::unordered_map<std::int64_t, std::string> group_names_;  ///< of other programs' numbers
+  std::unordered_map<std::int64_t, std::size_t> patch_of_number_;  ///< of numbers without a name of ours
   std::vector<std::string> block_names_;
   BlockCollector blocks_;
   std::array<std::vector<std::int32_t>, 9>

@@ -15,7 +15,8 @@ bool is_control_character(std::string_view character);
 /// A text in UTF-8 as it is; any other is taken as Latin-1, as old programs write it.
 std::string as_utf8(std::string_view text);
 
-/// The text for a terminal: control characters but line ends and tabs, and bytes that are no UTF-8, as "\x1b".
+/// The text for a terminal: control characters but line ends and tabs, and bytes that are no UTF-8, as
+/// "\x1b".
 std::string printable(std::string_view text);
 
 }  // namespace quadloop

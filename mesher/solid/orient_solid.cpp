@@ -16,8 +16,7 @@ namespace {
 /// Of each cell, numbered over all kinds.
 std::vector<double> volumes_of(const SolidMesh& mesh) {
   std::vector<double> volumes;
-  for_each_cell(mesh,
-                [&](const auto& nodes, std::int64_t) { volumes.push_back(cell_volume(mesh, nodes)); });
+  for_each_cell(mesh, [&](const auto& nodes, std::int64_t) { volumes.push_back(cell_volume(mesh, nodes)); });
   return volumes;
 }
 
@@ -47,7 +46,8 @@ ParitySets solid_pieces(const SolidMesh& mesh, std::size_t cells) {
   };
   ParitySets pieces(cells);
   for_each_face(mesh, [&](std::int32_t, std::span<const FaceMention> same) {
-    const auto of_cells = same.last(std::ranges::count_if(same, [](const FaceMention& f) { return f.owner >= 0; }));
+    const auto of_cells =
+        same.last(std::ranges::count_if(same, [](const FaceMention& f) { return f.owner >= 0; }));
     if (of_cells.size() != 2 || of_cells[0].owner == of_cells[1].owner) return;
     pieces.join(of_cells[0].owner, of_cells[1].owner, direction(of_cells[0]) == direction(of_cells[1]));
   });

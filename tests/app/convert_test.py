@@ -7,6 +7,7 @@ import itertools
 import json
 import sys
 import unittest
+from unittest.mock import ANY
 
 from program import ProgramTest
 
@@ -163,6 +164,27 @@ class Convert(ProgramTest):
         for name in ("b", "b.x", "c.mesh"):
             self.converted("a.mesh", name, "--format", "su2")
             self.assertEqual(self.bytes_of(name), self.bytes_of("b.su2"))
+
+    def test_medit(self):
+        """By its content from .mesh, by its name into it; boundaries are numbers there."""
+        self.write("m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 3\n0 0 0\n1 0 0\n0 1 0\nTriangles 1\n1 2 3 4\n"
+                   "Edges 3\n1 2 7\n2 3 7\n3 1 9\nEnd\n")
+        self.assertEqual(self.done("convert", "m.mesh", "a.su2"), (ANY, ""))
+        said = self.done("convert", "m.mesh", "b.mesh", "--format", "medit")[1]
+        self.assertEqual(said, "")
+        self.assertEqual(self.done("check", "b.mesh", "--json")[0].count("boundary_7"), 1)
+
+    def test_damaged_names_reach_no_terminal(self):
+        """An escape sequence in a name or a token is shown, not done."""
+        self.write("a.su2", "NDIME= 2\nNELEM= 1\n5 0 1 \x1b[31m\nNPOIN= 3\n0 0\n1 0\n0 1\n")
+        result = self.run_program("check", "a.su2")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("\\x1b[31m", result.stderr)
+        self.assertNotIn("\x1b", result.stderr)
+        self.write("b.su2", "NDIME= 2\nNELEM= 1\n5 0 1 2\nNPOIN= 3\n0 0\n1 0\n0 1\nNMARK= 1\nMARKER_TAG= a\x1b[2J\nMARKER_ELEMS= 3\n3 0 1\n3 1 2\n3 2 0\n")
+        table, said = self.done("check", "b.su2")
+        self.assertNotIn("\x1b", table + said)
+        self.assertIn("a_[2J", table)
 
     def test_the_same_bytes_on_ranks(self):
         self.write("first.mesh", with_solution(self.mesh("hybrid")))

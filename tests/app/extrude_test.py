@@ -142,7 +142,13 @@ class Extrude(ProgramTest):
         lines = (self.folder / "b.su2").read_text().split("\n")
         first = next(i for i, line in enumerate(lines) if line.startswith("13 "))
         nodes = lines[first].split()[1:]
-        lines[first] = " ".join(["13", *nodes[3:], *nodes[:3]])
+        inside_out = [*lines[:first], " ".join(["13", *nodes[3:], *nodes[:3]]), *lines[first + 1:]]
+        self.write("b.su2", "\n".join(inside_out))
+        self.assertIn("b.su2: 1 cell was inside out and turned", self.done("check", "b.su2")[1])
+        origin = next(i for i, line in enumerate(lines) if line.startswith("NPOIN=")) + 1
+        for a, b in zip(nodes[::3], nodes[1::3]):  # the prism's first edge is turned round its other end
+            old, end = ([float(x) for x in lines[origin + int(n)].split()] for n in (a, b))
+            lines[origin + int(a)] = " ".join(repr(2 * y - x) for x, y in zip(old, end))
         self.write("b.su2", "\n".join(lines))
         self.refused(1, ["b.su2: invalid mesh: positive: prism 1 has no positive volume at ("], "check", "b.su2", "-q")
         self.done("extrude", "a.mesh", "-o", "b.su2", *EVEN, "-q")

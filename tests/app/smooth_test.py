@@ -41,6 +41,29 @@ class SmoothAlongAnOutline(ProgramTest):
         for (x, y), (u, v) in zip(nodes_of(mesh), nodes_of(other), strict=True):
             self.assertLess(math.hypot(x - u, y - v), 1e-9)
 
+    def test_the_two_sides_of_a_crack_stay_together(self):
+        """Six by four squares with a crack along y = 2 from x = 1 to 3, nodes doubled but for its ends, nodes beside it moved."""
+        def node(i, j, upper=False):
+            return 35 if upper and (i, j) == (2, 2) else 7 * j + i
+        points = [(i + (0.8 if (i, j) == (2, 1) else -0.8 if (i, j) == (2, 3) else 0), j) for j in range(5) for i in range(7)] + [(2, 2)]
+        cells = [[node(i, j, j == 2), node(i + 1, j, j == 2), node(i + 1, j + 1), node(i, j + 1)] for j in range(4) for i in range(6)]
+        outer = [(node(i, 0), node(i + 1, 0)) for i in range(6)] + [(node(6, j), node(6, j + 1)) for j in range(4)]
+        outer += [(node(i + 1, 4), node(i, 4)) for i in range(6)] + [(node(0, j + 1), node(0, j)) for j in range(4)]
+        crack = [(node(2, 2), node(1, 2)), (node(3, 2), node(2, 2)), (node(1, 2), 35), (35, node(3, 2))]
+        rows = lambda edges: "".join(f"3 {a} {b}\n" for a, b in edges)
+        self.write("a.su2", f"NDIME= 2\nNELEM= {len(cells)}\n" + "".join("9 " + " ".join(map(str, c)) + "\n" for c in cells)
+                   + f"NPOIN= {len(points)}\n" + "".join(f"{x} {y}\n" for x, y in points)
+                   + f"NMARK= 2\nMARKER_TAG= outer\nMARKER_ELEMS= {len(outer)}\n" + rows(outer)
+                   + f"MARKER_TAG= crack\nMARKER_ELEMS= {len(crack)}\n" + rows(crack))
+        self.done("check", "a.su2")
+        self.done("smooth", "a.su2", "-o", "b.su2", "--sweeps", "5")
+        self.done("check", "b.su2")
+        lines = (self.folder / "b.su2").read_text().split("\n")
+        first = next(k for k, line in enumerate(lines) if line.startswith("NPOIN")) + 1
+        moved = [tuple(map(float, line.split()[:2])) for line in lines[first:first + 36]]
+        self.assertEqual(moved.count((2, 2)), 2)
+        self.assertNotEqual(moved[node(2, 1)], points[node(2, 1)])
+
     def test_parallelograms_are_spared(self):
         self.done("mesh", "case.toml", "-o", "parallel", "--quiet", "--set", 'mesh.quads="parallel"')
         _, stderr = self.done("smooth", "parallel.mesh", "-o", "out.mesh", "--geometry", "whole.geom")

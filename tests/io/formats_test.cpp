@@ -127,6 +127,7 @@ TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
             0U);
   EXPECT_EQ(refusal("a.cas.h5", "\x89HDF\r\n").find(": is a mesh of Fluent in HDF5"), 0U);
   EXPECT_EQ(refusal("a.msh", "solid part\n facet normal 0 0 1\n").find(": is an STL surface"), 0U);
+  EXPECT_EQ(refusal("a.cas", "(0 \"Fluent\")"), ": is a mesh of Fluent; give it a name that ends in .msh");
   std::string stl(84 + 2 * 50, ' ');
   stl[80] = 2;
   stl[81] = stl[82] = stl[83] = '\0';

@@ -13,8 +13,9 @@ namespace {
 /// Two cubes, a prism on the right, a pyramid on the first's top and a tetrahedron beside it; no patches.
 SolidMesh five_cells() {
   SolidMesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},     {1, 0, 1},   {1, 1, 1},  {0, 1, 1},
-                 {2, 0, 0}, {2, 0, 1}, {0.5, 0.5, 2}, {2, 0.5, 2}, {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}, {-1, 1, 1}};
+  mesh.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0}, {0, 0, 1},     {1, 0, 1},
+                 {1, 1, 1},  {0, 1, 1},  {2, 0, 0},  {2, 0, 1}, {0.5, 0.5, 2}, {2, 0.5, 2},
+                 {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}, {-1, 1, 1}};
   mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}, {12, 0, 3, 13, 14, 4, 7, 15}};
   mesh.prisms = {{1, 8, 2, 5, 9, 6}};
   mesh.pyramids = {{4, 5, 6, 7, 10}};

@@ -29,7 +29,11 @@ struct Signature {
 const std::vector<Signature>& signatures() {
   using namespace std::string_view_literals;
   static const std::vector<Signature> all{
-      {"# vtk DataFile", "", "a VTK file in the legacy format", {}, "save it as an unstructured grid in XML (.vtu)"},
+      {"# vtk DataFile",
+       "",
+       "a VTK file in the legacy format",
+       {},
+       "save it as an unstructured grid in XML (.vtu)"},
       {"<?xml", "<VTKFile", "a VTK file in XML", {".vtu", ".pvtu"}},
       {"<VTKFile", "", "a VTK file in XML", {".vtu", ".pvtu"}},
       {"<?xml", "<Xdmf", "an XDMF file"},
@@ -62,6 +66,7 @@ const std::vector<Signature>& signatures() {
       {"MFEM mesh", "", "a mesh of MFEM"},
       {"FoamFile", "", "a file of OpenFOAM", {}, "give its folder polyMesh"},
       {"NDIME=", "", "a mesh of SU2", {".su2"}},
+      {"(0 ", "", "a mesh of Fluent", {".msh"}},
       {"NZONE=", "", "a mesh of SU2", {".su2"}},
   };
   return all;

@@ -15,13 +15,14 @@ namespace quadloop {
 namespace {
 
 std::string foam_list(const std::string& rows, int count) {
-  return "FoamFile { version 2.0; format ascii; class any; object any; }\n" + std::to_string(count) + "\n(\n" + rows +
-         "\n)\n";
+  return "FoamFile { version 2.0; format ascii; class any; object any; }\n" + std::to_string(count) +
+         "\n(\n" + rows + "\n)\n";
 }
 
-/// One cell thick: a square of two units below with a node in the middle of its upper side, on which stand two
-/// unit squares. The sides are patches of `type`, the two ends of `ends`.
-std::string write_plane(const test::TemporaryFolder& folder, const std::string& type, const std::string& ends) {
+/// One cell thick: a square of two units below with a node in the middle of its upper side, on which stand
+/// two unit squares. The sides are patches of `type`, the two ends of `ends`.
+std::string write_plane(const test::TemporaryFolder& folder, const std::string& type,
+                        const std::string& ends) {
   const std::string path = folder.file("a.polyMesh");
   std::filesystem::create_directory(path);
   const auto write = [&](const char* name, const std::string& rows, int count) {
@@ -41,9 +42,14 @@ std::string write_plane(const test::TemporaryFolder& folder, const std::string& 
   write("neighbour", "1 2 2", 3);
   write("boundary",
         "low { type wall; nFaces 1; startFace 3; } up { type wall; nFaces 2; startFace 4; }"
-        "right { type " + type + "; neighbourPatch left; nFaces 2; startFace 6; }"
-        "left { type " + type + "; inGroups List<word> 1(cyclic); neighbourPatch right; nFaces 2; startFace 8; }"
-        "ends { type " + ends + "; nFaces 6; startFace 10; }",
+        "right { type " +
+            type +
+            "; neighbourPatch left; nFaces 2; startFace 6; }"
+            "left { type " +
+            type +
+            "; inGroups List<word> 1(cyclic); neighbourPatch right; nFaces 2; startFace 8; }"
+            "ends { type " +
+            ends + "; nFaces 6; startFace 10; }",
         5);
   return path;
 }
@@ -52,7 +58,8 @@ TEST(FoamReader, DividesPolygonsOfPlaneMeshes) {
   const test::TemporaryFolder folder;
   const std::string path = write_plane(folder, "patch", "empty");
   const LoadedMesh loaded = read_foam_plane(path);
-  for (const MeshFault& fault : validate(loaded.mesh)) ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
+  for (const MeshFault& fault : validate(loaded.mesh))
+    ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
   EXPECT_EQ(loaded.mesh.points.size(), 8U);
   EXPECT_EQ(loaded.mesh.quads.size(), 2U + 1U);
   EXPECT_EQ(loaded.mesh.triangles.size(), 1U);
@@ -81,8 +88,10 @@ TEST(FoamReader, KeepsCyclicPatchesAndReportsThem) {
 
 TEST(DividePolygon, TakesTheBestPieces) {
   const auto pieces = [](const std::vector<Point3>& corners) { return divide_polygon(corners); };
-  EXPECT_EQ(pieces({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}}).size(), 2U);  // two squares
-  const auto arrow = pieces({{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}, {3, 4, 0}});  // one corner turns inwards
+  EXPECT_EQ(pieces({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}}).size(),
+            2U);  // two squares
+  const auto arrow =
+      pieces({{0, 0, 0}, {4, -3, 0}, {1, 0, 0}, {4, 3, 0}, {3, 4, 0}});  // one corner turns inwards
   EXPECT_FALSE(arrow.empty());
   EXPECT_TRUE(pieces({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}}).empty());
 }

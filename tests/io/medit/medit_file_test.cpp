@@ -1,4 +1,5 @@
-// Medit's text: what the reader accepts and what it refuses by line; what the writer numbers. On one rank alone.
+// Medit's text: what the reader accepts and what it refuses by line; what the writer numbers. On one rank
+// alone.
 #include "io/medit/medit_file.hpp"
 
 #include <gtest/gtest.h>
@@ -21,9 +22,9 @@ const test::ReaderCheck check{read_mesh, "m.mesh"};
 /// A unit square as a quad with a triangle on top, with sections that are none of a mesh's; the line numbers
 /// below count in it.
 const std::string house =
-    "MeshVersionFormatted 2\n# by hand\nDimension\n2\n"                          // 1-4
-    "Vertices\n5\n0 0 1\n1 0 0\n1 1 0\n0 1 0\n.5 1.5d0 0\n"                     // 5-11
-    "Corners 2\n1 2\nTriangles\n1\n4 3 5 7\nQuadrilaterals 1\n1 2 3 4 7\n"        // 12-18
+    "MeshVersionFormatted 2\n# by hand\nDimension\n2\n"                            // 1-4
+    "Vertices\n5\n0 0 1\n1 0 0\n1 1 0\n0 1 0\n.5 1.5d0 0\n"                        // 5-11
+    "Corners 2\n1 2\nTriangles\n1\n4 3 5 7\nQuadrilaterals 1\n1 2 3 4 7\n"         // 12-18
     "RequiredVertices\n1\n5\nEdges\n5\n1 2 3\n2 3 8\n3 5 8\n5 4 8\n1 4 8\nEnd\n";  // 19-29
 
 TEST(MeditReader, ReadsCellsAndEdgesByReference) {
@@ -50,20 +51,27 @@ TEST(MeditReader, ReferencesOfCellsAreBlocks) {
 
 TEST(MeditReader, PlaneMeshesMayHaveAThirdCoordinate) {
   std::string flat = replaced(house, "Dimension\n2", "Dimension\n3");
-  for (const auto& [from, to] : {std::pair{"0 0 1\n", "0 0 .5 1\n"}, {"1 0 0\n", "1 0 .5 0\n"}, {"1 1 0\n", "1 1 .5 0\n"},
-                                 {"0 1 0\n", "0 1 .5 0\n"}, {".5 1.5d0 0", ".5 1.5 .5 0"}})
+  for (const auto& [from, to] : {std::pair{"0 0 1\n", "0 0 .5 1\n"},
+                                 {"1 0 0\n", "1 0 .5 0\n"},
+                                 {"1 1 0\n", "1 1 .5 0\n"},
+                                 {"0 1 0\n", "0 1 .5 0\n"},
+                                 {".5 1.5d0 0", ".5 1.5 .5 0"}})
     flat = replaced(flat, from, to);
   EXPECT_EQ(check.of(flat).mesh.points, check.of(house).mesh.points);
-  check.expect_refusal(replaced(flat, "1 1 .5 0", "1 1 .25 0"), "m.mesh:9: ", "vertex 3 does not lie in the first one's plane");
+  check.expect_refusal(replaced(flat, "1 1 .5 0", "1 1 .25 0"),
+                       "m.mesh:9: ", "vertex 3 does not lie in the first one's plane");
 }
 
 TEST(MeditReader, RefusesByLine) {
-  check.expect_refusal(replaced(house, "1 2 3 4 7", "1 2 3 6 7"), "m.mesh:18: ", "vertex 6 is none of the vertices 1 to 5");
+  check.expect_refusal(replaced(house, "1 2 3 4 7", "1 2 3 6 7"),
+                       "m.mesh:18: ", "vertex 6 is none of the vertices 1 to 5");
   check.expect_refusal(replaced(house, "Vertices\n5", "Vertices\n4"), "m.mesh:11: ", "the name of a section");
   check.expect_refusal(replaced(house, "Vertices\n5", "Vertices\n5000"), "m.mesh:6: ", "cut short");
   check.expect_refusal(replaced(house, "Dimension\n2", "Dimension\n4"), "m.mesh:4: ", "4 dimensions");
-  check.expect_refusal(replaced(house, "Corners 2\n1 2", "Tetrahedra 1\n1 2 3 4 0"), "m.mesh:12: ", "three dimensions");
-  check.expect_refusal(replaced(house, "Corners 2\n1 2", "TrianglesP2 1\n1 2 3 4 5 6 0"), "m.mesh:12: ", "second order");
+  check.expect_refusal(replaced(house, "Corners 2\n1 2", "Tetrahedra 1\n1 2 3 4 0"),
+                       "m.mesh:12: ", "three dimensions");
+  check.expect_refusal(replaced(house, "Corners 2\n1 2", "TrianglesP2 1\n1 2 3 4 5 6 0"),
+                       "m.mesh:12: ", "second order");
   check.expect_refusal("MeshVersionFormatted 2\nDimension 2\nEnd\n", "m.mesh:", "without Vertices");
 }
 
