@@ -66,7 +66,7 @@ std::int64_t straight_type(std::int64_t type) {
 }  // namespace
 
 std::string vtk_cell_name(std::int64_t type) {
-  const std::string number = std::to_string(type);
+  std::string number = std::to_string(type);
   if (const std::string name = vtk_first_order_name(type); !name.empty()) return number + " (" + name + ")";
   if (const std::string name = vtk_first_order_name(straight_type(type)); !name.empty())
     return number + " (" + name + (type < 68 ? " of second order)" : " of higher order)");

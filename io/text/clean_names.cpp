@@ -40,11 +40,11 @@ std::vector<std::string> clean_names(std::span<std::string* const> names, const 
   for (std::string* name : names) {
     if (const auto found = changed.find(*name); found != changed.end()) *name = found->second;
   }
-  return {
-      fmt::format("{}: {} not in UTF-8, or with control characters; the text is taken as Latin-1, and "
-                  "'_' replaces these characters. The first is '{}' here",
-                  where, changed.size() == 1 ? "1 name is" : fmt::format("{} names are", changed.size()),
-                  changed.begin()->second)};
+  return {fmt::format(
+      "{}: {} not in UTF-8, or with control characters: read as Latin-1, with '_' for each control "
+      "character; the first is '{}'",
+      where, changed.size() == 1 ? "1 name is" : fmt::format("{} names are", changed.size()),
+      changed.begin()->second)};
 }
 
 }  // namespace quadloop

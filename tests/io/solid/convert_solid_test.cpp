@@ -139,6 +139,32 @@ TEST(ConvertSolid, CellsThatAreInsideOutAreTurned) {
   EXPECT_EQ(mesh->prisms, (std::vector<std::array<std::int32_t, 6>>{{0, 1, 2, 3, 4, 5}}));
 }
 
+/// All faces of a tetrahedron are of the group "skin", the first of "inlet" too; a point is in a third group.
+TEST(ConvertSolid, OfSeveralGroupsOfGmshTheSmallestIsTaken) {
+  const test::TemporaryFolder folder;
+  if (!test::world().is_root()) return;
+  const std::string head =
+      "$EndMeshFormat\n$PhysicalNames\n3\n0 9 \"probe\"\n2 1 \"skin\"\n2 2 \"inlet\"\n$EndPhysicalNames\n";
+  const std::string path = folder.file("a.msh");
+  std::ofstream(path)
+      << "$MeshFormat\n2.2 0 8\n"
+      << head
+      << "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n6\n"
+         "1 2 2 1 1 1 3 2\n2 2 2 2 1 1 3 2\n3 2 2 1 2 1 2 4\n4 2 2 1 3 2 3 4\n5 2 2 1 4 3 1 4\n"
+         "6 4 2 5 1 1 2 3 4\n$EndElements\n";
+  std::optional<SolidMesh> mesh = read_solid(path);
+  ASSERT_EQ(mesh->patches.size(), 2);
+  EXPECT_EQ(mesh->patches[0].name, "skin");
+  EXPECT_EQ(mesh->patches[0].faces.size(), 3);
+  EXPECT_EQ(mesh->patches[1].name, "inlet");
+  EXPECT_EQ(mesh->patches[1].faces.size(), 1);
+  EXPECT_TRUE(check_solid(*mesh).faults.empty());
+  EXPECT_EQ(mesh->warnings,
+            (std::vector<std::string>{
+                path + ": 1 elements are in the groups 'inlet' and 'skin'; they are taken for 'inlet'",
+                path + ": physical groups of points and curves are left out: 'probe'"}));
+}
+
 TEST(ConvertSolid, Su2ZonesAreBlocks) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
