@@ -3,23 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
+#include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/solid/solid_blocks.hpp"
 #include "io/solid_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/solid/plane_of_solid.hpp"
@@ -34,6 +39,7 @@ struct ExtrudeArguments {
   std::string input, output, heights, axis = "z";
   std::int64_t layers = 0;
   double thickness = 0;
+  std::optional<double> max_cells;
 };
 
 /// Numbers from a text file, "#" begins a comment: the coordinates of the levels, ascending.
@@ -142,6 +148,44 @@ Plane spread(const Communicator& comm, LoadedMesh whole) {
   return plane;
 }
 
+/// On the disk, at least: the numbers of nodes and cells as the shortest formats have them.
+double least_bytes(const ExtrudedCounts& counts) {
+  constexpr double of_node = 24, of_prism = 6 * 4, of_hexahedron = 8 * 4;
+  return of_node * static_cast<double>(counts.nodes) + of_prism * static_cast<double>(counts.prisms) +
+         of_hexahedron * static_cast<double>(counts.hexahedra);
+}
+
+/// Says how large a mesh will be before it is written, and refuses one of more cells than are allowed, or for
+/// which the disk has no room: no rank holds it, memory is no limit. *Collective.*
+void require_room(const Communicator& comm, const ExtrudedCounts& counts, const ExtrudeArguments& arguments) {
+  constexpr double large = 1e6;
+  const auto cells = static_cast<double>(counts.cells());
+  const double bytes = least_bytes(counts);
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    std::error_code unknown;
+    const auto disk = std::filesystem::space(quadloop::folder_of(arguments.output), unknown);
+    const double free = unknown ? MeshLimit::none : static_cast<double>(disk.available);
+    const bool allowed = arguments.max_cells ? cells <= *arguments.max_cells : bytes <= free;
+    if (!allowed) {
+      const std::string limit = arguments.max_cells
+                                    ? fmt::format("--max-cells allows {:.0f}", *arguments.max_cells)
+                                    : fmt::format("{} are free there", text_of_bytes(free));
+      throw TooManyCells(fmt::format(
+          "{}: would have {} cells in {} layers, {} on the disk or more, but {}; ask for fewer layers, or {} "
+          "--max-cells {:.0f}",
+          arguments.output, text_of_cells(cells), counts.cells() / (counts.triangles + counts.quads),
+          text_of_bytes(bytes), limit, arguments.max_cells ? "allow more with" : "insist with", cells));
+    }
+    const std::string text =
+        fmt::format("{} cells, {} on the disk or more", text_of_cells(cells), text_of_bytes(bytes));
+    if (cells >= large)
+      log::information(text);
+    else
+      log::detail(text);
+  });
+}
+
 Figures figures_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, double area) {
   Figures figures;
   figures.add("nodes", counts.nodes);
@@ -167,6 +211,7 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
                plane.solution ? &*plane.solution : nullptr);
   mesh.blocks = plane.blocks ? &*plane.blocks : nullptr;
   const ExtrudedCounts counts(comm, mesh);
+  require_room(comm, counts, arguments);
   for (std::string& loss : losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
   OutputSet outputs(comm);
   write_solid(outputs, mesh, arguments.output);
@@ -204,6 +249,11 @@ void add_options(Command& command, ExtrudeArguments& arguments) {
                   "the axis along which it is drawn out: z (the default), or y: the plane's y becomes z")
       .value_name("AXIS")
       .one_of({"y", "z"});
+  command
+      .add_option("--max-cells", arguments.max_cells,
+                  "the most cells that the mesh may have; without it as many as the disk has room for")
+      .value_name("N")
+      .positive();
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "adapt/metric/crossing_walls.hpp"
 #include "adapt/metric/leaf_shares.hpp"
@@ -160,15 +161,32 @@ class Stretching {
     double complexity = 0, nodes = 0;
   };
 
-  /// *Collective.*
-  Mesh stretched(Mesh mesh) {
+  /// A mesh that has no more nodes than wanted.
+  struct Fitting {
+    Mesh mesh;
+    MetricFigures figures;
+  };
+
+  std::int64_t nodes_of(const Mesh& mesh) const { return comm_.sum(std::int64_t{mesh.owned_nodes}); }
+
+  /// The mesh of the tree, where attempts have too many nodes but it has not; none else. *Collective.*
+  std::optional<Fitting> unstretched(const Mesh& start, double complexity) {
+    if (nodes_of(start) > wanted_) return std::nullopt;
+    const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
+    return Fitting{start, metric_figures(comm_, start, carried.at(start))};
+  }
+
+  /// With more nodes than wanted only where the mesh of the tree has. *Collective.*
+  Mesh stretched(const Mesh& start) {
     constexpr int attempts = 5, most_attempts = 10;  // more than the first while nodes are too many
     constexpr double enough = 0.95, aim = 0.975;
     constexpr double nodes_of_unit = 1.3;  // a first guess
     if (metric_.flat()) {
       report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the tree");
-      return mesh;
+      return start;
     }
+    Mesh mesh = start;
+    std::optional<Fitting> fitting;  // the last attempt with too few nodes
     const auto wanted = static_cast<double>(std::max<std::int64_t>(wanted_, 1));
     Attempt last, now{wanted / nodes_of_unit, 0};
     int round = 0;
@@ -176,10 +194,18 @@ class Stretching {
       now.nodes = adapt(mesh, now.complexity, attempt == 0 ? 12 : 5, round);
       if (now.nodes <= wanted && now.nodes >= enough * wanted) return mesh;
       if (attempt + 1 >= attempts && (now.nodes <= wanted || is_floor(last, now))) break;
+      if (now.nodes <= wanted) fitting = {mesh, report.figures};
       last = now;
       now.complexity *= aim * wanted / now.nodes;
     }
     warn(last, now);
+    if (now.nodes <= wanted) return mesh;
+    if (!fitting) fitting = unstretched(start, now.complexity);
+    if (fitting) {
+      mesh = std::move(fitting->mesh);
+      report.figures = fitting->figures;
+    }
+    report.warnings.back() += fmt::format("; the mesh has {} nodes", all_nodes(nodes_of(mesh)));
     return mesh;
   }
 
@@ -190,8 +216,11 @@ class Stretching {
     adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
     round += rounds;
     report.figures = metric_figures(comm_, mesh, carried.at(mesh));
-    return static_cast<double>(comm_.sum(std::int64_t{mesh.owned_nodes}));
+    return static_cast<double>(nodes_of(mesh));
   }
+
+  /// Those of layers included.
+  std::int64_t all_nodes(std::int64_t outside) const { return outside + demand_.nodes - wanted_; }
 
   /// Less complexity takes hardly any nodes away.
   static bool is_floor(const Attempt& last, const Attempt& now) {
@@ -204,7 +233,7 @@ class Stretching {
 
   void warn(const Attempt& last, const Attempt& now) {
     const auto nodes = static_cast<std::int64_t>(now.nodes);
-    const std::int64_t all = nodes + demand_.nodes - wanted_;
+    const std::int64_t all = all_nodes(nodes);
     if (nodes <= wanted_) {
       if (is_ceiling(last, now))
         report.warnings.push_back(
@@ -213,7 +242,7 @@ class Stretching {
       return;
     }
     report.warnings.push_back(fmt::format(
-        "the mesh has {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+        "stretched cells take {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
         is_floor(last, now)
             ? fmt::format("the case's own sizes ask for them, and leave none to stretch cells with; give at "
                           "least {}, "
@@ -250,10 +279,7 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
   Stretching stretching(comm, input, solved, solution, demand, result);
   const Mesh mesh = stretching.sound(result.mesh);
   const TreeAttributes& a = result.tree.attributes;
-  const Point low{a.root_x, a.root_y};
-  const Lattice lattice({low, low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge}}, a.trees_x,
-                        a.trees_y);
-  share_among_leaves(comm, lattice, mesh, result);
+  share_among_leaves(comm, Lattice(root_box(a), a.trees_x, a.trees_y), mesh, result);
   return std::move(stretching.report);
 }
 

@@ -29,7 +29,8 @@ class FluentWriter {
         boundaries_{comm_, mesh},
         cells_{edge_cells(comm_, mesh)},
         triangles_{comm_.sum(std::ssize(mesh.triangles))},
-        quads_{comm_.sum(std::ssize(mesh.quads))} {
+        quads_{comm_.sum(std::ssize(mesh.quads))},
+        in_block_{{.triangles = triangles_, .quads = quads_}} {
     require_countable_in_fluent(path, comm_.sum(mesh_.owned_nodes), triangles_ + quads_);
     if (whole_ != nullptr) number_by_block();
     require_conforming(comm_, mesh, cells_, std::ssize(between_), path);
@@ -52,13 +53,13 @@ class FluentWriter {
 
   /// Also finds the edges between blocks, which are faces of their boundaries.
   void number_by_block() {
+    in_block_.assign(blocks(), {});
+    for (std::int64_t cell = 0; cell < triangles_ + quads_; ++cell)
+      ++(cell < triangles_ ? in_block_[block_of(cell)].triangles : in_block_[block_of(cell)].quads);
+    std::vector<std::int64_t> next{0};
+    for (const MeshCounts& counts : in_block_) next.push_back(next.back() + counts.triangles + counts.quads);
     number_.resize(triangles_ + quads_);
-    std::int64_t next = 0;
-    for (std::int32_t block = 0; block < blocks(); ++block) {
-      for (std::int64_t cell = 0; cell < triangles_ + quads_; ++cell) {
-        if (block_of(cell) == block) number_[cell] = next++;
-      }
-    }
+    for (std::int64_t cell = 0; cell < triangles_ + quads_; ++cell) number_[cell] = next[block_of(cell)]++;
     const EdgeTable table(mesh_);
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
       for (const auto& [from, to] : boundary.edges) {
@@ -87,8 +88,7 @@ class FluentWriter {
     file_.write("(12 (0 1 " + fluent_hexadecimal(triangles_ + quads_) + " 0))\n");
     std::int64_t first = 1;
     for (std::int32_t block = 0; block < blocks(); ++block) {
-      const std::int64_t triangles = count_in(block, &LoadedMesh::triangle_to_block, triangles_),
-                         quads = count_in(block, &LoadedMesh::quad_to_block, quads_);
+      const std::int64_t triangles = in_block_[block].triangles, quads = in_block_[block].quads;
       const int kind = quads == 0 ? triangle : triangles == 0 ? quad : 0;
       file_.write("(12 (" + fluent_hexadecimal(2 + block) + " " + fluent_hexadecimal(first) + " " +
                   fluent_hexadecimal(first + triangles + quads - 1) + " 1 " + std::to_string(kind) + ")");
@@ -101,11 +101,6 @@ class FluentWriter {
       file_.write(")\n");
       first += triangles + quads;
     }
-  }
-
-  std::int64_t count_in(std::int32_t block, std::vector<std::int32_t> LoadedMesh::*cell_to_block,
-                        std::int64_t all) const {
-    return whole_ == nullptr ? all : std::ranges::count(whole_->*cell_to_block, block);
   }
 
   static void put_face(TextRows& text, std::int64_t from, std::int64_t to, std::int64_t left,
@@ -223,8 +218,9 @@ class FluentWriter {
     for (const BoundaryEdges* boundary : boundaries_.present()) names.push_back(boundary->name);
     names = fluent_zone_names(names);
     std::string text;
+    const std::vector<std::string> of_blocks = block_names();
     for (std::int32_t block = 0; block < blocks(); ++block)
-      text += fluent_zone_name(2 + block, "fluid", block_name(block));
+      text += fluent_zone_name(2 + block, "fluid", of_blocks[block]);
     if (has_inner_) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     for (std::size_t n = 0; n < names.size(); ++n) {
       const BoundaryEdges& boundary = *boundaries_.present()[n];
@@ -235,12 +231,12 @@ class FluentWriter {
     file_.write(text);
   }
 
-  std::string block_name(std::int32_t block) const {
-    if (whole_ == nullptr) return "domain";
+  std::vector<std::string> block_names() const {
+    if (whole_ == nullptr) return {"domain"};
     std::vector<std::string> names = whole_->block_names;
     for (std::int32_t b = static_cast<std::int32_t>(names.size()); b < blocks(); ++b)
       names.push_back("block_" + std::to_string(b + 1));
-    return fluent_zone_names(names)[block];
+    return fluent_zone_names(names);
   }
 
   const Communicator& comm_;
@@ -251,6 +247,7 @@ class FluentWriter {
   EdgeCells cells_;
   std::int64_t triangles_, quads_;  ///< over all ranks
   bool has_inner_ = false;
+  std::vector<MeshCounts> in_block_;                         ///< cells of each block
   std::vector<std::int64_t> number_;                         ///< of each cell, where there are blocks
   std::set<std::pair<std::int32_t, std::int32_t>> between_;  ///< edges between blocks
 };

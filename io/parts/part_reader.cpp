@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "io/cgns/cgns_file.hpp"
@@ -94,9 +96,11 @@ class PartReader {
     std::vector<BoundaryEdges> own = std::move(loaded.mesh.boundaries);
     part.mesh = std::move(loaded.mesh);
     part.mesh.boundaries = index_.boundaries;
+    std::map<std::string, BoundaryEdges*> by_name;
+    for (BoundaryEdges& boundary : own) by_name.emplace(boundary.name, &boundary);
     for (BoundaryEdges& boundary : part.mesh.boundaries) {
-      const auto found = std::ranges::find(own, boundary.name, &BoundaryEdges::name);
-      if (found != own.end()) boundary.edges = std::move(found->edges);
+      const auto found = by_name.find(boundary.name);
+      if (found != by_name.end()) boundary.edges = std::move(found->second->edges);
     }
     part.triangle_to_block = std::move(loaded.triangle_to_block);
     part.quad_to_block = std::move(loaded.quad_to_block);

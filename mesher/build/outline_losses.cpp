@@ -63,25 +63,34 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
                                      report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
 }
 
-/// Whether the outline is a front and has no segment of a boundary with layers: its edges come with these, as
-/// those of a base behind which a wake begins do, or its loops were dropped before.
-bool is_below_front(const Geometry& geometry, const std::string& name) {
-  const auto boundary = std::ranges::find(geometry.boundaries(), name, &Boundary::name);
-  if (boundary == geometry.boundaries().end() || !boundary->layers) return false;
+/// Of each boundary of the outline, that of its segments; empty where it has none.
+std::vector<Box> boxes_of_boundaries(const Geometry& geometry) {
+  std::vector<Box> boxes(geometry.boundaries().size());
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    if (geometry.boundary(geometry.boundary_of(s)).name == name) return false;
-  }
-  return true;
-}
-
-Box box_of_boundary(const Geometry& geometry, const std::string& name) {
-  Box box;
-  for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    if (geometry.boundary(geometry.boundary_of(s)).name != name) continue;
+    Box& box = boxes[geometry.boundary_of(s).value()];
     box.include(geometry.point(s));
     box.include(geometry.point(geometry.next(s)));
   }
-  return box;
+  return boxes;
+}
+
+Box box_of_boundary(const Geometry& geometry, const std::string& name) {
+  const auto found = std::ranges::find(geometry.boundaries(), name, &Boundary::name);
+  return boxes_of_boundaries(geometry)[found - geometry.boundaries().begin()];
+}
+
+/// The boundaries of which the mesh has no edge. Where the outline is a front and has no segment of a
+/// boundary with layers, its edges come with these, as those of a base behind which a wake begins do, or its
+/// loops were dropped before.
+std::vector<std::string> vanished_from(const Geometry& geometry, const std::vector<char>& has_edges) {
+  const std::vector<Box> boxes = boxes_of_boundaries(geometry);
+  std::vector<std::string> vanished;
+  for (std::size_t b = 0; b < has_edges.size(); ++b) {
+    const Boundary& boundary = geometry.boundaries()[b];
+    const bool is_below_front = boundary.layers && !(boxes[b].low.x <= boxes[b].high.x);
+    if (has_edges[b] == 0 && !is_below_front) vanished.push_back(boundary.name);
+  }
+  return vanished;
 }
 
 /// Twice what each edge adds to the area enclosed, seen from `centre`, one list for each boundary.
@@ -130,6 +139,7 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
     for (const double share : shares[b]) sums.add(b, share);
   }
   const std::vector<double> meshed = sums.over(comm);
+  const std::vector<Box> boxes = boxes_of_boundaries(geometry);
   for (std::size_t b = 0; b < shares.size(); ++b) {
     const double error = meshed[b] / wanted[b] - 1;
     if (whole[b] == 0 || wanted[b] == 0 || std::abs(error) <= largest_area_error || meshed[b] == 0) continue;
@@ -139,8 +149,7 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
                     "does: its leaves "
                     "are too coarse to show the shape; give [boundary.{0}] a smaller spacing, or make "
                     "spacing.min smaller",
-                    name, text(box_of_boundary(geometry, name).centre()), 100 * std::abs(error),
-                    error < 0 ? "less" : "more"));
+                    name, text(boxes[b].centre()), 100 * std::abs(error), error < 0 ? "less" : "more"));
   }
 }
 
@@ -188,11 +197,7 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
   std::vector<char> has_edges(mesh.boundaries.size(), 0);
   for (std::size_t b = 0; b < has_edges.size(); ++b) has_edges[b] = mesh.boundaries[b].edges.empty() ? 0 : 1;
   has_edges = seen_anywhere(comm, has_edges);
-  std::vector<std::string> vanished;
-  for (std::size_t b = 0; b < has_edges.size(); ++b) {
-    if (has_edges[b] == 0 && !is_below_front(geometry, mesh.boundaries[b].name))
-      vanished.push_back(mesh.boundaries[b].name);
-  }
+  std::vector<std::string> vanished = vanished_from(geometry, has_edges);
   if (!may_vanish && !vanished.empty())
     refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
   report.boundaries_vanished = std::move(vanished);

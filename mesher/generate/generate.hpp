@@ -32,7 +32,7 @@ struct MeshInput {
 /// A smoothed mesh and its tree record, complete but for what a file adds.
 struct GeneratedMesh {
   MeshResult result;
-  StageTimes times;    ///< those of the report, and "smooth"
+  StageTimes times;    ///< those of the report, "smooth" and "check"
   LayerReport layers;  ///< of the boundaries that have any
 };
 
@@ -48,7 +48,8 @@ using MeshChange = std::function<void(const MeshInput& input, MeshResult& result
 
 /// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
 /// ends with flips, under the order of nodes that it was made with. First heights of layers that want a y+
-/// follow the measured wall, which the tree keeps. *Collective.* Throws InputError as build_mesh does.
+/// follow the measured wall, which the tree keeps. *Collective.* Throws InputError as build_mesh does, and
+/// Fault where the mesh is not valid (require_sound()).
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
                             const MeshChange& change = {});

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/layers/layer_column.hpp"
 
 namespace quadloop {
@@ -81,30 +82,33 @@ double median_first(std::span<const Column> columns) {
   return *middle;
 }
 
-/// The share of the wall's length between stations that both have the thickness asked for.
-double share_full(const LayerFront& front, BoundaryId boundary) {
-  double reached = 0, all = 0;
+/// What the stations of one boundary tell.
+struct WallFigures {
+  double full_length = 0, length = 0;  ///< between stations that both have the thickness asked for; of all
+  double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< asked for
+
+  double share_full() const { return length > 0 ? full_length / length : 1; }
+};
+
+using FiguresOfWalls = IdVector<BoundaryId, WallFigures>;
+
+/// Of all boundaries, in one walk along the stations.
+FiguresOfWalls figures_of_walls(const LayerFront& front) {
+  FiguresOfWalls walls(front.line.geometry().boundaries().size());
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
-    const std::int32_t next = front.line.next(i);
-    if (!front.line.goes_on(i) || front.line[i].layers != boundary) continue;
-    all += front.line.width(i);
-    if (std::min(share_at(front, i), share_at(front, next)) > full) reached += front.line.width(i);
+    WallFigures& wall = walls[front.line[i].layers];
+    wall.first_least = std::min(wall.first_least, front.line.spec(i).first);
+    wall.first_most = std::max(wall.first_most, front.line.spec(i).first);
+    if (!front.line.goes_on(i)) continue;
+    wall.length += front.line.width(i);
+    const double least = std::min(share_at(front, i), share_at(front, front.line.next(i)));
+    if (least > full) wall.full_length += front.line.width(i);
   }
-  return all > 0 ? reached / all : 1;
+  return walls;
 }
 
-/// The least and the largest first height that the boundary's stations ask for.
-std::pair<double, double> first_asked(const LayerFront& front, BoundaryId boundary) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (std::int32_t i = 0; i < front.line.size(); ++i) {
-    if (front.line[i].layers != boundary) continue;
-    least = std::min(least, front.line.spec(i).first);
-    most = std::max(most, front.line.spec(i).first);
-  }
-  return {least, most};
-}
-
-BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<const Column> columns) {
+BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const WallFigures& wall,
+                              std::span<const Column> columns) {
   const Boundary& boundary = front.line.geometry().boundary(id);
   const LayerSpec& spec = *boundary.layers;
   const auto worst = std::ranges::min_element(
@@ -114,7 +118,8 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<
   report.asked = spec.count;
   report.reached = std::ranges::min(columns, {}, &Column::layers).layers;
   report.columns = std::ssize(columns);
-  std::tie(report.first_asked, report.first_asked_most) = first_asked(front, id);
+  report.first_asked = wall.first_least;
+  report.first_asked_most = wall.first_most;
   report.y_plus = spec.y_plus;
   report.first_least = std::ranges::min(columns, {}, &Column::first).first;
   report.first_median = median_first(columns);
@@ -122,7 +127,7 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, std::span<
   report.growth_least = std::ranges::min(columns, {}, &Column::growth).growth;
   report.thickness_asked = layers_thickness(spec);
   report.share_least = worst->share;
-  report.share_full = share_full(front, id);
+  report.share_full = wall.share_full();
   report.least = worst->foot;
   return report;
 }
@@ -178,12 +183,13 @@ BoundaryLayerReport report_strip(const LayerStrip& strip) {
 
 LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
   const std::vector<Column> columns = all_columns(comm, front, outer);
+  const FiguresOfWalls walls = figures_of_walls(front);
   LayerReport report;
   for (auto begin = columns.begin(); begin != columns.end();) {
     const BoundaryId boundary = begin->boundary;
     const auto end =
         std::find_if(begin, columns.end(), [&](const Column& c) { return c.boundary != boundary; });
-    report.push_back(report_of(front, boundary, std::span(begin, end)));
+    report.push_back(report_of(front, boundary, walls[boundary], std::span(begin, end)));
     begin = end;
   }
   for (const LayerStrip& strip : front.strips) report.push_back(report_strip(strip));

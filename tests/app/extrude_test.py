@@ -86,6 +86,12 @@ class Extrude(ProgramTest):
         self.refused(1, ["--thickness: the layer from 0 to ", "is out of range", "1e-100"],
                      "extrude", "a.mesh", "-o", "b.su2", "--layers", "1", "--thickness", "1e-320")
 
+    def test_more_cells_than_allowed_are_refused(self):
+        self.refused(1, ["b.su2: would have ", " cells in 40 layers, ", " on the disk or more, but --max-cells allows 500; ask for fewer layers, or allow more "],
+                     "extrude", "a.mesh", "-o", "b.su2", "--layers", "40", "--thickness", "1", "--max-cells", "500")
+        self.assertFalse((self.folder / "b.su2").exists())
+        self.done("extrude", "a.mesh", "-o", "b.su2", *EVEN, "--max-cells", "100000")
+
     def test_the_solution_goes_along(self):
         (self.folder / "s.mesh").write_text(with_velocity((self.folder / "a.mesh").read_text()))
         self.done("extrude", "s.mesh", "-o", "s.vtu", *EVEN, "--axis", "y", "-q")

@@ -3,14 +3,13 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
-#include <ctime>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "io/mesh_file.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/support/growth.hpp"
 #include "tests/support/world.hpp"
 
 namespace {
@@ -41,6 +40,8 @@ int MPI_Allgatherv(const void* send, int count, MPI_Datatype type, void* receive
 namespace quadloop {
 namespace {
 
+using test::expect_linear;
+using test::processor_seconds;
 using test::TemporaryFolder;
 using test::world;
 
@@ -124,17 +125,6 @@ TEST(ManyBoundaries, ComeBackFromAnyNumberOfRanks) {
           << format;
     }
   }
-}
-
-double processor_seconds(const std::function<void()>& work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-/// Eight times as many may take twenty times as long, where the square would be 64.
-void expect_linear(const std::string& what, double few, double many) {
-  EXPECT_LT(many, 20 * few + 0.2) << what << ": " << few << " s, then " << many << " s";
 }
 
 TEST(ManyBoundaries, TakeTimeInProportion) {

@@ -25,9 +25,10 @@ namespace quadloop {
 namespace {
 
 [[noreturn]] void report_unsound(const std::string& what, Point place) {
-  throw Fault(fmt::format("the mesh that was made is not valid, and nothing is written: {} at ({}, {}); please "
-                          "report it with the case",
-                          what, place.x, place.y));
+  throw Fault(
+      fmt::format("the mesh that was made is not valid, and nothing is written: {} at ({}, {}); please "
+                  "report it with the case",
+                  what, place.x, place.y));
 }
 
 /// A node's place at random in the plane of 64-bit integers, where products wrap around.

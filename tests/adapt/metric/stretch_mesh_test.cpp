@@ -105,9 +105,11 @@ void expect_counted_by_leaves(const MeshResult& result) {
   }
 }
 
+std::int64_t nodes_of(const Mesh& mesh) { return world().sum(std::int64_t{mesh.owned_nodes}); }
+
 TEST(StretchMesh, TellsHowManyNodesTheCaseTakesAtLeast) {
   const Stretched made = stretched(world(), holed_square(0.25), 1, 60);
-  const std::int64_t nodes = world().sum(std::int64_t{made.result.mesh.owned_nodes});
+  const std::int64_t nodes = nodes_of(made.result.mesh);
   ASSERT_GT(nodes, 60);
   ASSERT_EQ(made.report.warnings.size(), 1U);
   const std::string &told = made.report.warnings[0], words = "give at least ";
@@ -117,6 +119,15 @@ TEST(StretchMesh, TellsHowManyNodesTheCaseTakesAtLeast) {
   EXPECT_LT(10 * least, 11 * nodes);
   const StretchReport again = stretched(world(), holed_square(0.25), 1, least).report;
   EXPECT_TRUE(again.warnings.empty()) << told << "; then " << again.warnings[0];
+}
+
+TEST(StretchMesh, HasNoMoreNodesThanAllowedWhereTheTreesMeshHasNot) {
+  const std::int64_t of_tree = nodes_of(generate_mesh(world(), holed_square(0.25)).result.mesh);
+  for (std::int64_t allowed = of_tree; allowed < of_tree + 16; allowed += 3) {
+    const Stretched made = stretched(world(), holed_square(0.25), 1, allowed);
+    EXPECT_LE(nodes_of(made.result.mesh), allowed);
+    expect_counted_by_leaves(made.result);
+  }
 }
 
 /// The share of the edges from 1 / sqrt(2) to sqrt(2).

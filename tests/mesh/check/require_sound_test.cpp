@@ -1,5 +1,5 @@
-// What a mesh must obey before it is written, on any number of ranks: each kind of fault ends as a fault of the
-// program, with its place.
+// What a mesh must obey before it is written, on any number of ranks: each kind of fault ends as a fault of
+// the program, with its place.
 #include "mesher/mesh/check/require_sound.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,8 @@ TEST(RequireSound, EdgesHaveACellOrTheBoundaryOnEitherSide) {
   expect_fault(unmatched, [](Mesh& m) { m.triangles.push_back(m.triangles[0]); });
   expect_fault(unmatched, [](Mesh& m) { m.boundaries[0].edges.pop_back(); });
   expect_fault(unmatched, [](Mesh& m) { m.boundaries[1].edges.push_back(m.boundaries[1].edges[0]); });
-  expect_fault(unmatched, [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
+  expect_fault(unmatched,
+               [](Mesh& m) { std::swap(m.boundaries[0].edges[0][0], m.boundaries[0].edges[0][1]); });
   expect_fault(unmatched, [](Mesh& m) {  // a crack: the cell gets nodes of its own
     for (NodeId& corner : m.quads[3]) {
       m.points.push_back(m.point(corner));
