@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
@@ -26,6 +27,30 @@ std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
         (std::ranges::count(start.names, start.cells.names[i]) > 0 ? "cell_" : "") + start.cells.names[i],
         report.drift[start.width() + i]);
   return named;
+}
+
+namespace {
+
+/// Rounding changes a conserved integral by less than this fraction of its size.
+constexpr double kept_to = 1e-10;
+
+}  // namespace
+
+std::vector<std::string> drift_warnings(const CarriedMesh& carried) {
+  const TransferReport& report = carried.report;
+  const double allowed = std::max(kept_to, 10 * std::abs(report.area_change));
+  const auto size = [&](std::size_t k) { return std::abs(report.relative_drift[k]); };
+  std::size_t worst = report.conserved_from, count = 0;
+  for (std::size_t k = report.conserved_from; k < report.relative_drift.size(); ++k) {
+    count += size(k) > allowed ? 1 : 0;
+    if (size(k) > size(worst)) worst = k;
+  }
+  if (count == 0) return {};
+  return {fmt::format(
+      "the transfer to the new mesh changed the integral of {} by {:.2g} of its size{}; it should be "
+      "kept to {:g}, except where layers move (docs/adaptation.md)",
+      carried.drifts()[worst].first, report.relative_drift[worst],
+      count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
 }
 
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
@@ -53,6 +78,8 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
       transfer(comm, old.mesh, old.solution, carried.generated.result.mesh, plan.transfer);
   carried.start = std::move(transferred.field);
   carried.report = std::move(transferred.report);
+  for (std::string& warning : drift_warnings(carried))
+    carried.generated.result.report.warnings.push_back(std::move(warning));
   carried.times.end();
   return carried;
 }

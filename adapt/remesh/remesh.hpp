@@ -41,6 +41,10 @@ struct CarriedMesh {
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old);
 
+/// A warning where the transfer changed an integral that it has to keep by more than 1e-10 of its size. Two
+/// meshes that cover different regions cannot keep it: there up to ten times the change of area is no fault.
+std::vector<std::string> drift_warnings(const CarriedMesh& carried);
+
 /// What in a case makes cells that follow a solution, as a text for messages; null where nothing does. A tree
 /// keeps none of it.
 const char* setting_that_follows(const MeshInput& input);

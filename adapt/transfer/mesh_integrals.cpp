@@ -136,4 +136,10 @@ CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const 
   return integrals;
 }
 
+double total_area(const Communicator& comm, const Mesh& mesh) {
+  std::vector<double> areas;
+  for (const CellShape& shape : cell_shapes(mesh)) areas.push_back(shape.area);
+  return reproducible_sum(comm, areas);
+}
+
 }  // namespace quadloop

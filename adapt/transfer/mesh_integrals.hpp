@@ -26,4 +26,7 @@ struct CellIntegrals {
 /// *Collective.*
 CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells);
 
+/// Of the cells of all ranks; the same bits on any number of ranks. *Collective.*
+double total_area(const Communicator& comm, const Mesh& mesh);
+
 }  // namespace quadloop

@@ -282,6 +282,9 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
       transferred.field.cells = carried_cells(comm, shares, old_side, old.cells, new_side, report);
   }
   report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old), report);
+  report.conserved_from = conserves ? 0 : old.width();
+  if (report.conserved_from < report.drift.size())
+    report.area_change = total_area(comm, new_mesh) / total_area(comm, old_mesh) - 1;
   return transferred;
 }
 

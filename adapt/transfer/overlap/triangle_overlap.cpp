@@ -19,6 +19,14 @@ struct Polygon {
   }
 };
 
+/// Where an edge whose ends have these heights over a line, of different signs, crosses it, as a fraction of the
+/// edge. The signs are exact and the heights rounded: those of an edge that lies on the line within rounding
+/// may be equal, and any of its points is on the line then.
+double crossing_fraction(double height_from, double height_to) {
+  const double fall = height_from - height_to;
+  return fall == 0 ? 0.5 : std::clamp(height_from / fall, 0.0, 1.0);
+}
+
 /// The part to the left of the line from a to b.
 Polygon left_part(const Polygon& polygon, Point a, Point b) {
   Polygon left;
@@ -28,8 +36,7 @@ Polygon left_part(const Polygon& polygon, Point a, Point b) {
     if (side_from >= 0) left.add(from);
     if (side_from * side_to >= 0) continue;
     const double height_from = cross(b - a, from - a), height_to = cross(b - a, to - a);
-    const double share = std::clamp(height_from / (height_from - height_to), 0.0, 1.0);
-    left.add(from + share * (to - from));
+    left.add(from + crossing_fraction(height_from, height_to) * (to - from));
   }
   return left;
 }

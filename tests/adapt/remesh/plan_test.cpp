@@ -171,6 +171,41 @@ TEST(Remesh, CarriesTheSolutionOverByThePlan) {
   EXPECT_EQ(again.start.values, solved.solution.values);
 }
 
+TEST(Remesh, WarnsOfAConservedIntegralThatDrifts) {
+  CarriedMesh carried;
+  carried.start.names = {"p"};
+  carried.start.cells.names = {"rho", "p"};
+  TransferReport& report = carried.report;
+  report.drift = report.relative_drift = {0.1, -3e-9, 2e-11};
+  report.conserved_from = 1;
+  const std::vector<std::string> warnings = drift_warnings(carried);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("integral of rho by -3e-09 of its size;"), std::string::npos) << warnings[0];
+  report.area_change = 1e-9;
+  EXPECT_TRUE(drift_warnings(carried).empty()) << "the meshes differ in area by as much";
+  report.area_change = 0;
+  report.relative_drift = {0.1, 1e-8, 1e-7};
+  EXPECT_NE(drift_warnings(carried).at(0).find("of cell_p by 1e-07 of its size, and those of 1 more"),
+            std::string::npos)
+      << drift_warnings(carried)[0];
+  report.relative_drift = {0.1, 9e-11, 0};
+  EXPECT_TRUE(drift_warnings(carried).empty());
+}
+
+TEST(Remesh, KeepsConservedIntegralsBetweenSlantedSides) {
+  MeshInput input = square_input();
+  input.geometry = Geometry({{"far", 0, 30, "farfield"}}, {{0, 0}, {1, 0.1}, {1.07, 1.01}, {-0.02, 0.93}}, {0, 4},
+                            std::vector<BoundaryId>(4, BoundaryId{0}));
+  const SolvedMesh solved = solved_front(world(), input);
+  AdaptOptions options = adapt_options();
+  options.transfer = TransferKind::conservative;
+  const CarriedMesh carried =
+      carry_over(world(), input, plan_adaptation(world(), input, options, solved), solved);
+  EXPECT_NEAR(carried.report.relative_drift.at(0), 0, 1e-12);
+  EXPECT_NEAR(carried.report.area_change, 0, 1e-12);
+  EXPECT_TRUE(drift_warnings(carried).empty());
+}
+
 TEST(OwnMesh, IsTheOneThatTheTreeWasMadeWith) {
   SolvedMesh solved = solved_front(world(), square_input());
   EXPECT_NO_THROW(require_own_mesh(world(), solved, "mesh", "tree"));

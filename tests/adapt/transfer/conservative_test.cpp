@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/transfer/overlap/overlap_integrals.hpp"
 #include "adapt/transfer/overlap/triangle_overlap.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
@@ -61,6 +62,45 @@ TEST(TriangleOverlap, OfTrianglesThatCrossOrTouch) {
   EXPECT_EQ(overlap_of(a, {{{5, 5}, {6, 5}, {5, 6}}}).area, 0);
   const std::array<Point, 3> star{{{1, 1.5}, {-1, 0.25}, {1.5, -0.5}}};
   EXPECT_NEAR(overlap_of(a, star).area, overlap_of(star, a).area, 1e-15);
+}
+
+/// Sides that lie on each other within rounding, exactly on it or on either side.
+TEST(TriangleOverlap, OfTrianglesWhoseSidesLieOnEachOther) {
+  for (std::int64_t i = 0; i < 2000; ++i) {
+    const auto in_unit = [i](int which) { return 0.5 + 0.5 * scattered(7, i, which); };
+    const std::array<Point, 3> whole{{{in_unit(0), in_unit(1)}, {5 + in_unit(2), 1 + in_unit(3)}, {2, 6}}};
+    const auto& [a, b, c] = whole;
+    const Point on_ab = a + in_unit(4) * (b - a), on_bc = b + in_unit(5) * (c - b),
+                other = a + in_unit(6) * (b - a);
+    const std::array<std::array<Point, 3>, 3> three{{{a, on_ab, c}, {on_ab, b, on_bc}, {on_ab, on_bc, c}}};
+    const std::array<std::array<Point, 3>, 2> two{{{a, other, c}, {other, b, c}}};
+    double of_whole = 0, by_whole = 0, pairs = 0;
+    for (const auto& part : three) {
+      of_whole += overlap_of(whole, part).area;
+      by_whole += overlap_of(part, whole).area;
+      for (const auto& half : two) pairs += overlap_of(part, half).area;
+    }
+    const double area = area_of(whole);
+    ASSERT_NEAR(of_whole / area, 1, 1e-13) << i;
+    ASSERT_NEAR(by_whole / area, 1, 1e-13) << i;
+    ASSERT_NEAR(pairs / area, 1, 1e-13) << i;
+  }
+}
+
+TEST(ConservativeTransfer, KeepsIntegralsBetweenSlantedSides) {
+  for (const double slope : {0.1, 1 / 3.0, 0.7, 2.3}) {
+    const auto slanted = [slope](const Grid& grid, std::uint64_t seed) {
+      Whole whole = jittered(grid, seed);
+      for (Point& p : whole.mesh.points) p = {p.x - slope * p.y / 7, p.y + slope * p.x};
+      return whole;
+    };
+    const Mesh old_mesh = slanted({23, {1, 1}, true}, 3).part(world()),
+               new_mesh = slanted({37, {1, 1}, false}, 4).part(world());
+    const Transferred result = transfer(world(), old_mesh, field_with_cells(old_mesh, step), new_mesh,
+                                        TransferKind::conservative);
+    for (const double drift : result.report.relative_drift) EXPECT_NEAR(drift, 0, 1e-12) << slope;
+    EXPECT_NEAR(result.report.area_change, 0, 1e-13);
+  }
 }
 
 TEST(ConservativeTransfer, KeepsIntegralsAndExtrema) {
