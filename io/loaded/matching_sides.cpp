@@ -1,0 +1,85 @@
+#include "io/loaded/matching_sides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace quadloop {
+
+namespace {
+
+constexpr double matching = 1e-9;  // of the mesh's extent
+
+/// The nodes of a boundary from end to end with the domain to the left; none where it is closed or in parts.
+std::vector<NodeId> chain_of(const BoundaryEdges& boundary) {
+  auto edges = boundary.edges;
+  std::ranges::sort(edges);
+  std::vector<NodeId> ends;
+  for (const auto& edge : edges) ends.push_back(edge[1]);
+  std::ranges::sort(ends);
+  const auto is_end = [&](NodeId node) { return std::ranges::binary_search(ends, node); };
+  const auto first = std::ranges::find_if(edges, [&](const auto& edge) { return !is_end(edge[0]); });
+  if (first == edges.end()) return {};
+  std::vector<NodeId> chain{(*first)[0]};
+  while (chain.size() <= edges.size()) {
+    const auto next = std::ranges::lower_bound(edges, chain.back(), {}, [](const auto& e) { return e[0]; });
+    if (next == edges.end() || (*next)[0] != chain.back()) break;
+    chain.push_back((*next)[1]);
+  }
+  return chain.size() == edges.size() + 1 ? chain : std::vector<NodeId>{};
+}
+
+/// An open side, and what a rigid motion keeps of it.
+struct Side {
+  std::vector<NodeId> nodes;
+  double span = 0;  ///< from end to end
+};
+
+/// p times q as complex numbers.
+Point product(Point p, Point q) { return {p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x}; }
+
+/// Whether the one walked forwards lies on the other walked backwards after the rigid motion of its ends.
+bool match(const Mesh& mesh, const Side& one, const Side& other, double enough) {
+  if (one.nodes.size() != other.nodes.size() || !(std::abs(one.span - other.span) <= enough)) return false;
+  const Point from = mesh.point(one.nodes.front()), to = mesh.point(other.nodes.back());
+  const Point before = mesh.point(one.nodes.back()) - from, after = mesh.point(other.nodes.front()) - to;
+  const Point turn = (1 / dot(before, before)) * product(after, {before.x, -before.y});
+  const std::size_t count = one.nodes.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point image = to + product(turn, mesh.point(one.nodes[k]) - from);
+    if (length(image - mesh.point(other.nodes[count - 1 - k])) > enough) return false;
+  }
+  return true;
+}
+
+std::vector<Side> open_sides(const Mesh& mesh, double enough) {
+  std::vector<Side> sides;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    Side side{chain_of(boundary), 0};
+    if (side.nodes.empty()) continue;
+    side.span = length(mesh.point(side.nodes.back()) - mesh.point(side.nodes.front()));
+    if (side.span > enough) sides.push_back(std::move(side));
+  }
+  return sides;
+}
+
+}  // namespace
+
+std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) {
+  Box box;
+  for (const Point p : mesh.points) box.include(p);
+  const double enough = matching * std::max(box.width(), box.height());
+  std::vector<Side> sides = open_sides(mesh, enough);
+  std::ranges::sort(sides, {}, [](const Side& side) { return std::tuple(side.nodes.size(), side.span); });
+  std::vector<NodeId> nodes;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (!match(mesh, sides[i - 1], sides[i], enough)) continue;
+    for (const Side* side : {&sides[i - 1], &sides[i]})
+      nodes.insert(nodes.end(), side->nodes.begin(), side->nodes.end());
+  }
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace quadloop
