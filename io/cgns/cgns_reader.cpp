@@ -11,6 +11,7 @@
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_values.hpp"
+#include "io/cgns/cgns_zones.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/files/reading/separate_reader.hpp"
 #include "io/loaded/layers_text.hpp"
@@ -342,10 +343,15 @@ LoadedMesh read_here(const std::string& path) {
   LoadedMesh loaded;
   CgnsBoundaries boundaries;
   loaded.blocks = 0;
-  for (int zone = 1; zone <= zones; ++zone) ZoneReader(file, 1, zone, loaded, boundaries).read();
+  std::vector<std::size_t> first_nodes;
+  for (int zone = 1; zone <= zones; ++zone) {
+    first_nodes.push_back(loaded.mesh.points.size());
+    ZoneReader(file, 1, zone, loaded, boundaries).read();
+  }
   if (zones == 0) throw InputError(path + ": holds no zone");
-  loaded.mesh.owned_nodes = size32(loaded.mesh.points);
   require_whole_solution(loaded, path);
+  unite_zones(loaded, first_nodes);
+  loaded.mesh.owned_nodes = size32(loaded.mesh.points);
   return loaded;
 }
 
