@@ -10,22 +10,22 @@ namespace quadloop {
 namespace {
 
 /// An edge as one cell has it.
-struct Side {
+struct EdgeOfCell {
   NodeId low, high;
   std::int32_t cell;
   bool rising;  ///< whether the cell runs from low to high
 
-  bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
+  bool same_edge(const EdgeOfCell& other) const { return low == other.low && high == other.high; }
 };
 
 /// Sides of the same edge stand one after another.
-std::vector<Side> sorted_sides(const Mesh& mesh) {
-  std::vector<Side> sides;
+std::vector<EdgeOfCell> sorted_edges(const Mesh& mesh) {
+  std::vector<EdgeOfCell> sides;
   sides.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     if (from != to) sides.push_back({std::min(from, to), std::max(from, to), cell, from < to});
   });
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const EdgeOfCell& a, const EdgeOfCell& b) {
     return std::tie(a.low, a.high, a.cell, a.rising) < std::tie(b.low, b.high, b.cell, b.rising);
   });
   return sides;
@@ -33,10 +33,10 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
 
 ParitySets pieces_of(const Mesh& mesh) {
   ParitySets pieces(mesh.triangles.size() + mesh.quads.size());
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<EdgeOfCell> sides = sorted_edges(mesh);
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end =
-        std::find_if(first, sides.end(), [&](const Side& side) { return !side.same_edge(*first); });
+        std::find_if(first, sides.end(), [&](const EdgeOfCell& side) { return !side.same_edge(*first); });
     if (end - first == 2) pieces.join(first[0].cell, first[1].cell, first[0].rising == first[1].rising);
     first = end;
   }
