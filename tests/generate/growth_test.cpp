@@ -1,4 +1,6 @@
 // Names, layers, lines and files by the hundred: time grows with their number, not with its square.
+#include "tests/support/growth.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/layers/layer_report.hpp"
-#include "tests/support/growth.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -29,9 +30,8 @@ Geometry islands(int count, double size, const LayerSpec& layers = one_layer) {
   std::vector<BoundaryId> of_segment(4, BoundaryId{0});
   for (int island = 0; island < count; ++island) {
     const Point low{4 * (island % rows) + 2.013, 4 * (island / rows) + 2.017};
-    boundaries.push_back({.name = "an_island_of_a_long_name_" + std::to_string(island),
-                          .spacing = size,
-                          .layers = layers});
+    boundaries.push_back(
+        {.name = "an_island_of_a_long_name_" + std::to_string(island), .spacing = size, .layers = layers});
     for (const Point corner : {Point{0, 0}, Point{0, size}, Point{size, size}, Point{size, 0}}) {
       points.push_back(low + corner);
       of_segment.push_back(BoundaryId{size32(boundaries) - 1});
@@ -65,7 +65,8 @@ TEST(Growth, OfBoundariesThatVanish) {
   expect_linear("boundaries that vanish", 2000, [](int count) {
     const Geometry geometry = islands(count, 0.16);
     Mesh mesh;
-    for (const Boundary& boundary : geometry.boundaries()) mesh.boundaries.push_back({boundary.name, "none", {}});
+    for (const Boundary& boundary : geometry.boundaries())
+      mesh.boundaries.push_back({boundary.name, "none", {}});
     MeshReport report;
     report_losses(world(), geometry, mesh, true, report);
     EXPECT_EQ(std::ssize(report.boundaries_vanished), count + 1);

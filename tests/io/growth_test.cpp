@@ -1,4 +1,7 @@
-// Blocks, variables, temporaries and parts by the thousand: time grows with their number, not with its square.
+// Blocks, variables, temporaries and parts by the thousand: time grows with their number, not with its
+// square.
+#include "tests/support/growth.hpp"
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -9,7 +12,6 @@
 #include "io/mesh_file.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/support/growth.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -38,7 +40,8 @@ LoadedMesh mesh_of_variables(std::int32_t count) {
   whole.triangle_to_block.assign(whole.mesh.triangles.size(), 0);
   whole.quad_to_block.assign(whole.mesh.quads.size(), 0);
   Field& field = whole.solution.emplace();
-  for (std::int32_t v = 0; v < count; ++v) field.names.push_back("variable_of_a_long_name_" + std::to_string(v));
+  for (std::int32_t v = 0; v < count; ++v)
+    field.names.push_back("variable_of_a_long_name_" + std::to_string(v));
   field.values.assign(whole.mesh.points.size() * count, 1.5);
   return whole;
 }
