@@ -6,6 +6,7 @@
 
 #include "mesher/base/progress.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
 namespace quadloop {
@@ -95,6 +96,7 @@ class Loop {
     const QualitySummary quality = summarise_quality(comm_, end.solved.mesh);
     CycleRecord record;
     record.cycle = cycle;
+    record.solution_digest = solution_digest(comm_, end.solved.mesh, end.solved.solution);
     record.nodes = quality.counts.nodes;
     record.triangles = quality.counts.triangles;
     record.quads = quality.counts.quads;

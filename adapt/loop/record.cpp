@@ -74,6 +74,7 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("geometry_digest", fmt::format("{:016x}", record.geometry_digest));
   if (record.template_digest != 0)
     json.add("template_digest", fmt::format("{:016x}", record.template_digest));
+  json.add("solution_digest", fmt::format("{:016x}", record.solution_digest));
   json.add("nodes", record.nodes);
   json.add("triangles", record.triangles);
   json.add("quads", record.quads);
@@ -177,7 +178,7 @@ std::optional<double> recorded_number(const std::string& json, const std::string
 std::optional<RecordedCase> recorded_case(const std::string& json) {
   const auto of_case = digest_in(json, "case_digest"), of_geometry = digest_in(json, "geometry_digest");
   if (!of_case || !of_geometry || !json.ends_with("}\n}\n")) return {};
-  return RecordedCase{*of_case, *of_geometry, settings_in(json)};
+  return RecordedCase{*of_case, *of_geometry, digest_in(json, "solution_digest"), settings_in(json)};
 }
 
 }  // namespace quadloop

@@ -28,6 +28,7 @@ struct CycleRecord {
   std::uint64_t case_digest = 0;      ///< of all that the run depends on
   std::uint64_t geometry_digest = 0;  ///< of the outline alone
   std::uint64_t template_digest = 0;  ///< of the user's case for SU2 or OpenFOAM; 0: none
+  std::uint64_t solution_digest = 0;  ///< of the values that the cycle's solution has
   CaseSettings settings;              ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
   double worst_angle = 0;          ///< the smallest corner, degrees
@@ -74,6 +75,7 @@ std::string json_text(const CycleRecord& record);
 /// What a record's text says of the case. Read line by line, as json_text writes it.
 struct RecordedCase {
   std::uint64_t case_digest = 0, geometry_digest = 0;
+  std::optional<std::uint64_t> solution_digest;  ///< records of earlier versions have none
   CaseSettings settings;
 };
 

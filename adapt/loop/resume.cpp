@@ -11,6 +11,7 @@
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/generate/digests.hpp"
 
 namespace quadloop {
 
@@ -67,6 +68,17 @@ SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   return solved;
 }
 
+/// Against the digest in the cycle's record. *Collective.*
+void require_untouched_solution(const Communicator& comm, const SolvedMesh& solved, const CyclePaths& paths,
+                                const std::string& folder) {
+  const std::uint64_t digest = solution_digest(comm, solved.mesh, solved.solution);
+  comm.together([&] {
+    const auto recorded = record_in(folder).solution_digest;
+    if (recorded && *recorded != digest)
+      throw InputError(paths.native_mesh() + ": its solution is not the one that record.json was written for");
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
@@ -93,6 +105,7 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
     const CyclePaths paths{folder};
     SolvedMesh solved = read_cycle(comm, paths);
     require_untouched_mesh(comm, solved, paths.native_mesh(), paths.tree());
+    require_untouched_solution(comm, solved, paths, folder);
     comm.together([&] {
       if (!comm.is_root()) return;
       for (const std::string& format : default_formats()) {

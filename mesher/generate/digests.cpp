@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <optional>
+#include <span>
 #include <variant>
 
 #include "mesher/base/mixed_bits.hpp"
@@ -67,6 +68,26 @@ class WordDigest {
   std::uint64_t state_ = 0x6a09e667f3bcc908ULL;
 };
 
+/// Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow. *Collective.*
+std::uint64_t sum_over_ranks(const Communicator& comm, std::uint64_t own) {
+  const std::uint64_t low = comm.sum(own & 0xffffffffULL), high = comm.sum(own >> 32);
+  return low + (high << 32);
+}
+
+/// Of rows of `width` values, each with the number over all ranks that `number_of` has for it; those of all
+/// ranks add up.
+template <class NumberOf>
+std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, const NumberOf& number_of) {
+  std::uint64_t sum = 0;
+  for (std::size_t begin = 0; begin < values.size(); begin += width) {
+    WordDigest of_row;
+    of_row.add(static_cast<std::uint64_t>(number_of(static_cast<std::int64_t>(begin / width))));
+    for (const double value : values.subspan(begin, width)) of_row.add(value);
+    sum += of_row.value();
+  }
+  return sum;
+}
+
 }  // namespace
 
 // By name, so that an option more does not compile before it is thought of here.
@@ -118,10 +139,26 @@ std::uint64_t digest_of_owned(const Mesh& mesh) {
 }
 
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh) {
-  const std::uint64_t sum = digest_of_owned(mesh);
-  // Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow.
-  const std::uint64_t low = comm.sum(sum & 0xffffffffULL), high = comm.sum(sum >> 32);
-  return low + (high << 32);
+  return sum_over_ranks(comm, digest_of_owned(mesh));
+}
+
+std::uint64_t solution_digest(const Communicator& comm, const Mesh& mesh, const Field& solution) {
+  WordDigest whole;
+  for (const auto* names : {&solution.names, &solution.cells.names}) {
+    whole.add(names->size());
+    for (const std::string& name : *names) whole.add(text_digest(name));
+  }
+  for (const double constant : solution.constants) whole.add(constant);
+  const std::int64_t triangles = std::ssize(mesh.triangles), first_triangle = comm.exclusive_sum(triangles),
+                     first_quad = comm.sum(triangles) + comm.exclusive_sum(std::ssize(mesh.quads));
+  const std::size_t of_nodes = mesh.owned_nodes * solution.width();
+  whole.add(sum_over_ranks(comm, digest_of_rows(std::span(solution.values).first(of_nodes), solution.width(),
+                                                [&](std::int64_t node) { return mesh.first_node + node; })));
+  whole.add(sum_over_ranks(
+      comm, digest_of_rows(solution.cells.values, solution.cells.width(), [&](std::int64_t cell) {
+        return cell < triangles ? first_triangle + cell : first_quad + cell - triangles;
+      })));
+  return whole.value();
 }
 
 }  // namespace quadloop

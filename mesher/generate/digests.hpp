@@ -6,6 +6,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
+#include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -22,5 +23,9 @@ std::uint64_t digest_of_owned(const Mesh& mesh);
 /// A number that changes with any node's coordinates and does not depend on the number of ranks.
 /// *Collective.*
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh);
+
+/// A number that changes with any value, constant or name of a solution and does not depend on the number of
+/// ranks. *Collective.*
+std::uint64_t solution_digest(const Communicator& comm, const Mesh& mesh, const Field& solution);
 
 }  // namespace quadloop

@@ -42,6 +42,7 @@ TEST(Record, ItsNumbersComeBack) {
 
 TEST(Record, ItsBytesStay) {
   CycleRecord record = sample();
+  record.solution_digest = 7;
   record.nodes = 7;
   record.worst_angle = 30.5;
   record.deviation = 1.0 / 0.0;
@@ -51,6 +52,7 @@ TEST(Record, ItsBytesStay) {
   "cycle": 3,
   "case_digest": "0123456789abcdef",
   "geometry_digest": "fedcba9876543210",
+  "solution_digest": "0000000000000007",
   "nodes": 7,
   "triangles": 0,
   "quads": 0,
@@ -70,6 +72,15 @@ TEST(Record, ItsBytesStay) {
   "seconds": {"mesh": 0.25}
 }
 )");
+}
+
+TEST(Record, OfAnEarlierVersionHasNoDigestOfTheSolution) {
+  std::string text = json_text(sample());
+  const std::string line = "  \"solution_digest\": \"0000000000000000\",\n";
+  ASSERT_EQ(recorded_case(text)->solution_digest, 0U);
+  text.erase(text.find(line), line.size());
+  ASSERT_TRUE(recorded_case(text).has_value());
+  EXPECT_FALSE(recorded_case(text)->solution_digest.has_value());
 }
 
 TEST(Record, NoPartOfOneIsWhole) {

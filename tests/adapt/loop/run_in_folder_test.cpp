@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "adapt/loop/cycle_files.hpp"
 #include "io/native/native_file.hpp"
@@ -205,6 +206,32 @@ TEST(RunInFolder, AnotherCaseIsNotGoneOnWith) {
   ASSERT_EQ(heard.warnings.size(), 1U);
   EXPECT_TRUE(heard.warnings[0].starts_with("solver.iterations was 3, is now 4")) << heard.warnings[0];
   EXPECT_THROW(heard.run(longer, folder.file("run"), false), InputError) << "the folder is not empty";
+}
+
+/// Changes one digit of the last value in a file.
+void change_a_digit(const std::string& path) {
+  std::string text = test::bytes_of(path);
+  const std::size_t at = text.find_last_of("0123456789");
+  text[at] = text[at] == '1' ? '2' : '1';
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+TEST(RunInFolder, ASolutionWithAnotherValueIsNotGoneOnFrom) {
+  const TemporaryFolder folder;
+  Heard heard;
+  heard.run(vortex_case(0), folder.file("run"), false);
+  world().barrier();
+  const std::string mesh = folder.file("run/cycle_00/mesh.mesh");
+  if (world().is_root()) change_a_digit(mesh);
+  world().barrier();
+  ASSERT_TRUE(read_native(mesh).solution.has_value()) << "the file is whole";
+  try {
+    heard.run(vortex_case(1), folder.file("run"), true);
+    FAIL() << "the run goes on from a damaged solution";
+  } catch (const InputError& fault) {
+    EXPECT_TRUE(std::string(fault.what()).starts_with(mesh)) << fault.what();
+    EXPECT_NE(std::string(fault.what()).find("remove the folder"), std::string::npos) << fault.what();
+  }
 }
 
 TEST(CommandSolver, TheStartingStateIsOfTheSolutionsFormatWhereItStandsAlone) {
