@@ -19,6 +19,7 @@ namespace quadloop {
 namespace {
 
 constexpr double least_corner = 10;  // degrees: what turns less is no counterpart of a corner
+constexpr double most_stretched = 2;  // between vertices that stay, or it shortens to the inverse of that
 
 using NameSet = std::set<std::string>;
 
@@ -229,11 +230,86 @@ std::optional<OutlineMap::LoopMap> OutlineMap::point_by_point(std::int32_t loop,
   return map;
 }
 
+std::vector<OutlineMap::Anchor> OutlineMap::standing_vertices(std::int32_t loop, std::int32_t image) const {
+  std::vector<Anchor> standing;
+  for_each_vertex(from_, loop, [&](std::int32_t v) {
+    const OutlinePlace place = new_path_.locate(from_.point(v), name_of_segment(from_, v));
+    if (place.loop == image) standing.push_back({old_path_.arc_of(v), place.arc});
+  });
+  return standing;
+}
+
+OutlineMap::LoopMap OutlineMap::with_standing(std::int32_t loop, const LoopMap& map,
+                                              std::vector<Anchor> standing) const {
+  const double old_length = old_path_.loop_length(loop), new_length = new_path_.loop_length(map.image);
+  for (Anchor& anchor : standing) {
+    if (anchor.from < map.from.front()) anchor.from += old_length;
+  }
+  std::ranges::stable_sort(standing, {}, &Anchor::from);
+  LoopMap denser{map.image, {}, {}, {}};
+  const auto append = [&denser](const Anchor& anchor) {
+    denser.from.push_back(anchor.from);
+    denser.to.push_back(anchor.to);
+  };
+  auto next = standing.begin();
+  for (std::size_t k = 0; k < map.from.size(); ++k) {
+    const bool last = k + 1 == map.from.size();
+    const Anchor begin{map.from[k], map.to[k]},
+        end = last ? Anchor{map.from.front() + old_length, map.to.front() + new_length}
+                   : Anchor{map.from[k + 1], map.to[k + 1]};
+    append(begin);
+    std::vector<Anchor> between;
+    for (; next != standing.end() && next->from < end.from; ++next) {
+      if (next->from <= begin.from) continue;
+      while (next->to < begin.to) next->to += new_length;
+      between.push_back(*next);
+    }
+    if (may_stay(begin, between, end)) std::ranges::for_each(between, append);
+  }
+  return denser;
+}
+
+bool OutlineMap::may_stay(Anchor begin, std::span<const Anchor> between, Anchor end) {
+  const auto is_stretched = [&](const Anchor& after) {
+    const double before = after.from - begin.from, now = after.to - begin.to;
+    begin = after;
+    return !(now <= most_stretched * before && before <= most_stretched * now);
+  };
+  return std::ranges::none_of(between, is_stretched) && !is_stretched(end);
+}
+
+std::optional<OutlineMap::LoopMap> OutlineMap::unchanged(std::int32_t loop, std::int32_t image,
+                                                         const std::vector<Anchor>& standing) const {
+  const std::size_t vertices = from_.loop_start(loop + 1) - from_.loop_start(loop);
+  if (standing.size() != vertices) return {};
+  const LoopMap map =
+      with_standing(loop, {image, {standing.front().from}, {standing.front().to}, {}}, standing);
+  if (map.from.size() != vertices) return {};
+  std::vector<double> arcs;
+  for (const Anchor& anchor : standing) arcs.push_back(anchor.to);
+  std::ranges::sort(arcs);
+  const double enough = new_path_.tolerance(), whole = new_path_.loop_length(image);
+  const auto has_vertex = [&](std::int32_t corner) {
+    const double arc = new_path_.arc_of(corner);
+    const auto after = std::ranges::lower_bound(arcs, arc - enough);
+    return (after != arcs.end() && *after <= arc + enough) || arcs.back() >= arc + whole - enough;
+  };
+  if (!std::ranges::all_of(kept_vertices(to_, image), has_vertex)) return {};
+  return map;
+}
+
 OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image, const Names& names) const {
+  const std::vector<Anchor> standing = standing_vertices(loop, image);
+  if (auto map = unchanged(loop, image, standing)) return *map;
   const Vertices counterparts = kept_vertices(to_, image);
   const Vertices corners = sharpest_vertices(from_, loop, counterparts.size());
   const Point shift = centre_of(to_, image) - centre_of(from_, loop);
   if (counterparts.empty()) {
+    if (!standing.empty()) {
+      const Anchor& first = standing.front();
+      const LoopMap map = with_standing(loop, {image, {first.from}, {first.to}, {}}, standing);
+      if (map.from.size() > 1) return map;
+    }
     const Point first = from_.point(from_.loop_start(loop));
     return {image, {0}, {nearest_arc(to_, new_path_, image, first + shift)}, {}};
   }
@@ -241,7 +317,7 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
   std::iota(turns.begin(), turns.end(), std::size_t{0});
   std::optional<std::size_t> turn;
   if (corners.size() == counterparts.size()) turn = turn_of(from_, corners, to_, counterparts, shift, turns);
-  if (turn) return anchored(image, corners, counterparts, *turn);
+  if (turn) return with_standing(loop, anchored(image, corners, counterparts, *turn), standing);
   const Point centre = centre_of(to_, image);
   throw InputError(
       fmt::format("{}: the loop of {} round ({:g}, {:g}) has {} corners where {} has {}, or others between "

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ struct PointShares {
 /// Takes places of an outline to places of another one of the same shape in the large: loop by loop, between
 /// vertices that stand for each other by shares of the way. Those vertices are all of them where both
 /// outlines have as many and `by_points` is asked for, wherever the loops begin, else the kept ones of the
-/// new outline and the sharpest of the old. Loops of names that the new outline lacks have no image. A smooth
+/// new outline and the sharpest of the old, and between these the old vertices that lie on the new outline,
+/// which stay, unless that would halve or double the length of a part between two of them. Loops of names that the new outline lacks have no image. A smooth
 /// function of the new outline's points as long as the same vertices stand for each other.
 class OutlineMap {
  public:
@@ -52,6 +54,10 @@ class OutlineMap {
     std::vector<double> from, to;
     std::vector<std::int32_t> to_vertices;  ///< the new ones, where all stand for each other
   };
+  /// A place on the old loop and the one that it goes to, by their arcs.
+  struct Anchor {
+    double from, to;
+  };
   /// The number of the stretch that an arc lies on, and its share of the way along that.
   struct Stretch {
     std::size_t number;
@@ -65,6 +71,14 @@ class OutlineMap {
   /// None where the loops have other numbers of points, or names.
   std::optional<LoopMap> point_by_point(std::int32_t loop, std::int32_t image) const;
   LoopMap by_corners(std::int32_t loop, std::int32_t image, const Names& names) const;
+  /// The old vertices that lie on the new loop, ascending.
+  std::vector<Anchor> standing_vertices(std::int32_t loop, std::int32_t image) const;
+  /// The map with those of them as further anchors that may stay.
+  LoopMap with_standing(std::int32_t loop, const LoopMap& map, std::vector<Anchor> standing) const;
+  static bool may_stay(Anchor begin, std::span<const Anchor> between, Anchor end);
+  /// None where a vertex of the old loop does not lie on the new one, or a corner of that has no vertex.
+  std::optional<LoopMap> unchanged(std::int32_t loop, std::int32_t image,
+                                   const std::vector<Anchor>& standing) const;
 
   const Geometry &from_, &to_;
   OutlinePath old_path_, new_path_;

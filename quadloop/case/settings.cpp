@@ -44,14 +44,18 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
   if (files.empty()) table->refuse("file", "is missing; name the outline, as in file = \"outline.geom\"");
   const auto scales = table->numbers_or_one("scale", Range::positive());
   const auto turns = table->numbers_or_one("rotate");
+  const auto hinges = table->pairs("rotate_about");
+  if (!hinges.empty() && turns.empty())
+    table->refuse("rotate_about", "needs rotate, the angle in degrees, in the same table");
   const auto moves = table->pairs("translate");
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
     const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
+    const auto hinge = of_file(*table, "rotate_about", hinges, i, files.size(), {0, 0});
     const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
     settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
                               fmt::format("{}: 'geometry.file'", table->place("file")),
-                              {scale, turn, {move[0], move[1]}}});
+                              {scale, turn, {move[0], move[1]}, {hinge[0], hinge[1]}}});
   }
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};

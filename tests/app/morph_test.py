@@ -90,6 +90,34 @@ class Morph(ProgramTest):
         for (x, y), (u, v) in zip(nodes_of(moved), nodes_of((self.folder / "in.mesh").read_bytes()), strict=True):
             self.assertLess(math.hypot(x - u, y - v), 1e-12)
 
+    def test_its_own_outline_keeps_every_bit_without_from(self):
+        before = (self.folder / "in.mesh").read_bytes()
+        whole = self.with_far_field(lens())
+        for text in (lens(), lens(turned=True), whole):
+            moved, said = self.morph(text)
+            self.assertEqual(moved, before)
+            self.assertEqual(said["nodes_moved"], 0)
+
+    def test_a_flap_turns_as_it_does_with_from(self):
+        """What lies ahead of the hinge stays."""
+        hinge, slope = 0.4, math.tan(math.radians(15))
+
+        def deflected(x, y):
+            return x, y - slope * max(0, x - hinge)
+        rows = lens().splitlines()
+        flap = "\n".join(rows[:3] + ["{!r} {!r}".format(*deflected(*map(float, row.split()))) for row in rows[3:]]) + "\n"
+        before = nodes_of((self.folder / "in.mesh").read_bytes())
+        known, _ = self.morph(flap, "--from", "body.geom")
+        moved, said = self.morph(flap)
+        self.assertEqual(self.cells(moved), self.cells(known))
+        on_body = {node for node, (x, y) in enumerate(before) if abs(x) <= 1 and abs(abs(y) - 0.2 * math.sin(math.pi * (x + 1) / 2)) < 2e-3}
+        self.assertGreater(len(on_body), 40)
+        for node, (old, a, b) in enumerate(zip(before, nodes_of(moved), nodes_of(known), strict=True)):
+            self.assertLess(math.dist(a, b), 0.02)
+            if node in on_body and old[0] < 0.35:
+                self.assertLess(math.dist(a, old), 1e-9)
+        self.assertEqual(self.morph(flap, ranks=3)[0], moved)
+
     def test_whichever_way_the_outline_runs_and_however_many_points_it_has(self):
         along, _ = self.morph(lens(0.1))
         other, _ = self.morph(lens(0.1, turned=True))

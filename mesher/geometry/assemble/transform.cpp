@@ -23,8 +23,9 @@ Point direction(double degrees) {
 }
 
 Point placed(Point p, const Transform& transform, Point turn) {
-  const Point s = transform.scale * p;
-  return Point{turn.x * s.x - turn.y * s.y, turn.y * s.x + turn.x * s.y} + transform.translate;
+  const Point arm = transform.scale * p - transform.rotate_about;
+  return transform.rotate_about + Point{turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y} +
+         transform.translate;
 }
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 namespace quadloop {
 
-/// How the coordinates of a geometry file are placed: scaled about the origin, then turned counter-clockwise
-/// about it, then moved.
+/// How the coordinates of a geometry file are placed: scaled about the origin, then rotated counter-clockwise
+/// about a point, then moved.
 struct Transform {
   double scale = 1;  ///< > 0
   double rotate_degrees = 0;
   Point translate;
+  Point rotate_about;  ///< in scaled coordinates
 };
 
 /// The point placed. Quarter turns are exact: no sine of 90 degrees is rounded.

@@ -62,6 +62,50 @@ TEST(OutlineMap, ByPointsWhereverTheLoopsBegin) {
   EXPECT_EQ(map.image(0, bend), house[1]);
 }
 
+/// A side with points at these places between its ends, on a square.
+std::vector<Point> with_points(const std::vector<double>& on_lower_side) {
+  std::vector<Point> points{{0, 0}};
+  for (const double x : on_lower_side) points.push_back({x, 0});
+  points.insert(points.end(), {{1, 0}, {1, 1}, {0, 1}});
+  return points;
+}
+
+TEST(OutlineMap, VerticesOnTheNewOutlineStay) {
+  std::vector<Point> bent = with_points({0.5, 0.7});
+  bent[2] = {0.7, -0.05};
+  const Geometry from = outline({loop("body", with_points({0.2, 0.4, 0.5, 0.7}))}),
+                 to = outline({loop("body", bent)});
+  const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
+  for (const double x : {0.2, 0.4, 0.5}) {
+    EXPECT_NEAR(map.image(0, x).x, x, 1e-15);
+    EXPECT_EQ(map.image(0, x).y, 0);
+  }
+  EXPECT_LT(map.image(0, 0.7).y, -0.045);
+}
+
+TEST(OutlineMap, VerticesOfASideThatSlidesAlongItselfDoNotStay) {
+  const Geometry from = outline({loop("body", with_points({0.1, 0.2, 0.5, 0.9}))}),
+                 to = outline({loop("body", {{0.15, 0}, {1.15, 0}, {1.15, 1}, {0.15, 1}})});
+  const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
+  for (const double x : {0.0, 0.1, 0.2, 0.5, 0.9}) EXPECT_NEAR(map.image(0, x).x, x + 0.15, 1e-15);
+}
+
+TEST(OutlineMap, OfTheSameOutlineIsTheIdentityAlsoWhereCornersAreBlunter) {
+  std::vector<Point> fine, coarse;  // every second point: what turns by 24 degrees turns by 48
+  for (int k = 0; k < 15; ++k) {
+    const double angle = 24 * k * 0.017453292519943295;
+    fine.push_back({std::cos(angle), std::sin(angle)});
+  }
+  fine.push_back({1, -0.2});
+  coarse = fine;
+  coarse.insert(coarse.begin() + 3, 0.5 * (fine[2] + fine[3]));
+  const Geometry from = outline({loop("body", coarse)}), to = outline({loop("body", fine)});
+  const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
+  const OutlinePath path(from);
+  for (std::int32_t v = 0; v < from.size(); ++v)
+    EXPECT_NEAR(length(map.image(0, path.arc_of(v)) - from.point(v)), 0, 1e-14) << v;
+}
+
 TEST(OutlineMap, LoopsThatTheNewOutlineLacksStay) {
   const std::vector<Point> frame{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
   const Geometry from = outline({loop("far", frame), loop("body", square)}),

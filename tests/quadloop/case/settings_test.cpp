@@ -145,6 +145,22 @@ TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
             std::string::npos);
 }
 
+TEST_F(SettingsTest, AFileTurnsAboutItsHinge) {
+  folder_.write("flap.geom", "1\nflap\n3\n1.5 1\n2 1\n1.5 1.5\n");
+  const auto flap = [&](const std::string& keys) {
+    const std::string path =
+        folder_.write("flap.toml", "[geometry]\nfile = [\"box.geom\", \"flap.geom\"]\n" + keys);
+    const Geometry g = load(read_settings(path, {}));
+    return std::vector<Point>(g.points().end() - 3, g.points().end());
+  };
+  const auto has = [](const std::vector<Point>& points, Point p) { return std::ranges::count(points, p) == 1; };
+  EXPECT_TRUE(has(flap("rotate = [0, 90]\nrotate_about = [1.5, 1]\n"), {1.5, 1.5}));
+  EXPECT_TRUE(has(flap("rotate = [0, 90]\nrotate_about = [[7, 7], [1.5, 1]]\n"), {1, 1}));
+  EXPECT_TRUE(has(flap("scale = [1, 0.5]\nrotate = [0, 180]\nrotate_about = [1, 1]\n"), {1.25, 1.5}));
+  EXPECT_NE(test::refusal(folder_, [&] { flap("rotate_about = [1, 1]\n"); }).find("needs rotate"),
+            std::string::npos);
+}
+
 TEST_F(SettingsTest, ReadsLayers) {
   const auto layers = [&](const std::string& text) {
     const Geometry g = load(read("[boundary.box]\nlayers = { " + text + " }\n"));
