@@ -24,29 +24,48 @@ Condition condition_named(std::string_view word) {
   return Condition::none;
 }
 
-/// Throws InputError that names the boundary and the words that can be used.
-Condition condition_of(const std::string& name, const std::string& word) {
-  if (const Condition condition = condition_named(word); condition != Condition::none) return condition;
+/// What the case or the mesh says of a boundary; the last choice counts.
+std::string word_of(const BoundaryEdges& boundary, const EulerOptions& options) {
+  std::string word = boundary.condition;
+  for (const BoundaryChoice& choice : options.boundaries) {
+    if (choice.name == boundary.name && !choice.condition.empty()) word = choice.condition;
+  }
+  return word;
+}
+
+std::string fault_of_condition(const std::string& name, const std::string& word) {
+  return word.empty() || word == "none" ? fmt::format("'{}' has no condition", name)
+                                        : fmt::format("'{}' has the condition '{}'", name, word);
+}
+
+/// Throws InputError that names all boundaries whose condition is missing or of no use here, and the words
+/// that can be used.
+void require_conditions(const std::vector<const BoundaryEdges*>& boundaries, const EulerOptions& options) {
+  std::vector<std::string> faults, tables;
+  for (const BoundaryEdges* boundary : boundaries) {
+    const std::string word = word_of(*boundary, options);
+    if (condition_named(word) != Condition::none) continue;
+    faults.push_back(fault_of_condition(boundary->name, word));
+    tables.push_back(fmt::format("[boundary.{}]", boundary->name));
+  }
+  if (faults.empty()) return;
   std::vector<std::string> usable = condition_words();
   std::erase_if(usable, [](const std::string& known) { return condition_named(known) == Condition::none; });
   const std::string last = usable.back();
   usable.pop_back();
-  throw InputError(fmt::format(
-      "boundary '{0}' has {1}, which the flow solver cannot use; set [boundary.{0}] bc to {2} or {3}", name,
-      word.empty() || word == "none" ? "no condition" : "the condition '" + word + "'",
-      fmt::join(usable, ", "), last));
+  throw InputError(fmt::format("the flow solver cannot use these boundaries: {}; in {} set bc to {} or {}",
+                               fmt::join(faults, ", "), fmt::join(tables, ", "), fmt::join(usable, ", "),
+                               last));
 }
 
 BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& options) {
-  std::string word = boundary.condition;
   std::optional<double> pressure, temperature;
   for (const BoundaryChoice& choice : options.boundaries) {
     if (choice.name != boundary.name) continue;
-    if (!choice.condition.empty()) word = choice.condition;
     if (choice.pressure) pressure = *choice.pressure / options.gamma;
     temperature = choice.temperature;
   }
-  Condition condition = condition_of(boundary.name, word);
+  Condition condition = condition_named(word_of(boundary, options));
   if (condition == Condition::wall && options.viscosity > 0) condition = Condition::no_slip;
   return {condition, pressure, temperature};
 }
@@ -142,10 +161,13 @@ FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOpti
   model.viscosity = options.viscosity;
   model.prandtl = options.prandtl;
   model.free_stream = model.gas.free_stream(options.mach, options.alpha);
+  std::vector<const BoundaryEdges*> present;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    const bool present = comm.any(!boundary.edges.empty());
-    model.boundaries.push_back(present ? boundary_model(boundary, options) : BoundaryModel{});
+    const bool has_edges = comm.any(!boundary.edges.empty());
+    if (has_edges) present.push_back(&boundary);
+    model.boundaries.push_back(has_edges ? boundary_model(boundary, options) : BoundaryModel{});
   }
+  require_conditions(present, options);
   return model;
 }
 

@@ -130,8 +130,20 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
     flow_model(world(), mesh, options);
     FAIL() << "taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("[boundary.far] bc"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("in [boundary.far] set bc to"), std::string::npos)
+        << error.what();
   }
+  mesh.boundaries[0].condition = "none";
+  try {
+    flow_model(world(), mesh, options);
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("'wall' has no condition, 'far' has the condition 'interface'"), std::string::npos)
+        << what;
+    EXPECT_NE(what.find("in [boundary.wall], [boundary.far] set bc to"), std::string::npos) << what;
+  }
+  mesh.boundaries[0].condition = "wall";
   options.boundaries = {{"far", "outflow", 0.5}};
   const FlowModel model = flow_model(world(), mesh, options);
   EXPECT_EQ(model.boundaries[1].condition, Condition::outflow);
