@@ -15,6 +15,7 @@
 #include "app/report/summary.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/loaded/fixed_nodes.hpp"
 #include "io/loaded/interface_nodes.hpp"
 #include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
@@ -36,15 +37,16 @@ namespace {
 struct SmoothArguments {
   std::string input, output, geometry, method = "perturb", objective = "power";
   int sweeps = 20;
+  std::vector<std::string> fix;  ///< names of boundaries, inner curves and blocks
 };
 
 /// What the root rank knows of the mesh as it was read; on the others nothing but the geometry.
 struct Loaded {
   LoadedMesh whole;
   MeshOrder order;
-  NodeFlags pinned;  ///< nodes_that_stay()
+  NodeFlags pinned;  ///< nodes_that_stay(), and fix_nodes()
   std::optional<Geometry> geometry;
-  bool delaunay = false;  ///< on every rank
+  bool delaunay = false;  ///< on every rank; flips would cross inner curves
 };
 
 /// Layers are cut by the shorter diagonals; that may be Delaunay or not.
@@ -104,7 +106,9 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
     loaded.pinned = nodes_that_stay(loaded.whole);
-    loaded.delaunay = is_delaunay_outside_layers(loaded.whole);
+    if (arguments.sweeps > 0)
+      append(warnings, fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
+    loaded.delaunay = loaded.whole.inner_curves.empty() && is_delaunay_outside_layers(loaded.whole);
     append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)
       warnings.push_back(arguments.input +
@@ -235,6 +239,12 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
       .add_option("--geometry", arguments->geometry,
                   "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
       .value_name("FILE.geom");
+  command
+      .add_option(
+          "--fix", arguments->fix,
+          "boundaries, inner curves or blocks whose nodes stay; those of periodic sides and inner curves "
+          "stay anyway")
+      .value_name("NAME");
   command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }
 

@@ -43,6 +43,14 @@ class CgnsBars {
     return {};
   }
 
+  /// The first bar of that number, taken or not.
+  std::optional<Edge> find(std::int64_t element) const {
+    const auto at = std::lower_bound(by_element_.begin(), by_element_.end(), element,
+                                     [&](std::size_t i, std::int64_t n) { return bars_[i].element < n; });
+    if (at == by_element_.end() || bars_[*at].element != element) return {};
+    return bars_[*at].edge;
+  }
+
   /// `visit(section's name, edge)` for those that nobody took.
   template <class Visit>
   void for_each_left(const Visit& visit) const {

@@ -41,6 +41,8 @@ class ZoneReader {
     const std::int32_t block = loaded_.blocks++;
     loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
     loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
+    bars_.sort();
+    read_periodic();
     read_boundaries();
     read_strips(block);
     read_solution();
@@ -177,7 +179,6 @@ class ZoneReader {
 
   void read_boundaries() {
     int count = 0;
-    bars_.sort();
     file_.check(cg_nbocos(file_.id(), base_, zone_, &count));
     for (int boundary = 1; boundary <= count; ++boundary) read_boundary(boundary);
     bars_.for_each_left([&](const std::string& section, const auto& edge) {
@@ -214,6 +215,46 @@ class ZoneReader {
              ", which is no BAR_2 or belongs to another boundary");
     }
     edges.edges.push_back(*edge);
+  }
+
+  /// Nodes of connectivities that have a node Periodic_t, on this zone's side; each side has its own as a
+  /// rule.
+  void read_periodic() {
+    int count = 0;
+    file_.check(cg_nconns(file_.id(), base_, zone_, &count));
+    for (int connection = 1; connection <= count; ++connection) {
+      std::array<float, 3> centre{}, angle{}, shift{};
+      if (cg_conn_periodic_read(file_.id(), base_, zone_, connection, centre.data(), angle.data(),
+                                shift.data()) == CG_OK)
+        mark_periodic(connection);
+    }
+  }
+
+  void mark_periodic(int connection) {
+    Name name{}, donor{};
+    GridLocation_t location = Vertex;
+    GridConnectivityType_t type = GridConnectivityTypeNull;
+    PointSetType_t set = PointSetTypeNull, donor_set = PointSetTypeNull;
+    ZoneType_t donor_zone = ZoneTypeNull;
+    DataType_t donor_type = DataTypeNull;
+    cgsize_t count = 0, donors = 0;
+    file_.check(cg_conn_info(file_.id(), base_, zone_, connection, name.data(), &location, &type, &set,
+                             &count, donor.data(), &donor_zone, &donor_set, &donor_type, &donors));
+    if (count < 1) return;
+    std::vector<cgsize_t> numbers(count);
+    file_.check(cg_conn_read_short(file_.id(), base_, zone_, connection, numbers.data()));
+    if (set == PointRange && count == 2) {
+      if (numbers[1] - numbers[0] > std::max<std::int64_t>(nodes_, bars_.size()))
+        refuse("connectivity " + std::string(name.data()) + " is of " + range_text(numbers[0], numbers[1]) +
+               ", which is more than there are");
+      for (cgsize_t number = numbers[0] + 1; number < numbers[1]; ++number) numbers.push_back(number);
+    }
+    for (const cgsize_t number : numbers) {
+      if (location == Vertex)
+        loaded_.periodic_nodes.push_back(node_of(number));
+      else if (const auto edge = bars_.find(number))
+        loaded_.periodic_nodes.insert(loaded_.periodic_nodes.end(), edge->begin(), edge->end());
+    }
   }
 
   /// Meshes of several zones have none.

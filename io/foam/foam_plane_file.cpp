@@ -1,5 +1,7 @@
 #include "io/foam/foam_plane_file.hpp"
 
+#include <set>
+
 #include "io/foam/foam_file.hpp"
 #include "io/loaded/foreign_mesh.hpp"
 #include "io/solid/require_conforming.hpp"
@@ -73,6 +75,18 @@ void take_blocks(LoadedMesh& loaded, const SolidMesh& solid) {
   order_by_blocks(loaded);
 }
 
+void mark_periodic(LoadedMesh& loaded, const SolidMesh& solid) {
+  std::set<std::string> names;
+  for (const SolidPatch& patch : solid.patches) {
+    if (patch.is_periodic) names.insert(patch.name);
+  }
+  for (const BoundaryEdges& boundary : loaded.mesh.boundaries) {
+    if (!names.contains(boundary.name)) continue;
+    for (const auto& [from, to] : boundary.edges)
+      loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), {from, to});
+  }
+}
+
 }  // namespace
 
 LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
@@ -84,6 +98,7 @@ LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
   loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
   loaded.block_names = {"domain"};
   take_blocks(loaded, solid);
+  mark_periodic(loaded, solid);
   loaded.warnings = solid.warnings;
   return loaded;
 }

@@ -209,7 +209,8 @@ class FoamReader {
       patch.name = given.name;
       patch.condition = condition_of(given.type);
       patch.is_empty = given.type == "empty";
-      if (given.type.starts_with("cyclic")) cyclic.push_back(given.name);
+      patch.is_periodic = given.type.starts_with("cyclic");
+      if (patch.is_periodic) cyclic.push_back(given.name);
       for (std::int64_t face = start; face < start + given.faces; ++face) put_face(patch, face);
     }
     if (!cyclic.empty())

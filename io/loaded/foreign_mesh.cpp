@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -95,36 +94,41 @@ void drop_empty_blocks(LoadedMesh& loaded) {
                                          name, a.x, a.y, b.x, b.y));
 }
 
-/// Gives the edges to their boundaries; of each boundary the number of those that lie inside a block.
-std::vector<std::int64_t> place_edges(ForeignMesh& foreign, const TextScanner& scan) {
+/// Gives the edges to their boundaries, or to inner curves of the same names where they lie inside a block.
+void place_edges(ForeignMesh& foreign, const TextScanner& scan) {
   LoadedMesh& loaded = foreign.loaded;
   const EdgeTable table(loaded.mesh);
-  std::vector<std::int64_t> inside(loaded.mesh.boundaries.size(), 0);
+  std::vector<BoundaryEdges> inner(loaded.mesh.boundaries.size());
   for (const ForeignEdge& edge : foreign.edges) {
     auto [from, to] = edge.nodes;
     const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
     if (left < 0 && right < 0) refuse_edge(foreign, edge, scan);
     const bool between = left >= 0 && right >= 0;
     if (between && block_of(loaded, left) == block_of(loaded, right)) {
-      ++inside[edge.boundary];
+      inner[edge.boundary].edges.push_back(edge.nodes);
       continue;
     }
     if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
     loaded.mesh.boundaries[edge.boundary].edges.push_back({from, to});
   }
-  return inside;
+  for (std::size_t b = 0; b < inner.size(); ++b) {
+    if (inner[b].edges.empty()) continue;
+    inner[b].name = loaded.mesh.boundaries[b].name;
+    loaded.inner_curves.push_back(std::move(inner[b]));
+  }
 }
 
-void warn_of_inner_edges(const Mesh& mesh, const std::vector<std::int64_t>& inside, const std::string& path,
-                         std::vector<std::string>& warnings) {
+void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
   std::vector<std::string> names;
-  for (std::size_t b = 0; b < inside.size(); ++b) {
-    if (inside[b] > 0) names.push_back(mesh.boundaries[b].name);
+  std::size_t count = 0;
+  for (const BoundaryEdges& curve : loaded.inner_curves) {
+    names.push_back(curve.name);
+    count += curve.edges.size();
   }
   if (names.empty()) return;
-  warnings.push_back(
+  loaded.warnings.push_back(
       fmt::format("{}: {} edges between two cells are no boundary and were left out: those of {}", path,
-                  std::accumulate(inside.begin(), inside.end(), std::int64_t{0}), some_names(names)));
+                  count, some_names(names)));
 }
 
 void add_outer_boundary(Mesh& mesh) {
@@ -197,6 +201,8 @@ void drop_unused_nodes(ForeignMesh& foreign, const std::string& path) {
   if (dropped == 0) return;
   mesh.points.resize(kept);
   for_each_node(renumber);
+  std::ranges::for_each(foreign.loaded.periodic_nodes, renumber);
+  std::erase_if(foreign.loaded.periodic_nodes, [](NodeId node) { return !node.valid(); });
   foreign.loaded.warnings.push_back(
       fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
 }
@@ -221,14 +227,12 @@ LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan) {
   drop_empty_blocks(loaded);
   const std::int64_t turned = orient_cells(mesh);
   order_by_blocks(loaded);
-  const std::vector<std::int64_t> inside = place_edges(foreign, scan);
-  std::vector<std::string> losses;
-  warn_of_inner_edges(mesh, inside, scan.path(), losses);
+  place_edges(foreign, scan);
   std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   if (mesh.boundaries.empty()) add_outer_boundary(mesh);
   if (turned > 0)
     loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
-  std::ranges::move(losses, std::back_inserter(loaded.warnings));
+  warn_of_inner_curves(loaded, scan.path());
   return std::move(loaded);
 }
 

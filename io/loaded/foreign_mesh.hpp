@@ -59,10 +59,9 @@ void order_by_blocks(LoadedMesh& loaded);
 /// What this program calls a mesh: cells counter-clockwise as their neighbours have it (orient_cells;
 /// inverted ones are validate()'s), the cells of a block one after another with their values, each boundary
 /// edge with its cell to the left, or between two blocks the one with the smaller number. Edges inside a
-/// block, and boundaries without edges, are left out; where no boundary is left, all edges of one cell make
-/// up the boundary "boundary". What was changed or left out is said in the result's warnings, with the names
-/// of boundaries. Refuses a mesh without
-/// cells, and by place an edge that no cell has.
+/// block are inner curves; boundaries without edges are left out; where no boundary is left, all edges of one
+/// cell make up the boundary "boundary". What was changed or left out is said in the result's warnings, with
+/// the names of boundaries. Refuses a mesh without cells, and by place an edge that no cell has.
 LoadedMesh finish(ForeignMesh foreign, const TextScanner& scan);
 
 }  // namespace quadloop

@@ -30,7 +30,7 @@ void pass_fields(Pipe& pipe, Field& solution) {
 template <class Pipe>
 void pass_fields(Pipe& pipe, LoadedMesh& loaded) {
   pass(pipe, loaded.mesh, loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block, loaded.block_names,
-       loaded.solution, loaded.warnings);
+       loaded.inner_curves, loaded.periodic_nodes, loaded.solution, loaded.warnings);
 }
 
 }  // namespace quadloop

@@ -19,6 +19,8 @@ class MshReader {
   LoadedMesh read() {
     text_.read([this](std::int64_t tag, Point3 point) { put_point(tag, point); },
                [this](const MshElement& element) { put_element(element); });
+    for (const std::int32_t node : text_.periodic_nodes())
+      foreign_.loaded.periodic_nodes.push_back(NodeId{node});
     drop_unused_tags();
     read_solution();
     if (text_.may_repeat()) drop_repeated(foreign_, text_.scan().path(), text_.groups().sizes());

@@ -82,6 +82,7 @@ void MshText::read(const PutPoint& put_point, const PutElement& put_element) {
     read_nodes();
     read_elements();
   }
+  read_periodic();
 }
 
 /// In version 2.2 drop_repeated() reports elements of several groups.
@@ -298,6 +299,37 @@ void MshText::read_elements() {
   if (found != count)
     scan_.refuse("the blocks hold " + std::to_string(found) + " elements, not " + std::to_string(count));
   end_section("Elements");
+}
+
+void MshText::read_periodic() {
+  if (!go_to_section("Periodic")) return;
+  const std::size_t links = scan_.count("periodic entities", 4);
+  for (std::size_t link = 0; link < links; ++link) {
+    for (const char* expected : {"a dimension", "the tag of an entity", "the tag of its partner"})
+      scan_.integer(expected);
+    pass_over_transformation();
+    for (std::size_t left = scan_.count("pairs of nodes", 2); left > 0; --left) {
+      for (int k = 0; k < 2; ++k) {
+        const NodeId node = tags_.node_of(node_tag());
+        if (node.valid()) periodic_nodes_.push_back(node.value());  // others were not saved
+      }
+    }
+  }
+  end_section("Periodic");
+}
+
+/// "Affine" and numbers on a line of its own, or in version 4.1 a count and so many numbers.
+void MshText::pass_over_transformation() {
+  if (!is_old_) {
+    for (std::size_t left = scan_.count("numbers of a transformation", 1); left > 0; --left)
+      scan_.real("a number of a transformation");
+    return;
+  }
+  const std::string_view next = scan_.token("a number of pairs of nodes");
+  if (next == "Affine")
+    scan_.rest_of_line();
+  else
+    scan_.go_to(scan_.place());
 }
 
 std::size_t MshText::read_element_block() {

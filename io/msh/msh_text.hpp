@@ -61,6 +61,10 @@ class MshText {
   /// Whether the word of that length stands at the beginning of its line, alone.
   static bool is_line(std::string_view text, std::size_t at, std::size_t length);
 
+  /// Nodes that the file pairs with others, on its periodic curves or surfaces, after read(); by their places
+  /// among the points.
+  const std::vector<std::int32_t>& periodic_nodes() const { return periodic_nodes_; }
+
   /// Whether an element that belongs to several groups stands there once for each (version 2.2).
   bool may_repeat() const { return is_old_; }
   const TextScanner& scan() const { return scan_; }
@@ -96,6 +100,9 @@ class MshText {
   /// Blocks, all elements, smallest and largest tag; then blocks of elements of one type on one entity.
   void read_elements();
   std::size_t read_element_block();
+  /// Links of two entities: their dimension and tags, perhaps a transformation, then pairs of nodes.
+  void read_periodic();
+  void pass_over_transformation();
 
   TextScanner scan_;
   int dimension_;
@@ -104,6 +111,7 @@ class MshText {
   std::array<std::int64_t, 3> last_member_{-1, 0, 0};  ///< dimension, entity, group
   NodeTags tags_;
   std::size_t points_ = 0;
+  std::vector<std::int32_t> periodic_nodes_;
   const PutPoint* put_point_ = nullptr;
   const PutElement* put_element_ = nullptr;
 };

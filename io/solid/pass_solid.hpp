@@ -8,7 +8,7 @@ namespace quadloop {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, SolidPatch& patch) {
-  pass(pipe, patch.name, patch.condition, patch.faces, patch.is_empty);
+  pass(pipe, patch.name, patch.condition, patch.faces, patch.is_empty, patch.is_periodic);
 }
 
 template <class Pipe>

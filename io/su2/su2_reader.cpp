@@ -1,4 +1,5 @@
 #include "io/loaded/foreign_mesh.hpp"
+#include "io/loaded/matching_sides.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_text.hpp"
@@ -17,7 +18,10 @@ class Su2Reader {
       read_zone(text_.zones() == 1 ? "domain" : "zone_" + std::to_string(zone + 1));
     }
     foreign_.loaded.warnings = text_.warnings();
-    return finish(std::move(foreign_), text_.scan());
+    LoadedMesh loaded = finish(std::move(foreign_), text_.scan());
+    // The configuration alone says which sides are periodic.
+    loaded.periodic_nodes = nodes_of_matching_sides(loaded.mesh);
+    return loaded;
   }
 
  private:

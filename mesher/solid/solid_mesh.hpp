@@ -18,7 +18,8 @@ struct SolidPatch {
 
   std::string name, condition = "none";
   std::vector<Face> faces;
-  bool is_empty = false;  ///< an end of a plane mesh that is one cell thick ("empty" in OpenFOAM)
+  bool is_empty = false;     ///< an end of a plane mesh that is one cell thick ("empty" in OpenFOAM)
+  bool is_periodic = false;  ///< its nodes have partners on another patch ("cyclic" in OpenFOAM)
 };
 
 /// A 3D mesh as a file gives it, whole on one rank. Nodes from 0; those of a cell in the order of CGNS: the

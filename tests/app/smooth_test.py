@@ -121,5 +121,106 @@ class SmoothAlongAnOutline(ProgramTest):
         self.assertEqual((self.folder / "cut.mesh").read_bytes(), wanted)
 
 
+class Cascade:
+    """A square of triangles with uneven nodes; those of its lower and upper side lie at the same x. A curve inside, in halves of its own or not."""
+
+    def __init__(self, n=8):
+        self.n = n
+        shift = [[0.35 / n * math.sin(12.9898 * i + 78.233 * j) for i in range(n + 1)] for j in range(n + 1)]
+
+        def place(i, j):
+            sideways = shift[j % n][i] if 0 < i < n else 0
+            upwards = shift[i][n - j] if 0 < j < n and j != n // 2 else 0
+            return i / n + sideways, j / n + upwards
+        self.points = [place(i, j) for j in range(n + 1) for i in range(n + 1)]
+        self.triangles = []
+        for j in range(n):
+            for i in range(n):
+                a, b, c, d = self.node(i, j), self.node(i + 1, j), self.node(i + 1, j + 1), self.node(i, j + 1)
+                self.triangles += [(a, b, c), (a, c, d)]
+        self.sides = {"low": [(self.node(i, 0), self.node(i + 1, 0)) for i in range(n)], "out": [(self.node(n, j), self.node(n, j + 1)) for j in range(n)],
+                      "up": [(self.node(i + 1, n), self.node(i, n)) for i in range(n)], "in": [(self.node(0, j + 1), self.node(0, j)) for j in range(n)]}
+        self.curve = [(self.node(i, n // 2), self.node(i + 1, n // 2)) for i in range(2, n - 2)]
+
+    def node(self, i, j):
+        return j * (self.n + 1) + i
+
+    def su2(self):
+        rows = [f"NDIME= 2\nNELEM= {len(self.triangles)}"] + [f"5 {a} {b} {c}" for a, b, c in self.triangles]
+        rows += [f"NPOIN= {len(self.points)}"] + [f"{x!r} {y!r}" for x, y in self.points] + [f"NMARK= {len(self.sides)}"]
+        for name, edges in self.sides.items():
+            rows += [f"MARKER_TAG= {name}\nMARKER_ELEMS= {len(edges)}"] + [f"3 {a} {b}" for a, b in edges]
+        return "\n".join(rows) + "\n"
+
+    def msh(self, curve=False, periodic=False):
+        groups = dict(self.sides, **({"crack": self.curve} if curve else {}))
+        rows = ["$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", str(len(groups))] + [f'1 {k + 1} "{name}"' for k, name in enumerate(groups)]
+        rows += ["$EndPhysicalNames\n$Nodes", str(len(self.points))] + [f"{k + 1} {x!r} {y!r} 0" for k, (x, y) in enumerate(self.points)]
+        elements = [f"1 2 {k + 1} {k + 1} {a + 1} {b + 1}" for k, edges in enumerate(groups.values()) for a, b in edges]
+        elements += [f"2 2 9 1 {a + 1} {b + 1} {c + 1}" for a, b, c in self.triangles]
+        rows += ["$EndNodes\n$Elements", str(len(elements))] + [f"{k + 1} {row}" for k, row in enumerate(elements)] + ["$EndElements"]
+        if periodic:
+            pairs = [(self.node(i, self.n) + 1, self.node(i, 0) + 1) for i in range(self.n + 1)]
+            rows += ["$Periodic\n2\n0 4 1", f"1\n{pairs[0][0]} {pairs[0][1]}", "1 3 1\nAffine 1 0 0 0 0 1 0 1 0 0 1 0 0 0 0 1", str(len(pairs))]
+            rows += [f"{a} {b}" for a, b in pairs] + ["$EndPeriodic"]
+        return "\n".join(rows) + "\n"
+
+
+class NodesThatStay(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.cascade = Cascade()
+
+    def smooth(self, name, *options, ranks=1):
+        """The nodes that moved."""
+        stdout, stderr = self.done("smooth", name, "-o", "out.mesh", *options, ranks=ranks)
+        mesh = (self.folder / "out.mesh").read_bytes()
+        moved = {k for k, (a, b) in enumerate(zip(self.cascade.points, nodes_of(mesh), strict=True)) if math.dist(a, b) > 1e-12}
+        self.assertGreater(len(moved), 20)
+        return moved, stderr, mesh
+
+    def nodes(self, *names):
+        groups = dict(self.cascade.sides, crack=self.cascade.curve)
+        return {node for name in names for edge in groups[name] for node in edge}
+
+    def test_boundaries_slide_and_fixed_ones_stay(self):
+        self.write("a.msh", self.cascade.msh())
+        free, _, _ = self.smooth("a.msh")
+        for name in self.cascade.sides:
+            self.assertTrue(free & self.nodes(name), name)
+        moved, stderr, one = self.smooth("a.msh", "--fix", "low", "out")
+        self.assertFalse(moved & self.nodes("low", "out"))
+        self.assertTrue(moved & self.nodes("up") and moved & self.nodes("in"))
+        self.assertEqual(self.smooth("a.msh", "--fix", "low", "out", ranks=3)[2], one)
+        self.refused(1, ["--fix: a.msh has no boundary, inner curve or block 'lower'", "'low'"], "smooth", "a.msh", "-o", "out.mesh", "--fix", "lower")
+
+    def test_periodic_sides_stay(self):
+        self.write("a.su2", self.cascade.su2())
+        self.write("a.msh", self.cascade.msh(periodic=True))
+        self.write("plain.msh", self.cascade.msh())
+        self.done("convert", "plain.msh", "polyMesh")
+        boundary = self.folder / "polyMesh" / "boundary"
+        text = boundary.read_text()
+        for name, partner in (("low", "up"), ("up", "low")):
+            head, tail = text.split(f"    {name}\n", 1)
+            kind, tail = tail.split(";", 1)
+            text = f"{head}    {name}\n{kind.rsplit(None, 1)[0]} cyclic; neighbourPatch {partner};{tail}"
+        boundary.write_text(text)
+        for name in ("a.su2", "a.msh", "polyMesh"):
+            moved, stderr, _ = self.smooth(name)
+            self.assertFalse(moved & self.nodes("low", "up"), name)
+            self.assertTrue(moved & self.nodes("in"), name)
+            self.assertIn(f"{name}: the nodes of 'low', 'up' stay", stderr)
+
+    def test_inner_curves_stay_and_are_named(self):
+        self.write("a.msh", self.cascade.msh(curve=True))
+        moved, stderr, _ = self.smooth("a.msh")
+        self.assertFalse(moved & self.nodes("crack"))
+        self.assertTrue(moved & self.nodes("low"))
+        self.assertIn("a.msh: the nodes of the inner curves 'crack' stay", stderr)
+        self.assertRegex(stderr, "4 edges .* were left out: .*crack")
+        self.assertFalse(self.smooth("a.msh", "--fix", "crack", "in")[0] & self.nodes("in"))
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -116,6 +116,37 @@ TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
   }
 }
 
+/// A periodic connectivity of the zone with itself.
+void add_connection(const std::string& path, PointSetType_t set, GridLocation_t location,
+                    const std::vector<cgsize_t>& numbers) {
+  int file = 0, at = 0;
+  ASSERT_EQ(cg_open(path.c_str(), CG_MODE_MODIFY, &file), CG_OK);
+  ASSERT_EQ(cg_conn_write(file, 1, 1, "Connection", location, Abutting1to1, set,
+                          static_cast<cgsize_t>(numbers.size()), numbers.data(), "Zone", Unstructured,
+                          PointListDonor, LongInteger, 0, nullptr, &at),
+            CG_OK)
+      << cg_get_error();
+  const std::array<float, 3> none{}, shift{2, 0, 0};
+  EXPECT_EQ(cg_conn_periodic_write(file, 1, 1, at, none.data(), none.data(), shift.data()), CG_OK);
+  cg_close(file);
+}
+
+TEST(CgnsReader, MarksPeriodicNodes) {
+  const auto periodic = [](PointSetType_t set, GridLocation_t location,
+                           const std::vector<cgsize_t>& numbers) {
+    const TemporaryFolder folder;
+    write_sample(folder.file("m.cgns"), false);
+    add_connection(folder.file("m.cgns"), set, location, numbers);
+    return read_cgns(folder.file("m.cgns")).periodic_nodes;
+  };
+  EXPECT_EQ(periodic(PointList, Vertex, {1, 4}), (std::vector{NodeId{0}, NodeId{3}}));
+  EXPECT_EQ(periodic(PointRange, Vertex, {1, 3}), (std::vector{NodeId{0}, NodeId{2}, NodeId{1}}));
+  EXPECT_EQ(periodic(PointList, FaceCenter, {5}), (std::vector{NodeId{1}, NodeId{2}}));
+  const TemporaryFolder folder;
+  write_sample(folder.file("m.cgns"), false);
+  EXPECT_TRUE(read_cgns(folder.file("m.cgns")).periodic_nodes.empty());
+}
+
 TEST(CgnsFile, KeepsTheNamesOfVariables) {
   const TemporaryFolder folder;
   const Communicator alone(MPI_COMM_SELF);

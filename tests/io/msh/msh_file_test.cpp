@@ -62,6 +62,23 @@ std::vector<std::string> boundary_names(const LoadedMesh& loaded) {
   return names;
 }
 
+TEST(MshReader, MarksPeriodicNodes) {
+  const std::vector<NodeId> sides{node(1), node(0), node(2), node(3)};
+  EXPECT_EQ(check.of(old_house + "$Periodic\n1\n1 2 3\n2\n20 10\n30 40\n$EndPeriodic\n").periodic_nodes,
+            sides);
+  EXPECT_EQ(check
+                .of(old_house + "$Periodic\n2\n0 1 2\nAffine 1 0 0 1\n1\n99 99\n1 2 3\nAffine 1 0 0 1\n2\n20 "
+                                "10\n30 40\n$EndPeriodic\n")
+                .periodic_nodes,
+            sides);
+  EXPECT_EQ(
+      check.of(new_house + "$Periodic\n1\n1 2 3\n4 1 0 0 1\n2\n20 10\n30 40\n$EndPeriodic\n").periodic_nodes,
+      sides);
+  EXPECT_EQ(check.of(new_house + "$Periodic\n1\n1 2 3\n0\n2\n20 10\n30 40\n$EndPeriodic\n").periodic_nodes,
+            sides);
+  EXPECT_TRUE(check.of(new_house).periodic_nodes.empty());
+}
+
 TEST(MshReader, ReadsBothVersions) {
   expect_house(check.of(old_house));
   expect_house(check.of(new_house));
@@ -129,7 +146,8 @@ TEST(MshReader, PassesOverOtherSections) {
   const std::string comments = "$Comments\n# 1 % any $Nodes\n$EndComments\n";
   const std::string periodic = "$Periodic\n1\n0 2 1\n1\n2 1\n$EndPeriodic\n";
   expect_house(check.of(comments + old_house + periodic));
-  expect_house(check.of(replaced(new_house, "$Elements", periodic + "$Elements")));
+  const std::string new_periodic = "$Periodic\n1\n0 2 1\n0\n1\n2 1\n$EndPeriodic\n";
+  expect_house(check.of(replaced(new_house, "$Elements", new_periodic + "$Elements")));
 }
 
 TEST(MshReader, TurnsCellsAndEdges) {
