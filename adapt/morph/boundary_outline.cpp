@@ -1,9 +1,11 @@
 #include "adapt/morph/boundary_outline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 
@@ -44,7 +46,7 @@ class Loops {
 
  private:
   void walk(std::size_t first) {
-    for (std::size_t at = first; taken_[at] == 0; at = after(edges_[at])) {
+    for (std::size_t at = first; taken_[at] == 0; at = after(edges_[at], first)) {
       taken_[at] = 1;
       points_.push_back(edges_[at].place);
       nodes_.push_back(edges_[at].from);
@@ -52,19 +54,33 @@ class Loops {
     }
     starts_.push_back(size32(points_));
   }
-  /// Where the boundary passes a node more than once, on along an edge that none has taken, of the same
-  /// boundary if there is one.
-  std::size_t after(const OutlineEdge& edge) const {
-    const auto leaving = std::ranges::equal_range(edges_, edge.to, {}, &OutlineEdge::from);
-    QUADLOOP_REQUIRE(!leaving.empty(), "the boundary of a mesh is closed");
-    auto best = leaving.begin();
-    const auto worth = [&](auto e) {
-      return std::pair(taken_[e - edges_.begin()] == 0, e->boundary == edge.boundary);
+
+  std::span<const OutlineEdge> leaving(GlobalNodeId node) const {
+    const auto edges = std::ranges::equal_range(edges_, node, {}, &OutlineEdge::from);
+    QUADLOOP_REQUIRE(!edges.empty(), "the boundary of a mesh is closed");
+    return edges;
+  }
+  Point along(const OutlineEdge& edge) const { return leaving(edge.to).front().place - edge.place; }
+
+  /// By how many millionths of a radian the boundary turns from one edge to the next; a turn away from the
+  /// domain, as at the corner of a body, first of two that are as sharp.
+  std::pair<double, bool> turn(const OutlineEdge& edge, const OutlineEdge& next) const {
+    const Point before = along(edge), after = along(next);
+    const double angle = std::round(1e6 * std::atan2(cross(before, after), dot(before, after)));
+    return {std::abs(angle), angle > 0};
+  }
+
+  /// The edge on which a loop that began with `first` goes on. Where the boundary passes a node more than
+  /// once, one that no loop has, of the same boundary if there is one: the straightest way, so that two
+  /// bodies that touch stay two loops.
+  std::size_t after(const OutlineEdge& edge, std::size_t first) const {
+    const std::span<const OutlineEdge> all = leaving(edge.to);
+    if (all.size() == 1) return &all.front() - edges_.data();
+    const auto cost = [&](const OutlineEdge& e) {
+      const std::size_t number = &e - edges_.data();
+      return std::tuple(taken_[number] != 0 && number != first, e.boundary != edge.boundary, turn(edge, e));
     };
-    for (auto e = leaving.begin(); e != leaving.end(); ++e) {
-      if (worth(e) > worth(best)) best = e;
-    }
-    return best - edges_.begin();
+    return &*std::ranges::min_element(all, {}, cost) - edges_.data();
   }
 
   std::vector<OutlineEdge> edges_;

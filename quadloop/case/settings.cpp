@@ -299,6 +299,8 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   if (settings.adapt) settings.adapt->wall_flow = layer_settings.wall_flow(settings.solver);
   for (std::string& warning : idle_wall_temperatures(settings.solver))
     settings.warnings.push_back(std::move(warning));
+  for (std::string& warning : forces_without_stream(settings.solver))
+    settings.warnings.push_back(std::move(warning));
   for (std::string& warning : exits_into_vacuum(settings.solver, settings.outline.rules))
     settings.warnings.push_back(std::move(warning));
   read_output_table(root, case_path, settings);

@@ -97,6 +97,18 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
 
+/// A free stream at rest moves nothing by itself.
+void require_driven_flow(const CaseTable& table, const SolverSettings& settings) {
+  const EulerOptions& options = settings.euler;
+  if (settings.kind != SolverSettings::Kind::euler || options.mach > 0) return;
+  const bool is_heated = options.viscosity > 0 && !settings.wall_temperatures.empty();
+  if (options.initial == EulerOptions::Initial::vortex || is_heated || !settings.pressures.empty()) return;
+  table.refuse(
+      "mach",
+      "is 0, so nothing moves the gas and forces have no coefficients; set it above 0, or drive the flow "
+      "by initial = \"vortex\", the pressure of an outflow or, with viscosity, a wall_temperature");
+}
+
 /// The user's case for SU2 or OpenFOAM; mesh and solution have names of ours there.
 void read_template(const CaseTable& table, SolverSettings& settings) {
   using enum SolverSettings::Kind;
@@ -148,6 +160,7 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings) {
   read_goals(*table, settings.kind == SolverSettings::Kind::euler, settings.euler);
   read_command_keys(*table, settings);
   read_template(*table, settings);
+  require_driven_flow(*table, settings);
   table->finish();
 }
 
@@ -160,6 +173,11 @@ std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings) 
                     "viscosity: set solver.reynolds or solver.viscosity",
                     wall.pattern));
   return warnings;
+}
+
+std::vector<std::string> forces_without_stream(const SolverSettings& settings) {
+  if (!settings.given || settings.kind != SolverSettings::Kind::euler || settings.euler.mach > 0) return {};
+  return {"solver.mach is 0: coefficients of forces need a free stream, so cl and cd are 0"};
 }
 
 std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,

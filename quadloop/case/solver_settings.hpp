@@ -46,6 +46,9 @@ void read_solver_table(const CaseTable& root, SolverSettings& settings);
 /// A warning for each wall temperature that the built-in solver's flow does not feel, as it has no viscosity.
 std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings);
 
+/// A warning where the free stream is at rest, so that forces have no coefficients.
+std::vector<std::string> forces_without_stream(const SolverSettings& settings);
+
 /// A warning for each rule by which the built-in solver's gas leaves without a pressure, where the free
 /// stream is slower than sound.
 std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,

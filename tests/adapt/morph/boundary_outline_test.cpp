@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -28,6 +31,49 @@ TEST(BoundaryOutline, IsWholeOnEveryRank) {
     for (std::int32_t v = 0; v < 16; ++v) {
       if (outline.nodes[v] != mesh.global(node)) continue;
       EXPECT_EQ(outline.geometry.point(v), mesh.point(node));
+    }
+  }
+}
+
+/// A grid of squares without two that touch in a corner: two bodies of one name, or a body and a cavity.
+Mesh with_two_holes(std::int32_t n) {
+  Mesh mesh = test::Grid{n}.mesh();
+  const double h = 1.0 / n;
+  BoundaryEdges hole{"body", "none", {}};
+  const auto is_hole = [&](const auto& quad) {
+    const Point low = mesh.point(quad[0]);
+    return low == Point{h, h} || low == Point{2 * h, 2 * h};
+  };
+  const auto node_at = [&](Point p) {
+    return NodeId{static_cast<std::int32_t>(std::ranges::find(mesh.points, p) - mesh.points.begin())};
+  };
+  for (const Point low : {Point{h, h}, Point{2 * h, 2 * h}}) {
+    const std::array corners{node_at(low), node_at(low + Point{0, h}), node_at(low + Point{h, h}),
+                             node_at(low + Point{h, 0})};
+    for (std::size_t k = 0; k < 4; ++k) hole.edges.push_back({corners[k], corners[(k + 1) % 4]});
+  }
+  std::erase_if(mesh.triangles, [&](const auto& nodes) {
+    double x = 0, y = 0;
+    for (const NodeId node : nodes) {
+      x += mesh.point(node).x / 3;
+      y += mesh.point(node).y / 3;
+    }
+    return (h < x && x < 2 * h && h < y && y < 2 * h) || (2 * h < x && x < 3 * h && 2 * h < y && y < 3 * h);
+  });
+  std::erase_if(mesh.quads, is_hole);
+  mesh.boundaries.push_back(hole);
+  return mesh;
+}
+
+TEST(BoundaryOutline, TwoBodiesThatTouchAreTwoLoops) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Mesh whole = with_two_holes(4);
+    const Mesh mesh = scatter_mesh(test::world(), whole, test::shuffled_order(whole, seed));
+    const BoundaryOutline outline = outline_of(test::world(), mesh);
+    ASSERT_EQ(outline.geometry.loop_count(), 3) << seed;
+    for (std::int32_t loop = 0; loop < 3; ++loop) {
+      const std::int32_t size = outline.geometry.loop_start(loop + 1) - outline.geometry.loop_start(loop);
+      EXPECT_TRUE(size == 16 || size == 4) << size;
     }
   }
 }

@@ -146,7 +146,8 @@ TEST(MshReader, PassesOverOtherSections) {
   const std::string comments = "$Comments\n# 1 % any $Nodes\n$EndComments\n";
   const std::string periodic = "$Periodic\n1\n0 2 1\n1\n2 1\n$EndPeriodic\n";
   expect_house(check.of(comments + old_house + periodic));
-  expect_house(check.of(replaced(new_house, "$Elements", periodic + "$Elements")));
+  const std::string new_periodic = "$Periodic\n1\n0 2 1\n0\n1\n2 1\n$EndPeriodic\n";
+  expect_house(check.of(replaced(new_house, "$Elements", new_periodic + "$Elements")));
 }
 
 TEST(MshReader, TurnsCellsAndEdges) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "quadloop/case/settings.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
@@ -34,6 +36,23 @@ TEST_F(SolverSettingsTest, WallsMayHaveATemperature) {
   EXPECT_NE(s.warnings[0].find("'boundary.b*.wall_temperature' does nothing"), std::string::npos);
   EXPECT_TRUE(
       read("[boundary.box]\nbc = \"wall\"\nwall_temperature = 2\n[solver]\nreynolds = 9\n").warnings.empty());
+}
+
+TEST_F(SolverSettingsTest, AStreamAtRestNeedsSomethingThatDrivesTheFlow) {
+  const std::string rest = "[solver]\nmach = 0\n",
+                    warm = "[boundary.box]\nbc = \"wall\"\nwall_temperature = 2\n";
+  const auto fault = [&](const std::string& text) { return test::refusal(folder_, [&] { read(text); }); };
+  EXPECT_NE(fault(rest).find("'solver.mach' is 0, so nothing moves the gas"), std::string::npos)
+      << fault(rest);
+  EXPECT_NE(fault(rest + warm).find("is 0, so nothing"), std::string::npos) << "without viscosity";
+  for (const std::string& text : {rest + "initial = \"vortex\"\n", rest + "viscosity = 0.1\n" + warm,
+                                  rest + "[boundary.box]\nbc = \"outflow\"\npressure = 0.5\n"}) {
+    const std::vector<std::string> warnings = read(text).warnings;
+    EXPECT_TRUE(std::ranges::any_of(warnings, [](const auto& w) {
+      return w.starts_with("solver.mach is 0");
+    })) << text;
+  }
+  EXPECT_NO_THROW(read("[solver]\nkind = \"command\"\ncommand = [\"a\"]\nmach = 0\n"));
 }
 
 TEST_F(SolverSettingsTest, WarnsOfExitsIntoAVacuumBelowTheSpeedOfSound) {
