@@ -75,7 +75,8 @@ void require_untouched_solution(const Communicator& comm, const SolvedMesh& solv
   comm.together([&] {
     const auto recorded = record_in(folder).solution_digest;
     if (recorded && *recorded != digest)
-      throw InputError(paths.native_mesh() + ": its solution is not the one that record.json was written for");
+      throw InputError(paths.native_mesh() +
+                       ": its solution is not the one that record.json was written for");
   });
 }
 

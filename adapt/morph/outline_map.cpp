@@ -18,7 +18,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_corner = 10;  // degrees: what turns less is no counterpart of a corner
+constexpr double least_corner = 10;   // degrees: what turns less is no counterpart of a corner
 constexpr double most_stretched = 2;  // between vertices that stay, or it shortens to the inverse of that
 
 using NameSet = std::set<std::string>;

@@ -29,8 +29,9 @@ struct PointShares {
 /// vertices that stand for each other by shares of the way. Those vertices are all of them where both
 /// outlines have as many and `by_points` is asked for, wherever the loops begin, else the kept ones of the
 /// new outline and the sharpest of the old, and between these the old vertices that lie on the new outline,
-/// which stay, unless that would halve or double the length of a part between two of them. Loops of names that the new outline lacks have no image. A smooth
-/// function of the new outline's points as long as the same vertices stand for each other.
+/// which stay, unless that would halve or double the length of a part between two of them. Loops of names
+/// that the new outline lacks have no image. A smooth function of the new outline's points as long as the
+/// same vertices stand for each other.
 class OutlineMap {
  public:
   /// What messages call the outlines: the new one's file, the old one's or "the mesh".

@@ -25,7 +25,8 @@ struct TransferReport {
                               ///< less that over the old one
   std::vector<double> relative_drift;  ///< the same as a share of the old mesh's integral of its absolute
                                        ///< value; 0 where that is 0
-  std::size_t conserved_from = 0;  ///< the first of these variables whose integral is to be kept; all later are
+  std::size_t conserved_from =
+      0;                   ///< the first of these variables whose integral is to be kept; all later are
   double area_change = 0;  ///< of the new mesh against the old one, as a fraction; 0 if nothing is conserved
 };
 

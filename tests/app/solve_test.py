@@ -199,7 +199,7 @@ class SolveTest(unittest.TestCase):
         self.assertNotIn("time", done.stderr)
 
     def test_refusals_name_the_cure_and_leave_nothing(self):
-        for extra, words in ((["solver.machs=1"], "unknown key 'solver.machs'"), (["boundary.body.bc=none"], "[boundary.body] bc"),
+        for extra, words in ((["solver.machs=1"], "unknown key 'solver.machs'"), (["boundary.body.bc=none"], "[boundary.body] set bc"),
                              (["solver.kind='command'", "solver.command=['x']"], "built-in solver alone")):
             settings = [word for assignment in extra for word in ("--set", assignment)]
             done = self.run_quadloop("solve", "case.toml", "m.mesh", "-o", "no.mesh", *settings, status=1)

@@ -19,9 +19,9 @@ struct Polygon {
   }
 };
 
-/// Where an edge whose ends have these heights over a line, of different signs, crosses it, as a fraction of the
-/// edge. The signs are exact and the heights rounded: those of an edge that lies on the line within rounding
-/// may be equal, and any of its points is on the line then.
+/// Where an edge whose ends have these heights over a line, of different signs, crosses it, as a fraction of
+/// the edge. The signs are exact and the heights rounded: those of an edge that lies on the line within
+/// rounding may be equal, and any of its points is on the line then.
 double crossing_fraction(double height_from, double height_to) {
   const double fall = height_from - height_to;
   return fall == 0 ? 0.5 : std::clamp(height_from / fall, 0.0, 1.0);

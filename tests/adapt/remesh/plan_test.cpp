@@ -194,8 +194,8 @@ TEST(Remesh, WarnsOfAConservedIntegralThatDrifts) {
 
 TEST(Remesh, KeepsConservedIntegralsBetweenSlantedSides) {
   MeshInput input = square_input();
-  input.geometry = Geometry({{"far", 0, 30, "farfield"}}, {{0, 0}, {1, 0.1}, {1.07, 1.01}, {-0.02, 0.93}}, {0, 4},
-                            std::vector<BoundaryId>(4, BoundaryId{0}));
+  input.geometry = Geometry({{"far", 0, 30, "farfield"}}, {{0, 0}, {1, 0.1}, {1.07, 1.01}, {-0.02, 0.93}},
+                            {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0}));
   const SolvedMesh solved = solved_front(world(), input);
   AdaptOptions options = adapt_options();
   options.transfer = TransferKind::conservative;

@@ -96,8 +96,8 @@ TEST(ConservativeTransfer, KeepsIntegralsBetweenSlantedSides) {
     };
     const Mesh old_mesh = slanted({23, {1, 1}, true}, 3).part(world()),
                new_mesh = slanted({37, {1, 1}, false}, 4).part(world());
-    const Transferred result = transfer(world(), old_mesh, field_with_cells(old_mesh, step), new_mesh,
-                                        TransferKind::conservative);
+    const Transferred result =
+        transfer(world(), old_mesh, field_with_cells(old_mesh, step), new_mesh, TransferKind::conservative);
     for (const double drift : result.report.relative_drift) EXPECT_NEAR(drift, 0, 1e-12) << slope;
     EXPECT_NEAR(result.report.area_change, 0, 1e-13);
   }

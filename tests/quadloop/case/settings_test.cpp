@@ -153,7 +153,9 @@ TEST_F(SettingsTest, AFileTurnsAboutItsHinge) {
     const Geometry g = load(read_settings(path, {}));
     return std::vector<Point>(g.points().end() - 3, g.points().end());
   };
-  const auto has = [](const std::vector<Point>& points, Point p) { return std::ranges::count(points, p) == 1; };
+  const auto has = [](const std::vector<Point>& points, Point p) {
+    return std::ranges::count(points, p) == 1;
+  };
   EXPECT_TRUE(has(flap("rotate = [0, 90]\nrotate_about = [1.5, 1]\n"), {1.5, 1.5}));
   EXPECT_TRUE(has(flap("rotate = [0, 90]\nrotate_about = [[7, 7], [1.5, 1]]\n"), {1, 1}));
   EXPECT_TRUE(has(flap("scale = [1, 0.5]\nrotate = [0, 180]\nrotate_about = [1, 1]\n"), {1.25, 1.5}));
