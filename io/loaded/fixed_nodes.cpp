@@ -96,14 +96,7 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
     curves.push_back(curve.name);
   }
   if (!curves.empty())
-<<<<<<< HEAD
-    notes.push_back(
-        fmt::format("{}: the nodes of the inner curves {} stay; these names are not written, as only "
-                    "boundaries and edges between two blocks have names in a mesh",
-                    path, quoted(curves)));
-=======
     notes.push_back(fmt::format("{}: the nodes of the inner curves {} stay", path, quoted(curves)));
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   return notes;
 }
 

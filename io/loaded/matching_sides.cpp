@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-<<<<<<< HEAD
-=======
 #include <utility>
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
 
 namespace quadloop {
 
 namespace {
 
 constexpr double matching = 1e-9;  // of the mesh's extent
-<<<<<<< HEAD
-=======
 constexpr int most_trials = 16;    // of sides that look alike, for each side
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
 
 /// The nodes of a boundary from end to end with the domain to the left; none where it is closed or in parts.
 std::vector<NodeId> chain_of(const BoundaryEdges& boundary) {
@@ -38,27 +32,16 @@ std::vector<NodeId> chain_of(const BoundaryEdges& boundary) {
 }
 
 /// An open side, and what a rigid motion keeps of it.
-<<<<<<< HEAD
-struct Side {
-  std::vector<NodeId> nodes;
-  double span = 0;  ///< from end to end
-=======
 struct OpenSide {
   std::vector<NodeId> nodes;
   double from_first = 0, from_last = 0;  ///< distances of all nodes from an end, added up
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
 };
 
 /// p times q as complex numbers.
 Point product(Point p, Point q) { return {p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x}; }
 
 /// Whether the one walked forwards lies on the other walked backwards after the rigid motion of its ends.
-<<<<<<< HEAD
-bool match(const Mesh& mesh, const Side& one, const Side& other, double enough) {
-  if (one.nodes.size() != other.nodes.size() || !(std::abs(one.span - other.span) <= enough)) return false;
-=======
 bool match(const Mesh& mesh, const OpenSide& one, const OpenSide& other, double enough) {
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   const Point from = mesh.point(one.nodes.front()), to = mesh.point(other.nodes.back());
   const Point before = mesh.point(one.nodes.back()) - from, after = mesh.point(other.nodes.front()) - to;
   const Point turn = (1 / dot(before, before)) * product(after, {before.x, -before.y});
@@ -70,19 +53,6 @@ bool match(const Mesh& mesh, const OpenSide& one, const OpenSide& other, double 
   return true;
 }
 
-<<<<<<< HEAD
-std::vector<Side> open_sides(const Mesh& mesh, double enough) {
-  std::vector<Side> sides;
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    Side side{chain_of(boundary), 0};
-    if (side.nodes.empty()) continue;
-    side.span = length(mesh.point(side.nodes.back()) - mesh.point(side.nodes.front()));
-    if (side.span > enough) sides.push_back(std::move(side));
-  }
-  return sides;
-}
-
-=======
 std::vector<OpenSide> open_sides(const Mesh& mesh, double enough) {
   std::vector<OpenSide> sides;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -114,28 +84,17 @@ const OpenSide* partner_of(const OpenSide& side, const std::vector<OpenSide>& si
   return nullptr;
 }
 
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
 }  // namespace
 
 std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
   const double enough = matching * std::max(box.width(), box.height());
-<<<<<<< HEAD
-  std::vector<Side> sides = open_sides(mesh, enough);
-  std::ranges::sort(sides, {}, [](const Side& side) { return std::tuple(side.nodes.size(), side.span); });
-  std::vector<NodeId> nodes;
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    if (!match(mesh, sides[i - 1], sides[i], enough)) continue;
-    for (const Side* side : {&sides[i - 1], &sides[i]})
-      nodes.insert(nodes.end(), side->nodes.begin(), side->nodes.end());
-=======
   const std::vector<OpenSide> sides = open_sides(mesh, enough);
   std::vector<NodeId> nodes;
   for (const OpenSide& side : sides) {
     if (partner_of(side, sides, mesh, enough) != nullptr)
       nodes.insert(nodes.end(), side.nodes.begin(), side.nodes.end());
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   }
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -310,15 +310,8 @@ void MshText::read_periodic() {
     pass_over_transformation();
     for (std::size_t left = scan_.count("pairs of nodes", 2); left > 0; --left) {
       for (int k = 0; k < 2; ++k) {
-<<<<<<< HEAD
-        const std::int64_t tag = node_tag();
-        const NodeId node = tags_.node_of(tag);
-        if (!node.valid()) scan_.refuse("node " + std::to_string(tag) + " is none of the nodes");
-        periodic_nodes_.push_back(node.value());
-=======
         const NodeId node = tags_.node_of(node_tag());
         if (node.valid()) periodic_nodes_.push_back(node.value());  // others were not saved
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
       }
     }
   }

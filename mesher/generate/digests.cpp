@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "mesher/base/mixed_bits.hpp"
-#include "mesher/mesh/cells/cell_owners.hpp"
 
 namespace quadloop {
 
@@ -150,15 +149,6 @@ std::uint64_t solution_digest(const Communicator& comm, const Mesh& mesh, const 
     for (const std::string& name : *names) whole.add(text_digest(name));
   }
   for (const double constant : solution.constants) whole.add(constant);
-<<<<<<< HEAD
-  const CellOwners cells(comm, mesh);
-  const std::size_t of_nodes = mesh.owned_nodes * solution.width();
-  whole.add(sum_over_ranks(
-      comm, digest_of_rows(std::span(solution.values).first(of_nodes), solution.width(),
-                           [&](std::int64_t node) { return mesh.first_node + node; })));
-  whole.add(sum_over_ranks(comm, digest_of_rows(solution.cells.values, solution.cells.width(),
-                                                [&](std::int64_t cell) { return cells.number(cell); })));
-=======
   const std::int64_t triangles = std::ssize(mesh.triangles), first_triangle = comm.exclusive_sum(triangles),
                      first_quad = comm.sum(triangles) + comm.exclusive_sum(std::ssize(mesh.quads));
   const std::size_t of_nodes = mesh.owned_nodes * solution.width();
@@ -168,7 +158,6 @@ std::uint64_t solution_digest(const Communicator& comm, const Mesh& mesh, const 
       comm, digest_of_rows(solution.cells.values, solution.cells.width(), [&](std::int64_t cell) {
         return cell < triangles ? first_triangle + cell : first_quad + cell - triangles;
       })));
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   return whole.value();
 }
 

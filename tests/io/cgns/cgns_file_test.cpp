@@ -141,17 +141,12 @@ TEST(CgnsReader, MarksPeriodicNodes) {
   };
   EXPECT_EQ(periodic(PointList, Vertex, {1, 4}), (std::vector{NodeId{0}, NodeId{3}}));
   EXPECT_EQ(periodic(PointRange, Vertex, {1, 3}), (std::vector{NodeId{0}, NodeId{2}, NodeId{1}}));
-<<<<<<< HEAD
-  EXPECT_EQ(periodic(PointList, EdgeCenter, {5}), (std::vector{NodeId{1}, NodeId{2}}));
-=======
   EXPECT_EQ(periodic(PointList, FaceCenter, {5}), (std::vector{NodeId{1}, NodeId{2}}));
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   const TemporaryFolder folder;
   write_sample(folder.file("m.cgns"), false);
   EXPECT_TRUE(read_cgns(folder.file("m.cgns")).periodic_nodes.empty());
 }
 
-<<<<<<< HEAD
 /// Two unit squares side by side, each a zone with a boundary all round; the second has its nodes in another
 /// order.
 void write_two_zones(const std::string& path) {
@@ -191,8 +186,6 @@ TEST(CgnsReader, NodesOfSeveralZonesAtOnePlaceAreOne) {
     ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
 }
 
-=======
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
 TEST(CgnsFile, KeepsTheNamesOfVariables) {
   const TemporaryFolder folder;
   const Communicator alone(MPI_COMM_SELF);

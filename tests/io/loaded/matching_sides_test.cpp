@@ -45,11 +45,7 @@ double uneven(double x) { return x + 0.1 * std::sin(3 * x); }
 
 TEST(MatchingSides, AreImagesUnderATranslation) {
   const auto bent = [](Point p) {
-<<<<<<< HEAD
-    return Point{uneven(p.x), p.y * (1 + 0.4 * p.y * (1 - p.y)) + 0.2 * std::sin(7 * p.x)};
-=======
     return Point{uneven(p.x), p.y * (1 + 0.4 * p.x * p.y * (1 - p.y)) + 0.2 * std::sin(7 * p.x)};
->>>>>>> f7e2923fbd23af6c382ac014de41e6fe0ef9b6a0
   };
   EXPECT_EQ(matching_names(four_sides(bent)), (std::vector<std::string>{"south", "north"}));
 }
