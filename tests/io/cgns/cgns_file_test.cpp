@@ -147,6 +147,45 @@ TEST(CgnsReader, MarksPeriodicNodes) {
   EXPECT_TRUE(read_cgns(folder.file("m.cgns")).periodic_nodes.empty());
 }
 
+/// Two unit squares side by side, each a zone with a boundary all round; the second has its nodes in another
+/// order.
+void write_two_zones(const std::string& path) {
+  int file = 0, base = 0, at = 0;
+  cg_set_file_type(CG_FILE_HDF5);
+  ASSERT_EQ(cg_open(path.c_str(), CG_MODE_WRITE, &file), CG_OK);
+  cg_base_write(file, "Base", 2, 2, &base);
+  const std::array<cgsize_t, 3> size{4, 1, 0};
+  const std::array<cgsize_t, 4> quad{1, 2, 3, 4};
+  const std::array<cgsize_t, 8> bars{1, 2, 2, 3, 3, 4, 4, 1};
+  for (const bool right : {false, true}) {
+    int zone = 0;
+    const std::array<double, 4> x =
+        right ? std::array<double, 4>{2, 2, 1, 1} : std::array<double, 4>{0, 1, 1, 0};
+    const std::array<double, 4> y =
+        right ? std::array<double, 4>{0, 1, 1, 0} : std::array<double, 4>{0, 0, 1, 1};
+    cg_zone_write(file, base, right ? "Right" : "Left", size.data(), Unstructured, &zone);
+    cg_coord_write(file, base, zone, RealDouble, "CoordinateX", x.data(), &at);
+    cg_coord_write(file, base, zone, RealDouble, "CoordinateY", y.data(), &at);
+    cg_section_write(file, base, zone, "Quads", QUAD_4, 1, 1, 0, quad.data(), &at);
+    cg_section_write(file, base, zone, right ? "right" : "left", BAR_2, 2, 5, 0, bars.data(), &at);
+  }
+  ASSERT_EQ(cg_close(file), CG_OK);
+}
+
+TEST(CgnsReader, NodesOfSeveralZonesAtOnePlaceAreOne) {
+  const TemporaryFolder folder;
+  write_two_zones(folder.file("m.cgns"));
+  const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+  EXPECT_EQ(loaded.blocks, 2);
+  EXPECT_EQ(loaded.mesh.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}}));
+  EXPECT_EQ(loaded.mesh.owned_nodes, 6);
+  ASSERT_EQ(loaded.mesh.boundaries.size(), 2U);
+  EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 4U);  // with the one between the zones
+  EXPECT_EQ(loaded.mesh.boundaries[1].edges.size(), 3U);
+  for (const MeshFault& fault : validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}))
+    ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
+}
+
 TEST(CgnsFile, KeepsTheNamesOfVariables) {
   const TemporaryFolder folder;
   const Communicator alone(MPI_COMM_SELF);
