@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "mesher/base/mixed_bits.hpp"
-#include "mesher/mesh/cells/cell_owners.hpp"
 
 namespace quadloop {
 
