@@ -18,10 +18,10 @@ struct LoadedMesh {
   std::int32_t blocks = 1;
   std::vector<std::int32_t> triangle_to_block, quad_to_block;  ///< from 0; a block's cells follow each other
   std::vector<std::string> block_names;
-  std::vector<BoundaryEdges> inner_curves;  ///< named edges inside a block: no boundary
-  std::vector<NodeId> periodic_nodes;       ///< of sides that the file marks as periodic
-  std::optional<Field> solution;
-  std::vector<std::string> warnings;  ///< what the reader turned round or left out, with the file's name
+  std::vector<BoundaryEdges> inner_curves = {};  ///< named edges inside a block: no boundary
+  std::vector<NodeId> periodic_nodes = {};       ///< of sides that the file marks as periodic
+  std::optional<Field> solution = {};
+  std::vector<std::string> warnings = {};  ///< what the reader turned round or left out, with the file's name
 };
 
 /// Whether there are several blocks, or one with a name of its own.

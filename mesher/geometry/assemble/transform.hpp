@@ -12,7 +12,7 @@ struct Transform {
   double scale = 1;  ///< > 0
   double rotate_degrees = 0;
   Point translate;
-  Point rotate_about;  ///< in scaled coordinates
+  Point rotate_about = {};  ///< in scaled coordinates
 };
 
 /// The point placed. Quarter turns are exact: no sine of 90 degrees is rounded.
