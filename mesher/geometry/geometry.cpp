@@ -144,8 +144,10 @@ Geometry Geometry::with(LocalDemands demands) const {
 
 double Geometry::spacing_of(std::int32_t segment) const {
   if (!spacing_.empty()) return spacing_[segment];
-  const double wanted = boundary(boundary_of(segment)).spacing;
-  return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
+  const double wanted = boundary(boundary_of(segment)).spacing,
+               own = length(point(next(segment)) - point(segment));
+  if (wanted == 0) return own;
+  return kept(segment) && kept(next(segment)) ? std::min(wanted, own) : wanted;
 }
 
 double Geometry::corner_spacing_of(std::int32_t v) const {

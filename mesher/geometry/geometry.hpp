@@ -88,7 +88,7 @@ class Geometry {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : turn_degrees(v);
   }
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
-  /// length.
+  /// length. Between two kept corners it is the smaller one, as one cell that holds both corners is thin.
   double spacing_of(std::int32_t segment) const;
 
   /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that

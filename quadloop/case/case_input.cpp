@@ -1,12 +1,15 @@
 #include "quadloop/case/case_input.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/suffix.hpp"
+#include "mesher/build/short_edges.hpp"
 #include "mesher/generate/digests.hpp"
 #include "quadloop/case/layer_settings.hpp"
 
@@ -47,6 +50,8 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   Geometry geometry = load_geometry(settings, warnings, arguments.saved);
   require_layers_that_doubles_hold(geometry);
   const MeshOptions options = mesh_options(settings, geometry);
+  if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))
+    geometry = std::move(*merged);
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
                                case_digest(options, settings.lines), settings.lines, settings.stretch});

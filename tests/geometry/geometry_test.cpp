@@ -79,6 +79,19 @@ TEST(Geometry, DemandsOfSinglePlacesReplaceTheBoundarys) {
   EXPECT_EQ(g.size(), plain.size());
 }
 
+/// Else one triangle spans both corners of a blunt trailing edge.
+TEST(Geometry, AnEdgeBetweenKeptCornersAsksForItsOwnLength) {
+  const std::vector<Point> points{{0, 0}, {1, -0.25}, {2, 0}, {2, 0.125}, {1, 0.25}};
+  const auto blunt = [&](double spacing, double corner) {
+    return Geometry({Boundary{"wall", spacing, corner}}, points, {0, 5},
+                    std::vector<BoundaryId>(5, BoundaryId{0}));
+  };
+  EXPECT_EQ(blunt(0.5, 45).spacing_of(2), 0.125);
+  EXPECT_EQ(blunt(0.5, 45).spacing_of(1), 0.5) << "it ends at one kept corner alone";
+  EXPECT_EQ(blunt(0.0625, 45).spacing_of(2), 0.0625) << "a finer boundary stays as fine";
+  EXPECT_EQ(blunt(0.5, 180).spacing_of(2), 0.5) << "no corner is kept";
+}
+
 TEST(Geometry, ThereIsOneDemandForEachPlace) {
   EXPECT_THROW(house().with({{0.1}, {1, 0, 1, 0, 0}, {0, 5, 0, 0, 7}}), Fault);
   EXPECT_THROW(house().with({{0.1, 0.2, 0.3, 0.4, 0.6}, {1}, {0, 5, 0, 0, 7}}), Fault);

@@ -1,0 +1,82 @@
+// Edges between kept corners that are shorter than the smallest cells.
+#include "mesher/build/short_edges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace quadloop {
+namespace {
+
+/// A body with a base of 1/16 at x = 4, as an island: clockwise.
+std::vector<Point> body() { return {{4, 0.0625}, {4, 0}, {2, -1}, {0, 0}, {2, 1}}; }
+
+Geometry outline(const std::vector<std::vector<Point>>& loops) {
+  std::vector<Point> points;
+  std::vector<std::int32_t> starts{0};
+  for (const std::vector<Point>& loop : loops) {
+    points.insert(points.end(), loop.begin(), loop.end());
+    starts.push_back(static_cast<std::int32_t>(points.size()));
+  }
+  std::vector<BoundaryId> of_segment(points.size(), BoundaryId{0});
+  return {{Boundary{"wall"}}, std::move(points), std::move(starts), std::move(of_segment)};
+}
+
+TEST(ShortEdges, ABaseBelowTheSmallestCellBecomesOneVertexInItsMiddle) {
+  std::vector<std::string> warnings;
+  const std::optional<Geometry> merged = short_edges_merged(outline({body()}), 0.125, warnings);
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->size(), 4);
+  EXPECT_EQ(merged->point(0), (Point{4, 0.03125}));
+  EXPECT_EQ(merged->point(3), (Point{2, 1}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "1 edge between corners shorter than spacing.min = 0.125, the longest 0.0625 at (4, 0.03125) of "
+            "boundary 'wall': the two ends became one node; make spacing.min smaller");
+}
+
+TEST(ShortEdges, ABaseThatCellsCanResolveStays) {
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(short_edges_merged(outline({body()}), 0.0625, warnings));
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(ShortEdges, TheEdgeThatClosesALoopIsMergedToo) {
+  std::vector<Point> points = body();
+  points.push_back(points.front());
+  points.erase(points.begin());
+  std::vector<std::string> warnings;
+  const std::optional<Geometry> merged = short_edges_merged(outline({points}), 0.125, warnings);
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->size(), 4);
+  EXPECT_EQ(merged->point(0), (Point{4, 0.03125}));
+}
+
+TEST(ShortEdges, NothingIsMergedWhereTheOutlineWouldTouchItself) {
+  // the notch's floor, with a tip of another loop between the floor's left end and its middle
+  const std::vector<Point> notch{{0, 0}, {8, 0}, {8, 4}, {5, 4}, {4.0625, 2}, {3.9375, 2}, {3.5, 4}, {0, 4}};
+  const std::vector<Point> tip{{3.9765, 2.03}, {3.85, 2.6}, {3.97, 2.6}};
+  std::vector<std::string> warnings;
+  EXPECT_TRUE(short_edges_merged(outline({notch}), 0.25, warnings)) << "without the tip";
+  warnings.clear();
+  EXPECT_FALSE(short_edges_merged(outline({notch, tip}), 0.25, warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("triangles there may be thin"), std::string::npos) << warnings[0];
+}
+
+TEST(ShortEdges, TheOnlyEdgeOfABoundaryStays) {
+  const Geometry plain = outline({body()});
+  std::vector<BoundaryId> of_segment(5, BoundaryId{0});
+  of_segment[0] = BoundaryId{1};
+  const Geometry named({Boundary{"wall"}, Boundary{"base"}}, {plain.points().begin(), plain.points().end()},
+                       {0, 5}, of_segment);
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(short_edges_merged(named, 0.125, warnings));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("boundary 'base'"), std::string::npos) << warnings[0];
+}
+
+}  // namespace
+}  // namespace quadloop
