@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cpl_error.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
@@ -21,7 +22,8 @@ namespace quadloop {
                           DO(OGR_G_GetLinearGeometry) DO(OGR_G_GetPointCount) DO(OGR_G_GetX) DO(OGR_G_GetY) \
                               DO(OGR_G_HasCurveGeometry) DO(OGR_GT_Flatten) DO(OGR_GT_IsSubClassOf)         \
                                   DO(OGR_L_GetName) DO(OGR_L_GetNextFeature) DO(OGR_L_GetSpatialRef)        \
-                                      DO(OSRIsGeographic)
+                                      DO(OSRIsGeographic) DO(OGR_F_GetStyleString) DO(VSIFCloseL)           \
+                                          DO(VSIFileFromMemBuffer) DO(VSIUnlink)
 // clang-format on
 
 /// GDAL, loaded when it is first asked for: with all that it depends on that takes longer than the rest of

@@ -1,20 +1,29 @@
 #include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <span>
 
 #include "io/files/reading/input_file.hpp"
+#include "io/gis/dxf_drawing.hpp"
 #include "io/gis/gdal_library.hpp"
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/base/nearest_word.hpp"
+#include "mesher/base/suffix.hpp"
+#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 namespace quadloop {
 
@@ -59,20 +68,113 @@ std::string without_blanks(std::string name) {
   return name;
 }
 
+/// An attribute, its name in any case; empty where the feature has none.
+std::string text_of(OGRFeatureH feature, const char* attribute) {
+  const int field = gdal().OGR_F_GetFieldIndex(feature, attribute);
+  if (field < 0 || gdal().OGR_F_IsFieldSetAndNotNull(feature, field) == 0) return {};
+  return gdal().OGR_F_GetFieldAsString(feature, field);
+}
+
 std::string name_of(OGRFeatureH feature, OGRLayerH layer) {
-  for (const char* attribute : {"boundary", "name", "Layer"}) {
-    const int field = gdal().OGR_F_GetFieldIndex(feature, attribute);  // in any case
-    if (field < 0 || gdal().OGR_F_IsFieldSetAndNotNull(feature, field) == 0) continue;
-    const std::string name = gdal().OGR_F_GetFieldAsString(feature, field);
+  for (const char* attribute : {"name", "boundary", "Layer"}) {
+    const std::string name = text_of(feature, attribute);
     if (!name.empty()) return without_blanks(name);
   }
   return without_blanks(gdal().OGR_L_GetName(layer));
 }
 
+/// How many of each kind there are, for a warning.
+class LeftOut {
+ public:
+  /// What has one handle counts once: GDAL makes several features of a dimension.
+  void add(const std::string& kind, const std::string& handle) {
+    if (handle.empty() || seen_.insert(kind + handle).second) ++counts_[kind];
+  }
+  bool empty() const { return counts_.empty(); }
+  std::string text() const {
+    std::string text;
+    for (const auto& [kind, count] : counts_)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
+    return text;
+  }
+
+ private:
+  std::map<std::string, std::int64_t> counts_;
+  std::set<std::string> seen_;
+};
+
 /// Gathers the chains of one feature after another.
 class Collector {
  public:
-  explicit Collector(std::vector<Chain>& chains) : chains_{chains} {}
+  /// `drawing` is null where the file is none.
+  Collector(std::vector<Chain>& chains, const LayerNames& layers, const DxfDrawing* drawing)
+      : chains_{chains}, layers_{layers}, drawing_{drawing} {}
+
+  void add_feature(OGRFeatureH feature, OGRLayerH layer, const std::string& path) {
+    const std::string layer_name = drawing_ ? text_of(feature, "Layer") : gdal().OGR_L_GetName(layer);
+    known_layers_.insert(layer_name);
+    if (!is_wanted(layer_name)) return;
+    const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
+    if (geometry == nullptr) return;
+    const std::string handle = drawing_ ? text_of(feature, "EntityHandle") : "";
+    if (const std::string why = why_left_out(feature, handle, layer_name); !why.empty())
+      return left_out_.add(why, handle);
+    const std::string name = name_of(feature, layer);
+    const std::string source = fmt::format("{}: layer '{}', feature {}", path, gdal().OGR_L_GetName(layer),
+                                           gdal().OGR_F_GetFID(feature));
+    const DxfEntity* const entity = drawing_ ? drawing_->find(handle) : nullptr;
+    if (entity != nullptr && entity->spline) {
+      if (std::vector<Point> points = points_of(*entity->spline); !points.empty())
+        return add_points(std::move(points), name, source);
+    }
+    const OwnGeometry straight{gdal().OGR_G_HasCurveGeometry(geometry, 0) != 0
+                                   ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr)
+                                   : gdal().OGR_G_Clone(geometry)};
+    add(straight.get(), name, source);
+  }
+
+  const LeftOut& left_out() const { return left_out_; }
+  const std::set<std::string>& known_layers() const { return known_layers_; }
+
+ private:
+  bool is_wanted(const std::string& layer) const {
+    return layers_.empty() ||
+           std::ranges::any_of(layers_, [&](const std::string& pattern) { return matches(pattern, layer); });
+  }
+
+  /// Of a drawing: the kind of what is no outline, or not seen; empty where it is to be read.
+  std::string why_left_out(OGRFeatureH feature, const std::string& handle, const std::string& layer) const {
+    if (drawing_ == nullptr) return {};
+    const std::string type = type_of(feature, handle);
+    if (text_of(feature, "PaperSpace") == "1") return fmt::format("{} in paper space", type);
+    const char* const style = gdal().OGR_F_GetStyleString(feature);
+    const bool hidden = style != nullptr && has_hidden_colour(style);
+    if (hidden && layers_.empty()) return fmt::format("{} not visible on layer '{}'", type, layer);
+    return is_outline(type) ? std::string() : fmt::format("{} on layer '{}'", type, layer);
+  }
+
+  /// The entity's type, of a block's content its class.
+  std::string type_of(OGRFeatureH feature, const std::string& handle) const {
+    const DxfEntity* const entity = drawing_->find(handle);
+    if (entity != nullptr && entity->type != "INSERT") return entity->type;
+    const std::string classes = text_of(feature, "SubClasses");
+    return classes.substr(classes.rfind(':') + 1);
+  }
+
+  static bool is_outline(const std::string& type) {
+    static const std::set<std::string> types{"",         "LINE",         "LWPOLYLINE",     "POLYLINE",
+                                             "ARC",      "CIRCLE",       "ELLIPSE",        "SPLINE",
+                                             "AcDbLine", "AcDbPolyline", "AcDb2dPolyline", "AcDb3dPolyline",
+                                             "AcDbArc",  "AcDbCircle",   "AcDbEllipse",    "AcDbSpline"};
+    return types.contains(type);
+  }
+
+  /// GDAL gives what is on a layer that is off or frozen, or not visible itself, a colour without opacity.
+  static bool has_hidden_colour(std::string_view style) {
+    const std::size_t colour = style.find("c:#");
+    return colour != std::string_view::npos && style.substr(colour + 3, 8).size() == 8 &&
+           style.substr(colour + 9, 2) == "00";
+  }
 
   void add(OGRGeometryH geometry, const std::string& name, const std::string& source) {
     const OGRwkbGeometryType type = gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry));
@@ -82,18 +184,20 @@ class Collector {
       const int parts = gdal().OGR_G_GetGeometryCount(geometry);
       for (int i = 0; i < parts; ++i) add(gdal().OGR_G_GetGeometryRef(geometry, i), name, source);
     } else {
-      ++left_out_;
+      left_out_.add("features that are neither lines nor polygons", {});
     }
   }
-  std::int64_t left_out() const { return left_out_; }
 
- private:
   void add_line(OGRGeometryH line, const std::string& name, const std::string& source) {
-    Chain chain{name, true, {}, source};
+    std::vector<Point> read;
     const int points = gdal().OGR_G_GetPointCount(line);
-    for (int i = 0; i < points; ++i)
-      chain.points.push_back({gdal().OGR_G_GetX(line, i), gdal().OGR_G_GetY(line, i)});
-    if (chain.points.empty()) return;
+    for (int i = 0; i < points; ++i) read.push_back({gdal().OGR_G_GetX(line, i), gdal().OGR_G_GetY(line, i)});
+    add_points(std::move(read), name, source);
+  }
+
+  void add_points(std::vector<Point> points, const std::string& name, const std::string& source) {
+    if (points.empty()) return;
+    Chain chain{name, true, std::move(points), source};
     if (chain.points.size() > 2 && chain.points.front() == chain.points.back()) {
       chain.points.pop_back();
       chain.open = false;
@@ -102,7 +206,10 @@ class Collector {
   }
 
   std::vector<Chain>& chains_;
-  std::int64_t left_out_ = 0;
+  const LayerNames& layers_;
+  const DxfDrawing* drawing_;
+  LeftOut left_out_;
+  std::set<std::string> known_layers_;
 };
 
 /// A box of longitudes and latitudes, if it can be one: some programs write metres into files that declare
@@ -141,36 +248,61 @@ bool is_in_degrees(OGRLayerH layer) {
 }
 
 void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
-  while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) {
-    const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature.get());
-    if (geometry == nullptr) continue;
-    const OwnGeometry straight{gdal().OGR_G_HasCurveGeometry(geometry, 0) != 0
-                                   ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr)
-                                   : gdal().OGR_G_Clone(geometry)};
-    const std::string source = fmt::format("{}: layer '{}', feature {}", path, gdal().OGR_L_GetName(layer),
-                                           gdal().OGR_F_GetFID(feature.get()));
-    collector.add(straight.get(), name_of(feature.get(), layer), source);
-  }
+  while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)})
+    collector.add_feature(feature.get(), layer, path);
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
     throw InputError(
         fmt::format("{}: {}; correct or export the file anew", path, one_line(gdal().CPLGetLastErrorMsg())));
 }
 
+/// A file in memory, for GDAL.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string text) : text_{std::move(text)} {
+    gdal().VSIFCloseL(
+        gdal().VSIFileFromMemBuffer(name, reinterpret_cast<GByte*>(text_.data()), text_.size(), 0));
+  }
+  ~MemoryFile() { gdal().VSIUnlink(name); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  static constexpr const char* name = "/vsimem/entities.dxf";
+
+ private:
+  std::string text_;
+};
+
+void refuse_empty(const std::string& path, const LayerNames& layers, const Collector& collector) {
+  const std::vector<std::string> known(collector.known_layers().begin(), collector.known_layers().end());
+  if (!layers.empty() && collector.left_out().empty())
+    throw InputError(
+        fmt::format("{}: no layer of the file has lines or polygons and is one of [{}]; its layers are: {}",
+                    path, fmt::join(layers, ", "), first_few(known)));
+  throw InputError(
+      fmt::format("{}: holds no lines and no polygons; a geometry needs closed outlines{}", path,
+                  collector.left_out().empty() ? "" : ". Left out: " + collector.left_out().text()));
+}
+
 }  // namespace
 
-std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& warnings) {
+std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
+                            std::vector<std::string>& warnings) {
   require_input_file(path);
+  std::optional<DxfDrawing> drawing;
+  if (suffix_of(path) == ".dxf") drawing.emplace(path);
   gdal().GDALAllRegister();
   const QuietGdal quiet;
-  const Dataset data{
-      gdal().GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
+  std::optional<MemoryFile> entities_alone;
+  if (drawing && !drawing->entities_alone().empty()) entities_alone.emplace(drawing->entities_alone());
+  const Dataset data{gdal().GDALOpenEx(entities_alone ? MemoryFile::name : path.c_str(),
+                                       GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
         fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path,
                     one_line(gdal().CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
-  Collector collector(chains);
+  Collector collector(chains, layers, drawing ? &*drawing : nullptr);
   gdal().CPLErrorReset();
   std::vector<Chain> in_degrees;
   for (int i = 0; i < gdal().GDALDatasetGetLayerCount(data.get()); ++i) {
@@ -179,13 +311,13 @@ std::vector<Chain> read_ogr(const std::string& path, std::vector<std::string>& w
     read_layer(layer, path, collector);
     if (is_in_degrees(layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }
-  if (chains.empty())
-    throw InputError(path + ": holds no lines and no polygons; a geometry needs closed outlines");
+  if (chains.empty()) refuse_empty(path, layers, collector);
   warn_of_degrees(path, in_degrees, warnings);
-  if (collector.left_out() > 0) {
-    warnings.push_back(fmt::format("{}: left out {} features that are neither lines nor polygons", path,
-                                   collector.left_out()));
-  }
+  if (!collector.left_out().empty())
+    warnings.push_back(fmt::format("{}: left out: {}", path, collector.left_out().text()));
+  if (drawing && !drawing->unit().empty())
+    log::information(fmt::format("{}: the drawing's unit is the {}; coordinates are taken as they stand",
+                                 path, drawing->unit()));
   return chains;
 }
 

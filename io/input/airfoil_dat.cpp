@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "io/input/line_reader.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -24,15 +25,20 @@ double chord_of(const std::vector<Point>& rows) {
 /// chord.
 bool are_counts(Point p) { return p.x >= 2 && p.y >= 2 && p.x == std::floor(p.x) && p.y == std::floor(p.y); }
 
+/// A third column of zeros is that of files in three dimensions.
+bool has_no_third(const LineReader& lines) {
+  return lines.words().size() == 2 || (lines.words().size() == 3 && lines.is_number(2) && lines.real(2) == 0);
+}
+
 Point read_point(const LineReader& lines) {
-  if (lines.words().size() != 2) {
+  if (!has_no_third(lines)) {
     lines.refuse(fmt::format("'{}' should be two coordinates of the airfoil", fmt::join(lines.words(), " ")));
   }
   return {lines.real(0), lines.real(1)};
 }
 
 bool is_point(const LineReader& lines) {
-  return lines.words().size() == 2 && lines.is_number(0) && lines.is_number(1);
+  return has_no_third(lines) && lines.is_number(0) && lines.is_number(1);
 }
 
 /// A file without a name begins with a point; "2412 63" is a name all the same.
@@ -136,17 +142,23 @@ class AirfoilRows {
   bool ended_ = false;  ///< what follows is no part of the airfoil
 };
 
-/// Where the second of two surfaces begins that both run from the leading edge to the trailing edge, though
-/// no counts say so: the one step back over most of the chord. 0 where there is none.
-std::size_t second_surface(const std::vector<Point>& rows) {
+/// Two surfaces that both run the same way between the edges, though no counts say so.
+struct TwoSurfaces {
+  std::size_t second = 0;  ///< where the second one begins; 0 where the file has one line round the airfoil
+  bool from_leading_edge = true;
+};
+
+/// Told by the one step over most of the chord, back to the edge at which the first surface began.
+TwoSurfaces two_surfaces(const std::vector<Point>& rows) {
   constexpr double most = 0.8;
-  std::size_t found = 0;
-  if (rows.size() < 2) return 0;
+  TwoSurfaces found;
+  if (rows.size() < 2) return found;
   const double chord = chord_of(rows);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i - 1].x - rows[i].x < most * chord) continue;
-    if (found > 0 || length(rows[i] - rows.front()) > blunt * chord) return 0;
-    found = i;
+    const double step = rows[i].x - rows[i - 1].x;
+    if (std::abs(step) < most * chord) continue;
+    if (found.second > 0 || length(rows[i] - rows.front()) > blunt * chord) return {};
+    found = {i, step < 0};
   }
   return found;
 }
@@ -169,12 +181,19 @@ double area(const std::vector<Point>& points) {
   return 0.5 * sum;
 }
 
-/// The trailing edge may be blunt, but a file with one side alone is not to pass in silence.
-void warn_of_gap(const std::vector<Point>& rows, const std::string& source,
-                 std::vector<std::string>& warnings) {
+/// The trailing edge may be blunt, even very blunt, but no airfoil is open over half of its chord: one side
+/// is missing then, or a point that is none of the outline stands in the file.
+void check_gap(const std::vector<Point>& rows, const std::string& source,
+               std::vector<std::string>& warnings) {
   if (rows.size() < 2) return;
   const double gap = length(rows.back() - rows.front());
-  if (gap <= blunt * chord_of(rows)) return;
+  const double chord = chord_of(rows);
+  if (gap <= blunt * chord) return;
+  if (gap > 0.5 * chord)
+    throw InputError(fmt::format(
+        "{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart, too far for a "
+        "trailing edge; remove rows that are no points of the outline, or add the surface that is missing",
+        source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
   warnings.push_back(
       fmt::format("{}: the airfoil's first and last point, ({}, {}) and ({}, {}), are {:.3g} apart and were "
                   "joined by a straight line",
@@ -191,14 +210,18 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   airfoil.warn(path, warnings);
   if (airfoil.upper()) {
     rows = around(rows, *airfoil.upper());
-  } else if (const std::size_t upper = second_surface(rows)) {
+  } else if (const auto [second, from_leading_edge] = two_surfaces(rows); second > 0) {
     warnings.push_back(
-        fmt::format("{}: both surfaces run from the leading edge, though the head has no counts; point {} "
+        fmt::format("{}: both surfaces run from the {} edge, though the head has no counts; point {} "
                     "begins the second",
-                    path, upper + 1));
-    rows = around(rows, upper);
+                    path, from_leading_edge ? "leading" : "trailing", second + 1));
+    if (!from_leading_edge) {
+      std::reverse(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(second));
+      std::reverse(rows.begin() + static_cast<std::ptrdiff_t>(second), rows.end());
+    }
+    rows = around(rows, second);
   }
-  warn_of_gap(rows, source, warnings);
+  check_gap(rows, source, warnings);
   if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
   if (area(rows) > 0) std::reverse(rows.begin(), rows.end());
   return {Chain{"airfoil", false, std::move(rows), source}};

@@ -19,8 +19,11 @@ namespace {
 
 std::map<std::string, GeometryReader>& readers() {
   static std::map<std::string, GeometryReader> all{
-      {".geom", [](const std::string& path, std::vector<std::string>&) { return read_geom(path); }},
-      {".dat", read_airfoil}};
+      {".geom",
+       [](const std::string& path, const LayerNames&, std::vector<std::string>&) { return read_geom(path); }},
+      {".dat", [](const std::string& path, const LayerNames&, std::vector<std::string>& warnings) {
+         return read_airfoil(path, warnings);
+       }}};
   return all;
 }
 
@@ -36,11 +39,16 @@ std::vector<std::string> geometry_suffixes() {
 
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
-std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings) {
+bool has_layers_of_drawings(const std::string& path) {
+  return std::ranges::count(gis_suffixes, suffix_of(path)) > 0;
+}
+
+std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
+                                 const LayerNames& layers) {
   const std::string suffix = suffix_of(path);
   const auto reader = readers().find(suffix);
   if (reader != readers().end()) {
-    std::vector<Chain> chains = reader->second(path, warnings);
+    std::vector<Chain> chains = reader->second(path, layers, warnings);
     std::vector<std::string*> names;
     for (Chain& chain : chains) names.push_back(&chain.name);
     std::ranges::move(clean_names(names, path), std::back_inserter(warnings));

@@ -9,11 +9,16 @@
 
 namespace quadloop {
 
+/// Names of layers of a drawing or map, with the wildcards * and ?. None: all layers, of a drawing those that
+/// are visible.
+using LayerNames = std::vector<std::string>;
+
 /// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
-/// gis_suffixes where add_geometry_reader() has brought a reader for them. On the calling rank alone. Throws
-/// InputError "file:line: ..." where the file is not what its suffix says. What was left out of the file is
-/// told by a warning each.
-std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings);
+/// gis_suffixes where add_geometry_reader() has brought a reader for them; of those the layers given. On the
+/// calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix says. What
+/// was left out of the file is told by a warning each.
+std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
+                                 const LayerNames& layers = {});
 
 /// Whether the suffix is that of a file of airfoil coordinates, which outline a body.
 bool is_airfoil_file(const std::string& path);
@@ -28,7 +33,11 @@ inline const std::array<std::string, 4> gis_suffixes{".dxf", ".geojson", ".shp",
 /// Those of all geometry files, whether or not this program reads drawings and maps.
 std::vector<std::string> geometry_suffixes();
 
-using GeometryReader = std::vector<Chain> (*)(const std::string& path, std::vector<std::string>& warnings);
+/// Whether files of this suffix have layers.
+bool has_layers_of_drawings(const std::string& path);
+
+using GeometryReader = std::vector<Chain> (*)(const std::string& path, const LayerNames& layers,
+                                              std::vector<std::string>& warnings);
 
 /// From here on files of this suffix are read by `reader`, in the whole process.
 void add_geometry_reader(const std::string& suffix, GeometryReader reader);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -30,11 +31,53 @@ std::optional<double> number_of(std::string_view word) {
   return parse_real(word, value) ? std::optional(value) : std::nullopt;
 }
 
+/// By the byte order mark.
+bool is_utf16(std::string_view text) { return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"); }
+
+/// Without the byte order mark. Characters beyond the first plane become '?': coordinates and names have
+/// none.
+std::string utf8_of_utf16(std::string_view text) {
+  const std::size_t low = text.starts_with("\xFF\xFE") ? 0 : 1;
+  std::string out;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[i + k]); };
+    const unsigned unit = byte(low) | static_cast<unsigned>(byte(1 - low)) << 8U;
+    if (unit < 0x80) {
+      out += static_cast<char>(unit);
+    } else if (unit >= 0xD800 && unit < 0xE000) {
+      if (unit < 0xDC00) out += '?';
+    } else {
+      if (unit >= 0x800) out += static_cast<char>(0xE0U | unit >> 12U);
+      out += static_cast<char>((unit >= 0x800 ? 0x80U | (unit >> 6U & 0x3FU) : 0xC0U | unit >> 6U));
+      out += static_cast<char>(0x80U | (unit & 0x3FU));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 LineReader::LineReader(const std::string& path) : path_{path}, file_{path} {
   fill();
+  if (is_utf16(text_)) {
+    read_rest();
+    text_ = utf8_of_utf16(text_);
+    fill();
+  }
+  const bool has_old_line_ends = row_end_ == text_.size() && text_.find('\r') != std::string::npos;
+  if (has_old_line_ends) {  // of the Mac before 2001
+    std::ranges::replace(text_, '\r', '\n');
+    fill();
+  }
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of some editors
+}
+
+void LineReader::read_rest() {
+  while (!all_read_) {
+    const std::size_t before = text_.size();
+    file_.append_next(text_);
+    all_read_ = text_.size() == before;
+  }
 }
 
 void LineReader::fill() {

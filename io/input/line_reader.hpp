@@ -11,7 +11,8 @@
 namespace quadloop {
 
 /// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed
-/// over, CRLF is a line end. Every refusal is an InputError "file:line: what, what to do".
+/// over; LF, CRLF and CR are line ends; UTF-16 is read where a byte order mark tells it. Every refusal is an
+/// InputError "file:line: what, what to do".
 class LineReader {
  public:
   /// Opens the file, which is never held whole; InputError where it cannot be read.
@@ -49,6 +50,8 @@ class LineReader {
   /// A row of two coordinates, each with a decimal comma, must not pass for four words.
   void refuse_decimal_commas() const;
 
+  /// Makes text_ hold the whole file.
+  void read_rest();
   /// Makes text_ hold the rest of the row at at_, or of the file.
   void fill();
 

@@ -100,4 +100,14 @@ bool Proximity::narrower(std::span<const std::int32_t> segments, const Box& box,
   return false;
 }
 
+Proximity::NarrowParts Proximity::narrow_parts(double width) const {
+  NarrowParts parts;
+  for (std::int32_t s = 0; s < geometry_->size(); ++s) {
+    const Point from = geometry_->point(s), to = geometry_->point(geometry_->next(s));
+    if (!narrower(std::span(&s, 1), box_of(from, to), width)) continue;
+    if (parts.segments++ == 0) parts.first = from + 0.5 * (to - from);
+  }
+  return parts;
+}
+
 }  // namespace quadloop

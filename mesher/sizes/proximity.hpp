@@ -20,6 +20,13 @@ class Proximity {
   /// gap, are no gap.
   bool narrower(std::span<const std::int32_t> segments, const Box& box, double width) const;
 
+  /// The segments of the outline at which the domain is narrower than `width`. O(n log n).
+  struct NarrowParts {
+    std::int64_t segments = 0;
+    Point first;  ///< the middle of the first of them
+  };
+  NarrowParts narrow_parts(double width) const;
+
  private:
   bool faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const;
   bool is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const;

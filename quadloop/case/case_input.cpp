@@ -27,7 +27,7 @@ void require_case_file(const std::string& path) {
 
 /// Another outline in the place of the case's, placed as the first of those; it may bring its own far field.
 void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
-  settings.files = {{path, path, settings.files.front().transform}};
+  settings.files = {{path, path, settings.files.front().transform, {}}};
   if (!settings.far_field) return;
   for (const Chain& chain : read_geometry(path, warnings)) {
     if (chain.name == "farfield") settings.far_field.reset();

@@ -54,7 +54,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
           "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
           input.where, input.path));
     }
-    std::vector<Chain> of_file = read_geometry(input.path, warnings);
+    std::vector<Chain> of_file = read_geometry(input.path, warnings, input.layers);
     apply(input.transform, of_file);
     if (!settings.inside && is_airfoil_file(input.path)) {
       for (const Chain& chain : of_file) options.bodies.push_back(chain.name);

@@ -9,11 +9,13 @@
 #include "flow/quantities/flow_quantities.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
+#include "io/input/geometry_file.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
+#include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
@@ -48,6 +50,9 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
   if (!hinges.empty() && turns.empty())
     table->refuse("rotate_about", "needs rotate, the angle in degrees, in the same table");
   const auto moves = table->pairs("translate");
+  const std::vector<std::string> layers = table->texts("layers");
+  if (!layers.empty() && std::ranges::none_of(files, has_layers_of_drawings))
+    table->refuse("layers", "chooses layers of drawings and maps, but no file is one");
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto move = of_file(*table, "translate", moves, i, files.size(), {0, 0});
     const double turn = of_file(*table, "rotate", turns, i, files.size(), 0.0);
@@ -55,7 +60,8 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
     const double scale = of_file(*table, "scale", scales, i, files.size(), 1.0);
     settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
                               fmt::format("{}: 'geometry.file'", table->place("file")),
-                              {scale, turn, {move[0], move[1]}, {hinge[0], hinge[1]}}});
+                              {scale, turn, {move[0], move[1]}, {hinge[0], hinge[1]}},
+                              layers});
   }
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
@@ -320,6 +326,19 @@ std::string format_suffix_of(const std::string& prefix) {
   return format_of(prefix) != nullptr || suffix_of(prefix) == ".h5" ? suffix : std::string();
 }
 
+namespace {
+
+/// The size down to which leaves must be split for `gap` of them across the narrowest part of the domain, in
+/// powers of two below `start`, or `floor`. The leaves then are smaller than twice that.
+double size_of_gaps(const Geometry& geometry, double gap, double start, double floor) {
+  const Proximity proximity(geometry);
+  double size = start;
+  while (size > floor && proximity.narrow_parts(2 * gap * size).segments > 0) size /= 2;
+  return size;
+}
+
+}  // namespace
+
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   MeshOptions options = settings.mesh;
   const double side = std::max(geometry.box().width(), geometry.box().height());
@@ -333,7 +352,10 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   // Leaf sizes halve: so there is one at most as large as asked for.
-  options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, std::ldexp(side, -20)), max / 2));
+  const double floor = std::ldexp(side, -20);
+  options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, floor), max / 2));
+  if (!settings.min && options.size.gap)
+    options.size.min = size_of_gaps(geometry, *options.size.gap, options.size.min, floor);
   return options;
 }
 

@@ -22,6 +22,7 @@ struct GeometryInput {
   std::string path;
   std::string where;  ///< the setting that names it, for messages
   Transform transform;
+  std::vector<std::string> layers = {};  ///< of a drawing or map; empty: all, as read_geometry() says
 };
 
 /// The far field that the case asks for.

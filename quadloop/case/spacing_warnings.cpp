@@ -5,6 +5,7 @@
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/lattice/lattice.hpp"
+#include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
@@ -36,6 +37,20 @@ Warnings corner_warnings(const Geometry& geometry, double min) {
   return warnings;
 }
 
+/// Narrow parts of the domain that have fewer leaves across than asked for.
+Warnings gap_warnings(const MeshOptions& options, const Geometry& geometry, const Lattice& lattice) {
+  if (!options.size.gap) return {};
+  const double finest = lattice.edge(lattice.finest_level(options.size.min));
+  const auto narrow = Proximity(geometry).narrow_parts(*options.size.gap * finest);
+  if (narrow.segments == 0) return {};
+  return {
+      fmt::format("spacing.gap asks for {} leaves across parts of the domain that are narrower than {} "
+                  "leaves of {}, at {} segments "
+                  "of the outline, the first at ({}, {}); spacing.min = {} ends the refinement before",
+                  *options.size.gap, *options.size.gap, finest, narrow.segments, narrow.first.x,
+                  narrow.first.y, options.size.min)};
+}
+
 }  // namespace
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
@@ -57,6 +72,8 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
           b.spacing, min));
     }
   }
+  for (std::string& warning : gap_warnings(options, geometry, lattice))
+    warnings.push_back(std::move(warning));
   for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
   for (const SizeSource& source : options.size.sources) {
     if (source.spacing < min) {

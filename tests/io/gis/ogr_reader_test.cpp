@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -19,10 +20,11 @@ class OgrReader : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { add_gis_formats(); }
   std::vector<Chain> read(const std::string& name, const std::string& text) {
-    return read_ogr(folder_.write(name, text), warnings_);
+    return read_ogr(folder_.write(name, text), layers_, warnings_);
   }
 
   test::InputFolder folder_;
+  LayerNames layers_;
   std::vector<std::string> warnings_;
 };
 
@@ -56,7 +58,7 @@ TEST_F(OgrReader, ReadsLinesAndPolygonsOfGeojson) {
   EXPECT_EQ(chains[3].name, "lake");
   EXPECT_EQ(chains[4].name, "a") << "named by the layer";
   ASSERT_EQ(warnings_.size(), 2u);
-  EXPECT_NE(warnings_[1].find("left out 1"), std::string::npos);
+  EXPECT_NE(warnings_[1].find("left out: 1"), std::string::npos);
 }
 
 TEST_F(OgrReader, WarnsOfDegrees) {
@@ -102,6 +104,93 @@ std::string dxf_arc(const std::string& layer, double x, double y, double radius,
 
 std::string dxf_of(const std::string& entities) {
   return "  0\nSECTION\n  2\nENTITIES\n" + entities + "  0\nENDSEC\n  0\nEOF\n";
+}
+
+/// A drawing with a header, and a layer "old" that is frozen.
+std::string drawing_of(const std::string& entities) {
+  return "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1015\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n"
+         "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n"
+         "  0\nLAYER\n  2\nold\n 70\n1\n 62\n7\n  6\nCONTINUOUS\n  0\nENDTAB\n  0\nENDSEC\n" +
+         dxf_of(entities);
+}
+
+std::string entity(const std::string& type, const std::string& handle, const std::string& pairs) {
+  return fmt::format("  0\n{}\n  5\n{}\n{}", type, handle, pairs);
+}
+
+std::string dxf_circle(const std::string& handle, const std::string& layer, double radius,
+                       const std::string& more = "") {
+  return entity("CIRCLE", handle, fmt::format("  8\n{}\n{} 10\n0\n 20\n0\n 40\n{}\n", layer, more, radius));
+}
+
+TEST_F(OgrReader, LeavesOutWhatIsNotSeenOrNoOutline) {
+  const std::string paper = " 67\n1\n";
+  const std::string text = drawing_of(
+      dxf_circle("A1", "wall", 4) + dxf_circle("A2", "old", 2) + dxf_circle("A3", "wall", 3, paper) +
+      entity("POINT", "A4", "  8\nwall\n 10\n1\n 20\n1\n") +
+      entity("TEXT", "A5", "  8\nnotes\n 10\n1\n 20\n1\n 40\n1\n  1\nhello\n") +
+      entity("SOLID", "A6", "  8\nnotes\n 10\n0\n 20\n0\n 11\n1\n 21\n0\n 12\n0\n 22\n1\n 13\n0\n 23\n1\n"));
+  const auto chains = read("a.dxf", text);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].name, "wall");
+  EXPECT_NEAR(length(chains[0].points[0]), 4, 1e-12);
+  ASSERT_EQ(warnings_.size(), 1u);
+  for (const char* piece : {"1 CIRCLE not visible on layer 'old'", "1 CIRCLE in paper space",
+                            "1 POINT on layer 'wall'", "1 TEXT on layer 'notes'", "1 SOLID on layer 'notes'"})
+    EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
+}
+
+TEST_F(OgrReader, ReadsTheLayersThatAreNamed) {
+  const std::string text = drawing_of(dxf_circle("A1", "wall", 4) + dxf_circle("A2", "old", 2));
+  layers_ = {"o*"};
+  const auto chains = read("a.dxf", text);
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].name, "old");
+  EXPECT_TRUE(warnings_.empty());
+  layers_ = {"walls", "in?"};
+  const std::string said = test::refusal(folder_, [&] { read("b.dxf", text); });
+  EXPECT_NE(said.find("one of [walls, in?]; its layers are: old, wall"), std::string::npos) << said;
+}
+
+TEST_F(OgrReader, ASplineHasAPointAtEachKnot) {
+  // Two parabolas that meet in a kink at (2, 0), where the knot has the degree for its multiplicity.
+  std::string pairs = "  8\nwall\n 70\n8\n 71\n2\n 72\n8\n 73\n5\n";
+  for (const double knot : {0., 0., 0., 1., 1., 3., 3., 3.}) pairs += fmt::format(" 40\n{}\n", knot);
+  const std::array<Point, 5> controls{{{0, 0}, {1, 2}, {2, 0}, {3, 2}, {4, 0}}};
+  for (const Point p : controls) pairs += fmt::format(" 10\n{}\n 20\n{}\n 30\n0\n", p.x, p.y);
+  const auto chains = read("a.dxf", drawing_of(entity("SPLINE", "B1", pairs)));
+  ASSERT_EQ(chains.size(), 1u);
+  const std::vector<Point>& points = chains[0].points;
+  EXPECT_EQ(points.front(), (Point{0, 0}));
+  EXPECT_EQ(points.back(), (Point{4, 0}));
+  EXPECT_EQ(std::ranges::count(points, Point{2, 0}), 1);
+  EXPECT_EQ(std::ranges::count(points, Point{1, 1}), 1);  // halfway of the first parabola
+  EXPECT_EQ(std::ranges::count(points, Point{3, 1}), 1);
+}
+
+TEST_F(OgrReader, NamesASplineOfFitPointsAndABinaryDrawing) {
+  const std::string fit =
+      "  8\nrim\n 70\n8\n 71\n3\n 72\n0\n 73\n0\n 74\n2\n 11\n0\n 21\n0\n 11\n1\n 21\n1\n";
+  const std::string said =
+      test::refusal(folder_, [&] { read("a.dxf", drawing_of(entity("SPLINE", "B7", fit))); });
+  EXPECT_NE(said.find("layer 'rim': the spline of handle B7 is given by fit points alone"), std::string::npos)
+      << said;
+  const std::string binary =
+      test::refusal(folder_, [&] { read("b.dxf", std::string("AutoCAD Binary DXF\r\n\x1a\0", 22)); });
+  EXPECT_NE(binary.find("binary DXF"), std::string::npos) << binary;
+}
+
+TEST_F(OgrReader, ReadsADrawingThatBeginsWithItsBlocks) {
+  const std::string blocks = "  0\nSECTION\n  2\nBLOCKS\n  0\nENDSEC\n";
+  const auto chains = read("a.dxf", blocks + dxf_of(dxf_line("0", 0, 0, 1, 0) + dxf_line("0", 1, 0, 0, 1)));
+  EXPECT_EQ(chains.size(), 2u);
+}
+
+TEST_F(OgrReader, ANameComesBeforeABoundary) {
+  const auto chains = read("a.geojson", collection(feature(R"("boundary":"administrative","name":"Anholt")",
+                                                           "Polygon", "[[[0,0],[900,0],[900,900],[0,0]]]")));
+  ASSERT_EQ(chains.size(), 1u);
+  EXPECT_EQ(chains[0].name, "Anholt");
 }
 
 void expect_joined(const std::vector<Chain>& chains, std::size_t boundaries) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/io/input/airfoil_rows.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
@@ -79,6 +81,30 @@ TEST_F(AirfoilDat, ReadsEveryOtherRowBlank) {
 TEST_F(AirfoilDat, TakesTwoSurfacesWithoutCounts) {
   expect_airfoil(airfoil_name + upper_rows + "\n" + lower_rows,
                  {"both surfaces run from the leading edge", "point 4 begins the second"});
+}
+
+TEST_F(AirfoilDat, TakesTwoSurfacesFromTheTrailingEdge) {
+  expect_airfoil(airfoil_name + "1.0 0.0\n0.5 0.06\n0.0 0.0\n1.0 0.0\n0.5 -0.06\n0.0 0.0\n",
+                 {"both surfaces run from the trailing edge", "point 4"});
+}
+
+TEST_F(AirfoilDat, TakesAThirdColumnOfZeros) {
+  expect_airfoil(airfoil_name + "1.0 0.0 0.0\n0.5 0.06 0\n0.0 0.0 0.0\n0.5 -0.06 0.0\n1.0 0.0 0.0\n", {});
+}
+
+TEST_F(AirfoilDat, ReadsOldLineEndsAndWideCharacters) {
+  std::string text = airfoil_name + selig_rows, wide = "\xFF\xFE";
+  for (const char c : text) wide += {c, '\0'};
+  expect_airfoil(wide, {});
+  std::ranges::replace(text, '\n', '\r');
+  expect_airfoil(text, {});
+}
+
+TEST_F(AirfoilDat, RefusesWhatIsOpenOverMostOfTheChord) {
+  const std::string reference = refused(airfoil_name + "0.25 0.0\n" + selig_rows);
+  EXPECT_NE(reference.find("0.75 apart, too far for a trailing edge"), std::string::npos) << reference;
+  EXPECT_NE(refused(airfoil_name + "1.0 0.0\n0.5 0.06\n0.0 0.0\n").find("surface that is missing"),
+            std::string::npos);
 }
 
 TEST_F(AirfoilDat, RefusesABrokenPoint) {

@@ -1,0 +1,201 @@
+#include "io/gis/dxf_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <string_view>
+
+#include "io/files/reading/input_file.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+template <class Number>
+Number number_in(std::string_view text) {
+  Number number{};
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// The pairs of lines that a drawing is made of: a code, and a value.
+class DxfPairs {
+ public:
+  explicit DxfPairs(std::string_view text) : text_{text} {}
+
+  /// False at the end, and where a line that should be a code is none.
+  bool next() {
+    begin_ = at_;
+    const std::string_view code = line();
+    if (std::from_chars(code.data(), code.data() + code.size(), code_).ec != std::errc()) return false;
+    value_ = line();
+    return true;
+  }
+  int code() const { return code_; }
+  std::string_view value() const { return value_; }
+  bool is(int code, std::string_view value) const { return code_ == code && value_ == value; }
+  std::size_t begin() const { return begin_; }  ///< of the pair, in the text
+  std::size_t end() const { return at_; }
+
+ private:
+  std::string_view line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    const std::string_view found = trimmed(text_.substr(at_, end - at_));
+    at_ = std::min(end + 1, text_.size());
+    return found;
+  }
+
+  std::string_view text_, value_;
+  std::size_t at_ = 0, begin_ = 0;
+  int code_ = 0;
+};
+
+/// One entity while its pairs are read.
+struct PartEntity {
+  DxfEntity entity;
+  std::string handle;
+  DxfSpline spline;
+  std::int64_t fit_points = 0;
+
+  void take(const DxfPairs& pair) {
+    const auto real = [&] { return number_in<double>(pair.value()); };
+    switch (pair.code()) {
+      case 5: handle = pair.value(); break;
+      case 8: entity.layer = pair.value(); break;
+      default: break;
+    }
+    if (entity.type != "SPLINE") return;
+    switch (pair.code()) {
+      case 71: spline.degree = number_in<int>(pair.value()); break;
+      case 40: spline.knots.push_back(real()); break;
+      case 41: spline.weights.push_back(real()); break;
+      case 10: spline.controls.push_back({real(), 0}); break;
+      case 20:
+        if (!spline.controls.empty()) spline.controls.back().y = real();
+        break;
+      case 11: ++fit_points; break;
+      default: break;
+    }
+  }
+};
+
+/// The units of the variable $INSUNITS, by its value.
+std::string unit_named(int value) {
+  constexpr std::array<const char*, 7> names{"", "inch", "foot", "mile", "mm", "cm", "m"};
+  return value > 0 && value < static_cast<int>(names.size()) ? names[value] : "";
+}
+
+void refuse_binary(const std::string& path, std::string_view text) {
+  if (text.starts_with("AutoCAD Binary DXF"))
+    throw InputError(path + ": is a binary DXF, which is not read; export it as ASCII DXF");
+}
+
+/// The curve's point at `t`, in the span of knots that begins at `span`.
+Point point_at(const DxfSpline& spline, std::size_t span, double t) {
+  struct Weighted {
+    Point p;
+    double w;
+  };
+  const std::size_t degree = spline.degree;
+  std::vector<Weighted> d;
+  for (std::size_t i = span - degree; i <= span; ++i) {
+    const double w = spline.weights.empty() ? 1 : spline.weights[i];
+    d.push_back({w * spline.controls[i], w});
+  }
+  for (std::size_t r = 1; r <= degree; ++r) {
+    for (std::size_t j = degree; j >= r; --j) {
+      const double low = spline.knots[span - degree + j], high = spline.knots[span + 1 + j - r];
+      const double a = (t - low) / (high - low);
+      d[j] = {(1 - a) * d[j - 1].p + a * d[j].p, (1 - a) * d[j - 1].w + a * d[j].w};
+    }
+  }
+  return 1 / d[degree].w * d[degree].p;
+}
+
+bool is_sound(const DxfSpline& spline) {
+  const std::size_t degree = spline.degree, controls = spline.controls.size();
+  return spline.degree >= 1 && spline.degree <= 25 && controls > degree &&
+         spline.knots.size() == controls + degree + 1 && std::ranges::is_sorted(spline.knots) &&
+         (spline.weights.empty() || spline.weights.size() == controls) &&
+         std::ranges::all_of(spline.weights, [](double w) { return w > 0; });
+}
+
+}  // namespace
+
+std::vector<Point> points_of(const DxfSpline& spline) {
+  constexpr int smooth = 16;  // segments between two knots
+  std::vector<Point> points;
+  if (!is_sound(spline)) return points;
+  const int segments = spline.degree == 1 ? 1 : smooth;
+  std::size_t last = 0;
+  for (std::size_t span = spline.degree; span < spline.controls.size(); ++span) {
+    const double low = spline.knots[span], high = spline.knots[span + 1];
+    if (!(low < high)) continue;
+    for (int k = 0; k < segments; ++k)
+      points.push_back(point_at(spline, span, low + (high - low) * k / segments));
+    last = span;
+  }
+  if (!points.empty()) points.push_back(point_at(spline, last, spline.knots[last + 1]));
+  return points;
+}
+
+DxfDrawing::DxfDrawing(const std::string& path) {
+  const std::string text = read_input(path);
+  refuse_binary(path, text);
+  DxfPairs pairs(text);
+  std::string section, first_section, variable;
+  std::size_t section_begin = 0;
+  PartEntity part;
+  const auto keep = [&] {
+    if (part.fit_points > 0 && part.spline.controls.empty())
+      throw InputError(fmt::format(
+          "{}: layer '{}': the spline of handle {} is given by fit points alone; export it with its "
+          "control points, or as a polyline",
+          path, part.entity.layer, part.handle));
+    if (part.entity.type == "SPLINE") part.entity.spline = std::move(part.spline);
+    if (!part.handle.empty()) entities_[part.handle] = std::move(part.entity);
+    part = {};
+  };
+  while (pairs.next()) {
+    if (pairs.is(0, "SECTION")) {
+      section_begin = pairs.begin();
+      if (!pairs.next()) break;
+      section = pairs.value();
+      if (first_section.empty()) first_section = section;
+    } else if (pairs.is(0, "ENDSEC")) {
+      if (section == "ENTITIES") {
+        keep();
+        if (first_section != "HEADER" && first_section != "ENTITIES")
+          entities_alone_ = text.substr(section_begin, pairs.end() - section_begin) + "  0\nEOF\n";
+      }
+      section.clear();
+    } else if (section == "ENTITIES") {
+      if (pairs.code() == 0) {
+        keep();
+        part.entity.type = pairs.value();
+      } else {
+        part.take(pairs);
+      }
+    } else if (section == "HEADER") {
+      if (pairs.code() == 9) variable = pairs.value();
+      if (pairs.code() == 70 && variable == "$INSUNITS") unit_ = unit_named(number_in<int>(pairs.value()));
+    }
+  }
+}
+
+const DxfEntity* DxfDrawing::find(const std::string& handle) const {
+  const auto found = entities_.find(handle);
+  return found == entities_.end() ? nullptr : &found->second;
+}
+
+}  // namespace quadloop
