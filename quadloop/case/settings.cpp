@@ -66,6 +66,7 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
   }
+  settings.outline.join = table->number("join", {0, 0.1, true, false}).value_or(settings.outline.join);
   settings.inside = table->flag("inside");
   settings.mesh.may_vanish = table->choice("vanish", {"error", "allow"}) == "allow";
   table->finish();

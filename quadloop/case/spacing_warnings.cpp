@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -51,6 +52,54 @@ Warnings gap_warnings(const MeshOptions& options, const Geometry& geometry, cons
                   narrow.first.y, options.size.min)};
 }
 
+/// The points of one boundary at which a flow sees that the outline is a polygon.
+struct Facets {
+  std::int64_t points = 0;
+  double largest_turn = 0,
+         shortest = 0;  ///< degrees; the length of the shorter segment there, the least of all
+  Point first;
+};
+
+/// Points that turn by so much, but are no corners, in cells shorter than half of the segments that meet
+/// there: the flow turns at single nodes, and its pressure jumps.
+IdVector<BoundaryId, Facets> facets_of(const MeshOptions& options, const Geometry& geometry) {
+  constexpr double visible_degrees = 2;
+  IdVector<BoundaryId, Facets> facets(geometry.boundaries().size(), {});
+  const auto length_of = [&](std::int32_t s) {
+    return length(geometry.point(geometry.next(s)) - geometry.point(s));
+  };
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    const double turn = geometry.bend_degrees(v);
+    if (turn <= visible_degrees) continue;
+    const bool refined_to_min = options.size.curvature && turn > *options.size.curvature;
+    const double wanted = refined_to_min ? options.size.min : geometry.spacing_of(v);
+    const double segment = std::min(length_of(v), length_of(geometry.previous(v)));
+    if (wanted >= segment / 2) continue;
+    Facets& of_boundary = facets[geometry.boundary_of(v)];
+    if (of_boundary.points++ == 0) of_boundary = {1, 0, segment, geometry.point(v)};
+    of_boundary.largest_turn = std::max(of_boundary.largest_turn, turn);
+    of_boundary.shortest = std::min(of_boundary.shortest, segment);
+  }
+  return facets;
+}
+
+Warnings facet_warnings(const MeshOptions& options, const Geometry& geometry) {
+  Warnings warnings;
+  const auto facets = facets_of(options, geometry);
+  for (const BoundaryId b : facets.ids()) {
+    const auto& [points, turn, shortest, first] = facets[b];
+    if (points == 0) continue;
+    warnings.push_back(
+        fmt::format("boundary '{}' turns by up to {:.3g} degrees at {} points that are no corners, the first "
+                    "at ({}, {}), and its "
+                    "cells are finer than its segments: a flow sees the polygon in cells smaller than "
+                    "{:.3g}; give the outline more "
+                    "points",
+                    geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
+  }
+  return warnings;
+}
+
 }  // namespace
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
@@ -75,6 +124,7 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
   for (std::string& warning : gap_warnings(options, geometry, lattice))
     warnings.push_back(std::move(warning));
   for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
+  for (std::string& warning : facet_warnings(options, geometry)) warnings.push_back(std::move(warning));
   for (const SizeSource& source : options.size.sources) {
     if (source.spacing < min) {
       warnings.push_back(fmt::format(

@@ -123,7 +123,7 @@ void require_extent(const Geometry& g) {
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   clean_chains(chains, warnings);
-  join_rounded_ends(chains, warnings);
+  join_rounded_ends(chains, options.join, warnings);
   if (chains.empty())
     throw InputError(
         "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "

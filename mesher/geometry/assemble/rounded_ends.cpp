@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace quadloop {
 
@@ -46,7 +48,7 @@ std::int64_t drop_near_repeats(Chain& chain, double rounding) {
 /// its last point.
 class LooseEnds {
  public:
-  LooseEnds(std::vector<Chain>& chains, double rounding) : chains_{chains}, rounding_{rounding} {
+  LooseEnds(std::vector<Chain>& chains, double most) : chains_{chains}, most_{most} {
     std::map<Point, std::vector<std::size_t>> at;
     for (std::size_t c = 0; c < chains.size(); ++c) {
       if (!chains[c].open || chains[c].points.size() < 2) continue;
@@ -87,10 +89,10 @@ class LooseEnds {
 
   std::vector<std::size_t> others_near(Point place) const {
     std::vector<std::size_t> found;
-    for (auto at = loose_.lower_bound({place.x - rounding_, -std::numeric_limits<double>::infinity()});
+    for (auto at = loose_.lower_bound({place.x - most_, -std::numeric_limits<double>::infinity()});
          at != loose_.end(); ++at) {
-      if (at->first.x > place.x + rounding_) break;
-      if (at->first != place && std::abs(at->first.y - place.y) <= rounding_) found.push_back(at->second);
+      if (at->first.x > place.x + most_) break;
+      if (at->first != place && std::abs(at->first.y - place.y) <= most_) found.push_back(at->second);
     }
     return found;
   }
@@ -101,13 +103,47 @@ class LooseEnds {
   }
 
   std::vector<Chain>& chains_;
-  double rounding_;
+  double most_;
   std::map<Point, std::size_t> loose_;
 };
 
+double extent_of(const std::vector<Chain>& chains) {
+  Box box;
+  for (const Chain& chain : chains) {
+    for (const Point p : chain.points) {
+      if (std::isfinite(p.x) && std::isfinite(p.y)) box.include(p);
+    }
+  }
+  return std::max({0.0, box.width(), box.height()});
+}
+
+/// The same for a chain and its reverse, and for a loop from any of its points.
+std::vector<Point> points_either_way(const Chain& chain) {
+  std::vector<Point> forth = chain.points;
+  if (!chain.open) std::rotate(forth.begin(), std::min_element(forth.begin(), forth.end()), forth.end());
+  std::vector<Point> back = forth;
+  std::reverse(back.begin() + (chain.open ? 0 : 1), back.end());
+  return std::min(forth, back);
+}
+
+void drop_repeated_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+  std::set<std::pair<std::string, std::vector<Point>>> seen;
+  std::int64_t dropped = 0;
+  std::string first;
+  std::erase_if(chains, [&](const Chain& chain) {
+    if (chain.points.empty() || seen.insert({chain.name, points_either_way(chain)}).second) return false;
+    if (dropped++ == 0)
+      first = fmt::format("of boundary '{}' at ({}, {})", chain.name, chain.points[0].x, chain.points[0].y);
+    return true;
+  });
+  if (dropped > 0)
+    warnings.push_back(fmt::format("dropped {} line{} that {} twice, the first {}", dropped,
+                                   dropped == 1 ? "" : "s", dropped == 1 ? "is there" : "are there", first));
+}
+
 }  // namespace
 
-void join_rounded_ends(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+void join_rounded_ends(std::vector<Chain>& chains, double share, std::vector<std::string>& warnings) {
   const double rounding = rounding_of(chains);
   std::int64_t dropped = 0;
   for (Chain& chain : chains) dropped += drop_near_repeats(chain, rounding);
@@ -116,11 +152,14 @@ void join_rounded_ends(std::vector<Chain>& chains, std::vector<std::string>& war
         fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before",
                     dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", rounding));
   }
-  const auto [count, first] = LooseEnds(chains, rounding).join();
+  drop_repeated_chains(chains, warnings);
+  const double most = std::max(rounding, share * extent_of(chains));
+  const auto [count, first] = LooseEnds(chains, most).join();
   if (count == 0) return;
   warnings.push_back(fmt::format(
-      "{} pair{} of chain ends differed by rounding (less than {:.2g}) and {} joined, the first at ({}, {})",
-      count, count == 1 ? "" : "s", rounding, count == 1 ? "was" : "were", first.x, first.y));
+      "{} pair{} of chain ends {} no farther apart than {:.2g} and {} joined, the first at ({}, {})", count,
+      count == 1 ? "" : "s", count == 1 ? "was" : "were", most, count == 1 ? "was" : "were", first.x,
+      first.y));
 }
 
 }  // namespace quadloop

@@ -15,8 +15,8 @@ double ulps(int count) { return count * std::numeric_limits<double>::epsilon(); 
 Chain chain(bool open, std::vector<Point> points) { return {"wall", open, std::move(points), "file:1"}; }
 
 struct Repaired {
-  explicit Repaired(std::vector<Chain> given) : chains{std::move(given)} {
-    join_rounded_ends(chains, warnings);
+  explicit Repaired(std::vector<Chain> given, double share = 0) : chains{std::move(given)} {
+    join_rounded_ends(chains, share, warnings);
   }
   std::vector<Chain> chains;
   std::vector<std::string> warnings;
@@ -35,6 +35,27 @@ TEST(RoundedEnds, WhatIsFartherApartStays) {
     EXPECT_EQ(apart.chains[1].points.front(), (Point{1, gap}));
     EXPECT_TRUE(apart.warnings.empty());
   }
+}
+
+TEST(RoundedEnds, AShareOfTheExtentMayBeAllowed) {
+  const std::vector<Chain> given{chain(true, {{0, 0}, {4, 0}}), chain(true, {{4, 3e-9}, {0.5, 0.5}})};
+  EXPECT_EQ(Repaired(given, 1e-9).chains[1].points.front(), (Point{4, 0}));
+  EXPECT_EQ(Repaired(given, 1e-9).warnings.size(), 1U);
+  EXPECT_EQ(Repaired(given, 5e-10).chains[1].points.front(), (Point{4, 3e-9}));
+}
+
+TEST(RoundedEnds, WhatIsThereTwiceStaysOnce) {
+  const Repaired lines(
+      {chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, 0}, {0, 0}})});
+  EXPECT_EQ(lines.chains.size(), 2U);
+  ASSERT_EQ(lines.warnings.size(), 1U);
+  EXPECT_NE(lines.warnings[0].find("dropped 1 line"), std::string::npos) << lines.warnings[0];
+  EXPECT_EQ(Repaired({chain(false, {{0, 0}, {1, 0}, {1, 1}}), chain(false, {{1, 1}, {1, 0}, {0, 0}})})
+                .chains.size(),
+            1U);
+  Chain other = chain(false, {{0, 0}, {1, 0}, {1, 1}});
+  other.name = "other";
+  EXPECT_EQ(Repaired({chain(false, {{0, 0}, {1, 0}, {1, 1}}), other}).chains.size(), 2U);
 }
 
 TEST(RoundedEnds, RoundingGrowsWithTheLargestCoordinate) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "mesher/generate/digests.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
@@ -437,6 +440,45 @@ TEST_F(SettingsTest, TheDigestFollowsTheSettingsOfTheMesh) {
   EXPECT_NE(base, digest({"spacing.gap=2"}));
   EXPECT_NE(base, digest({"mesh.snap=0.001"}));
   EXPECT_NE(base, digest({"source=[{disc=[0,0,1],spacing=1}]"}));
+}
+
+/// A regular polygon of 60 sides of a tenth, which turns by 6 degrees at each point.
+Warnings warnings_of_polygon(double spacing) {
+  std::vector<Point> points;
+  for (int k = 0; k < 60; ++k) {
+    const double angle = k * std::numbers::pi / 30;
+    points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  Settings settings;
+  settings.outline.rules = {{"ring", spacing, {}, {}, "here"}};
+  Warnings warnings;
+  const Geometry geometry = assemble({{"ring", false, points, "ring"}}, settings.outline, warnings);
+  return spacing_warnings(mesh_options(settings, geometry), geometry);
+}
+
+TEST(SpacingWarnings, TellOfAPolygonInFineCells) {
+  EXPECT_TRUE(warnings_of_polygon(0.06).empty());
+  const Warnings fine = warnings_of_polygon(0.02);
+  ASSERT_EQ(fine.size(), 1u);
+  EXPECT_EQ(fine[0].find("boundary 'ring' turns by up to 6 degrees at 60 points"), 0u) << fine[0];
+  EXPECT_NE(fine[0].find("smaller than 0.105"), std::string::npos) << fine[0];
+}
+
+TEST(MeshOptions, WithoutAMinimumSizesGoDownToGaps) {
+  Settings settings;
+  settings.mesh.size.gap = 4;
+  Warnings warnings;
+  const Geometry geometry = assemble({{"sea", false, {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, "a"},
+                                      {"isle", false, {{0.1, 1}, {7, 1}, {7, 7}, {0.1, 7}}, "a"}},
+                                     settings.outline, warnings);
+  const double min = mesh_options(settings, geometry).size.min;
+  EXPECT_LE(min, 0.1 / 4 / 2);
+  EXPECT_GE(min, 0.1 / 4 / 8);
+  EXPECT_TRUE(spacing_warnings(mesh_options(settings, geometry), geometry).empty());
+  settings.min = 0.05;
+  const Warnings limited = spacing_warnings(mesh_options(settings, geometry), geometry);
+  ASSERT_EQ(limited.size(), 1u);
+  EXPECT_EQ(limited[0].find("spacing.gap asks for 4 leaves"), 0u) << limited[0];
 }
 
 }  // namespace
