@@ -197,7 +197,7 @@ class Collector {
 
   void add_points(std::vector<Point> points, const std::string& name, const std::string& source) {
     if (points.empty()) return;
-    Chain chain{name, true, std::move(points), source};
+    Chain chain{name, true, std::move(points), source, false};
     if (chain.points.size() > 2 && chain.points.front() == chain.points.back()) {
       chain.points.pop_back();
       chain.open = false;

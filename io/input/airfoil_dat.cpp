@@ -224,7 +224,7 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   check_gap(rows, source, warnings);
   if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
   if (area(rows) > 0) std::reverse(rows.begin(), rows.end());
-  return {Chain{"airfoil", false, std::move(rows), source}};
+  return {Chain{"airfoil", false, std::move(rows), source, false}};
 }
 
 }  // namespace quadloop

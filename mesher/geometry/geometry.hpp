@@ -19,7 +19,8 @@ struct Chain {
   std::string name;
   bool open = false;
   std::vector<Point> points;
-  std::string source;  ///< "file:line" of its header, for messages
+  std::string source;    ///< "file:line" of its header, for messages
+  bool directed = true;  ///< whether its file means the direction: drawings, maps and airfoils have none
 };
 
 /// What a boundary asks of the mesh, and what a solver is told of it.

@@ -15,7 +15,8 @@ namespace quadloop {
 struct OutlineLoop {
   std::vector<Point> points;
   std::vector<BoundaryId> boundary;
-  std::string source;  ///< where its first chain comes from, for messages
+  std::string source;    ///< where its first chain comes from, for messages
+  bool directed = true;  ///< whether its chains are
 };
 
 struct Outline {

@@ -39,7 +39,8 @@ void orient(Outline& outline, const std::vector<LoopNesting>& nestings, Warnings
   for (std::size_t l = 0; l < outline.loops.size(); ++l) {
     const bool outer = nestings[l].depth % 2 == 0;
     if (outer == nestings[l].counter_clockwise) continue;
-    if (++turned <= most_named) warnings.push_back(turned_text(outline, outline.loops[l], nestings[l]));
+    if (outline.loops[l].directed && ++turned <= most_named)
+      warnings.push_back(turned_text(outline, outline.loops[l], nestings[l]));
     turn_round(outline.loops[l]);
   }
   if (turned > most_named)

@@ -149,6 +149,7 @@ class Joiner {
       if (used_[c]) continue;
       OutlineLoop loop;
       loop.source = chains_[c].source;
+      loop.directed = chains_[c].directed;
       if (chains_[c].open) {
         join_from(c, loop);
       } else {

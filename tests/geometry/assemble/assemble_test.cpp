@@ -59,6 +59,14 @@ TEST(Assemble, SaysWhatALonelyOutlineEncloses) {
   EXPECT_NE(warnings[0].find("geometry.far_field"), std::string::npos);
 }
 
+TEST(Assemble, TurnsLoopsWithoutADirectionInSilence) {
+  Warnings warnings;
+  Chain drawn = reversed(square("rim", {0, 0}, 1));
+  drawn.directed = false;
+  EXPECT_GT(loop_area(assembled({drawn}, &warnings), 0), 0);
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(Assemble, SaysNothingOfADomainThatIsKnown) {
   Warnings warnings;
   AssembleOptions options;
