@@ -43,24 +43,39 @@ class ShortEdges {
     for (std::int32_t s = 0; s < g_.size(); ++s) ++segments_of_[g_.boundary_of(s)];
   }
 
-  bool is_short(std::int32_t edge) const {
-    return g_.kept(edge) && g_.kept(g_.next(edge)) && length_of(g_, edge) < min_;
+  /// Whether the edge is a short base, such as a blunt trailing edge: the outline runs smoothly on from both
+  /// of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses some of
+  /// them anyway.
+  bool is_short_base(std::int32_t edge) const {
+    return g_.kept(edge) && g_.kept(g_.next(edge)) && length_of(g_, edge) < min_ &&
+           is_smooth(g_.next(edge), [&](std::int32_t v) { return g_.next(v); }) &&
+           is_smooth(edge, [&](std::int32_t v) { return g_.previous(v); });
   }
 
   /// For a loop that a mesh keeps.
   bool can_merge(std::int32_t edge) {
-    const std::int32_t before = g_.previous(edge), after = g_.next(edge), loop = g_.loop_of(edge);
+    const std::int32_t loop = g_.loop_of(edge);
     const BoundaryId boundary = g_.boundary_of(edge);
     const bool is_needed = segments_of_[boundary] < 2 || g_.boundary(boundary).condition == "interface" ||
                            g_.loop_start(loop + 1) - g_.loop_start(loop) < 5;
-    const bool is_alone =
-        !is_short(before) && !is_short(after) && !is_short(g_.previous(before)) && !is_short(g_.next(after));
-    if (is_needed || !is_alone || !leaves_outline_simple(edge)) return false;
+    if (is_needed || !leaves_outline_simple(edge)) return false;
     --segments_of_[boundary];
     return true;
   }
 
  private:
+  /// Whether no corner follows within some leaves.
+  template <class Next>
+  bool is_smooth(std::int32_t from, const Next& next) const {
+    constexpr double leaves = 4;
+    double way = 0;
+    for (std::int32_t v = from; way < leaves * min_; v = next(v)) {
+      if (v != from && g_.kept(v)) return false;
+      way += length(g_.point(next(v)) - g_.point(v));
+    }
+    return true;
+  }
+
   /// Whether neither of the segments that end in the middle of the edge touches another one, and nothing lies
   /// between them and the old ones.
   bool leaves_outline_simple(std::int32_t edge) const {
@@ -136,7 +151,7 @@ std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     if (is_small(geometry, loop, min)) continue;
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-      if (!edges.is_short(v)) continue;
+      if (!edges.is_short_base(v)) continue;
       merged[v] = edges.can_merge(v) ? 1 : 0;
       (merged[v] != 0 ? joined : left).add(geometry, v);
     }
