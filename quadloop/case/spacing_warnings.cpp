@@ -60,8 +60,9 @@ struct Facets {
   Point first;
 };
 
-/// Points that turn by so much, but are no corners, in cells shorter than half of the segments that meet
-/// there: the flow turns at single nodes, and its pressure jumps.
+/// Of the points that stand for a curve, as they and a neighbour turn by so much and are no corners, those in
+/// cells shorter than half of the segments that meet there: the flow turns at single nodes, and its pressure
+/// jumps.
 IdVector<BoundaryId, Facets> facets_of(const MeshOptions& options, const Geometry& geometry) {
   constexpr double visible_degrees = 2;
   IdVector<BoundaryId, Facets> facets(geometry.boundaries().size(), {});
@@ -70,7 +71,9 @@ IdVector<BoundaryId, Facets> facets_of(const MeshOptions& options, const Geometr
   };
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     const double turn = geometry.bend_degrees(v);
-    if (turn <= visible_degrees) continue;
+    const double beside =
+        std::max(geometry.bend_degrees(geometry.previous(v)), geometry.bend_degrees(geometry.next(v)));
+    if (turn <= visible_degrees || beside <= visible_degrees) continue;
     const bool refined_to_min = options.size.curvature && turn > *options.size.curvature;
     const double wanted = refined_to_min ? options.size.min : geometry.spacing_of(v);
     const double segment = std::min(length_of(v), length_of(geometry.previous(v)));
