@@ -205,7 +205,7 @@ std::vector<std::string> Su2Text::warnings() const {
         "as in SU2 it is ignored");
   if (passed_markers_ > 0)
     lines.push_back(scan_.path() + ": " + std::to_string(passed_markers_) +
-                    " markers SEND_RECEIVE are passed over; they are of ranks and no boundaries");
+                    " markers SEND_RECEIVE are left out: they connect ranks and are no boundaries");
   return lines;
 }
 

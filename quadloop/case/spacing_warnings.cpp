@@ -92,13 +92,11 @@ Warnings facet_warnings(const MeshOptions& options, const Geometry& geometry) {
   for (const BoundaryId b : facets.ids()) {
     const auto& [points, turn, shortest, first] = facets[b];
     if (points == 0) continue;
-    warnings.push_back(
-        fmt::format("boundary '{}' turns by up to {:.3g} degrees at {} points that are no corners, the first "
-                    "at ({}, {}), and its "
-                    "cells are finer than its segments: a flow sees the polygon in cells smaller than "
-                    "{:.3g}; give the outline more "
-                    "points",
-                    geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
+    warnings.push_back(fmt::format(
+        "boundary '{}' turns by up to {:.3g} degrees at {} points that are no corners, the first "
+        "at ({}, {}). Cells smaller than {:.3g} resolve the straight facets between its points, and the "
+        "pressure of a flow has a peak at each point; give the outline more points",
+        geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
   }
   return warnings;
 }
