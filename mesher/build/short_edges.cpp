@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include "mesher/base/id_vector.hpp"
@@ -13,26 +14,27 @@ namespace quadloop {
 
 namespace {
 
-Point middle_of(const Geometry& g, std::int32_t edge) {
-  return 0.5 * (g.point(edge) + g.point(g.next(edge)));
-}
+/// A stretch of the outline between two kept corners that follow each other.
+struct Base {
+  std::int32_t first = 0, last = 0;  ///< its vertices at the ends
+};
 
-double length_of(const Geometry& g, std::int32_t edge) {
-  return length(g.point(g.next(edge)) - g.point(edge));
-}
+Point middle_of(const Geometry& g, Base base) { return 0.5 * (g.point(base.first) + g.point(base.last)); }
+
+double width_of(const Geometry& g, Base base) { return length(g.point(base.last) - g.point(base.first)); }
 
 bool in_closed_triangle(Point p, Point a, Point b, Point c) {
   const int ab = orientation(a, b, p), bc = orientation(b, c, p), ca = orientation(c, a, p);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-/// How many edges of a kind there are, and the longest of them.
-struct CountedEdges {
+/// How many bases of a kind there are, and the widest of them.
+struct CountedBases {
   int count = 0;
-  std::int32_t longest = 0;
+  Base widest;
 
-  void add(const Geometry& g, std::int32_t edge) {
-    if (count++ == 0 || length_of(g, edge) > length_of(g, longest)) longest = edge;
+  void add(const Geometry& g, Base base) {
+    if (count++ == 0 || width_of(g, base) > width_of(g, widest)) widest = base;
   }
 };
 
@@ -43,23 +45,27 @@ class ShortEdges {
     for (std::int32_t s = 0; s < g_.size(); ++s) ++segments_of_[g_.boundary_of(s)];
   }
 
-  /// Whether the edge is a short base, such as a blunt trailing edge: the outline runs smoothly on from both
-  /// of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses some of
-  /// them anyway.
-  bool is_short_base(std::int32_t edge) const {
-    return g_.kept(edge) && g_.kept(g_.next(edge)) && length_of(g_, edge) < min_ &&
-           is_smooth(g_.next(edge), [&](std::int32_t v) { return g_.next(v); }) &&
-           is_smooth(edge, [&](std::int32_t v) { return g_.previous(v); });
+  /// The short base that begins with the vertex, such as a blunt trailing edge: the outline runs smoothly on
+  /// from both of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses
+  /// some of them anyway.
+  std::optional<Base> short_base_at(std::int32_t v) const {
+    if (!g_.kept(v)) return {};
+    const std::optional<Geometry::Stretch> stretch = g_.stretch_shorter_than(min_, v);
+    if (!stretch || !is_smooth(stretch->end, [&](std::int32_t u) { return g_.next(u); }) ||
+        !is_smooth(v, [&](std::int32_t u) { return g_.previous(u); }))
+      return {};
+    return Base{v, stretch->end};
   }
 
   /// For a loop that a mesh keeps.
-  bool can_merge(std::int32_t edge) {
-    const std::int32_t loop = g_.loop_of(edge);
-    const BoundaryId boundary = g_.boundary_of(edge);
-    const bool is_needed = segments_of_[boundary] < 2 || g_.boundary(boundary).condition == "interface" ||
-                           g_.loop_start(loop + 1) - g_.loop_start(loop) < 5;
-    if (is_needed || !leaves_outline_simple(edge)) return false;
-    --segments_of_[boundary];
+  bool can_merge(Base base) {
+    const std::int32_t loop = g_.loop_of(base.first), segments = segments_in(base);
+    const BoundaryId boundary = g_.boundary_of(base.first);
+    const bool is_needed = segments_of_[boundary] <= segments ||
+                           g_.boundary(boundary).condition == "interface" ||
+                           g_.loop_start(loop + 1) - g_.loop_start(loop) < 4 + segments;
+    if (is_needed || !leaves_outline_simple(base)) return false;
+    segments_of_[boundary] -= segments;
     return true;
   }
 
@@ -76,18 +82,45 @@ class ShortEdges {
     return true;
   }
 
-  /// Whether neither of the segments that end in the middle of the edge touches another one, and nothing lies
+  std::int32_t segments_in(Base base) const {
+    std::int32_t count = 0;
+    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) ++count;
+    return count;
+  }
+
+  bool is_in(Base base, std::int32_t segment) const {
+    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) {
+      if (v == segment) return true;
+    }
+    return false;
+  }
+
+  /// Whether neither of the segments that end in the middle of the base touches another one, and nothing lies
   /// between them and the old ones.
-  bool leaves_outline_simple(std::int32_t edge) const {
-    const std::int32_t before = g_.previous(edge), after = g_.next(edge);
-    const Point to = middle_of(g_, edge), from = g_.point(before), end = g_.point(g_.next(after));
+  bool leaves_outline_simple(Base base) const {
+    const std::int32_t before = g_.previous(base.first), after = base.last;
+    const Point to = middle_of(g_, base), from = g_.point(before), end = g_.point(g_.next(after));
     if (on_segment(end, from, to) || on_segment(from, to, end) || on_segment(to, from, end)) return false;
     Box box;
-    for (const Point p : {from, g_.point(edge), g_.point(after), end}) box.include(p);
+    box.include(from);
+    box.include(end);
+    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) box.include(g_.point(v));
+    box.include(g_.point(base.last));
     return !segments_.any_meeting(box, [&](std::int32_t s) {
-      if (s == before || s == edge || s == after) return false;
-      return touches(s, from, to, g_.point(edge)) || touches(s, end, to, g_.point(after));
+      if (s == before || s == after || is_in(base, s)) return false;
+      return touches(s, from, to, g_.point(base.first)) || touches(s, end, to, g_.point(after)) ||
+             is_between(s, base, to);
     });
+  }
+
+  /// Whether the segment has a point in common with the triangles between the base's own segments and `to`.
+  bool is_between(std::int32_t segment, Base base, Point to) const {
+    const Point a = g_.point(segment), b = g_.point(g_.next(segment));
+    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) {
+      const Point p = g_.point(v), q = g_.point(g_.next(v));
+      if (in_closed_triangle(a, p, q, to) || segments_meet(a, b, q, to)) return true;
+    }
+    return false;
   }
 
   /// Whether the segment has a point other than `fixed` in common with the triangle that the segment from
@@ -106,16 +139,21 @@ class ShortEdges {
   IdVector<BoundaryId, std::int32_t> segments_of_;
 };
 
-/// Without the starts of the merged edges; their ends move to the middles.
-Geometry with_merged(const Geometry& g, const std::vector<char>& merged) {
+/// Without the vertices of the merged bases but the last one, which moves to the middle.
+Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
+  std::vector<char> is_dropped(g.size(), 0);
+  std::vector<Point> moved{g.points().begin(), g.points().end()};
+  for (const Base base : bases) {
+    for (std::int32_t v = base.first; v != base.last; v = g.next(v)) is_dropped[v] = 1;
+    moved[base.last] = middle_of(g, base);
+  }
   std::vector<Point> points;
   std::vector<std::int32_t> starts{0};
   std::vector<BoundaryId> of_segment;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
-      if (merged[v] != 0) continue;
-      const std::int32_t before = g.previous(v);
-      points.push_back(merged[before] != 0 ? middle_of(g, before) : g.point(v));
+      if (is_dropped[v] != 0) continue;
+      points.push_back(moved[v]);
       of_segment.push_back(g.boundary_of(v));
     }
     starts.push_back(size32(points));
@@ -126,13 +164,13 @@ Geometry with_merged(const Geometry& g, const std::vector<char>& merged) {
           std::move(of_segment)};
 }
 
-std::string text_of(const Geometry& g, const CountedEdges& edges, double min, const char* consequence) {
-  const Point at = middle_of(g, edges.longest);
+std::string text_of(const Geometry& g, const CountedBases& bases, double min, const char* consequence) {
+  const Point at = middle_of(g, bases.widest);
   return fmt::format(
       "{} edge{} between corners shorter than spacing.min = {:g}, the longest {:.3g} at ({:.6g}, {:.6g}) of "
       "boundary '{}': {}; make spacing.min smaller",
-      edges.count, edges.count == 1 ? "" : "s", min, length_of(g, edges.longest), at.x, at.y,
-      g.boundary(g.boundary_of(edges.longest)).name, consequence);
+      bases.count, bases.count == 1 ? "" : "s", min, width_of(g, bases.widest), at.x, at.y,
+      g.boundary(g.boundary_of(bases.widest.first)).name, consequence);
 }
 
 bool is_small(const Geometry& g, std::int32_t loop, double min) {
@@ -146,18 +184,20 @@ bool is_small(const Geometry& g, std::int32_t loop, double min) {
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
                                            std::vector<std::string>& warnings) {
   ShortEdges edges(geometry, min);
-  std::vector<char> merged(geometry.size(), 0);
-  CountedEdges joined, left;
+  std::vector<Base> merged;
+  CountedBases joined, left;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     if (is_small(geometry, loop, min)) continue;
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-      if (!edges.is_short_base(v)) continue;
-      merged[v] = edges.can_merge(v) ? 1 : 0;
-      (merged[v] != 0 ? joined : left).add(geometry, v);
+      const std::optional<Base> base = edges.short_base_at(v);
+      if (!base) continue;
+      const bool can_merge = edges.can_merge(*base);
+      if (can_merge) merged.push_back(*base);
+      (can_merge ? joined : left).add(geometry, *base);
     }
   }
   if (left.count > 0) warnings.push_back(text_of(geometry, left, min, "triangles there may be thin"));
-  if (joined.count == 0) return {};
+  if (merged.empty()) return {};
   warnings.push_back(text_of(geometry, joined, min, "the two ends became one node"));
   return with_merged(geometry, merged);
 }

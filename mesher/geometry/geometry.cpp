@@ -125,6 +125,30 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
     kept_[v] = before != after || corners[after.value()].exceeded_by(in, out);
     if (before == after && straight.undercut_by(in, out)) flags_[v] |= is_straight;
   }
+  shorten_spacing_between_corners();
+}
+
+std::optional<Geometry::Stretch> Geometry::stretch_shorter_than(double limit, std::int32_t v) const {
+  Stretch stretch{v, 0};
+  do {
+    const std::int32_t from = stretch.end;
+    stretch.end = next(from);
+    stretch.length += length(point(stretch.end) - point(from));
+  } while (!kept(stretch.end) && stretch.length < limit);
+  if (stretch.length >= limit || stretch.end == v) return {};
+  return stretch;
+}
+
+void Geometry::shorten_spacing_between_corners() {
+  for (std::int32_t v = 0; v < size(); ++v) {
+    if (!kept(v)) continue;
+    const std::optional<Stretch> stretch = stretch_shorter_than(boundary(boundary_of(v)).spacing, v);
+    if (!stretch) continue;
+    if (spacing_.empty()) {
+      for (std::int32_t s = 0; s < size(); ++s) spacing_.push_back(spacing_of_boundary(s));
+    }
+    for (std::int32_t s = v; s != stretch->end; s = next(s)) spacing_[s] = stretch->length;
+  }
 }
 
 double Geometry::turn_degrees(std::int32_t v) const {
@@ -142,12 +166,13 @@ Geometry Geometry::with(LocalDemands demands) const {
   return other;
 }
 
+double Geometry::spacing_of_boundary(std::int32_t segment) const {
+  const double wanted = boundary(boundary_of(segment)).spacing;
+  return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
+}
+
 double Geometry::spacing_of(std::int32_t segment) const {
-  if (!spacing_.empty()) return spacing_[segment];
-  const double wanted = boundary(boundary_of(segment)).spacing,
-               own = length(point(next(segment)) - point(segment));
-  if (wanted == 0) return own;
-  return kept(segment) && kept(next(segment)) ? std::min(wanted, own) : wanted;
+  return spacing_.empty() ? spacing_of_boundary(segment) : spacing_[segment];
 }
 
 double Geometry::corner_spacing_of(std::int32_t v) const {

@@ -89,8 +89,17 @@ class Geometry {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : turn_degrees(v);
   }
   /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
-  /// length. Between two kept corners it is the smaller one, as one cell that holds both corners is thin.
+  /// length. Where the outline between two kept corners is shorter than that spacing, its whole length
+  /// counts, as one cell that holds both corners is thin.
   double spacing_of(std::int32_t segment) const;
+  /// A stretch of the outline between two kept vertices that follow each other.
+  struct Stretch {
+    std::int32_t end = 0;  ///< the vertex at its end
+    double length = 0;     ///< along the outline
+  };
+  /// The stretch that begins with kept vertex v, if it is shorter than `limit`; none where it is not, and
+  /// where the loop has no other kept vertex.
+  std::optional<Stretch> stretch_shorter_than(double limit, std::int32_t v) const;
 
   /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that
   /// meet there and by whose `corner_degrees` the outline turns too far to be smooth. 0 at all other
@@ -101,11 +110,15 @@ class Geometry {
   std::uint64_t digest() const;
 
  private:
+  void shorten_spacing_between_corners();
+  double spacing_of_boundary(std::int32_t segment) const;
+
   std::vector<Boundary> boundaries_;
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<double> spacing_, bend_;  ///< of each segment, where LocalDemands say so
+  std::vector<double> spacing_;  ///< of each segment, where some ask for another one than their boundary
+  std::vector<double> bend_;     ///< of each vertex, where LocalDemands say so
   std::vector<char> kept_;
   static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;  // of its loop; of flags_
   std::vector<std::uint8_t> flags_;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +66,32 @@ TEST(ShortEdges, NothingIsMergedWhereTheOutlineWouldTouchItself) {
   EXPECT_FALSE(short_edges_merged(outline({notch, tip}), 0.25, warnings));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("triangles there may be thin"), std::string::npos) << warnings[0];
+}
+
+TEST(ShortEdges, ABaseOfSeveralSegmentsIsMergedAsAWhole) {
+  std::vector<Point> points = body();
+  points.insert(points.begin() + 1, {{4.001, 0.04}, {4.001, 0.02}});  // both turn by less than a corner
+  std::vector<std::string> warnings;
+  const std::optional<Geometry> merged = short_edges_merged(outline({points}), 0.125, warnings);
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->size(), 4);
+  EXPECT_EQ(merged->point(0), (Point{4, 0.03125}));
+  EXPECT_EQ(merged->point(1), (Point{2, -1}));
+}
+
+TEST(ShortEdges, ABaseWithADentThatHoldsAnotherLoopStays) {
+  std::vector<Point> dented{{5, -2}, {0, 0}, {5, 2}, {10, 0.25}};
+  for (int i = 1; i < 8; ++i) {
+    const double angle = std::numbers::pi * (0.5 + i / 8.0);
+    dented.push_back({10 + 0.25 * std::cos(angle), 0.25 * std::sin(angle)});
+  }
+  dented.push_back({10, -0.25});
+  const std::vector<Point> loop_in_dent{{9.85, 0}, {9.9, 0.02}, {9.9, -0.02}};
+  std::vector<std::string> warnings;
+  const std::optional<Geometry> merged = short_edges_merged(outline({dented}), 0.9, warnings);
+  ASSERT_TRUE(merged) << "without the other loop";
+  EXPECT_EQ(merged->size(), 4);
+  EXPECT_FALSE(short_edges_merged(outline({dented, loop_in_dent}), 0.9, warnings));
 }
 
 TEST(ShortEdges, TheOnlyEdgeOfABoundaryStays) {

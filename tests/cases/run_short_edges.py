@@ -3,7 +3,7 @@
 
     run_short_edges.py --quadloop PROGRAM [--count N] [--report]
 
-The outlines have what collections of airfoils have: blunt bases of 1e-5 to 1e-2 chords, doubled points, tiny segments at
+The outlines have what collections of airfoils have: blunt bases of 1e-5 to 1e-2 chords in one segment or three, doubled points, tiny segments at
 the nose, cusps. spacing.min is 1e-5 to 1e-3, so that some bases are resolved and the others merged. Fails where a cell's
 corner is below 20 degrees; --report prints the counts of meshes with one below 1, 5 and 20 degrees and does not fail.
 """
@@ -48,6 +48,8 @@ def outline(number):
     points = [(x, camber(x) + half(x)) for x in reversed(xs)] + [(x, camber(x) - half(x)) for x in xs[1:]]
     if base == 0:
         points[0] = points[-1] = (1, 0)
+    elif number % 3 == 0:
+        points += [(1 + 0.05 * base, 0.5 * base * (2 * i / 3 - 1)) for i in (1, 2)]
     if number % 4 == 1:
         at = rng.randrange(2, len(points) - 2)
         points.insert(at, points[at])

@@ -92,6 +92,18 @@ TEST(Geometry, AnEdgeBetweenKeptCornersAsksForItsOwnLength) {
   EXPECT_EQ(blunt(0.5, 180).spacing_of(2), 0.5) << "no corner is kept";
 }
 
+TEST(Geometry, SeveralSegmentsBetweenKeptCornersAskForTheirLengthTogether) {
+  const std::vector<Point> points{{0, 0}, {1, -0.25}, {2, 0}, {2, 0.0625}, {2, 0.125}, {1, 0.25}};
+  const auto blunt = [&](double spacing) {
+    return Geometry({Boundary{"wall", spacing, 45}}, points, {0, 6},
+                    std::vector<BoundaryId>(6, BoundaryId{0}));
+  };
+  EXPECT_EQ(blunt(0.5).spacing_of(2), 0.125);
+  EXPECT_EQ(blunt(0.5).spacing_of(3), 0.125);
+  EXPECT_EQ(blunt(0.5).spacing_of(4), 0.5);
+  EXPECT_EQ(blunt(0).spacing_of(2), 0.0625) << "without a spacing each segment asks for its own length";
+}
+
 TEST(Geometry, ThereIsOneDemandForEachPlace) {
   EXPECT_THROW(house().with({{0.1}, {1, 0, 1, 0, 0}, {0, 5, 0, 0, 7}}), Fault);
   EXPECT_THROW(house().with({{0.1, 0.2, 0.3, 0.4, 0.6}, {1}, {0, 5, 0, 0, 7}}), Fault);
