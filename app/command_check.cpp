@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <span>
+#include <variant>
 
 #include "app/command.hpp"
 #include "app/report/check_report.hpp"
@@ -13,7 +14,6 @@
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
@@ -76,7 +76,7 @@ std::string regions_warning(const CheckReport& report) {
 }
 
 void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
-                         const SolidMesh& mesh) {
+                         const FileMesh& mesh) {
   if (!arguments.geometry.empty())
     throw UsageError(arguments.input + ": is a 3D mesh, which --geometry says nothing of; leave it out");
   context.warn(mesh.warnings);
@@ -86,10 +86,8 @@ void check_solid_on_root(const CommandContext& context, const CheckArguments& ar
   if (!figures.faults.empty()) refuse_invalid_solid(arguments.input, figures);
 }
 
-void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
-  if (const std::optional<SolidMesh> solid = read_solid(arguments.input))
-    return check_solid_on_root(context, arguments, *solid);
-  const LoadedMesh loaded = read_mesh(arguments.input);
+void check_plane_on_root(const CommandContext& context, const CheckArguments& arguments,
+                         const LoadedMesh& loaded) {
   context.warn(loaded.warnings);
   std::vector<Chain> chains;
   if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded.blocks == 1);
@@ -99,6 +97,14 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   context.record.figures = report_record(report);
   if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
   if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
+}
+
+void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
+  const MeshOfFile mesh = read_mesh_file(arguments.input);
+  if (const LoadedMesh* plane = std::get_if<LoadedMesh>(&mesh))
+    check_plane_on_root(context, arguments, *plane);
+  else
+    check_solid_on_root(context, arguments, std::get<FileMesh>(mesh));
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 #include <fmt/ranges.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -13,13 +16,11 @@
 #include "app/report/part_report.hpp"
 #include "app/report/refusals.hpp"
 #include "app/report/solid_report.hpp"
-#include "io/foam/foam_plane_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/model/plane_of_solid.hpp"
 #include "io/parts/part_output.hpp"
-#include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/solid/plane_of_solid.hpp"
 
 namespace quadloop {
 
@@ -52,55 +53,40 @@ const FileFormat& output_format(const ConvertArguments& arguments) {
                   arguments.output, fmt::join(formats_of_meshes(), ", .")));
 }
 
-/// A mesh of two dimensions, or of three.
-struct ConvertInput {
-  LoadedMesh whole;
-  std::optional<SolidMesh> solid;
-};
-
 [[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
   throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have",
                                arguments.input, output.name, suffixes_for({Content::solid}, "and")));
 }
 
 /// A 3D mesh that is one cell thick is a plane one where the output has a place for those.
-ConvertInput read_convert_input(const ConvertArguments& arguments) {
+MeshOfFile read_convert_input(const ConvertArguments& arguments) {
   const FileFormat& output = output_format(arguments);
   const FileFormat* const format = format_of(arguments.input);
-  if (!is_of_meshes(format)) require_readable_suffix(arguments.input);
   if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::solid))
     refuse_solid(arguments, output);
-  ConvertInput input;
-  input.solid = read_solid(arguments.input);
-  if (input.solid && output.holds(Content::mesh) && is_one_cell_thick(*input.solid)) {
-    input.whole = loaded_plane(*input.solid, arguments.input);
-    input.solid.reset();
-  } else if (!input.solid) {
-    input.whole = read_mesh(arguments.input);
-  }
-  if (input.solid && !output.holds(Content::solid)) refuse_solid(arguments, output);
-  if (!input.solid && !output.holds(Content::mesh))
+  MeshOfFile mesh = read_mesh_file(arguments.input);
+  const FileMesh* solid = std::get_if<FileMesh>(&mesh);
+  if (solid != nullptr && output.holds(Content::mesh) && is_one_cell_thick(*solid))
+    return plane_of_solid(*solid, arguments.input);
+  if (solid != nullptr && !output.holds(Content::solid)) refuse_solid(arguments, output);
+  if (solid == nullptr && !output.holds(Content::mesh))
     throw InputError(
         fmt::format("{}: holds a plane mesh, and the format {} those of three dimensions alone; "
                     "`quadloop extrude` draws it out",
                     arguments.input, output.name));
-  return input;
+  return mesh;
 }
 
 /// What was left out on reading, what is wrong with it, what is lost on writing.
-std::vector<std::string> warnings_of(const ConvertInput& input, const ConvertArguments& arguments) {
-  std::vector<std::string> warnings = input.solid ? input.solid->warnings : input.whole.warnings;
-  const auto append = [&](const std::vector<std::string>& more) {
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  };
-  append(input.solid ? doubts_about(*input.solid, arguments.input)
-                     : doubts_about(input.whole, arguments.input));
-  append(input.solid ? losses_in(*input.solid, arguments.output, arguments.format)
-                     : losses_in(input.whole, arguments.output, arguments.format));
+template <class AnyMesh>
+std::vector<std::string> warnings_of(const AnyMesh& mesh, const ConvertArguments& arguments) {
+  std::vector<std::string> warnings = mesh.warnings;
+  std::ranges::move(doubts_about(mesh, arguments.input), std::back_inserter(warnings));
+  std::ranges::move(losses_in(mesh, arguments.output, arguments.format), std::back_inserter(warnings));
   return warnings;
 }
 
-Figures figures_of(const SolidMesh& mesh) {
+Figures figures_of(const FileMesh& mesh) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   Figures figures;
   figures.add("nodes", count(mesh.points));
@@ -108,8 +94,8 @@ Figures figures_of(const SolidMesh& mesh) {
   figures.add("pyramids", count(mesh.pyramids));
   figures.add("prisms", count(mesh.prisms));
   figures.add("hexahedra", count(mesh.hexahedra));
-  if (!mesh.block_names.empty()) figures.add("blocks", count(mesh.block_names));
-  figures.add("boundaries", count(mesh.patches));
+  if (mesh.has_blocks()) figures.add("blocks", count(mesh.block_names));
+  figures.add("boundaries", count(mesh.boundaries));
   figures.add("variables", mesh.solution ? count(mesh.solution->names) : 0);
   return figures;
 }
@@ -139,8 +125,6 @@ Figures figures_of(const LoadedMesh& whole) {
   return figures;
 }
 
-/// The root rank alone holds the mesh, as the file gives it: nothing is turned, moved or left out but for
-/// want of a place. *Collective.*
 /// The parts that have been written, and what was asked for.
 struct WrittenParts {
   PartRequest request;
@@ -148,32 +132,31 @@ struct WrittenParts {
 };
 
 /// *Collective.*
-std::optional<WrittenParts> write_parts(const Communicator& comm, const ConvertInput& input,
+std::optional<WrittenParts> write_parts(const Communicator& comm, const MeshOfFile& input,
                                         const ConvertArguments& arguments, PartFiles& files) {
   if (arguments.parts == 0) return std::nullopt;
-  if (comm.any(input.solid.has_value()))
+  const LoadedMesh* plane = std::get_if<LoadedMesh>(&input);
+  if (comm.any(plane == nullptr))
     throw InputError(arguments.input + ": holds a 3D mesh; parts are made of plane ones");
-  const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{input.whole.blocks}));
+  const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{plane->blocks}));
   const PartRequest request = part_request(arguments, blocks);
-  return WrittenParts{request, write_parts_of_root(files, comm, input.whole, request)};
+  return WrittenParts{request, write_parts_of_root(files, comm, *plane, request)};
 }
 
 /// On the root rank alone, whose communicator `outputs` has for itself. *Collective.*
-void write_output(const Communicator& comm, const ConvertInput& input, const ConvertArguments& arguments,
+void write_output(const Communicator& comm, const MeshOfFile& input, const ConvertArguments& arguments,
                   OutputSet& outputs) {
   comm.together([&] {
     if (!comm.is_root()) return;
-    if (input.solid)
-      write_solid(outputs, *input.solid, arguments.output, arguments.format);
-    else
-      write_mesh(outputs, input.whole, arguments.output, arguments.format);
+    std::visit([&](const auto& mesh) { write_mesh(outputs, mesh, arguments.output, arguments.format); },
+               input);
   });
 }
 
 /// On the root rank.
-void report(const CommandContext& context, const ConvertInput& input, const ConvertArguments& arguments,
+void report(const CommandContext& context, const MeshOfFile& input, const ConvertArguments& arguments,
             const std::optional<WrittenParts>& parts) {
-  Figures figures = input.solid ? figures_of(*input.solid) : figures_of(input.whole);
+  Figures figures = std::visit([](const auto& mesh) { return figures_of(mesh); }, input);
   std::vector<std::string>& files = context.record.files;
   files = with_files_beside({arguments.output}, arguments.format);
   std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
@@ -190,12 +173,12 @@ void report(const CommandContext& context, const ConvertInput& input, const Conv
 
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
-  ConvertInput input;
+  MeshOfFile input;  // on the root rank alone
   comm.together([&] {
     output_format(arguments);
     if (!comm.is_root()) return;
     input = read_convert_input(arguments);
-    context.record.noted = warnings_of(input, arguments);
+    context.record.noted = std::visit([&](const auto& mesh) { return warnings_of(mesh, arguments); }, input);
   });
   PartFiles part_files(comm);
   const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);

@@ -19,15 +19,14 @@
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/model/plane_of_solid.hpp"
 #include "io/solid/solid_blocks.hpp"
-#include "io/solid_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
-#include "mesher/solid/plane_of_solid.hpp"
 
 namespace quadloop {
 
@@ -116,8 +115,6 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
     require_readable_suffix(arguments.input);
     require_solid_suffix(arguments.output);
     if (!context.comm.is_root()) return;
-    if (const auto solid = read_solid(arguments.input); solid && !is_one_cell_thick(*solid))
-      throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
     whole = read_mesh(arguments.input);
     require_valid_input(whole, arguments.input);
     warnings = whole.warnings;
@@ -214,7 +211,7 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   require_room(comm, counts, arguments);
   for (std::string& loss : losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
   OutputSet outputs(comm);
-  write_solid(outputs, mesh, arguments.output);
+  write_mesh(outputs, mesh, arguments.output);
   outputs.commit();
   if (!comm.is_root()) return;
   const Figures figures = figures_of(counts, mesh, area);

@@ -13,25 +13,20 @@
 #include "io/files/output_path.hpp"
 #include "io/files/reading/file_kind.hpp"
 #include "io/fluent/fluent_file.hpp"
-#include "io/fluent/fluent_solid_file.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_plane_file.hpp"
 #include "io/medit/medit_file.hpp"
 #include "io/msh/msh_file.hpp"
-#include "io/msh/msh_solid_file.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/native_file.hpp"
 #include "io/su2/su2_csv_file.hpp"
 #include "io/su2/su2_dat_file.hpp"
 #include "io/su2/su2_file.hpp"
-#include "io/su2/su2_solid_file.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
 #include "io/vtu/pvtu_file.hpp"
-#include "io/vtu/pvtu_solid_file.hpp"
 #include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtu_file.hpp"
-#include "io/vtu/vtu_solid_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -57,11 +52,8 @@ bool holds_fluent(const std::string& path) {
   std::error_code failure;
   return std::filesystem::is_regular_file(path, failure) && is_fluent(path);
 }
-LoadedMesh read_msh_or_fluent(const std::string& path) {
+MeshOfFile read_msh_or_fluent(const std::string& path) {
   return holds_fluent(path) ? read_fluent(path) : read_msh(path);
-}
-std::optional<SolidMesh> read_msh_solid_or_none(const std::string& path) {
-  return holds_fluent(path) ? read_fluent_solid(path) : read_msh_solid(path);
 }
 
 /// One for each version that is written; both are read under either name.
@@ -70,17 +62,14 @@ FileFormat msh_row(const std::string& name) {
   return {.name = name,
           .program = "Gmsh",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::solid},
-          .read_mesh = read_msh_or_fluent,
+          .read = read_msh_or_fluent,
           .write_mesh = [](OutputSet& outputs, const Mesh& mesh, const std::string& path,
                            const Field*) { write_msh(outputs, mesh, path, version); },
           .write_blocks = [](OutputSet& outputs, const LoadedMesh& whole,
                              const std::string& path) { write_msh(outputs, whole, path, version); },
           .boundary_names = msh_group_names,
           .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
-                            const std::string& path) { write_msh_solid(outputs, mesh, path, version); },
-          .read_solid = read_msh_solid_or_none,
-          .patch_names = msh_group_names,
-          .blocks_in_solid = true};
+                            const std::string& path) { write_msh_solid(outputs, mesh, path, version); }};
 }
 
 /// One for each order of bytes.
@@ -88,19 +77,19 @@ template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
-          .places = {Content::solid},
+          .places = {Content::conditions, Content::solid},
+          .read = read_ugrid<order>,
+          .boundary_names = mapbc_names,
           .file_beside = mapbc_path,
-          .write_solid = write_ugrid<order>,
-          .read_solid = read_ugrid<order>,
-          .patch_names = mapbc_names,
-          .conditions_in_solid = true};
+          .write_solid = write_ugrid<order>};
 }
 
 /// Medit's text has the suffix of the program's own; what comes through a pipe is the program's.
-LoadedMesh read_native_or_medit(const std::string& path) {
+MeshOfFile read_native_or_medit(const std::string& path) {
   std::error_code failure;
   const bool is_file = std::filesystem::is_regular_file(path, failure);
-  return is_file && is_medit(path) ? read_medit(path) : read_native(path);
+  if (is_file && is_medit(path)) return read_medit(path);
+  return read_native(path);
 }
 
 /// Written by its name alone.
@@ -108,7 +97,7 @@ FileFormat medit_row() {
   return {.name = "medit",
           .program = "MMG, FreeFEM",
           .places = {Content::mesh, Content::blocks},
-          .read_mesh = read_medit,
+          .read = read_medit,
           .write_mesh = write_mesh_alone<write_medit>,
           .write_blocks = write_medit,
           .boundary_names = medit_boundary_names};
@@ -120,12 +109,12 @@ std::vector<FileFormat> native_rows() {
   return {{.name = "mesh",
            .places = {mesh, solution, constants, blocks, layers},
            .by_default = true,
-           .read_mesh = read_native_or_medit,
+           .read = read_native_or_medit,
            .write_mesh = write_native,
            .write_blocks = write_native},
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
-           .read_mesh = read_binary,
+           .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
            .write_mesh = write_binary,
            .write_blocks = write_binary}};
 }
@@ -135,15 +124,11 @@ FileFormat cgns_row() {
   return {.name = "cgns",
           .places = {mesh, solution, conditions, layers, solid},
           .by_default = true,
-          .read_mesh = read_cgns,
+          .read = read_cgns,
           .write_mesh = write_cgns,
           .boundary_names = cgns_boundary_names,
           .variable_names = cgns_variable_renames,
-          .write_solid = write_cgns_solid,
-          .read_solid = read_cgns_solid,
-          .patch_names = cgns_boundary_names,
-          .solution_in_solid = true,
-          .conditions_in_solid = true};
+          .write_solid = write_cgns_solid};
 }
 
 /// One file, and the list of pieces.
@@ -152,36 +137,28 @@ std::vector<FileFormat> vtk_rows() {
   return {{.name = "vtu",
            .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
-           .read_mesh = read_vtu,
+           .read = read_vtu,
            .write_mesh = write_vtu,
            .write_blocks = write_vtu,
-           .write_solid = write_vtu_solid,
-           .read_solid = read_vtu_solid,
-           .solution_in_solid = true,
-           .blocks_in_solid = true},
+           .write_solid = write_vtu_solid},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
-           .read_mesh = read_pvtu,
+           .read = read_pvtu,
            .write_mesh = write_pvtu,
            .write_blocks = write_pvtu,
            .file_beside = pvtu_piece_path,
-           .write_solid = write_pvtu_solid,
-           .read_solid = read_pvtu_solid,
-           .solution_in_solid = true,
-           .blocks_in_solid = true}};
+           .write_solid = write_pvtu_solid}};
 }
 
 FileFormat su2_row() {
   return {.name = "su2",
           .places = {Content::mesh, Content::solid},
-          .read_mesh = read_su2,
+          .read = read_su2,
           .write_mesh = write_mesh_alone<write_su2>,
           .boundary_names = su2_marker_names,
-          .write_solid = write_su2_solid,
-          .read_solid = read_su2_solid,
-          .patch_names = su2_marker_names};
+          .write_solid = write_su2_solid};
 }
 
 FileFormat fluent_row() {
@@ -189,23 +166,19 @@ FileFormat fluent_row() {
   return {.name = "fluent.msh",
           .program = "Fluent",
           .places = {mesh, blocks, block_names, conditions, solid},
-          .read_mesh = read_fluent,
+          .read = read_fluent,
           .write_mesh = write_mesh_alone<write_fluent>,
           .write_blocks = write_fluent,
           .boundary_names = fluent_zone_names,
           .unknown_boundary = "a wall",
-          .write_solid = write_fluent_solid,
-          .read_solid = read_fluent_solid,
-          .patch_names = fluent_zone_names,
-          .conditions_in_solid = true,
-          .blocks_in_solid = true};
+          .write_solid = write_fluent_solid};
 }
 
 FileFormat plane_ugrid_row() {
   return {.name = "ugrid",
           .program = "AFLR2",
           .places = {Content::mesh, Content::conditions},
-          .read_mesh = read_ugrid_plane,
+          .read = read_ugrid_plane,
           .write_mesh = write_mesh_alone<write_ugrid_plane>,
           .boundary_names = mapbc_names,
           .unknown_boundary = "of type 0 in the .mapbc",
@@ -217,16 +190,12 @@ FileFormat foam_row() {
   return {.name = "polyMesh",
           .program = "OpenFOAM",
           .places = {mesh, blocks, block_names, conditions, solid},
-          .read_mesh = read_foam_plane,
+          .read = read_foam,
           .write_mesh = write_mesh_alone<write_foam_plane>,
           .write_blocks = write_foam_plane,
           .boundary_names = foam_patch_names,
           .unknown_boundary = "a plain patch, no wall",
           .write_solid = write_foam,
-          .read_solid = read_foam,
-          .patch_names = foam_patch_names,
-          .conditions_in_solid = true,
-          .blocks_in_solid = true,
           .single_block_name = false,
           .is_folder = true};
 }

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <initializer_list>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
-#include "io/loaded/loaded_solution.hpp"
+#include "io/model/loaded_solution.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "io/solid/solid_stream.hpp"
-#include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
@@ -37,8 +35,8 @@ struct FileFormat {
   /// What a user is to do where a mesh comes without a solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 
-  /// On the calling rank alone. Throws InputError.
-  LoadedMesh (*read_mesh)(const std::string& path) = nullptr;
+  /// On the calling rank alone; null: no mesh is read. Throws InputError.
+  MeshOfFile (*read)(const std::string& path) = nullptr;
   /// A distributed mesh, with its solution unless that is null. *Collective.* Throws OutputError.
   void (*write_mesh)(OutputSet& outputs, const Mesh& mesh, const std::string& path,
                      const Field* solution) = nullptr;
@@ -63,14 +61,6 @@ struct FileFormat {
 
   /// A 3D mesh, with its solution where there is a place for one. *Collective.* Throws OutputError.
   void (*write_solid)(OutputSet& outputs, const SolidStream& mesh, const std::string& path) = nullptr;
-  /// A 3D mesh on the calling rank alone; nothing where the file holds one of two dimensions. Throws
-  /// InputError.
-  std::optional<SolidMesh> (*read_solid)(const std::string& path) = nullptr;
-  /// The names of its patches as a file has them; null: as they are.
-  std::vector<std::string> (*patch_names)(const std::vector<std::string>& names) = nullptr;
-  bool solution_in_solid = false;  ///< whether a 3D mesh has a place for one
-  bool conditions_in_solid = false;
-  bool blocks_in_solid = false;
   bool single_block_name = true;  ///< whether names of blocks have a place also where there is only one
   bool is_folder = false;
 

@@ -5,20 +5,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <iterator>
-#include <numeric>
+#include <optional>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "io/formats.hpp"
-#include "io/loaded/repeated_rows.hpp"
+#include "io/model/orient_solid.hpp"
+#include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -30,53 +32,129 @@ const FileFormat* mesh_format(const std::string& path, const std::string& name =
   return format != nullptr && format->holds(Content::mesh) ? format : nullptr;
 }
 
-void clean_names_of(LoadedMesh& loaded, const std::string& path) {
+/// The one that is named, else that of the suffix; null where it holds no 3D mesh.
+const FileFormat* solid_format(const std::string& path, const std::string& name = {}) {
+  const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
+  return format != nullptr && format->holds(Content::solid) ? format : nullptr;
+}
+
+void write_stream(OutputSet& outputs, const SolidStream& stream, const std::string& path,
+                  const std::string& name) {
+  const FileFormat* format = solid_format(path, name);
+  QUADLOOP_REQUIRE(format != nullptr, "a 3D mesh is written in a format that holds none");
+  format->write_solid(outputs, stream, path);
+}
+
+void clean_up_names(std::vector<std::string*> names, std::optional<Field>& solution, const std::string& path,
+                    std::vector<std::string>& warnings) {
+  if (solution) append_names(*solution, names);
+  std::ranges::move(clean_names(names, path), std::back_inserter(warnings));
+  if (solution) require_distinct_variables(*solution, path);
+}
+
+void finish_reading(LoadedMesh& loaded, const std::string& path) {
   std::vector<std::string*> names;
   for (BoundaryEdges& boundary : loaded.mesh.boundaries) names.push_back(&boundary.name);
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
-  if (loaded.solution) append_names(*loaded.solution, names);
-  std::ranges::move(clean_names(names, path), std::back_inserter(loaded.warnings));
+  clean_up_names(std::move(names), loaded.solution, path, loaded.warnings);
 }
 
-void append_losses(const FileFormat& format, const Mesh& mesh, const Field* solution, std::int32_t blocks,
-                   const std::string& path, std::vector<std::string>& losses) {
-  const auto& boundaries = mesh.boundaries;
-  if (solution != nullptr && !format.holds(Content::solution)) {
-    losses.push_back(path + ": this format has no place for the solution, which is left out");
-  } else if (solution != nullptr && !solution->constants.empty() && !format.holds(Content::constants)) {
-    losses.push_back(path + ": this format has no place for the solution's constants, which are left out");
+void finish_reading(FileMesh& mesh, const std::string& path) {
+  std::vector<std::string*> names;
+  for (FileBoundary& boundary : mesh.boundaries) names.push_back(&boundary.name);
+  for (std::string& block : mesh.block_names) names.push_back(&block);
+  clean_up_names(std::move(names), mesh.solution, path, mesh.warnings);
+  if (const std::int64_t turned = orient_solid(mesh); turned > 0)
+    mesh.warnings.push_back(fmt::format("{}: {} inside out and turned", path,
+                                        turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
+}
+
+/// What of a mesh a format may have no place for.
+struct MeshContent {
+  std::vector<std::string> boundary_names, block_names = {};
+  std::int64_t blocks = 1;
+  const Field* solution = nullptr;
+  bool has_conditions = false, has_layers = false;
+  bool knows_walls = false;  ///< no word on boundaries of which nothing is known
+};
+
+template <class Boundaries>
+MeshContent content_of(const Boundaries& boundaries) {
+  MeshContent content;
+  for (const auto& boundary : boundaries) {
+    content.boundary_names.push_back(boundary.name);
+    content.has_conditions = content.has_conditions || boundary.condition != "none";
   }
-  if (solution != nullptr) {
-    if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
-      losses.push_back(std::move(renames));
-  }
-  if (blocks > 1 && !format.holds(Content::blocks))
-    losses.push_back(path + ": the blocks are written as one");
-  if (!format.holds(Content::conditions) &&
-      std::any_of(boundaries.begin(), boundaries.end(),
-                  [](const BoundaryEdges& b) { return b.condition != "none"; }))
-    losses.push_back(path + ": this format has no place for boundary conditions, which are left out");
-  if (!format.holds(Content::layers) && has_layers(mesh))
-    losses.push_back(path + ": this format has no place for the number of layers, which is left out");
+  return content;
+}
+
+MeshContent content_of(const Mesh& mesh, const Field* solution) {
+  MeshContent content = content_of(mesh.boundaries);
+  content.has_layers = has_layers(mesh);
+  content.solution = solution;
+  return content;
+}
+
+/// A line that counts the boundaries whose names the format cannot hold.
+std::vector<std::string> renames_of(const std::vector<std::string>& names, const FileFormat& format,
+                                    const std::string& path) {
+  if (format.boundary_names == nullptr) return {};
+  const std::vector<std::string> written = format.boundary_names(names);
+  const auto first = std::ranges::mismatch(names, written);
+  if (first.in1 == names.end()) return {};
+  std::ptrdiff_t renamed = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) renamed += names[i] != written[i] ? 1 : 0;
+  return {fmt::format(
+      "{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path,
+      renamed, renamed == 1 ? "y is" : "ies are", *first.in1, *first.in2)};
 }
 
 /// A line where blocks have names of their own, not "domain" or "block_<number>", and the format none.
-void append_block_names(const FileFormat& format, const LoadedMesh& whole, const std::string& path,
+void append_block_names(const FileFormat& format, const MeshContent& content, const std::string& path,
                         std::vector<std::string>& losses) {
-  const bool blocks_are_kept = whole.blocks == 1 || format.holds(Content::blocks);
+  const bool blocks_are_kept = content.blocks == 1 || format.holds(Content::blocks);
   const bool names_are_kept =
-      format.holds(Content::block_names) && (whole.blocks > 1 || format.single_block_name);
+      format.holds(Content::block_names) && (content.blocks > 1 || format.single_block_name);
   if (!blocks_are_kept || names_are_kept) return;
   std::vector<std::string> names;
-  for (std::size_t b = 0; b < whole.block_names.size(); ++b) {
-    const std::string usual = whole.blocks == 1 ? "domain" : fmt::format("block_{}", b + 1);
-    if (whole.block_names[b] != usual) names.push_back(whole.block_names[b]);
+  for (std::size_t b = 0; b < content.block_names.size(); ++b) {
+    const std::string usual = content.blocks == 1 ? "domain" : fmt::format("block_{}", b + 1);
+    if (content.block_names[b] != usual) names.push_back(content.block_names[b]);
   }
   if (!names.empty())
     losses.push_back(
         fmt::format("{}: this format has no place for the names of blocks, which are left out: {}", path,
                     some_names(names)));
+}
+
+std::vector<std::string> losses_of(const MeshContent& content, const FileFormat& format,
+                                   const std::string& path) {
+  std::vector<std::string> losses = renames_of(content.boundary_names, format, path);
+  const auto lose = [&](const char* what) { losses.push_back(path + ": " + what); };
+  const Field* const solution = content.solution;
+  if (solution != nullptr && !format.holds(Content::solution)) {
+    lose("this format has no place for the solution, which is left out");
+  } else if (solution != nullptr && !solution->constants.empty() && !format.holds(Content::constants)) {
+    lose("this format has no place for the solution's constants, which are left out");
+  }
+  if (solution != nullptr) {
+    if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
+      losses.push_back(std::move(renames));
+  }
+  if (content.blocks > 1 && !format.holds(Content::blocks)) lose("the blocks are written as one");
+  if (content.has_conditions && !format.holds(Content::conditions))
+    lose("this format has no place for boundary conditions, which are left out");
+  if (content.has_layers && !format.holds(Content::layers))
+    lose("this format has no place for the number of layers, which is left out");
+  append_block_names(format, content, path, losses);
+  if (format.unknown_boundary != nullptr && !content.knows_walls && !content.has_conditions &&
+      !content.boundary_names.empty())
+    losses.push_back(
+        fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns "
+                    "holds what the case says: convert that",
+                    path, format.unknown_boundary));
+  return losses;
 }
 
 }  // namespace
@@ -94,14 +172,16 @@ void require_readable_suffix(const std::string& path) {
                    suffixes_for({Content::mesh}) + " file");
 }
 
-LoadedMesh read_mesh(const std::string& path) {
+MeshOfFile read_mesh_file(const std::string& path) {
   require_kind_of_suffix(path);
-  require_readable_suffix(path);
-  LoadedMesh loaded = is_part_index(path) ? read_parts(path) : mesh_format(path)->read_mesh(path);
-  clean_names_of(loaded, path);
-  if (loaded.solution) require_distinct_variables(*loaded.solution, path);
-  return loaded;
+  const FileFormat* const format = format_of(path);
+  if (format == nullptr || format->read == nullptr) require_readable_suffix(path);
+  MeshOfFile mesh = is_part_index(path) ? MeshOfFile(read_parts(path)) : format->read(path);
+  std::visit([&](auto& read) { finish_reading(read, path); }, mesh);
+  return mesh;
 }
+
+LoadedMesh read_mesh(const std::string& path) { return plane_of(read_mesh_file(path), path); }
 
 void require_writable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
@@ -142,41 +222,88 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
 
 std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
-  if (row == nullptr || row->boundary_names == nullptr) return {};
-  std::vector<std::string> names;
-  for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
-  const std::vector<std::string> written = row->boundary_names(names);
-  const auto first = std::mismatch(names.begin(), names.end(), written.begin());
-  if (first.first == names.end()) return {};
-  const auto kept = std::inner_product(names.begin(), names.end(), written.begin(), std::ptrdiff_t{0},
-                                       std::plus<>(), std::equal_to<>());
-  const std::ptrdiff_t renamed = std::ssize(names) - kept;
-  return {fmt::format(
-      "{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path,
-      renamed, renamed == 1 ? "y is" : "ies are", *first.first, *first.second)};
+  return row == nullptr ? std::vector<std::string>{}
+                        : renames_of(content_of(mesh.boundaries).boundary_names, *row, path);
 }
 
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
                                    const std::string& format) {
-  std::vector<std::string> losses = renames_in(whole.mesh, path, format);
-  if (const FileFormat* row = mesh_format(path, format)) {
-    append_losses(*row, whole.mesh, whole.solution ? &*whole.solution : nullptr, whole.blocks, path, losses);
-    append_block_names(*row, whole, path, losses);
-    const bool any_known = std::ranges::any_of(
-        whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.condition != "none"; });
-    if (row->unknown_boundary != nullptr && !any_known && !whole.mesh.boundaries.empty())
+  const FileFormat* row = mesh_format(path, format);
+  if (row == nullptr) return {};
+  MeshContent content = content_of(whole.mesh, whole.solution ? &*whole.solution : nullptr);
+  content.blocks = whole.blocks;
+  content.block_names = whole.block_names;
+  return losses_of(content, *row, path);
+}
+
+std::vector<std::string> losses_in(const FileMesh& mesh, const std::string& path, const std::string& format) {
+  const FileFormat* row = solid_format(path, format);
+  if (row == nullptr) return {};
+  MeshContent content = content_of(mesh.boundaries);
+  content.blocks = mesh.has_blocks() ? std::ssize(mesh.block_names) : 1;
+  if (mesh.has_blocks()) content.block_names = mesh.block_names;  // the name of a single block is not kept
+  content.solution = mesh.solution ? &*mesh.solution : nullptr;
+  return losses_of(content, *row, path);
+}
+
+std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path) {
+  const FileFormat* row = solid_format(path);
+  if (row == nullptr) return {};
+  std::vector<std::string> losses;
+  for (const auto& [name, wanted] : {std::pair{&mesh.back, "back"}, std::pair{&mesh.front, "front"}}) {
+    if (*name != wanted)
       losses.push_back(
-          fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns "
-                      "holds what the case says: convert that",
-                      path, row->unknown_boundary));
+          fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
   }
+  MeshContent content = content_of(mesh.plane.boundaries);
+  content.has_conditions = content.has_conditions && row->holds(Content::conditions);
+  content.solution = mesh.solution;
+  std::ranges::move(losses_of(content, *row, path), std::back_inserter(losses));
   return losses;
 }
 
 std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, const std::string& path) {
-  std::vector<std::string> losses = renames_in(mesh, path);
-  if (const FileFormat* row = mesh_format(path)) append_losses(*row, mesh, solution, 1, path, losses);
-  return losses;
+  const FileFormat* row = mesh_format(path);
+  if (row == nullptr) return {};
+  MeshContent content = content_of(mesh, solution);
+  content.knows_walls = true;
+  return losses_of(content, *row, path);
+}
+
+void require_solid_suffix(const std::string& path) {
+  if (solid_format(path) != nullptr) return;
+  throw InputError(path + ": no 3D mesh is written in this format; name a " + suffixes_for({Content::solid}) +
+                   " (a folder)");
+}
+
+void write_mesh(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path,
+                const std::string& format) {
+  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+}
+
+void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& path,
+                const std::string& format) {
+  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+}
+
+std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {
+  if (whole.blocks < 2) return {};
+  const EdgeTable table(whole.mesh);
+  std::size_t dropped = 0;
+  for (BoundaryEdges& boundary : whole.mesh.boundaries) {
+    dropped += std::erase_if(boundary.edges, [&](const std::array<NodeId, 2>& edge) {
+      return table.cell_left_of(edge[0], edge[1]) >= 0 && table.cell_left_of(edge[1], edge[0]) >= 0;
+    });
+  }
+  std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  const FileFormat* format = solid_format(path);
+  const bool holds_blocks = format != nullptr && format->holds(Content::blocks);
+  std::string loss = holds_blocks ? "" : "the blocks are written as one";
+  if (dropped > 0)
+    loss += fmt::format("{}the {} edges between {} are no patch", holds_blocks ? "" : "; ", dropped,
+                        holds_blocks ? "two blocks" : "them");
+  if (loss.empty()) return {};
+  return {path + ": " + loss};
 }
 
 }  // namespace quadloop

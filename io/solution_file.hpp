@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/loaded_solution.hpp"
+#include "io/model/loaded_solution.hpp"
 
 namespace quadloop {
 

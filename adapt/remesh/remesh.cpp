@@ -7,7 +7,7 @@
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop {

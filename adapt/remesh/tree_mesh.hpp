@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/tree_record.hpp"
 

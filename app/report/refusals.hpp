@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
 namespace quadloop {

@@ -51,7 +51,7 @@ std::string rows_json(const std::vector<Row>& rows, const char* count_key, Count
   return all.text();
 }
 
-Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t most) {
+Figures figures_of(const FileMesh& mesh, const SolidFigures& found, std::size_t most) {
   Figures figures;
   figures.add("nodes", std::ssize(mesh.points));
   figures.add("prisms", std::ssize(mesh.prisms));
@@ -67,7 +67,7 @@ Figures figures_of(const SolidMesh& mesh, const SolidFigures& found, std::size_t
     figures.add_member("block_figures", rows_json(found.blocks, "cells", &BlockFigures::cells, "volume",
                                                   &BlockFigures::volume));
   }
-  figures.add("patches", std::ssize(mesh.patches));
+  figures.add("patches", std::ssize(mesh.boundaries));
   figures.add_lines(patches_text(found.patches, most));
   figures.add_member("patch_figures",
                      rows_json(found.patches, "faces", &PatchFigures::faces, "area", &PatchFigures::area));
@@ -80,7 +80,7 @@ std::string fault_text(const SolidFault& fault) {
 
 }  // namespace
 
-std::string solid_text(const SolidMesh& mesh, const SolidFigures& figures, bool verbose) {
+std::string solid_text(const FileMesh& mesh, const SolidFigures& figures, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
   std::string text = figures_of(mesh, figures, most).table(24, 16);
   for (const SolidFault& fault : figures.faults) text += "  BROKEN " + fault_text(fault) + "\n";
@@ -89,7 +89,7 @@ std::string solid_text(const SolidMesh& mesh, const SolidFigures& figures, bool 
   return text + (figures.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
-JsonObject solid_record(const std::string& file, const SolidMesh& mesh, const SolidFigures& figures) {
+JsonObject solid_record(const std::string& file, const FileMesh& mesh, const SolidFigures& figures) {
   JsonObject json;
   json.add("valid", figures.faults.empty());
   json.add("file", file);
@@ -111,7 +111,7 @@ void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) 
                                more_faults(figures.all_faults - 1)));
 }
 
-std::vector<std::string> doubts_about(const SolidMesh& mesh, const std::string& file) {
+std::vector<std::string> doubts_about(const FileMesh& mesh, const std::string& file) {
   const SolidFigures figures = check_solid(mesh);
   if (figures.faults.empty()) return {};
   return {fmt::format("{}: is not valid, and is passed on as it is: {}{}", file,

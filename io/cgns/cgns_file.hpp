@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -21,9 +21,9 @@ void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path,
 void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path,
                 const Field* solution = nullptr);
 
-/// Reads the first base of a 2D CGNS file on the calling rank alone: unstructured zones of TRI_3, QUAD_4,
-/// MIXED and BAR_2 sections, each zone a block, nodes at the same place in two zones made one. Throws
-/// InputError on anything else.
-LoadedMesh read_cgns(const std::string& path);
+/// Reads the first base of a CGNS file on the calling rank alone: of two dimensions unstructured zones of
+/// TRI_3, QUAD_4, MIXED and BAR_2 sections, each zone a block, nodes at the same place in two zones made one;
+/// of three dimensions one zone (read_cgns_solid()). Throws InputError on anything else.
+MeshOfFile read_cgns(const std::string& path);
 
 }  // namespace quadloop

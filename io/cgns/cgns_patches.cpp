@@ -4,8 +4,8 @@
 
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_sink.hpp"
-#include "io/loaded/layers_text.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/layers_text.hpp"
+#include "io/model/strip_text.hpp"
 
 namespace quadloop {
 

@@ -10,13 +10,14 @@
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
+#include "io/cgns/cgns_solid_file.hpp"
 #include "io/cgns/cgns_values.hpp"
 #include "io/cgns/cgns_zones.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/files/reading/separate_reader.hpp"
-#include "io/loaded/layers_text.hpp"
-#include "io/loaded/pass_mesh.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/layers_text.hpp"
+#include "io/model/pass_mesh.hpp"
+#include "io/model/strip_text.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
@@ -335,11 +336,7 @@ void require_whole_solution(const LoadedMesh& loaded, const std::string& path) {
   throw InputError(path + ": some of its zones have a solution, others none");
 }
 
-LoadedMesh read_here(const std::string& path) {
-  const File file(path, path, CG_MODE_READ);
-  const auto [cell_dimension, zones] = first_base(file);
-  if (cell_dimension != 2)
-    throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D, not 2D");
+LoadedMesh read_plane(const File& file, int zones, const std::string& path) {
   LoadedMesh loaded;
   CgnsBoundaries boundaries;
   loaded.blocks = 0;
@@ -355,10 +352,18 @@ LoadedMesh read_here(const std::string& path) {
   return loaded;
 }
 
+MeshOfFile read_here(const std::string& path) {
+  const File file(path, path, CG_MODE_READ);
+  const auto [cell_dimension, zones] = first_base(file);
+  if (cell_dimension == 3) return read_cgns_solid(file, zones);
+  if (cell_dimension == 2) return read_plane(file, zones, path);
+  throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D; 2D and 3D can be read");
+}
+
 }  // namespace
 
-LoadedMesh read_cgns(const std::string& path) {
-  return read_separately<LoadedMesh>(path, [&] { return read_here(path); });
+MeshOfFile read_cgns(const std::string& path) {
+  return read_separately<MeshOfFile>(path, [&] { return read_here(path); });
 }
 
 }  // namespace quadloop

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/cgns/cgns_handle.hpp"
 #include "io/files/output_file.hpp"
+#include "io/model/file_mesh.hpp"
 #include "io/solid/solid_stream.hpp"
-#include "mesher/solid/solid_mesh.hpp"
+#include "mesher/base/error.hpp"
 
 namespace quadloop {
 
@@ -16,8 +17,8 @@ namespace quadloop {
 /// all ranks, also where the library's sizes cannot count the mesh.
 void write_cgns_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
 
-/// Reads the one zone of a 3D CGNS file on the calling rank alone: sections of TETRA_4, PYRA_5, PENTA_6,
-/// HEXA_8, TRI_3 and QUAD_4; nothing where its cells have another dimension. Throws InputError.
-std::optional<SolidMesh> read_cgns_solid(const std::string& path);
+/// Reads the one zone of a 3D CGNS file that is open: sections of TETRA_4, PYRA_5, PENTA_6, HEXA_8, TRI_3 and
+/// QUAD_4. Throws InputError.
+FileMesh read_cgns_solid(const CgnsFile<InputError>& file, int zones);
 
 }  // namespace quadloop

@@ -10,8 +10,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_solid_file.hpp"
 #include "io/cgns/cgns_values.hpp"
-#include "io/files/reading/separate_reader.hpp"
-#include "io/solid/pass_solid.hpp"
+#include "io/model/clean_up.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -23,7 +22,7 @@ using Name = std::array<char, 33>;
 
 /// A face of a section, until a patch takes it.
 struct LooseFace {
-  SolidPatch::Face nodes;
+  FileBoundary::Face nodes;
   std::size_t section;  ///< index among the sections' names
   bool taken = false;
 };
@@ -32,7 +31,7 @@ class CgnsSolidReader {
  public:
   explicit CgnsSolidReader(const File& file) : file_{file} {}
 
-  SolidMesh read() {
+  FileMesh read() {
     read_points();
     int sections = 0;
     file_.check(cg_nsections(file_.id(), 1, 1, &sections));
@@ -40,6 +39,7 @@ class CgnsSolidReader {
     read_conditions();
     take_loose();
     read_solution();
+    drop_empty_groups(mesh_);
     return std::move(mesh_);
   }
 
@@ -123,13 +123,13 @@ class CgnsSolidReader {
 
   void add(int type, std::int64_t element, const cgsize_t* numbers) {
     switch (type) {
-      case TETRA_4: add_cell<4>(element, numbers); break;
-      case PYRA_5: add_cell<5>(element, numbers); break;
-      case PENTA_6: add_cell<6>(element, numbers); break;
-      case HEXA_8: add_cell<8>(element, numbers); break;
+      case TETRA_4: add_volume<4>(element, numbers); break;
+      case PYRA_5: add_volume<5>(element, numbers); break;
+      case PENTA_6: add_volume<6>(element, numbers); break;
+      case HEXA_8: add_volume<8>(element, numbers); break;
       case TRI_3: {
         const auto nodes = row<3>(numbers);
-        add_face(element, {nodes[0], nodes[1], nodes[2], SolidPatch::no_node});
+        add_face(element, {nodes[0], nodes[1], nodes[2], FileBoundary::no_node});
         break;
       }
       default: add_face(element, row<4>(numbers));
@@ -137,20 +137,21 @@ class CgnsSolidReader {
   }
 
   template <std::size_t width>
-  void add_cell(std::int64_t element, const cgsize_t* numbers) {
-    cells_of<width>(mesh_).push_back(row<width>(numbers));
+  void add_volume(std::int64_t element, const cgsize_t* numbers) {
+    add_cell<kind_of_width<width>()>(mesh_, row<width>(numbers), mesh_.block_named("domain"));
     elements_[width].push_back(element);
   }
 
-  void add_face(std::int64_t element, const SolidPatch::Face& nodes) {
+  void add_face(std::int64_t element, const FileBoundary::Face& nodes) {
     face_of_element_.emplace(element, faces_.size());
     faces_.push_back({nodes, sections_.size() - 1});
   }
 
-  SolidPatch& patch_named(const std::string& name, const std::string& condition) {
-    const auto [found, is_new] = patch_numbers_.emplace(name, mesh_.patches.size());
-    if (is_new) mesh_.patches.push_back({name, condition, {}});
-    return mesh_.patches[found->second];
+  FileBoundary& patch_named(const std::string& name, const std::string& condition) {
+    const std::size_t before = mesh_.boundaries.size();
+    FileBoundary& patch = mesh_.boundaries[mesh_.boundary_named(name)];
+    if (mesh_.boundaries.size() > before) patch.condition = condition;
+    return patch;
   }
 
   void read_conditions() {
@@ -163,7 +164,7 @@ class CgnsSolidReader {
   void read_face_condition(int number) {
     const auto condition = read_condition(file_, 1, 1, number, [this](const std::string& s) { refuse(s); });
     if (!condition) return;
-    SolidPatch& patch =
+    FileBoundary& patch =
         patch_named(full_name(number, condition->name.data()), condition_of(number, condition->type));
     const std::vector<cgsize_t>& elements = condition->elements;
     if (!condition->is_range) {
@@ -176,7 +177,7 @@ class CgnsSolidReader {
     for (std::int64_t element = elements[0]; element <= elements[1]; ++element) take(element, patch);
   }
 
-  void take(std::int64_t element, SolidPatch& patch) {
+  void take(std::int64_t element, FileBoundary& patch) {
     const auto found = face_of_element_.find(element);
     if (found == face_of_element_.end())
       refuse("boundary " + patch.name + " names element " + std::to_string(element) + ", which is no face");
@@ -234,30 +235,22 @@ class CgnsSolidReader {
   }
 
   const File& file_;
-  SolidMesh mesh_;
+  FileMesh mesh_;
   cgsize_t nodes_ = 0, cells_ = 0;
   std::array<std::vector<std::int64_t>, 9>
       elements_;  ///< of cells of so many nodes: their numbers in the zone
   std::vector<std::string> sections_;
   std::vector<LooseFace> faces_;
   std::unordered_map<std::int64_t, std::size_t> face_of_element_;
-  std::unordered_map<std::string, std::size_t> patch_numbers_;
 };
-
-std::optional<SolidMesh> read_solid_here(const std::string& path) {
-  const File file(path, path, CG_MODE_READ);
-  const auto [cell_dimension, zones] = first_base(file);
-  if (cell_dimension != 3) return std::nullopt;
-  if (zones != 1)
-    throw InputError(path + ": holds " + std::to_string(zones) +
-                     " zones; of three dimensions one can be read");
-  return CgnsSolidReader(file).read();
-}
 
 }  // namespace
 
-std::optional<SolidMesh> read_cgns_solid(const std::string& path) {
-  return read_separately<std::optional<SolidMesh>>(path, [&] { return read_solid_here(path); });
+FileMesh read_cgns_solid(const CgnsFile<InputError>& file, int zones) {
+  if (zones != 1)
+    throw InputError(file.shown() + ": holds " + std::to_string(zones) +
+                     " zones; of three dimensions one can be read");
+  return CgnsSolidReader(file).read();
 }
 
 }  // namespace quadloop

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 
 namespace quadloop {
 

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/mesh_of_file.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -25,10 +26,17 @@ std::vector<std::string> fluent_zone_names(const std::vector<std::string>& names
 /// Whether a file begins as those of Fluent do.
 bool is_fluent(const std::string& path);
 
-/// Reads a 2D mesh file of Fluent, ASCII, on the calling rank alone. Zones of cells become blocks, zones of
-/// faces boundaries with their conditions; faces inside a block are left out. A cell begins with any of its
-/// nodes. Throws InputError "file:line: ..." also for meshes in binary, of three dimensions, with hanging
-/// nodes or polygons.
-LoadedMesh read_fluent(const std::string& path);
+/// Writes a 3D mesh file of Fluent, ASCII, into the set; the bytes are the same on any number of ranks. Nodes
+/// keep their numbers, and so do cells where there is one block; those of several stand block by block, a
+/// zone each. A zone of faces for each patch, of its name and condition ("none" is a wall); each face looks
+/// into its first cell. *Collective.* Throws OutputError on all ranks.
+void write_fluent_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
+
+/// Reads a mesh file of Fluent of two or three dimensions, ASCII, on the calling rank alone: triangles and
+/// quadrilaterals, or tetrahedra, pyramids, prisms and hexahedra. Zones of cells become blocks, zones of
+/// faces boundaries with their conditions; faces inside a block are left out. A plane cell begins with any of
+/// its nodes. A plane mesh is cleaned up by plane_mesh(). Throws InputError "file:line: ..." also for meshes
+/// in binary, with hanging nodes, polygons or polyhedra.
+MeshOfFile read_fluent(const std::string& path);
 
 }  // namespace quadloop

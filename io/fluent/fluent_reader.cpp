@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
 
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_sections.hpp"
 #include "io/fluent/fluent_zones.hpp"
-#include "io/loaded/foreign_mesh.hpp"
+#include "io/model/cell_faces.hpp"
+#include "io/model/clean_up.hpp"
+#include "io/solid/cell_of_sides.hpp"
 
 namespace quadloop {
 
@@ -15,28 +18,47 @@ namespace {
 
 class FluentReader {
  public:
-  explicit FluentReader(const std::string& path) : file_{path, 2} {}
+  explicit FluentReader(const std::string& path) : file_{path} {}
 
-  LoadedMesh read() {
-    for (const Point3& p : file_.points()) foreign_.loaded.mesh.points.push_back({p.x, p.y});
+  MeshOfFile read() {
+    mesh_.dimension = file_.dimension();
+    mesh_.points = file_.points();
     add_cells();
     add_boundaries();
-    drop_unused_nodes(foreign_, file_.scan().path());
-    return finish(std::move(foreign_), file_.scan());
+    if (!is_plane()) {
+      drop_empty_groups(mesh_);
+      return std::move(mesh_);
+    }
+    drop_unused_nodes(mesh_, file_.scan().path());
+    return plane_mesh(std::move(mesh_), file_.scan());
   }
 
  private:
+  bool is_plane() const { return mesh_.dimension == 2; }
+
   void add_cells() {
     const std::vector<std::int64_t> zone_of = file_.zones_of_cells();
     block_of_.assign(zone_of.size(), -1);
     for (std::size_t cell = 1; cell < zone_of.size(); ++cell) {
-      block_of_[cell] = foreign_.block_named(file_.block_name(zone_of[cell]));
-      add_cell(static_cast<std::int32_t>(cell));
+      block_of_[cell] = mesh_.block_named(file_.block_name(zone_of[cell]));
+      is_plane() ? add_plane_cell(static_cast<std::int32_t>(cell))
+                 : add_cell(static_cast<std::int32_t>(cell));
     }
   }
 
-  /// From node to node over its faces; the first face has the cell to its left.
   void add_cell(std::int32_t cell) {
+    std::vector<CellSide> sides;
+    for (const std::int32_t f : file_.faces_of(cell)) {
+      const FluentFace& face = file_.faces()[f];
+      sides.push_back({face.nodes, face.cells[0] != cell});
+    }
+    if (const std::string fault = add_cell_of_sides(mesh_, sides, block_of_[cell]); !fault.empty())
+      file_.scan().refuse_at(sides.empty() ? 0 : file_.faces()[file_.faces_of(cell)[0]].place,
+                             fmt::format("cell {} {}", cell, fault));
+  }
+
+  /// From node to node over its faces; the first face has the cell to its left.
+  void add_plane_cell(std::int32_t cell) {
     const std::span<const std::int32_t> own = file_.faces_of(cell);
     const std::vector<FluentFace>& faces = file_.faces();
     if (own.size() != 3 && own.size() != 4)
@@ -56,11 +78,11 @@ class FluentReader {
                                fmt::format("the faces of cell {} do not go round it", cell));
       if (!closes) nodes[k + 1] = next;
     }
-    const auto id = [&](std::size_t k) { return NodeId{nodes[k]}; };
     if (own.size() == 3) {
-      foreign_.add_triangle({id(0), id(1), id(2)}, block_of_[cell]);
+      quadloop::add_cell<CellKind::triangle>(mesh_, std::array{nodes[0], nodes[1], nodes[2]},
+                                             block_of_[cell]);
     } else {
-      foreign_.add_quad({id(0), id(1), id(2), id(3)}, block_of_[cell]);
+      quadloop::add_cell<CellKind::quad>(mesh_, nodes, block_of_[cell]);
     }
   }
 
@@ -94,18 +116,22 @@ class FluentReader {
     return zones;
   }
 
+  /// In a 3D mesh faces of one cell alone, turned so that they look out of it.
   void add_boundaries() {
     const std::set<std::int64_t> inner = inner_zones();
     for (const FluentFace& face : file_.faces()) {
-      if (is_interior(face) && inner.contains(face.zone)) continue;
-      const std::int32_t boundary = foreign_.boundary_named(file_.zone_name(face.zone));
-      foreign_.loaded.mesh.boundaries[boundary].condition = condition_of_fluent(face.type);
-      foreign_.edges.push_back({{NodeId{face.nodes[0]}, NodeId{face.nodes[1]}}, boundary, face.place});
+      if (is_plane() ? is_interior(face) && inner.contains(face.zone) : face.is_inside()) continue;
+      FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(file_.zone_name(face.zone))];
+      boundary.condition = condition_of_fluent(face.type);
+      boundary.places.push_back(face.place);
+      FileBoundary::Face& nodes = boundary.faces.emplace_back(face.nodes);
+      if (!is_plane() && face.cells[0] != 0)
+        std::reverse(nodes.begin(), nodes.begin() + corners_of(face.nodes).size());
     }
   }
 
   FluentSections file_;
-  ForeignMesh foreign_;
+  FileMesh mesh_;
   std::vector<std::int32_t> block_of_;  ///< of each cell, from 1
 };
 
@@ -117,6 +143,6 @@ bool is_fluent(const std::string& path) {
   return file >> first && first == '(';
 }
 
-LoadedMesh read_fluent(const std::string& path) { return FluentReader(path).read(); }
+MeshOfFile read_fluent(const std::string& path) { return FluentReader(path).read(); }
 
 }  // namespace quadloop

@@ -27,8 +27,7 @@ constexpr std::int64_t mixed_faces = 0, polygonal_faces = 5;
 
 }  // namespace
 
-FluentSections::FluentSections(const std::string& path, std::int64_t dimension)
-    : scan_{path}, dimension_{dimension} {
+FluentSections::FluentSections(const std::string& path) : scan_{path} {
   while (!scan_.at_end()) read_section();
   if (points_.empty() || faces_.empty())
     scan().refuse_at(scan().text().size(),
@@ -58,8 +57,9 @@ void FluentSections::read_section() {
 
 void FluentSections::read_dimension() {
   const std::int64_t found = scan_.decimal("the dimension");
-  if (found != dimension_)
-    scan_.refuse(fmt::format("a mesh of {} dimensions, where one of {} is wanted", found, dimension_));
+  if (found != 2 && found != 3)
+    scan_.refuse(fmt::format("a mesh of {} dimensions; those of 2 and 3 can be read", found));
+  dimension_ = static_cast<std::int32_t>(found);
   scan_.expect(")");
 }
 
@@ -211,23 +211,6 @@ std::vector<std::int64_t> FluentSections::zones_of_cells() const {
       zones[cell] = zone.zone;
   }
   return zones;
-}
-
-std::int64_t fluent_dimension(const std::string& path) {
-  FluentScanner scan(path);
-  while (!scan.at_end()) {
-    scan.expect("(");
-    if (!scan.is_number_next()) {
-      scan.skip_list();
-      continue;
-    }
-    const std::int64_t section = scan.decimal("the number of a section");
-    if (section == fluent_dimension_section) return scan.decimal("the dimension");
-    if (section == fluent_nodes || section == fluent_cells || section == fluent_faces || section >= 2000)
-      return 0;
-    scan.skip_list();
-  }
-  return 0;
 }
 
 }  // namespace quadloop

@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/fluent only: what both readers share.
+// Inside io/fluent only.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/fluent/fluent_scanner.hpp"
-#include "mesher/solid/point3.hpp"
+#include "io/model/point3.hpp"
 
 namespace quadloop {
 
@@ -29,9 +29,10 @@ struct FluentFace {
 /// The sections of a Fluent file, ASCII, held: its nodes, faces and zones.
 class FluentSections {
  public:
-  /// Throws InputError "file:line: ..." unless the file is of so many dimensions and whole; also for binary
-  /// ones, hanging nodes, and faces of other numbers of nodes.
-  FluentSections(const std::string& path, std::int64_t dimension);
+  /// Throws InputError "file:line: ..." unless the file is whole; also for binary ones, hanging nodes, and
+  /// faces of other numbers of nodes.
+  explicit FluentSections(const std::string& path);
+  std::int32_t dimension() const { return dimension_; }  ///< 2 or 3; 2 where the file does not say
 
   const TextScanner& scan() const { return scan_.scan(); }
   const std::vector<Point3>& points() const { return points_; }  ///< z = 0 in two dimensions
@@ -72,7 +73,7 @@ class FluentSections {
   void collect_faces();
 
   FluentScanner scan_;
-  std::int64_t dimension_;
+  std::int32_t dimension_ = 2;
   std::vector<Point3> points_;
   std::vector<FluentFace> faces_;
   std::vector<Head> cell_zones_;
@@ -80,8 +81,5 @@ class FluentSections {
   std::vector<std::int64_t> ends_;            ///< of each cell's part of the next
   std::vector<std::int32_t> faces_of_cells_;  ///< those of cell 0, which is none, come first
 };
-
-/// The dimension that a file says it has; 0 where it says none before its nodes.
-std::int64_t fluent_dimension(const std::string& path);
 
 }  // namespace quadloop

@@ -3,13 +3,12 @@
 #include <utility>
 
 #include "io/fluent/fluent_file.hpp"
-#include "io/fluent/fluent_solid_file.hpp"
 #include "io/fluent/fluent_zones.hpp"
+#include "io/model/cell_faces.hpp"
 #include "io/solid/extruded_faces.hpp"
 #include "io/solid/held_faces.hpp"
 #include "io/solid/solid_blocks.hpp"
 #include "io/text/text_output.hpp"
-#include "mesher/solid/cell_faces.hpp"
 
 namespace quadloop {
 
@@ -54,7 +53,7 @@ class FluentSolidWriter {
   /// Block by block, of each kind after kind.
   void number_held() {
     if (!blocks_.several()) return;
-    const std::vector<std::int32_t>& block_of = stream_.held()->cell_to_block;
+    const std::vector<std::int32_t> block_of = blocks_of_cells(*stream_.held());
     number_.resize(block_of.size());
     std::int64_t next = 0;
     for (std::int32_t block = 0; block < blocks_.count(); ++block) {
@@ -158,7 +157,7 @@ class FluentSolidWriter {
   }
 
   template <class Use>
-  static void use_held(const SolidPatch::Face& face, const Use& use) {
+  static void use_held(const FileBoundary::Face& face, const Use& use) {
     if (is_triangle(face)) {
       use(std::array{face[0], face[1], face[2]});
     } else {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/files/output_file.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "io/solid/solid_stream.hpp"
-#include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
@@ -22,6 +21,6 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
 
 /// Reads such a folder on the calling rank alone, ASCII: cells of four to six faces that are tetrahedra,
 /// pyramids, prisms or hexahedra. Its zones of cells are blocks. Throws InputError.
-std::optional<SolidMesh> read_foam(const std::string& path);
+MeshOfFile read_foam(const std::string& path);
 
 }  // namespace quadloop

@@ -1,15 +1,10 @@
 #include "io/foam/foam_plane_file.hpp"
 
-#include <set>
-
 #include "io/foam/foam_file.hpp"
-#include "io/loaded/foreign_mesh.hpp"
+#include "io/model/extruded_mesh.hpp"
 #include "io/solid/require_conforming.hpp"
 #include "io/solid/solid_blocks.hpp"
-#include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
-#include "mesher/solid/plane_of_solid.hpp"
 
 namespace quadloop {
 
@@ -51,56 +46,6 @@ void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& p
 void write_foam_plane(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
   const PlaneBlocks blocks = plane_blocks(whole);
   write(outputs, whole.mesh, path, whole.blocks > 1 ? &blocks : nullptr);
-}
-
-LoadedMesh read_foam_plane(const std::string& path) {
-  const std::optional<SolidMesh> solid = read_foam(path);
-  if (!is_one_cell_thick(*solid))
-    throw InputError(path +
-                     ": holds a 3D mesh: none of its patches is of the type empty, between which a plane "
-                     "mesh is one cell thick");
-  return loaded_plane(*solid, path);
-}
-
-namespace {
-
-/// Those of the prisms and hexahedra; a plane mesh has the cells of a block one after another.
-void take_blocks(LoadedMesh& loaded, const SolidMesh& solid) {
-  if (solid.block_names.size() < 2) return;
-  loaded.blocks = static_cast<std::int32_t>(solid.block_names.size());
-  loaded.block_names = solid.block_names;
-  const auto quads = solid.cell_to_block.begin() + std::ssize(loaded.mesh.triangles);
-  loaded.triangle_to_block.assign(solid.cell_to_block.begin(), quads);
-  loaded.quad_to_block.assign(quads, solid.cell_to_block.end());
-  order_by_blocks(loaded);
-}
-
-void mark_periodic(LoadedMesh& loaded, const SolidMesh& solid) {
-  std::set<std::string> names;
-  for (const SolidPatch& patch : solid.patches) {
-    if (patch.is_periodic) names.insert(patch.name);
-  }
-  for (const BoundaryEdges& boundary : loaded.mesh.boundaries) {
-    if (!names.contains(boundary.name)) continue;
-    for (const auto& [from, to] : boundary.edges)
-      loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), {from, to});
-  }
-}
-
-}  // namespace
-
-LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path) {
-  LoadedMesh loaded;
-  PlaneOfSolid plane = plane_of_solid(solid, path);
-  loaded.mesh = std::move(plane.mesh);
-  loaded.solution = std::move(plane.solution);
-  loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
-  loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
-  loaded.block_names = {"domain"};
-  take_blocks(loaded, solid);
-  mark_periodic(loaded, solid);
-  loaded.warnings = solid.warnings;
-  return loaded;
 }
 
 }  // namespace quadloop

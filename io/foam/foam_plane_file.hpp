@@ -3,9 +3,9 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/file_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
@@ -16,12 +16,5 @@ void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& p
 
 /// The same for a mesh that the set's only rank holds, its blocks as zones of cells.
 void write_foam_plane(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
-
-/// Reads a polyMesh that is one cell thick between patches of the type empty, on the calling rank alone, as
-/// plane_of_solid() says. Throws InputError.
-LoadedMesh read_foam_plane(const std::string& path);
-
-/// The plane mesh of one that was read whole.
-LoadedMesh loaded_plane(const SolidMesh& solid, const std::string& path);
 
 }  // namespace quadloop

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/solid/point3.hpp"
+#include "io/model/point3.hpp"
 
 namespace quadloop {
 

@@ -10,8 +10,8 @@
 #include "io/foam/foam_patches.hpp"
 #include "io/foam/foam_polygons.hpp"
 #include "io/foam/foam_scanner.hpp"
-#include "io/loaded/repeated_rows.hpp"
-#include "io/solid/block_collector.hpp"
+#include "io/model/clean_up.hpp"
+#include "io/model/repeated_rows.hpp"
 #include "io/solid/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
 
@@ -23,7 +23,7 @@ class FoamReader {
  public:
   explicit FoamReader(std::string path) : path_{std::move(path)} {}
 
-  SolidMesh read() {
+  FileMesh read() {
     if (!std::filesystem::is_directory(path_)) throw InputError(path_ + ": is no folder of an OpenFOAM mesh");
     patches_ = read_foam_boundary(file("boundary"));
     read_points();
@@ -36,6 +36,7 @@ class FoamReader {
                                    owner_.size(), neighbour_.size()));
     make_cells();
     read_patches();
+    drop_empty_groups(mesh_);
     return std::move(mesh_);
   }
 
@@ -85,8 +86,8 @@ class FoamReader {
       nodes.push_back(static_cast<std::int32_t>(node));
     }
     scan.expect(")");
-    SolidPatch::Face& face = faces_.emplace_back();
-    face.fill(SolidPatch::no_node);
+    FileBoundary::Face& face = faces_.emplace_back();
+    face.fill(FileBoundary::no_node);
     if (is_polygon)
       polygons_[faces_.size() - 1].nodes = std::move(nodes);
     else
@@ -123,16 +124,16 @@ class FoamReader {
       const auto own_faces = std::span<const std::size_t>(face_of).subspan(begin, own.size());
       const bool divide =
           std::ranges::any_of(own_faces, [&](std::size_t face) { return polygons_.contains(face); });
-      const std::string fault = divide ? add_polygonal_cell(own, own_faces) : add_cell(mesh_, own);
+      const std::string fault = divide ? add_polygonal_cell(own, own_faces, block_of[cell])
+                                       : add_cell_of_sides(mesh_, own, block_of[cell]);
       if (!fault.empty()) throw InputError(fmt::format("{}: cell {} {}", path_, cell, fault));
       begin = ends[cell];
-      blocks_.take(mesh_, block_of[cell]);
     }
-    blocks_.put_into(mesh_);
   }
 
   /// A cell between two polygons becomes prisms and hexahedra. What is wrong where it is no such cell.
-  std::string add_polygonal_cell(std::span<const CellSide> sides, std::span<const std::size_t> faces) {
+  std::string add_polygonal_cell(std::span<const CellSide> sides, std::span<const std::size_t> faces,
+                                 std::int32_t block) {
     std::vector<CellSide> quads;
     std::vector<std::size_t> ends;
     for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -154,24 +155,27 @@ class FoamReader {
     if (pieces.empty())
       return fmt::format("lies between polygons of {} points that cannot be divided into triangles and quads",
                          base.size());
-    for (const PolygonPiece& piece : pieces) add_piece(piece, base, top, {faces[ends[0]], faces[ends[1]]});
+    for (const PolygonPiece& piece : pieces)
+      add_piece(piece, base, top, {faces[ends[0]], faces[ends[1]]}, block);
     ++divided_;
     pieces_ += std::ssize(pieces);
     return {};
   }
 
   void add_piece(const PolygonPiece& piece, const std::vector<std::int32_t>& base,
-                 const std::vector<std::int32_t>& top, const std::array<std::size_t, 2>& ends) {
-    std::array<SolidPatch::Face, 2> faces;
+                 const std::vector<std::int32_t>& top, const std::array<std::size_t, 2>& ends,
+                 std::int32_t block) {
+    std::array<FileBoundary::Face, 2> faces;
     for (std::size_t k = 0; k < 4; ++k) {
-      faces[0][k] = piece[k] < 0 ? SolidPatch::no_node : base[piece[k]];
-      faces[1][k] = piece[k] < 0 ? SolidPatch::no_node : top[piece[k]];
+      faces[0][k] = piece[k] < 0 ? FileBoundary::no_node : base[piece[k]];
+      faces[1][k] = piece[k] < 0 ? FileBoundary::no_node : top[piece[k]];
     }
     const auto& [b, t] = faces;
     if (piece[3] < 0)
-      mesh_.prisms.push_back({b[0], b[1], b[2], t[0], t[1], t[2]});
+      add_cell<CellKind::prism>(mesh_, std::array{b[0], b[1], b[2], t[0], t[1], t[2]}, block);
     else
-      mesh_.hexahedra.push_back({b[0], b[1], b[2], b[3], t[0], t[1], t[2], t[3]});
+      add_cell<CellKind::hexahedron>(mesh_, std::array{b[0], b[1], b[2], b[3], t[0], t[1], t[2], t[3]},
+                                     block);
     for (std::size_t end = 0; end < 2; ++end) polygons_[ends[end]].pieces.push_back(faces[end]);
   }
 
@@ -182,7 +186,7 @@ class FoamReader {
     const std::string path = file("cellZones");
     if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
       for (const FoamZone& zone : read_foam_zones(path, cells)) {
-        const std::int32_t block = blocks_.named(zone.name);
+        const std::int32_t block = mesh_.block_named(zone.name);
         for (const std::int32_t cell : zone.cells) {
           again += block_of[cell] >= 0 ? 1 : 0;
           if (block_of[cell] < 0) block_of[cell] = block;
@@ -193,7 +197,7 @@ class FoamReader {
       mesh_.warnings.push_back(
           fmt::format("{}: {} cells are in several zones; each is of the first alone", path_, again));
     for (std::int32_t& block : block_of) {
-      if (block < 0) block = blocks_.named("domain");
+      if (block < 0) block = mesh_.block_named("domain");
     }
     return block_of;
   }
@@ -205,7 +209,7 @@ class FoamReader {
       if (given.faces < 0 || start < std::ssize(neighbour_) || start + given.faces > std::ssize(faces_))
         throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}",
                                      file("boundary"), given.name, given.faces, start, faces_.size()));
-      SolidPatch& patch = mesh_.patches.emplace_back();
+      FileBoundary& patch = mesh_.boundaries.emplace_back();
       patch.name = given.name;
       patch.condition = condition_of(given.type);
       patch.is_empty = given.type == "empty";
@@ -223,7 +227,7 @@ class FoamReader {
   }
 
   /// Of a polygon the pieces into which its cell is divided.
-  void put_face(SolidPatch& patch, std::size_t face) const {
+  void put_face(FileBoundary& patch, std::size_t face) const {
     const auto polygon = polygons_.find(face);
     if (polygon == polygons_.end())
       patch.faces.push_back(faces_[face]);
@@ -239,21 +243,20 @@ class FoamReader {
   /// A face of more than four points, and the pieces of its cell on it.
   struct Polygon {
     std::vector<std::int32_t> nodes;
-    std::vector<SolidPatch::Face> pieces;
+    std::vector<FileBoundary::Face> pieces;
   };
 
   std::string path_;
   std::vector<FoamPatch> patches_;
-  std::vector<SolidPatch::Face> faces_;
+  std::vector<FileBoundary::Face> faces_;
   std::unordered_map<std::size_t, Polygon> polygons_;  ///< by their places among the faces
   std::int64_t divided_ = 0, pieces_ = 0;
   std::vector<std::int32_t> owner_, neighbour_;
-  SolidMesh mesh_;
-  BlockCollector blocks_;
+  FileMesh mesh_;
 };
 
 }  // namespace
 
-std::optional<SolidMesh> read_foam(const std::string& path) { return FoamReader(path).read(); }
+MeshOfFile read_foam(const std::string& path) { return FoamReader(path).read(); }
 
 }  // namespace quadloop

@@ -1,12 +1,12 @@
 #include "io/foam/foam_parts.hpp"
+#include "io/model/cell_faces.hpp"
 #include "io/solid/held_faces.hpp"
-#include "mesher/solid/cell_faces.hpp"
 
 namespace quadloop {
 
 namespace {
 
-void put_face(TextRows& text, const SolidPatch::Face& face) {
+void put_face(TextRows& text, const FileBoundary::Face& face) {
   if (is_triangle(face)) {
     put_foam_face(text, std::array{face[0], face[1], face[2]});
   } else {
@@ -31,7 +31,7 @@ class FoamHeldWriter {
     write_labels(
         staged_[3], "neighbour", [](const HeldFaces::Inner& face) { return face.neighbour; }, false);
     std::vector<std::string> types;
-    for (const SolidPatch& patch : mesh_.patches)
+    for (const FileBoundary& patch : mesh_.boundaries)
       types.push_back(patch.is_empty ? "empty" : foam_patch_type(patch.condition));
     write_foam_boundary(stream_.communicator(), staged_[4], stream_.patches(), types,
                         std::ssize(faces_.internal()));
@@ -49,8 +49,8 @@ class FoamHeldWriter {
     file.write_rows(std::ssize(faces_.internal()), 5, [&](TextRows& text, std::int64_t i) {
       put_face(text, faces_.nodes(faces_.internal()[i]));
     });
-    for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-      file.write_rows(std::ssize(mesh_.patches[p].faces), 5,
+    for (std::size_t p = 0; p < mesh_.boundaries.size(); ++p) {
+      file.write_rows(std::ssize(mesh_.boundaries[p].faces), 5,
                       [&](TextRows& text, std::int64_t i) { put_face(text, faces_.patch_nodes(p, i)); });
     }
     file.write(")\n");
@@ -65,7 +65,7 @@ class FoamHeldWriter {
                std::to_string(of_patches ? all_faces() : internal) + "\n(\n");
     file.write_rows(internal, 1,
                     [&](TextRows& text, std::int64_t i) { text.put(label(faces_.internal()[i]), '\n'); });
-    for (std::size_t p = 0; of_patches && p < mesh_.patches.size(); ++p) {
+    for (std::size_t p = 0; of_patches && p < mesh_.boundaries.size(); ++p) {
       const std::vector<std::int32_t>& cells = faces_.cells_at(p);
       file.write_rows(std::ssize(cells), 1,
                       [&](TextRows& text, std::int64_t i) { text.put(cells[i], '\n'); });
@@ -75,7 +75,7 @@ class FoamHeldWriter {
   }
 
   const SolidStream& stream_;
-  const SolidMesh& mesh_;
+  const FileMesh& mesh_;
   HeldFaces faces_;
   const SolidBlocks blocks_;
   std::vector<StagedFile> staged_;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -17,7 +17,7 @@ bool is_medit(const std::string& path);
 /// boundary "boundary_<reference>", a cell's the block "block_<reference>", or "domain" where all have the
 /// same. Other sections are passed over. Throws InputError "file:line: ..." on anything that is not such a
 /// mesh; geometric faults are left to validate(). P. Frey, MEDIT, INRIA RT-0253 (2001), section 3.
-LoadedMesh read_medit(const std::string& path);
+MeshOfFile read_medit(const std::string& path);
 
 /// Writes such a file: references of boundaries are those of medit_boundary_names(), cells have that of their
 /// block, from 1. *Collective.* Throws OutputError on all ranks.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "io/loaded/foreign_mesh.hpp"
 #include "io/medit/medit_file.hpp"
+#include "io/model/clean_up.hpp"
 
 namespace quadloop {
 
@@ -16,7 +16,8 @@ class MeditReader {
  public:
   explicit MeditReader(const std::string& path) : scan_{path} {}
 
-  LoadedMesh read() {
+  MeshOfFile read() {
+    mesh_.dimension = 2;
     if (scan_.token(medit_head) != medit_head) scan_.refuse("is no mesh of Medit");
     scan_.integer("the version of the format");
     while (!scan_.at_end()) {
@@ -24,11 +25,11 @@ class MeditReader {
       if (section == "End") break;
       read_section(section);
     }
-    if (foreign_.loaded.mesh.points.empty())
+    if (mesh_.points.empty())
       scan_.refuse_at(scan_.text().size(), "the file ends without Vertices; it is cut short, or no mesh");
     name_blocks();
-    drop_unused_nodes(foreign_, scan_.path());
-    return finish(std::move(foreign_), scan_);
+    drop_unused_nodes(mesh_, scan_.path());
+    return plane_mesh(std::move(mesh_), scan_);
   }
 
  private:
@@ -42,11 +43,9 @@ class MeditReader {
     } else if (section == "Edges") {
       read_edges();
     } else if (section == "Triangles") {
-      read_cells<3>("triangles",
-                    [&](const auto& nodes, std::int32_t block) { foreign_.add_triangle(nodes, block); });
+      read_cells<CellKind::triangle, 3>("triangles");
     } else if (section == "Quadrilaterals") {
-      read_cells<4>("quadrilaterals",
-                    [&](const auto& nodes, std::int32_t block) { foreign_.add_quad(nodes, block); });
+      read_cells<CellKind::quad, 4>("quadrilaterals");
     } else {
       pass_over(section);
     }
@@ -54,9 +53,9 @@ class MeditReader {
 
   void read_vertices() {
     if (dimension_ == 0) scan_.refuse("Vertices without a Dimension before them");
-    if (!foreign_.loaded.mesh.points.empty()) scan_.refuse("a second section Vertices; only one can be read");
+    if (!mesh_.points.empty()) scan_.refuse("a second section Vertices; only one can be read");
     const std::size_t count = scan_.count("vertices", dimension_ + 1);
-    foreign_.loaded.mesh.points.reserve(count);
+    mesh_.points.reserve(count);
     double first_z = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const double x = scan_.real("an x coordinate"), y = scan_.real("a y coordinate");
@@ -68,38 +67,40 @@ class MeditReader {
                         "meshes can be read",
                         i + 1));
       scan_.integer("the reference of a vertex");
-      foreign_.loaded.mesh.points.push_back({x, y});
+      mesh_.points.push_back({x, y, 0});
     }
   }
 
   template <std::size_t width>
-  std::array<NodeId, width> row() {
-    const std::int64_t points = std::ssize(foreign_.loaded.mesh.points);
-    std::array<NodeId, width> nodes;
-    for (NodeId& node : nodes) {
+  std::array<std::int32_t, width> row() {
+    const std::int64_t points = std::ssize(mesh_.points);
+    std::array<std::int32_t, width> nodes;
+    for (std::int32_t& node : nodes) {
       const std::int64_t number = scan_.integer("the number of a vertex");
       if (number < 1 || number > points)
         scan_.refuse(fmt::format("vertex {} is none of the vertices 1 to {}", number, points));
-      node = NodeId{static_cast<std::int32_t>(number - 1)};
+      node = static_cast<std::int32_t>(number - 1);
     }
     return nodes;
   }
 
   void read_edges() {
     for (std::size_t left = scan_.count("edges", 3); left > 0; --left) {
-      const std::array<NodeId, 2> nodes = row<2>();
+      const auto [from, to] = row<2>();
       const std::size_t place = scan_.place();
       const std::int64_t reference = scan_.integer("the reference of an edge");
-      foreign_.edges.push_back(
-          {nodes, foreign_.boundary_named(fmt::format("boundary_{}", reference)), place});
+      FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(fmt::format("boundary_{}", reference))];
+      boundary.faces.push_back({from, to, FileBoundary::no_node, FileBoundary::no_node});
+      boundary.places.push_back(place);
     }
   }
 
-  template <std::size_t width, class Add>
-  void read_cells(const char* of, const Add& add) {
+  template <CellKind kind, std::size_t width>
+  void read_cells(const char* of) {
     for (std::size_t left = scan_.count(of, width + 1); left > 0; --left) {
-      const std::array<NodeId, width> nodes = row<width>();
-      add(nodes, foreign_.block_named(fmt::format("block_{}", scan_.integer("the reference of a cell"))));
+      const std::array<std::int32_t, width> nodes = row<width>();
+      const std::int64_t reference = scan_.integer("the reference of a cell");
+      add_cell<kind>(mesh_, nodes, mesh_.block_named(fmt::format("block_{}", reference)));
     }
   }
 
@@ -126,12 +127,12 @@ class MeditReader {
   }
 
   void name_blocks() {
-    if (foreign_.loaded.block_names.size() == 1) foreign_.loaded.block_names[0] = "domain";
+    if (mesh_.block_names.size() == 1) mesh_.block_names[0] = "domain";
   }
 
   TextScanner scan_;
   std::int64_t dimension_ = 0;
-  ForeignMesh foreign_;
+  FileMesh mesh_;
 };
 
 }  // namespace
@@ -146,6 +147,6 @@ bool is_medit(const std::string& path) {
   return first == medit_head;
 }
 
-LoadedMesh read_medit(const std::string& path) { return MeditReader(path).read(); }
+MeshOfFile read_medit(const std::string& path) { return MeditReader(path).read(); }
 
 }  // namespace quadloop

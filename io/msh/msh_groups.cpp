@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "io/loaded/repeated_rows.hpp"
+#include "io/model/repeated_rows.hpp"
 
 namespace quadloop {
 
@@ -31,18 +31,6 @@ std::int64_t MshGroups::physical_of(int dimension, std::int64_t entity) const {
   if (found == entity_groups_.end()) return 0;
   return *std::ranges::min_element(found->second, {},
                                    [&](std::int64_t physical) { return members_of(dimension, physical); });
-}
-
-GroupSizes MshGroups::sizes() const {
-  GroupSizes sizes;
-  const auto put = [](std::vector<std::int64_t>& list, std::int32_t number, std::int64_t members) {
-    if (number >= std::ssize(list)) list.resize(number + 1, 0);
-    list[number] += members;
-  };
-  for (const auto& [key, boundary] : boundaries_)
-    put(sizes.of_boundaries, boundary, members_of(1, key.first));
-  for (const auto& [physical, block] : blocks_) put(sizes.of_blocks, block, members_of(2, physical));
-  return sizes;
 }
 
 std::vector<std::string> MshGroups::overlaps(int lowest) const {
@@ -73,26 +61,6 @@ std::vector<std::string> MshGroups::dropped(int lowest) const {
   if (names.empty()) return {};
   return {"physical groups of " + std::string(lowest == 1 ? "points" : "points and curves") +
           " are left out: " + some_names(names)};
-}
-
-std::int32_t MshGroups::boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity) {
-  const Key key{std::abs(physical), physical == 0 ? entity : 0};
-  const auto found = boundaries_.find(key);
-  if (found != boundaries_.end()) return found->second;
-  const std::string name = physical == 0 ? "boundary_" + std::to_string(entity) : name_of(1, key.first);
-  return boundaries_[key] = foreign.boundary_named(name);
-}
-
-std::int32_t MshGroups::block_of(ForeignMesh& foreign, std::int64_t physical) {
-  const auto found = blocks_.find(std::abs(physical));
-  if (found != blocks_.end()) return found->second;
-  return blocks_[std::abs(physical)] =
-             foreign.block_named(physical == 0 ? "domain" : name_of(2, std::abs(physical)));
-}
-
-std::int64_t MshGroups::curves_without_group() const {
-  return std::count_if(boundaries_.begin(), boundaries_.end(),
-                       [](const auto& entry) { return entry.first.first == 0; });
 }
 
 std::string MshGroups::name_of(int dimension, std::int64_t physical) const {

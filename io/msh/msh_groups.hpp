@@ -6,12 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/loaded/foreign_mesh.hpp"
-
 namespace quadloop {
 
-/// What gives the elements of an MSH file their boundary or block: physical groups, their names, the curves
-/// and surfaces in them.
+/// The physical groups of an MSH file: their names, and the points, curves, surfaces and volumes in them.
 class MshGroups {
  public:
   /// Of dimension 0 (points), 1 (curves), 2 (surfaces) or 3 (volumes); the tag's sign says nothing but a
@@ -23,25 +20,16 @@ class MshGroups {
   /// has the fewest of them, the first where several are as small; so it is to be asked when all are put in.
   std::int64_t physical_of(int dimension, std::int64_t entity) const;
 
-  /// How many entities a group has; and those of the boundaries and blocks.
+  /// How many entities a group has.
   std::int64_t members_of(int dimension, std::int64_t physical) const;
-  GroupSizes sizes() const;
 
   /// For warnings, without the file's name: entities of that dimension or more in several groups, and named
   /// groups of fewer dimensions, which are left out.
   std::vector<std::string> overlaps(int lowest) const;
   std::vector<std::string> dropped(int lowest) const;
 
-  /// The boundary (of lines) or block (of cells) in the mesh, made at its first element. `physical` is 0 for
-  /// none.
-  std::int32_t boundary_of(ForeignMesh& foreign, std::int64_t physical, std::int64_t entity);
-  std::int32_t block_of(ForeignMesh& foreign, std::int64_t physical);
-
   /// The name of a physical group; "physical_<tag>" where the file gives none.
   std::string name_of(int dimension, std::int64_t physical) const;
-
-  /// How many boundaries are curves of no physical group.
-  std::int64_t curves_without_group() const;
 
  private:
   using Key = std::pair<std::int64_t, std::int64_t>;
@@ -49,8 +37,6 @@ class MshGroups {
   std::map<Key, std::string> names_;                        ///< by dimension and tag
   std::map<Key, std::vector<std::int64_t>> entity_groups_;  ///< by dimension and tag
   std::map<Key, std::int64_t> members_;                     ///< of groups, by dimension and tag
-  std::map<Key, std::int32_t> boundaries_;                  ///< by physical group and, where that is 0, curve
-  std::map<std::int64_t, std::int32_t> blocks_;
 };
 
 }  // namespace quadloop

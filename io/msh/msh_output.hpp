@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "io/model/point3.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/text/text_output.hpp"
-#include "mesher/solid/point3.hpp"
 
 namespace quadloop {
 

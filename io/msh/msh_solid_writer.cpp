@@ -1,5 +1,5 @@
+#include "io/msh/msh_file.hpp"
 #include "io/msh/msh_output.hpp"
-#include "io/msh/msh_solid_file.hpp"
 #include "io/msh/msh_text.hpp"
 #include "io/solid/solid_blocks.hpp"
 

@@ -41,11 +41,6 @@ std::string element_name(std::int64_t type) {
   }
 }
 
-const char* cure_of(std::int64_t type) {
-  const bool solid = type >= msh_tetrahedron && type <= msh_pyramid;
-  return solid ? "save the surface's cells only" : "mesh it with Mesh.ElementOrder = 1";
-}
-
 /// Nodes of an element; 0 for a type that is not read.
 std::size_t width_of(std::int64_t type) {
   switch (type) {
@@ -243,12 +238,10 @@ void MshText::read_nodes() {
 }
 
 void MshText::refuse_unknown(std::int64_t type) const {
-  const bool solid = type >= msh_tetrahedron && type <= msh_pyramid;
-  if (width_of(type) > 0 && (dimension_ == 3 || !solid)) return;
-  scan_.refuse("an element of type " + element_name(type) + "; only points, lines, triangles" +
-               (dimension_ == 3 ? ", quadrilaterals and 3D elements of first order can be read: "
-                                : " and quadrilaterals can be read: ") +
-               cure_of(type));
+  if (width_of(type) > 0) return;
+  scan_.refuse("an element of type " + element_name(type) +
+               "; only points, lines, triangles, quadrilaterals and 3D elements of first order can be read: "
+               "mesh it with Mesh.ElementOrder = 1");
 }
 
 void MshText::read_element(std::int64_t tag, std::int64_t type, std::int64_t physical, std::int64_t entity) {

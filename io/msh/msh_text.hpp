@@ -1,16 +1,17 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "io/model/point3.hpp"
 #include "io/msh/msh_groups.hpp"
 #include "io/msh/msh_nodes.hpp"
 #include "io/msh/msh_values.hpp"
 #include "io/text/text_scanner.hpp"
-#include "mesher/solid/point3.hpp"
 
 namespace quadloop {
 
@@ -33,11 +34,11 @@ struct MshElement {
   std::array<std::int32_t, 8> nodes{};    ///< as many as the type has, by their places among the points
   std::size_t place = 0;                  ///< in the file's text, for a refusal
 
-  /// The first ones, as whatever the caller has for nodes.
-  template <class Node, std::size_t width>
-  std::array<Node, width> as() const {
-    std::array<Node, width> result;
-    for (std::size_t k = 0; k < width; ++k) result[k] = Node{nodes[k]};
+  /// The first ones.
+  template <std::size_t width>
+  std::array<std::int32_t, width> as() const {
+    std::array<std::int32_t, width> result;
+    std::copy_n(nodes.begin(), width, result.begin());
     return result;
   }
 };
@@ -49,9 +50,7 @@ class MshText {
   using PutPoint = std::function<void(std::int64_t tag, Point3 point)>;
   using PutElement = std::function<void(const MshElement& element)>;
 
-  /// Elements of more than `dimension` dimensions are refused.
-  MshText(const std::string& path, int dimension)
-      : scan_{path, TextScanner::no_comments}, dimension_{dimension} {}
+  explicit MshText(const std::string& path) : scan_{path, TextScanner::no_comments} {}
 
   /// All points, then all elements.
   void read(const PutPoint& put_point, const PutElement& put_element);
@@ -68,7 +67,6 @@ class MshText {
   /// Whether an element that belongs to several groups stands there once for each (version 2.2).
   bool may_repeat() const { return is_old_; }
   const TextScanner& scan() const { return scan_; }
-  MshGroups& groups() { return groups_; }
   const MshGroups& groups() const { return groups_; }
   /// On groups, where those of `lowest` dimensions are boundaries.
   std::vector<std::string> warnings(int lowest) const;
@@ -105,7 +103,6 @@ class MshText {
   void pass_over_transformation();
 
   TextScanner scan_;
-  int dimension_;
   bool is_old_ = false;
   MshGroups groups_;
   std::array<std::int64_t, 3> last_member_{-1, 0, 0};  ///< dimension, entity, group

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <limits>
 
-#include "io/loaded/layers_text.hpp"
+#include "io/model/layers_text.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
 #include "io/text/name_index.hpp"

@@ -6,7 +6,7 @@
 #include "io/files/binary_output.hpp"
 #include "io/files/boundary_stream.hpp"
 #include "io/files/shared_output.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
 #include "mesher/mesh/variable_names.hpp"

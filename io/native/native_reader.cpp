@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "io/loaded/layers_text.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/layers_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/name_index.hpp"
 #include "io/text/text_scanner.hpp"

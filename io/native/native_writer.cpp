@@ -1,7 +1,7 @@
 #include <span>
 
-#include "io/loaded/layers_text.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/layers_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/variable_names.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "io/cgns/cgns_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/native/native_file.hpp"
 #include "io/parts/part_cgns.hpp"
 #include "io/parts/part_links.hpp"

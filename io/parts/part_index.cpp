@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "io/loaded/strip_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"

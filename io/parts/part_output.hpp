@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/mesh/parts/mesh_part.hpp"
 

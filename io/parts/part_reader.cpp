@@ -20,8 +20,8 @@ namespace {
 
 LoadedMesh read_piece(const std::string& path, const std::string& format) {
   if (format == "mesh") return read_native(path);
-  if (format == "cgns") return read_cgns(path);
-  return read_vtu(path);
+  if (format == "cgns") return plane_of(read_cgns(path), path);
+  return plane_of(read_vtu(path), path);
 }
 
 class PartReader {

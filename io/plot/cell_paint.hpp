@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/plot/mesh_plot.hpp"
 #include "io/plot/plot_view.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/plot/canvas/colour_map.hpp"
 #include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"

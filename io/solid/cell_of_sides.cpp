@@ -1,15 +1,16 @@
 #include "io/solid/cell_of_sides.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 namespace quadloop {
 
 namespace {
 
-using Face = SolidPatch::Face;
+using Face = FileBoundary::Face;
 
-std::size_t width_of(const Face& face) { return face[3] == SolidPatch::no_node ? 3 : 4; }
+std::size_t width_of(const Face& face) { return face[3] == FileBoundary::no_node ? 3 : 4; }
 
 /// The face's nodes counter-clockwise as seen from inside the cell.
 std::vector<std::int32_t> seen_from_inside(const CellSide& side) {
@@ -18,11 +19,13 @@ std::vector<std::int32_t> seen_from_inside(const CellSide& side) {
   return nodes;
 }
 
-template <std::size_t width>
-std::string add(std::vector<std::array<std::int32_t, width>>& cells, const std::vector<std::int32_t>& nodes) {
-  if (nodes.size() != width || std::ranges::count(nodes, SolidPatch::no_node) > 0)
+template <CellKind kind>
+std::string add(FileMesh& mesh, const std::vector<std::int32_t>& nodes, std::int32_t block) {
+  typename std::decay_t<decltype(cells_of<kind>(mesh))>::value_type cell;
+  if (nodes.size() != cell.size() || std::ranges::count(nodes, FileBoundary::no_node) > 0)
     return "has faces that do not fit together";
-  std::copy(nodes.begin(), nodes.end(), cells.emplace_back().begin());
+  std::ranges::copy(nodes, cell.begin());
+  add_cell<kind>(mesh, cell, block);
   return {};
 }
 
@@ -39,10 +42,10 @@ std::int32_t opposite_node(std::span<const CellSide> sides, std::span<const std:
       }
     }
   }
-  return SolidPatch::no_node;
+  return FileBoundary::no_node;
 }
 
-std::string add_cell(SolidMesh& mesh, std::span<const CellSide> sides) {
+std::string add_cell_of_sides(FileMesh& mesh, std::span<const CellSide> sides, std::int32_t block) {
   const auto quads =
       std::ranges::count_if(sides, [](const CellSide& side) { return width_of(side.nodes) == 4; });
   const auto triangles = std::ssize(sides) - quads;
@@ -60,10 +63,10 @@ std::string add_cell(SolidMesh& mesh, std::span<const CellSide> sides) {
     nodes.push_back(opposite_node(sides, first, node));
     if (tetrahedron || pyramid) break;  // one apex
   }
-  if (tetrahedron) return add(mesh.tetrahedra, nodes);
-  if (pyramid) return add(mesh.pyramids, nodes);
-  if (prism) return add(mesh.prisms, nodes);
-  return add(mesh.hexahedra, nodes);
+  if (tetrahedron) return add<CellKind::tetrahedron>(mesh, nodes, block);
+  if (pyramid) return add<CellKind::pyramid>(mesh, nodes, block);
+  if (prism) return add<CellKind::prism>(mesh, nodes, block);
+  return add<CellKind::hexahedron>(mesh, nodes, block);
 }
 
 }  // namespace quadloop

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/model/extruded_mesh.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
 
 namespace quadloop {
 

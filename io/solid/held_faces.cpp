@@ -4,14 +4,14 @@
 #include <span>
 #include <tuple>
 
+#include "io/model/cell_faces.hpp"
+#include "io/model/solid_faces.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/solid/cell_faces.hpp"
-#include "mesher/solid/solid_faces.hpp"
 
 namespace quadloop {
 
-HeldFaces::HeldFaces(const SolidMesh& mesh, const std::string& path) : mesh_{mesh}, path_{path} {
-  for (const SolidPatch& patch : mesh.patches) {
+HeldFaces::HeldFaces(const FileMesh& mesh, const std::string& path) : mesh_{mesh}, path_{path} {
+  for (const FileBoundary& patch : mesh.boundaries) {
     of_patch_.emplace_back(patch.faces.size(), -1);
     local_of_patch_.emplace_back(patch.faces.size(), -1);
   }
@@ -33,8 +33,8 @@ HeldFaces::HeldFaces(const SolidMesh& mesh, const std::string& path) : mesh_{mes
   }
 }
 
-SolidPatch::Face HeldFaces::nodes(std::int32_t cell, std::int32_t local) const {
-  SolidPatch::Face face{};
+FileBoundary::Face HeldFaces::nodes(std::int32_t cell, std::int32_t local) const {
+  FileBoundary::Face face{};
   std::int64_t row = cell;
   for_each_kind_of_cell([&]<std::size_t width>() {
     const auto& cells = cells_of<width>(mesh_);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/solid/solid_mesh.hpp"
+#include "io/model/file_mesh.hpp"
 
 namespace quadloop {
 
@@ -21,7 +21,7 @@ class HeldFaces {
 
   /// The mesh must outlive it. Throws OutputError, with `path`, unless each face is between two cells or on
   /// one patch.
-  HeldFaces(const SolidMesh& mesh, const std::string& path);
+  HeldFaces(const FileMesh& mesh, const std::string& path);
 
   const std::vector<Inner>& internal() const { return internal_; }
   /// The cell of each face of a patch.
@@ -29,16 +29,16 @@ class HeldFaces {
 
   /// Counter-clockwise as seen from outside the owner; of a face of a patch, whose own order of nodes says
   /// nothing, from outside its cell.
-  SolidPatch::Face nodes(const Inner& face) const { return nodes(face.owner, face.local); }
-  SolidPatch::Face patch_nodes(std::size_t patch, std::size_t number) const {
+  FileBoundary::Face nodes(const Inner& face) const { return nodes(face.owner, face.local); }
+  FileBoundary::Face patch_nodes(std::size_t patch, std::size_t number) const {
     return nodes(of_patch_[patch][number], local_of_patch_[patch][number]);
   }
 
  private:
-  SolidPatch::Face nodes(std::int32_t cell, std::int32_t local) const;
+  FileBoundary::Face nodes(std::int32_t cell, std::int32_t local) const;
   [[noreturn]] void refuse() const;
 
-  const SolidMesh& mesh_;
+  const FileMesh& mesh_;
   std::string path_;
   std::vector<Inner> internal_;
   std::vector<std::vector<std::int32_t>> of_patch_, local_of_patch_;

@@ -6,14 +6,10 @@ namespace quadloop {
 
 SolidBlocks::SolidBlocks(const SolidStream& stream)
     : stream_{stream}, layers_{std::max<std::int64_t>(1, stream.layers())} {
-  if (const SolidMesh* held = stream.held(); held != nullptr) {
-    names_ = held->block_names;
-    auto next = held->cell_to_block.begin();
+  if (const FileMesh* held = stream.held(); held != nullptr) {
+    if (held->has_blocks()) names_ = held->block_names;
     for_each_kind_of_cell([&]<std::size_t width>() {
-      if (!several()) return;
-      const auto end = next + std::ssize(cells_of<width>(*held));
-      of_[width].assign(next, end);
-      next = end;
+      if (several()) of_[width] = held->cell_to_block[static_cast<std::size_t>(kind_of_width<width>())];
     });
   } else if (const PlaneBlocks* blocks = stream.extruded()->blocks; blocks != nullptr) {
     names_ = blocks->names;

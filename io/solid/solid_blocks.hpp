@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/solid/solid_stream.hpp"
 
 namespace quadloop {

@@ -1,10 +1,10 @@
 #include "io/solid/solid_cell_values.hpp"
 
+#include "io/model/cell_faces.hpp"
+#include "io/model/solid_faces.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/solid/cell_faces.hpp"
-#include "mesher/solid/solid_faces.hpp"
 
 namespace quadloop {
 
@@ -49,7 +49,7 @@ BoundaryStream SolidCellValues::along_sides(std::size_t variable) const {
 /// Patches come first among those that have a face.
 void SolidCellValues::find_cells_beside() {
   std::vector<std::vector<std::int32_t>> beside;
-  for (const SolidPatch& patch : held_->patches) beside.emplace_back(patch.faces.size(), -1);
+  for (const FileBoundary& patch : held_->boundaries) beside.emplace_back(patch.faces.size(), -1);
   for_each_face(*held_, [&](std::int32_t, std::span<const FaceMention> mentions) {
     for (const FaceMention& mention : mentions) {
       if (mention.owner < 0) beside[-1 - mention.owner][mention.number] = mentions.back().owner;
@@ -61,9 +61,9 @@ void SolidCellValues::find_cells_beside() {
     for (std::size_t i = 0; i < beside[p].size(); ++i) {
       if (beside[p][i] < 0)
         throw OutputError(
-            "face " + std::to_string(i + 1) + " of patch " + held_->patches[p].name +
+            "face " + std::to_string(i + 1) + " of patch " + held_->boundaries[p].name +
             " belongs to no cell, whose values it would have; `quadloop check` tells all faults");
-      (is_triangle(held_->patches[p].faces[i]) ? triangles : quads).push_back(beside[p][i]);
+      (is_triangle(held_->boundaries[p].faces[i]) ? triangles : quads).push_back(beside[p][i]);
     }
   }
 }

@@ -70,7 +70,7 @@ class SolidCellValues {
   void find_cells_beside();
 
   const SolidStream& stream_;
-  const SolidMesh* held_;
+  const FileMesh* held_;
   std::vector<std::string> names_;
   std::vector<std::int64_t> columns_;  ///< of an extruded mesh: of each variable
   std::vector<double> at_edges_;       ///< and rows of the plane's columns at its boundary edges

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "io/model/cell_faces.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/solid/cell_faces.hpp"
 
 namespace quadloop {
 
@@ -30,12 +30,12 @@ SolidStream::SolidStream(const Communicator& comm, const ExtrudedMesh& mesh) : c
   }
 }
 
-SolidStream::SolidStream(const Communicator& comm, const SolidMesh& mesh) : comm_{comm}, held_{&mesh} {
+SolidStream::SolidStream(const Communicator& comm, const FileMesh& mesh) : comm_{comm}, held_{&mesh} {
   QUADLOOP_REQUIRE(comm.size() == 1, "a 3D mesh that is held is written by one rank");
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   counts_ = {count(mesh.points), count(mesh.tetrahedra), count(mesh.pyramids), count(mesh.prisms),
              count(mesh.hexahedra)};
-  for (const SolidPatch& patch : mesh.patches) {
+  for (const FileBoundary& patch : mesh.boundaries) {
     std::vector<std::int32_t>& triangles = held_triangles_.emplace_back();
     std::vector<std::int32_t>& quads = held_quads_.emplace_back();
     for (std::int32_t i = 0; i < count(patch.faces); ++i)

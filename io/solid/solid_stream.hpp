@@ -9,8 +9,8 @@
 
 #include "io/files/boundary_stream.hpp"
 #include "io/files/row_stream.hpp"
-#include "mesher/solid/extruded_mesh.hpp"
-#include "mesher/solid/solid_mesh.hpp"
+#include "io/model/extruded_mesh.hpp"
+#include "io/model/file_mesh.hpp"
 
 namespace quadloop {
 
@@ -40,12 +40,12 @@ class SolidStream {
   /// The mesh must outlive it. *Collective.*
   SolidStream(const Communicator& comm, const ExtrudedMesh& mesh);
   /// `comm` has one rank.
-  SolidStream(const Communicator& comm, const SolidMesh& mesh);
+  SolidStream(const Communicator& comm, const FileMesh& mesh);
 
   const Communicator& communicator() const { return comm_; }
   /// The one that it streams; null for the other.
   const ExtrudedMesh* extruded() const { return extruded_; }
-  const SolidMesh* held() const { return held_; }
+  const FileMesh* held() const { return held_; }
   const SolidCounts& counts() const { return counts_; }
   /// Of an extruded mesh boundaries with edges in their order, the back, the front.
   const std::vector<StreamedPatch>& patches() const { return patches_; }
@@ -92,7 +92,8 @@ class SolidStream {
   }
   template <std::size_t width>
   std::array<SolidNode, width> face(std::size_t patch, std::int64_t row) const {
-    if (held_ != nullptr) return first_of<width>(held_->patches[patch].faces[held_faces<width>(patch)[row]]);
+    if (held_ != nullptr)
+      return first_of<width>(held_->boundaries[patch].faces[held_faces<width>(patch)[row]]);
     const auto& cell = plane_cells<width>()[row];
     return patch == side_patches_ ? extruded_->back_face(cell) : extruded_->front_face(cell);
   }
@@ -176,7 +177,7 @@ class SolidStream {
     return result;
   }
   template <std::size_t width>
-  static std::array<SolidNode, width> first_of(const SolidPatch::Face& face) {
+  static std::array<SolidNode, width> first_of(const FileBoundary::Face& face) {
     std::array<SolidNode, width> result;
     for (std::size_t i = 0; i < width; ++i) result[i] = face[i];
     return result;
@@ -195,7 +196,7 @@ class SolidStream {
 
   const Communicator& comm_;
   const ExtrudedMesh* extruded_ = nullptr;  ///< this or the next
-  const SolidMesh* held_ = nullptr;
+  const FileMesh* held_ = nullptr;
   SolidCounts counts_;
   std::optional<BoundaryStream> boundaries_;                            ///< of an extruded mesh
   std::vector<std::vector<std::int32_t>> held_triangles_, held_quads_;  ///< of each patch: which of its faces

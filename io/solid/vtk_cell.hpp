@@ -22,7 +22,7 @@ enum VtkCell : std::uint8_t {
   vtk_pyramid = 14
 };
 
-/// The nodes of a prism in VTK's order, which SU2 shares, from the order of SolidMesh (that of CGNS), and
+/// The nodes of a prism in VTK's order, which SU2 shares, from the order of FileMesh (that of CGNS), and
 /// back: the first triangle of a VTK wedge looks outwards (documentation of vtkWedge).
 template <class Node>
 std::array<Node, 6> vtk_wedge_order(const std::array<Node, 6>& n) {

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/mesh_of_file.hpp"
+#include "io/solid/solid_stream.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
@@ -23,12 +24,17 @@ void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& pa
 /// answer.
 std::vector<std::string> su2_marker_names(const std::vector<std::string>& boundaries);
 
-/// Reads a 2D SU2 mesh on the calling rank alone: the keys in any order, those that are no part of the mesh
-/// passed over with their rows, markers SEND_RECEIVE too. Each marker becomes a boundary, those of the same
-/// name one; a file without markers gets the boundary "boundary". Zones become blocks "zone_1", "zone_2" ...,
-/// each with its own nodes and markers. Cells are turned counter-clockwise piece by piece (orient_cells),
-/// edges with their cell to the left. Throws InputError "file:line: ..." on anything that is not such a mesh;
-/// geometric faults, inverted cells too, are left to validate().
-LoadedMesh read_su2(const std::string& path);
+/// Writes the mesh as SU2 text of three dimensions; the bytes are the same on any number of ranks. Patches
+/// become markers (su2_marker_names()); prisms have the order of a VTK wedge. SU2 turns the angle of attack
+/// in the x-z plane: extrude the mesh along y for it. *Collective.* Throws OutputError on all ranks.
+void write_su2_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
+
+/// Reads an SU2 mesh of two or three dimensions on the calling rank alone: the keys in any order, those that
+/// are no part of the mesh passed over with their rows, markers SEND_RECEIVE too. Each marker becomes a
+/// boundary, those of the same name one; a plane file without markers gets the boundary "boundary". Zones
+/// become blocks "zone_1", "zone_2" ..., each with its own nodes and markers. A plane mesh is cleaned up by
+/// plane_mesh(). Throws InputError "file:line: ..." on anything that is not such a mesh; geometric faults,
+/// inverted cells too, are left to validate() and check_solid().
+MeshOfFile read_su2(const std::string& path);
 
 }  // namespace quadloop

@@ -1,5 +1,7 @@
-#include "io/loaded/foreign_mesh.hpp"
-#include "io/loaded/matching_sides.hpp"
+#include <fmt/format.h>
+
+#include "io/model/clean_up.hpp"
+#include "io/model/matching_sides.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_text.hpp"
@@ -12,83 +14,122 @@ class Su2Reader {
  public:
   explicit Su2Reader(const std::string& path) : text_{path} {}
 
-  LoadedMesh read() {
+  MeshOfFile read() {
+    const std::int64_t dimension = text_.dimension();
+    if (dimension != 2 && dimension != 3)
+      text_.scan().refuse(fmt::format("the mesh has {} dimensions; 2 and 3 can be read", dimension));
+    mesh_.dimension = static_cast<std::int32_t>(dimension);
     for (std::size_t zone = 0; zone < text_.zones(); ++zone) {
       text_.go_to_zone(zone);
       read_zone(text_.zones() == 1 ? "domain" : "zone_" + std::to_string(zone + 1));
     }
-    foreign_.loaded.warnings = text_.warnings();
-    LoadedMesh loaded = finish(std::move(foreign_), text_.scan());
+    mesh_.warnings = text_.warnings();
+    if (is_plane()) return read_plane();
+    drop_empty_groups(mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  bool is_plane() const { return mesh_.dimension == 2; }
+
+  LoadedMesh read_plane() {
+    LoadedMesh loaded = plane_mesh(std::move(mesh_), text_.scan());
     // The configuration alone says which sides are periodic.
     loaded.periodic_nodes = nodes_of_matching_sides(loaded.mesh);
     return loaded;
   }
 
- private:
-  /// Zones keep their own nodes and markers, also where they touch.
+  /// Zones keep their own nodes, also where they touch; markers of one name are one boundary.
   void read_zone(const std::string& block) {
-    const std::int64_t dimension = text_.dimension();
-    if (dimension != 2)
-      text_.scan().refuse("the mesh has " + std::to_string(dimension) + " dimensions; only 2 can be read");
-    auto& points = foreign_.loaded.mesh.points;
+    if (text_.dimension() != mesh_.dimension)
+      text_.scan().refuse("a zone of other dimensions than the first");
     text_.read_points(
-        2, [&](std::size_t count) { points.reserve(points.size() + count); },
+        mesh_.dimension, [&](std::size_t count) { mesh_.points.reserve(mesh_.points.size() + count); },
         [&](const double* p) {
-          points.push_back({p[0], p[1]});
+          mesh_.points.push_back({p[0], p[1], is_plane() ? 0 : p[2]});
         });
-    read_elements(foreign_.block_named(block));
+    read_elements(mesh_.block_named(block));
     text_.read_markers([&](std::size_t key, const std::string& name) { read_marker(key, name); });
   }
 
   template <std::size_t width>
-  std::array<NodeId, width> nodes_in_row() {
-    std::array<NodeId, width> nodes;
-    for (NodeId& node : nodes) node = NodeId{text_.node_in_row()};
+  std::array<std::int32_t, width> nodes_in_row() {
+    std::array<std::int32_t, width> nodes;
+    for (std::int32_t& node : nodes) node = text_.node_in_row();
     text_.end_row();
     return nodes;
   }
 
   void read_elements(std::int32_t block) {
-    TextScanner& scan = text_.scan();
     const std::size_t key = text_.find_one("NELEM");
-    const std::size_t count = text_.count_of(key, "elements", 4);
+    const std::size_t count = text_.count_of(key, "elements", is_plane() ? 4 : 5);
     text_.end_of_key_line();
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t type = scan.integer("the type of an element");
-      if (type == vtk_triangle) {
-        foreign_.add_triangle(nodes_in_row<3>(), block);
-      } else if (type == vtk_quad) {
-        foreign_.add_quad(nodes_in_row<4>(), block);
-      } else {
-        scan.refuse("an element of type " + vtk_cell_name(type) +
-                    "; only 5 (triangle) and 9 (quadrilateral) can be read");
-      }
+      const std::int64_t type = text_.scan().integer("the type of an element");
+      is_plane() ? read_plane_cell(type, block) : read_cell(type, block);
     }
     text_.check_rows_end_before(key + 1);
+  }
+
+  void read_plane_cell(std::int64_t type, std::int32_t block) {
+    switch (type) {
+      case vtk_triangle: return add_cell<CellKind::triangle>(mesh_, nodes_in_row<3>(), block);
+      case vtk_quad: return add_cell<CellKind::quad>(mesh_, nodes_in_row<4>(), block);
+      default:
+        text_.scan().refuse("an element of type " + vtk_cell_name(type) +
+                            "; only 5 (triangle) and 9 (quadrilateral) can be read");
+    }
+  }
+
+  void read_cell(std::int64_t type, std::int32_t block) {
+    switch (type) {
+      case vtk_tetrahedron: return add_cell<CellKind::tetrahedron>(mesh_, nodes_in_row<4>(), block);
+      case vtk_hexahedron: return add_cell<CellKind::hexahedron>(mesh_, nodes_in_row<8>(), block);
+      case vtk_wedge: return add_cell<CellKind::prism>(mesh_, vtk_wedge_order(nodes_in_row<6>()), block);
+      case vtk_pyramid: return add_cell<CellKind::pyramid>(mesh_, nodes_in_row<5>(), block);
+      default:
+        text_.scan().refuse("an element of type " + vtk_cell_name(type) +
+                            "; only 10 (tetrahedron), 12 (hexahedron), 13 (prism) and 14 (pyramid) can be "
+                            "read of three dimensions");
+    }
   }
 
   void read_marker(std::size_t key, const std::string& name) {
-    TextScanner& scan = text_.scan();
-    const std::size_t count = text_.count_of(key, "edges of marker " + name, 3);
+    const std::size_t count = text_.count_of(
+        key, (is_plane() ? "edges of marker " : "faces of marker ") + name, is_plane() ? 3 : 4);
     text_.end_of_key_line();
-    const std::int32_t boundary = foreign_.boundary_named(name);
+    FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(name)];
     for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t type = scan.integer("the type of an edge");
-      const std::size_t place = scan.place();
-      if (type != vtk_line)
-        scan.refuse("marker " + name + " has an element of type " + vtk_cell_name(type) +
-                    "; only 3 (line) can be read");
-      foreign_.edges.push_back({nodes_in_row<2>(), boundary, place});
+      const std::int64_t type =
+          text_.scan().integer(is_plane() ? "the type of an edge" : "the type of a face");
+      boundary.places.push_back(text_.scan().place());
+      boundary.faces.push_back(face_in_row(type, name));
     }
     text_.check_rows_end_before(key + 1);
   }
 
+  FileBoundary::Face face_in_row(std::int64_t type, const std::string& marker) {
+    const std::size_t width = is_plane()             ? (type == vtk_line ? 2 : 0)
+                              : type == vtk_triangle ? 3
+                              : type == vtk_quad     ? 4
+                                                     : 0;
+    if (width == 0)
+      text_.scan().refuse("marker " + marker + " has an element of type " + vtk_cell_name(type) +
+                          (is_plane() ? "; only 3 (line) can be read"
+                                      : "; only 5 (triangle) and 9 (quadrilateral) can be read"));
+    FileBoundary::Face face;
+    face.fill(FileBoundary::no_node);
+    for (std::size_t k = 0; k < width; ++k) face[k] = text_.node_in_row();
+    text_.end_row();
+    return face;
+  }
+
   Su2Text text_;
-  ForeignMesh foreign_;
+  FileMesh mesh_;
 };
 
 }  // namespace
 
-LoadedMesh read_su2(const std::string& path) { return Su2Reader(path).read(); }
+MeshOfFile read_su2(const std::string& path) { return Su2Reader(path).read(); }
 
 }  // namespace quadloop

@@ -1,7 +1,6 @@
 #include "io/solid/solid_stream.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
-#include "io/su2/su2_solid_file.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {

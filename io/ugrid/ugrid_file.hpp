@@ -3,13 +3,12 @@
 #include <bit>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/files/output_file.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "io/solid/solid_stream.hpp"
-#include "mesher/solid/solid_mesh.hpp"
 
 namespace quadloop {
 
@@ -47,6 +46,6 @@ std::string condition_of_mapbc(int number);
 /// Reads such a file on the calling rank alone; patches without a .mapbc are "patch_1" and so on. What
 /// follows the mesh is passed over, with a warning. Throws InputError.
 template <std::endian order>
-std::optional<SolidMesh> read_ugrid(const std::string& path);
+MeshOfFile read_ugrid(const std::string& path);
 
 }  // namespace quadloop

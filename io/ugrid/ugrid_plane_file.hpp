@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -18,6 +18,6 @@ void write_ugrid_plane(OutputSet& outputs, const Mesh& mesh, const std::string& 
 /// Reads such a file on the calling rank alone; z is ignored, edges may be missing; boundaries without a
 /// .mapbc are "boundary_1" and so on. What follows the edges is passed over. Throws InputError "file:line:
 /// ...".
-LoadedMesh read_ugrid_plane(const std::string& path);
+MeshOfFile read_ugrid_plane(const std::string& path);
 
 }  // namespace quadloop

@@ -19,7 +19,7 @@ class UgridReader {
  public:
   explicit UgridReader(const std::string& path) : path_{path}, bytes_{read_input(path)} {}
 
-  SolidMesh read() {
+  FileMesh read() {
     const auto head = take<std::int32_t, 7>("its seven counts");
     check_counts(head);
     points_ = head[0];
@@ -90,41 +90,41 @@ class UgridReader {
   }
 
   void read_faces(std::int32_t triangles, std::int32_t quads) {
-    std::vector<SolidPatch::Face> faces;
+    std::vector<FileBoundary::Face> faces;
     for (std::int32_t i = 0; i < triangles; ++i) {
       const auto n = take<std::int32_t, 3>("the nodes of a face");
-      faces.push_back({node(n[0]), node(n[1]), node(n[2]), SolidPatch::no_node});
+      faces.push_back({node(n[0]), node(n[1]), node(n[2]), FileBoundary::no_node});
     }
     for (std::int32_t i = 0; i < quads; ++i) {
       const auto n = take<std::int32_t, 4>("the nodes of a face");
       faces.push_back({node(n[0]), node(n[1]), node(n[2]), node(n[3])});
     }
     const std::map<std::int32_t, MapbcPatch> names = read_mapbc(mapbc_path(path_));
-    std::map<std::int32_t, SolidPatch> patches;
-    for (const SolidPatch::Face& face : faces)
+    std::map<std::int32_t, FileBoundary> patches;
+    for (const FileBoundary::Face& face : faces)
       patches[take<std::int32_t, 1>("the patch of a face")[0]].faces.push_back(face);
     for (auto& [number, patch] : patches) {
       const auto named = names.find(number);
       patch.name = named == names.end() ? fmt::format("patch_{}", number) : named->second.name;
       if (named != names.end()) patch.condition = condition_of_mapbc(named->second.condition);
-      mesh_.patches.push_back(std::move(patch));
+      mesh_.boundaries.push_back(std::move(patch));
     }
   }
 
   std::string path_, bytes_;
   std::size_t at_ = 0;
   std::int32_t points_ = 0;
-  SolidMesh mesh_;
+  FileMesh mesh_;
 };
 
 }  // namespace
 
 template <std::endian order>
-std::optional<SolidMesh> read_ugrid(const std::string& path) {
+MeshOfFile read_ugrid(const std::string& path) {
   return UgridReader<order>(path).read();
 }
 
-template std::optional<SolidMesh> read_ugrid<std::endian::little>(const std::string&);
-template std::optional<SolidMesh> read_ugrid<std::endian::big>(const std::string&);
+template MeshOfFile read_ugrid<std::endian::little>(const std::string&);
+template MeshOfFile read_ugrid<std::endian::big>(const std::string&);
 
 }  // namespace quadloop

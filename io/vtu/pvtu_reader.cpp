@@ -1,21 +1,57 @@
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
-#include <numeric>
 #include <tuple>
+#include <utility>
+#include <variant>
 
-#include "io/loaded/foreign_mesh.hpp"
+#include "io/model/cell_faces.hpp"
+#include "io/model/clean_up.hpp"
+#include "io/model/repeated_rows.hpp"
 #include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/vtu_document.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/mesh/part_names.hpp"
-#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
 namespace {
+
+using Face = FileBoundary::Face;
+
+/// Calls `visit(face)` for the faces of a cell.
+template <CellKind kind, class Nodes, class Visit>
+void for_each_face_of(const Nodes& nodes, const Visit& visit) {
+  constexpr std::size_t width = std::tuple_size_v<Nodes>;
+  if constexpr (kind == CellKind::triangle || kind == CellKind::quad) {
+    for (std::size_t k = 0; k < width; ++k)
+      visit(Face{nodes[k], nodes[(k + 1) % width], FileBoundary::no_node, FileBoundary::no_node});
+  } else {
+    for (const LocalFace& local : CellFaces<width>::faces) visit(face_of(nodes, local));
+  }
+}
+
+Face sorted(Face face) {
+  std::ranges::sort(face);
+  return face;
+}
+
+/// The faces of all cells, edges in a plane mesh, each with its nodes sorted. Faces of two cells are there
+/// twice, one after the other; a cell that several pieces have counts once.
+std::vector<Face> sorted_faces(const FileMesh& mesh) {
+  std::vector<Face> faces;
+  for_each_kind([&]<CellKind kind>() {
+    const auto& cells = cells_of<kind>(mesh);
+    const auto kept = kept_rows(
+        cells, [](const auto& nodes) { return nodes; }, [](std::size_t) { return 0; });
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (kept[i] == i) for_each_face_of<kind>(cells[i], [&](const Face& f) { faces.push_back(sorted(f)); });
+    }
+  });
+  std::ranges::sort(faces);
+  return faces;
+}
 
 class PvtuReader {
  public:
@@ -24,124 +60,116 @@ class PvtuReader {
   }
 
   /// A single piece is the mesh as it stands.
-  LoadedMesh read() {
+  MeshOfFile read() {
     const std::filesystem::path folder = std::filesystem::path(scan_.path()).parent_path();
-    if (sources_.size() == 1) return read_vtu((folder / sources_.front()).string());
-    for (const std::string& source : sources_) add_piece(read_vtu((folder / source).string()), source);
+    for (const std::string& source : sources_) {
+      MeshOfFile piece = read_vtu((folder / source).string());
+      if (sources_.size() == 1) return piece;
+      const LoadedMesh* plane = std::get_if<LoadedMesh>(&piece);
+      add(plane != nullptr ? file_mesh_of(*plane) : std::get<FileMesh>(std::move(piece)), source);
+    }
     return united();
   }
 
  private:
-  LoadedMesh united() {
-    if (points_.size() > std::numeric_limits<std::int32_t>::max())
+  MeshOfFile united() {
+    if (whole_.points.size() > std::numeric_limits<std::int32_t>::max())
       scan_.refuse("its pieces have more than 2^31 - 1 nodes, which cannot be read on one rank");
-    unite_nodes();
+    put_solution();
+    unite_nodes(whole_);
     drop_cuts();
-    of_triangles_.insert(of_triangles_.end(), of_quads_.begin(), of_quads_.end());
-    if (!names_.empty() || !cell_names_.empty())
-      foreign_.loaded.solution =
-          Field{names_, std::move(values_), {}, {cell_names_, std::move(of_triangles_)}};
-    drop_repeated(foreign_, scan_.path());
+    drop_repeated(whole_, scan_.path());
     if (has_strips_)
-      foreign_.loaded.warnings.push_back(scan_.path() +
-                                         ": what its pieces tell of the layers of wakes and free lines is "
-                                         "left out; where there is a .parts file beside it, read that");
-    return finish(std::move(foreign_), scan_);
+      whole_.warnings.push_back(scan_.path() +
+                                ": what its pieces tell of the layers of wakes and free lines is "
+                                "left out; where there is a .parts file beside it, read that");
+    if (whole_.dimension == 2) return plane_mesh(std::move(whole_), scan_);
+    drop_empty_groups(whole_);
+    return std::move(whole_);
   }
 
   /// Its nodes after those of the pieces before.
-  void add_piece(const LoadedMesh& piece, const std::string& source) {
-    const auto first = static_cast<std::int32_t>(points_.size());
+  void add(const FileMesh& piece, const std::string& source) {
+    if (whole_.points.empty()) whole_.dimension = piece.dimension;
+    if (piece.dimension != whole_.dimension)
+      scan_.refuse("the piece " + source + " is of other dimensions than the first");
     take_solution(piece, source);
-    points_.insert(points_.end(), piece.mesh.points.begin(), piece.mesh.points.end());
+    const auto first = static_cast<std::int32_t>(whole_.points.size());
     const auto moved = [&](auto nodes) {
-      for (NodeId& node : nodes) node = NodeId{node.value() + first};
+      for (std::int32_t& node : nodes) node += node == FileBoundary::no_node ? 0 : first;
       return nodes;
     };
-    const auto block = [&](std::int32_t b) { return foreign_.block_named(piece.block_names[b]); };
-    for (std::size_t i = 0; i < piece.mesh.triangles.size(); ++i)
-      foreign_.add_triangle(moved(piece.mesh.triangles[i]), block(piece.triangle_to_block[i]));
-    for (std::size_t i = 0; i < piece.mesh.quads.size(); ++i)
-      foreign_.add_quad(moved(piece.mesh.quads[i]), block(piece.quad_to_block[i]));
-    for (const BoundaryEdges& boundary : piece.mesh.boundaries) {
-      const std::int32_t number = foreign_.boundary_named(boundary.name);
-      foreign_.loaded.mesh.boundaries[number].layers = boundary.layers;
-      for (const auto& edge : boundary.edges) foreign_.edges.push_back({moved(edge), number, 0});
+    whole_.points.insert(whole_.points.end(), piece.points.begin(), piece.points.end());
+    for_each_kind([&]<CellKind kind>() {
+      const auto& blocks = piece.cell_to_block[static_cast<std::size_t>(kind)];
+      const auto& cells = cells_of<kind>(piece);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        add_cell<kind>(whole_, moved(cells[i]), whole_.block_named(piece.block_names[blocks[i]]));
+    });
+    for (const FileBoundary& boundary : piece.boundaries) {
+      FileBoundary& own = whole_.boundaries[whole_.boundary_named(boundary.name)];
+      own.layers = boundary.layers;
+      for (const Face& face : boundary.faces) own.faces.push_back(moved(face));
     }
-    has_strips_ = has_strips_ || !piece.mesh.strips.empty();
-    auto& warnings = foreign_.loaded.warnings;
-    warnings.insert(warnings.end(), piece.warnings.begin(), piece.warnings.end());
+    has_strips_ = has_strips_ || !piece.strips.empty();
+    whole_.warnings.insert(whole_.warnings.end(), piece.warnings.begin(), piece.warnings.end());
   }
 
-  void take_solution(const LoadedMesh& piece, const std::string& source) {
+  void take_solution(const FileMesh& piece, const std::string& source) {
     const Field solution = piece.solution.value_or(Field{});
     const CellValues& cells = solution.cells;
-    if (points_.empty()) {
-      names_ = solution.names;
-      cell_names_ = cells.names;
+    if (whole_.points.empty()) {
+      solution_.names = solution.names;
+      solution_.cells.names = cells.names;
     }
-    if (solution.names != names_)
+    if (solution.names != solution_.names)
       scan_.refuse("the point data of the piece " + source + " are not those of the first piece");
-    if (cells.names != cell_names_)
+    if (cells.names != solution_.cells.names)
       scan_.refuse("the cell data of the piece " + source + " are not those of the first piece");
-    values_.insert(values_.end(), solution.values.begin(), solution.values.end());
-    const auto quads = cells.values.begin() + std::ssize(piece.mesh.triangles) * std::ssize(cells.names);
-    of_triangles_.insert(of_triangles_.end(), cells.values.begin(), quads);
-    of_quads_.insert(of_quads_.end(), quads, cells.values.end());
-  }
-
-  /// Of nodes at the same place the first stays, with its values.
-  void unite_nodes() {
-    std::vector<std::int32_t> order(points_.size()), first_of(points_.size()), new_id(points_.size(), -1);
-    std::iota(order.begin(), order.end(), 0);
-    const auto place = [&](std::int32_t i) { return std::tuple(points_[i].x, points_[i].y); };
-    std::ranges::stable_sort(order, {}, place);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
-      first_of[order[k]] = again ? first_of[order[k - 1]] : order[k];
-    }
-    std::vector<Point>& kept = foreign_.loaded.mesh.points;
-    const std::size_t width = names_.size();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (first_of[i] != static_cast<std::int32_t>(i)) continue;
-      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(i * width), width,
-                  values_.begin() + static_cast<std::ptrdiff_t>(kept.size() * width));
-      new_id[i] = static_cast<std::int32_t>(kept.size());
-      kept.push_back(points_[i]);
-    }
-    values_.resize(kept.size() * width);
-    const auto renumber = [&](auto& nodes) {
-      for (NodeId& node : nodes) node = NodeId{new_id[first_of[node.value()]]};
-    };
-    std::ranges::for_each(foreign_.loaded.mesh.triangles, renumber);
-    std::ranges::for_each(foreign_.loaded.mesh.quads, renumber);
-    std::ranges::for_each(foreign_.edges, [&](ForeignEdge& edge) { renumber(edge.nodes); });
-  }
-
-  /// A piece without lines comes with a boundary "boundary" all round, cuts between pieces too; parts for a
-  /// solver's ranks with a boundary for each neighbour.
-  void drop_cuts() {
-    const EdgeTable table(foreign_.loaded.mesh);
-    std::erase_if(foreign_.edges, [&](const ForeignEdge& edge) {
-      const std::string& name = foreign_.loaded.mesh.boundaries[edge.boundary].name;
-      return (name == "boundary" || is_part_name(name)) &&
-             table.cell_left_of(edge.nodes[0], edge.nodes[1]) >= 0 &&
-             table.cell_left_of(edge.nodes[1], edge.nodes[0]) >= 0;
+    solution_.values.insert(solution_.values.end(), solution.values.begin(), solution.values.end());
+    auto row = cells.values.begin();
+    for_each_kind([&]<CellKind kind>() {
+      const auto end = row + std::ssize(cells_of<kind>(piece)) * std::ssize(cells.names);
+      auto& values = values_of_kind_[static_cast<std::size_t>(kind)];
+      values.insert(values.end(), row, end);
+      row = end;
     });
+  }
+
+  void put_solution() {
+    if (solution_.empty()) return;
+    for (const std::vector<double>& values : values_of_kind_)
+      solution_.cells.values.insert(solution_.cells.values.end(), values.begin(), values.end());
+    whole_.solution = std::move(solution_);
+  }
+
+  /// A plane piece without lines comes with a boundary "boundary" all round, cuts between pieces too; parts
+  /// for a solver's ranks come with a boundary for each neighbour.
+  void drop_cuts() {
+    const auto may_be_cut = [](const FileBoundary& boundary) {
+      return boundary.name == "boundary" || is_part_name(boundary.name);
+    };
+    if (std::ranges::none_of(whole_.boundaries, may_be_cut)) return;
+    const std::vector<Face> faces = sorted_faces(whole_);
+    for (FileBoundary& boundary : whole_.boundaries) {
+      if (!may_be_cut(boundary)) continue;
+      std::erase_if(boundary.faces, [&](const Face& face) {
+        const auto [begin, end] = std::ranges::equal_range(faces, sorted(face));
+        return end - begin > 1;
+      });
+    }
   }
 
   TextScanner scan_;
   bool has_strips_ = false;
   std::vector<std::string> sources_;
-  ForeignMesh foreign_;
-  std::vector<Point> points_;  ///< of all pieces
-  std::vector<std::string> names_, cell_names_;
-  std::vector<double> values_;                   ///< rows for the points
-  std::vector<double> of_triangles_, of_quads_;  ///< rows for the cells
+  FileMesh whole_;
+  Field solution_;                                              ///< of all pieces, but for rows of cells
+  std::array<std::vector<double>, cell_kinds> values_of_kind_;  ///< rows of cells
 };
 
 }  // namespace
 
-LoadedMesh read_pvtu(const std::string& path) { return PvtuReader(path).read(); }
+MeshOfFile read_pvtu(const std::string& path) { return PvtuReader(path).read(); }
 
 }  // namespace quadloop

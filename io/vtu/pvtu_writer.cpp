@@ -4,11 +4,9 @@
 #include "io/solid/solid_cell_values.hpp"
 #include "io/text/text_output.hpp"
 #include "io/vtu/pvtu_file.hpp"
-#include "io/vtu/pvtu_solid_file.hpp"
 #include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
-#include "io/vtu/vtu_solid_file.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "io/loaded/repeated_rows.hpp"
+#include "io/model/repeated_rows.hpp"
 #include "io/solid/vtk_cell.hpp"
 
 namespace quadloop {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "io/loaded/foreign_mesh.hpp"
-#include "io/loaded/strip_text.hpp"
+#include "io/model/clean_up.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_boundaries.hpp"
@@ -21,27 +21,33 @@ class VtuReader {
   explicit VtuReader(const std::string& path)
       : scan_{path, TextScanner::no_comments}, document_{parse_vtu(scan_)}, numbers_{scan_, document_} {}
 
-  LoadedMesh read() {
+  MeshOfFile read() {
     if (document_.points > std::numeric_limits<std::int32_t>::max() ||
         document_.cells > std::numeric_limits<std::int32_t>::max()) {
       scan_.refuse_at(document_.piece_place, "more than 2^31 - 1 points or cells cannot be read on one rank");
     }
+    types_ = numbers_.integers(needed("Cells", "types"), document_.cells);
+    mesh_.dimension = std::ranges::any_of(types_, is_of_space) ? 3 : 2;
     read_points();
     read_cells();
     read_solution();
-    return finish(std::move(foreign_), scan_);
+    if (is_plane()) return plane_mesh(std::move(mesh_), scan_);
+    drop_empty_groups(mesh_);
+    return std::move(mesh_);
   }
 
  private:
+  static bool is_of_space(std::int64_t type) { return type >= vtk_tetrahedron; }
+  bool is_plane() const { return mesh_.dimension == 2; }
+
   void read_points() {
     const VtuArray& array = needed("Points", "");
     if (array.components != 3)
       scan_.refuse_at(array.place, "points have three coordinates, not " + std::to_string(array.components));
     const std::vector<double> values = finite_reals(array, 3 * document_.points, 3);
-    auto& points = foreign_.loaded.mesh.points;
     for (std::size_t i = 0; i < values.size(); i += 3) {
-      points.push_back({values[i], values[i + 1]});
-      if (values[i + 2] == values[2]) continue;
+      mesh_.points.push_back({values[i], values[i + 1], is_plane() ? 0 : values[i + 2]});
+      if (!is_plane() || values[i + 2] == values[2]) continue;
       scan_.refuse_at(
           array.place,
           fmt::format("node {} lies at z = {}, the first at z = {}; a mesh lies in a plane z = constant",
@@ -73,15 +79,14 @@ class VtuReader {
   void read_cells() {
     const VtuArray& connectivity = needed("Cells", "connectivity");
     const VtuArray& offsets_array = needed("Cells", "offsets");
-    const std::vector<std::int64_t> types = numbers_.integers(needed("Cells", "types"), document_.cells);
     const std::vector<std::int64_t> offsets = numbers_.integers(offsets_array, document_.cells);
     const std::vector<std::int64_t> nodes =
         numbers_.integers(connectivity, offsets.empty() ? 0 : offsets.back());
-    find_boundaries(types);
+    find_boundaries();
     const std::vector<std::int64_t> blocks = cell_numbers("block");
     read_names();
     std::int64_t begin = 0;
-    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+    for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::int64_t end = offsets[cell];
       if (end < begin || end > std::ssize(nodes)) {
         scan_.refuse_at(offsets_array.place,
@@ -90,21 +95,20 @@ class VtuReader {
       const auto of_cell = std::span(nodes).subspan(begin, end - begin);
       place_ = connectivity.place;
       cell_ = cell + 1;
-      add_cell(types[cell], of_cell, boundary_of(cell), blocks.empty() ? 0 : blocks[cell]);
+      block_ = blocks.empty() ? 0 : blocks[cell];
+      is_plane() ? add_plane_element(of_cell) : add_element(of_cell);
       begin = end;
     }
   }
 
-  void find_boundaries(const std::vector<std::int64_t>& types) {
-    boundaries_ = find_boundary_numbers(document_, numbers_, types, vtk_line, vtk_line);
-    if (!boundaries_.warning.empty())
-      foreign_.loaded.warnings.push_back(scan_.path() + ": " + boundaries_.warning);
+  void find_boundaries() {
+    boundaries_ = is_plane() ? find_boundary_numbers(document_, numbers_, types_, vtk_line, vtk_line)
+                             : find_boundary_numbers(document_, numbers_, types_, vtk_triangle, vtk_quad);
+    if (!boundaries_.warning.empty()) mesh_.warnings.push_back(scan_.path() + ": " + boundaries_.warning);
   }
-  std::int64_t boundary_of(std::size_t cell) const {
-    return boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell];
-  }
-
-  std::string boundary_name(std::int64_t number) const {
+  /// Of the element under way.
+  std::string boundary_name() const {
+    const std::int64_t number = boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell_ - 1];
     if (boundaries_.is_ours || boundaries_.of_cells.empty())
       return name_of(boundary_names_, number, "boundary", "boundary");
     return boundaries_.name_of(number);
@@ -122,8 +126,8 @@ class VtuReader {
       boundary_names_ = numbers_.texts(*array);
     if (const VtuArray* array = document_.find("FieldData", "block_names"))
       block_names_ = numbers_.texts(*array);
-    for (const std::string& name : boundary_names_) foreign_.boundary_named(name);  // in their order
-    for (const std::string& name : block_names_) foreign_.block_named(name);
+    for (const std::string& name : boundary_names_) mesh_.boundary_named(name);  // in their order
+    for (const std::string& name : block_names_) mesh_.block_named(name);
     read_layers();
     if (const VtuArray* array = document_.find("FieldData", vtu_strips)) read_strips(*array);
   }
@@ -131,8 +135,7 @@ class VtuReader {
   void read_strips(const VtuArray& array) {
     std::string texts;
     for (const std::string& text : numbers_.texts(array)) texts += text + "\n";
-    foreign_.loaded.mesh.strips =
-        strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
+    mesh_.strips = strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
   }
 
   /// Of our own files; numbers that are no counts are passed over.
@@ -148,7 +151,7 @@ class VtuReader {
     for (std::size_t b = 0; b < of_boundary.size(); ++b) {
       const bool is_count = of_boundary[b] > 0 && of_boundary[b] <= std::numeric_limits<std::int32_t>::max();
       if (!is_count) continue;
-      foreign_.loaded.mesh.boundaries[foreign_.boundary_named(boundary_names_[b])].layers = {
+      mesh_.boundaries[mesh_.boundary_named(boundary_names_[b])].layers = {
           static_cast<std::int32_t>(of_boundary[b]), std::max(0.0, thickness[b])};
     }
   }
@@ -161,42 +164,71 @@ class VtuReader {
   }
 
   template <std::size_t width>
-  std::array<NodeId, width> nodes_of(std::span<const std::int64_t> nodes) const {
+  std::array<std::int32_t, width> nodes_of(std::span<const std::int64_t> nodes) const {
     if (nodes.size() != width)
       scan_.refuse_at(place_, fmt::format("cell {} has {} nodes, not {}", cell_, nodes.size(), width));
-    std::array<NodeId, width> result;
+    std::array<std::int32_t, width> result;
     for (std::size_t k = 0; k < width; ++k) {
       if (nodes[k] < 0 || nodes[k] >= document_.points) {
         scan_.refuse_at(place_, fmt::format("cell {} names point {}, which is none of the points 0 to {}",
                                             cell_, nodes[k], document_.points - 1));
       }
-      result[k] = NodeId{static_cast<std::int32_t>(nodes[k])};
+      result[k] = static_cast<std::int32_t>(nodes[k]);
     }
     return result;
   }
 
-  void add_cell(std::int64_t type, std::span<const std::int64_t> nodes, std::int64_t boundary,
-                std::int64_t block) {
+  void add_plane_element(std::span<const std::int64_t> nodes) {
+    const std::int64_t type = types_[cell_ - 1];
     if (type == vtk_vertex || type == vtk_poly_vertex) return;
-    if (type == vtk_line) {
-      foreign_.edges.push_back(
-          {nodes_of<2>(nodes), foreign_.boundary_named(boundary_name(boundary)), place_});
-      return;
-    }
-    const std::int32_t to_block = foreign_.block_named(name_of(block_names_, block, "block", "domain"));
-    if (type == vtk_triangle || (type == vtk_polygon && nodes.size() == 3)) {
-      foreign_.add_triangle(nodes_of<3>(nodes), to_block);
-      triangle_cells_.push_back(cell_ - 1);
-    } else if (type == vtk_quad || type == vtk_pixel || (type == vtk_polygon && nodes.size() == 4)) {
+    if (type == vtk_line) return add_face(nodes_of<2>(nodes));
+    if (type == vtk_triangle || (type == vtk_polygon && nodes.size() == 3))
+      return add<CellKind::triangle>(nodes_of<3>(nodes));
+    if (type == vtk_quad || type == vtk_pixel || (type == vtk_polygon && nodes.size() == 4)) {
       auto corners = nodes_of<4>(nodes);
       if (type == vtk_pixel) std::swap(corners[2], corners[3]);
-      foreign_.add_quad(corners, to_block);
-      quad_cells_.push_back(cell_ - 1);
-    } else {
-      scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "
-                                          "quads (9) and lines (3) can be read",
-                                          cell_, vtk_cell_name(type), nodes.size()));
+      return add<CellKind::quad>(corners);
     }
+    scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {} with {} nodes; only triangles (5), "
+                                        "quads (9) and lines (3) can be read",
+                                        cell_, vtk_cell_name(type), nodes.size()));
+  }
+
+  void add_element(std::span<const std::int64_t> nodes) {
+    const std::int64_t type = types_[cell_ - 1];
+    switch (type) {
+      case vtk_tetrahedron: return add<CellKind::tetrahedron>(nodes_of<4>(nodes));
+      case vtk_pyramid: return add<CellKind::pyramid>(nodes_of<5>(nodes));
+      case vtk_wedge: return add<CellKind::prism>(vtk_wedge_order(nodes_of<6>(nodes)));
+      case vtk_voxel: {
+        const auto n = nodes_of<8>(nodes);
+        return add<CellKind::hexahedron>(std::array{n[0], n[1], n[3], n[2], n[4], n[5], n[7], n[6]});
+      }
+      case vtk_hexahedron: return add<CellKind::hexahedron>(nodes_of<8>(nodes));
+      case vtk_triangle: return add_face(nodes_of<3>(nodes));
+      case vtk_quad: return add_face(nodes_of<4>(nodes));
+      default:
+        if (type < vtk_triangle) return;  // points and lines
+        scan_.refuse_at(place_, fmt::format("cell {} is of VTK type {}; only tetrahedra (10), voxels (11), "
+                                            "hexahedra (12), prisms (13), pyramids (14), triangles (5) and "
+                                            "quads (9) can be read of three dimensions",
+                                            cell_, vtk_cell_name(type)));
+    }
+  }
+
+  template <CellKind kind, class Nodes>
+  void add(const Nodes& nodes) {
+    add_cell<kind>(mesh_, nodes, mesh_.block_named(name_of(block_names_, block_, "block", "domain")));
+    cells_of_kind_[static_cast<std::size_t>(kind)].push_back(static_cast<std::int32_t>(cell_ - 1));
+  }
+
+  template <std::size_t width>
+  void add_face(const std::array<std::int32_t, width>& nodes) {
+    FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(boundary_name())];
+    FileBoundary::Face& face = boundary.faces.emplace_back();
+    face.fill(FileBoundary::no_node);
+    std::ranges::copy(nodes, face.begin());
+    boundary.places.push_back(place_);
   }
 
   void read_solution() {
@@ -210,10 +242,10 @@ class VtuReader {
     }
     if (solution.empty()) return;
     for (std::int64_t i = 0; i < document_.points; ++i) append_row(at_points, i, solution.values);
-    for (const auto* cells : {&triangle_cells_, &quad_cells_}) {
-      for (const std::int64_t cell : *cells) append_row(in_cells, cell, solution.cells.values);
+    for (const auto& cells : cells_of_kind_) {
+      for (const std::int32_t cell : cells) append_row(in_cells, cell, solution.cells.values);
     }
-    foreign_.loaded.solution = std::move(solution);
+    mesh_.solution = std::move(solution);
   }
 
   static void append_row(const std::vector<std::vector<double>>& columns, std::int64_t row,
@@ -235,7 +267,7 @@ class VtuReader {
     for (std::size_t k = 0; k < width; ++k) {
       std::vector<double> column(count);
       for (std::int64_t i = 0; i < count; ++i) column[i] = values[i * width + k];
-      if (k == 2 && width == 3 &&
+      if (is_plane() && k == 2 && width == 3 &&
           std::all_of(column.begin(), column.end(), [](double value) { return value == 0; }))
         continue;
       if (width == 1) {
@@ -252,16 +284,18 @@ class VtuReader {
   TextScanner scan_;
   VtuDocument document_;
   VtuNumbers numbers_;
-  ForeignMesh foreign_;
+  FileMesh mesh_;
+  std::vector<std::int64_t> types_;
   std::vector<std::string> boundary_names_, block_names_;
   VtuBoundaryNumbers boundaries_;
   bool has_layers_ = false;
-  std::vector<std::int64_t> triangle_cells_, quad_cells_;  ///< their places among all of the file's cells
-  std::size_t place_ = 0, cell_ = 0;                       ///< of the cell under way, for a refusal
+  std::array<std::vector<std::int32_t>, cell_kinds> cells_of_kind_;  ///< places among all of the file's cells
+  std::size_t place_ = 0, cell_ = 0;  ///< of the element under way; elements are counted from 1
+  std::int64_t block_ = 0;            ///< its number in the file
 };
 
 }  // namespace
 
-LoadedMesh read_vtu(const std::string& path) { return VtuReader(path).read(); }
+MeshOfFile read_vtu(const std::string& path) { return VtuReader(path).read(); }
 
 }  // namespace quadloop

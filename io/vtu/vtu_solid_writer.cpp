@@ -3,7 +3,7 @@
 #include "io/solid/solid_stream.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/vtu/vtu_appended.hpp"
-#include "io/vtu/vtu_solid_file.hpp"
+#include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_text.hpp"
 
 namespace quadloop {

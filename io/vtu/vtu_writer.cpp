@@ -1,7 +1,7 @@
 #include <bit>
 #include <span>
 
-#include "io/loaded/strip_text.hpp"
+#include "io/model/strip_text.hpp"
 #include "io/solid/vtk_cell.hpp"
 #include "io/text/text_output.hpp"
 #include "io/vtu/vtu_appended.hpp"

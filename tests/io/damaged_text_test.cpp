@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "io/loaded/tidy_mesh.hpp"
 #include "io/mesh_file.hpp"
+#include "io/model/tidy_mesh.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"

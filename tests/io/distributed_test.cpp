@@ -22,6 +22,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -114,7 +115,7 @@ TEST(Su2File, SameBytesOnAnyNumberOfRanksAndComesBack) {
   sample.mesh.boundaries.at(1).name = "far_field";  // SU2 takes no blanks
   sample.mesh.boundaries[0].layers = {};            // nor layers
   sample.mesh.strips = {};
-  expect_same_mesh(read_su2(folder.file("many.su2")), sample.mesh);
+  expect_same_mesh(test::read_plane<read_su2>(folder.file("many.su2")), sample.mesh);
 }
 
 TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
@@ -124,7 +125,7 @@ TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   if (!world().is_root()) return;
   write_msh(sample.alone, sample.mesh, folder.file("one.msh"));
   EXPECT_TRUE(test::bytes_of(folder.file("many.msh")) == test::bytes_of(folder.file("one.msh")));
-  const LoadedMesh loaded = read_msh(folder.file("many.msh"));
+  const LoadedMesh loaded = test::read_plane<read_msh>(folder.file("many.msh"));
   sample.mesh.boundaries[0].layers = {};  // it has no place for them
   sample.mesh.strips = {};
   expect_same_mesh(loaded, sample.mesh);
@@ -139,7 +140,7 @@ TEST(VtuFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   if (!world().is_root()) return;
   write_vtu(sample.alone, sample.mesh, folder.file("one.vtu"), &sample.solution);
   EXPECT_TRUE(test::bytes_of(folder.file("many.vtu")) == test::bytes_of(folder.file("one.vtu")));
-  const LoadedMesh loaded = read_vtu(folder.file("many.vtu"));
+  const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("many.vtu"));
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.solution->names, sample.solution.names);
@@ -212,7 +213,7 @@ TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {
   const Sample sample;
   write_cgns(world(), sample.own, folder.file("m.cgns"), &sample.own_solution);
   if (!world().is_root()) return;
-  const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+  const LoadedMesh loaded = test::read_plane<read_cgns>(folder.file("m.cgns"));
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
   EXPECT_EQ(loaded.mesh.boundaries.at(1).condition, "farfield");

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 
 namespace quadloop::test {
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "io/loaded/loaded_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"

@@ -16,6 +16,7 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
@@ -83,7 +84,7 @@ std::string refusal_after(const std::function<void(const std::string&)>& change,
   write_sample(path, mixed);
   change(path);
   try {
-    read_cgns(path);
+    test::read_plane<read_cgns>(path);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -105,7 +106,7 @@ TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
   for (const bool mixed : {false, true}) {
     const TemporaryFolder folder;
     write_sample(folder.file("m.cgns"), mixed);
-    const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+    const LoadedMesh loaded = test::read_plane<read_cgns>(folder.file("m.cgns"));
     EXPECT_EQ(loaded.mesh.quads.size(), 1U);
     EXPECT_EQ(loaded.mesh.triangles.size(), 2U);
     ASSERT_EQ(loaded.mesh.boundaries.size(), 1U);
@@ -137,14 +138,14 @@ TEST(CgnsReader, MarksPeriodicNodes) {
     const TemporaryFolder folder;
     write_sample(folder.file("m.cgns"), false);
     add_connection(folder.file("m.cgns"), set, location, numbers);
-    return read_cgns(folder.file("m.cgns")).periodic_nodes;
+    return test::read_plane<read_cgns>(folder.file("m.cgns")).periodic_nodes;
   };
   EXPECT_EQ(periodic(PointList, Vertex, {1, 4}), (std::vector{NodeId{0}, NodeId{3}}));
   EXPECT_EQ(periodic(PointRange, Vertex, {1, 3}), (std::vector{NodeId{0}, NodeId{2}, NodeId{1}}));
   EXPECT_EQ(periodic(PointList, FaceCenter, {5}), (std::vector{NodeId{1}, NodeId{2}}));
   const TemporaryFolder folder;
   write_sample(folder.file("m.cgns"), false);
-  EXPECT_TRUE(read_cgns(folder.file("m.cgns")).periodic_nodes.empty());
+  EXPECT_TRUE(test::read_plane<read_cgns>(folder.file("m.cgns")).periodic_nodes.empty());
 }
 
 /// Two unit squares side by side, each a zone with a boundary all round; the second has its nodes in another
@@ -175,7 +176,7 @@ void write_two_zones(const std::string& path) {
 TEST(CgnsReader, NodesOfSeveralZonesAtOnePlaceAreOne) {
   const TemporaryFolder folder;
   write_two_zones(folder.file("m.cgns"));
-  const LoadedMesh loaded = read_cgns(folder.file("m.cgns"));
+  const LoadedMesh loaded = test::read_plane<read_cgns>(folder.file("m.cgns"));
   EXPECT_EQ(loaded.blocks, 2);
   EXPECT_EQ(loaded.mesh.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}}));
   EXPECT_EQ(loaded.mesh.owned_nodes, 6);
@@ -197,7 +198,7 @@ TEST(CgnsFile, KeepsTheNamesOfVariables) {
   for (std::size_t i = 0; i < 2 * (mesh.triangles.size() + mesh.quads.size()); ++i)
     field.cells.values.push_back(1 / static_cast<double>(i + 1));
   write_cgns(alone, mesh, folder.file("a.cgns"), &field);
-  const LoadedMesh read = read_cgns(folder.file("a.cgns"));
+  const LoadedMesh read = test::read_plane<read_cgns>(folder.file("a.cgns"));
   ASSERT_TRUE(read.solution);
   EXPECT_EQ(read.solution->names, field.names);
   EXPECT_EQ(read.solution->values, field.values);

@@ -8,6 +8,7 @@
 #include "io/fluent/fluent_zones.hpp"
 #include "io/mesh_file.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
@@ -18,7 +19,7 @@ namespace {
 using test::node;
 using test::replaced;
 
-const test::ReaderCheck check{read_fluent, "m.msh"};
+const test::ReaderCheck check{test::read_plane<read_fluent>, "m.msh"};
 
 /// A unit square as a quad with a triangle on top; the line numbers below count in it. As other programs
 /// write it: remarks and unknown sections, names at the end, a face's cells in any order, the last zone of
@@ -77,7 +78,7 @@ TEST(FluentReader, TwoZonesOfCellsAreBlocks) {
 }
 
 TEST(FluentReader, RefusesWhatItCannotRead) {
-  check.expect_refusal(replaced(house, "(2 2)", "(2 3)"), "m.msh:2:", "a mesh of 3 dimensions");
+  check.expect_refusal(replaced(house, "(2 2)", "(2 3)"), "m.msh:4:", "nodes of 2 dimensions");
   check.expect_refusal(replaced(house, "(10 (1 1 5", "(3010 (1 1 5"), "m.msh:4:", "binary");
   check.expect_refusal(replaced(house, "(37 ((x", "(58 ((x"), "m.msh:26:", "hanging nodes");
   check.expect_refusal(replaced(house, "(37 ((x", "(59 ((x"), "m.msh:26:", "hanging nodes");

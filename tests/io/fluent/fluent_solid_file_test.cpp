@@ -1,15 +1,14 @@
 // 3D files of Fluent: what the reader accepts and what it refuses by line, and which way faces look in what
 // is written.
-#include "io/fluent/fluent_solid_file.hpp"
-
 #include <gtest/gtest.h>
 #include <mpi.h>
 
 #include "io/fluent/fluent_file.hpp"
-#include "io/solid_file.hpp"
-#include "mesher/solid/check_solid.hpp"
+#include "io/mesh_file.hpp"
+#include "io/model/check_solid.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 
 namespace quadloop {
 namespace {
@@ -27,10 +26,10 @@ const std::string two_cells =
     "(45 (2 fluid inner)())\n(45 (3 fluid outer)())\n(45 (5 wall floor)())\n";  // 28-30
 
 struct Read {
-  SolidMesh operator()(const std::string& text) const {
+  FileMesh operator()(const std::string& text) const {
     const test::TemporaryFolder folder;
     test::write_bytes(folder.file("m.msh"), text);
-    std::optional<SolidMesh> mesh = read_solid(folder.file("m.msh"));
+    std::optional<FileMesh> mesh = test::read_solid(folder.file("m.msh"));
     if (!mesh) throw InputError("no 3D mesh");
     return std::move(*mesh);
   }
@@ -48,20 +47,21 @@ void expect_refusal(const std::string& text, const std::string& line, const std:
 }
 
 TEST(FluentSolidReader, ReadsCellsZonesAndConditions) {
-  const SolidMesh mesh = read(replaced(two_cells, "3 5 2 4 0 2", "3 5 4 2 0 2"));  // looks out of its cell
+  const FileMesh mesh = read(replaced(two_cells, "3 5 2 4 0 2", "3 5 4 2 0 2"));  // looks out of its cell
   EXPECT_EQ(mesh.points.at(4), (Point3{1, 1, 1}));
   EXPECT_EQ(mesh.tetrahedra.size(), 2);
   const SolidFigures figures = check_solid(mesh);
   EXPECT_TRUE(figures.faults.empty()) << figures.faults.front().what;
   EXPECT_NEAR(figures.volume, 0.5, 1e-15);
   EXPECT_EQ(mesh.block_names, (std::vector<std::string>{"inner", "outer"}));
-  EXPECT_EQ(mesh.cell_to_block, (std::vector<std::int32_t>{0, 1}));
-  ASSERT_EQ(mesh.patches.size(), 2);
-  EXPECT_EQ(mesh.patches[0].name, "floor");
-  EXPECT_EQ(mesh.patches[0].condition, "wall");
-  EXPECT_EQ(mesh.patches[0].faces.front(), (SolidPatch::Face{2, 1, 0, SolidPatch::no_node}));  // looks out
-  EXPECT_EQ(mesh.patches[1].name, "zone_10");
-  EXPECT_EQ(mesh.patches[1].condition, "symmetry");
+  EXPECT_EQ(blocks_of_cells(mesh), (std::vector<std::int32_t>{0, 1}));
+  ASSERT_EQ(mesh.boundaries.size(), 2);
+  EXPECT_EQ(mesh.boundaries[0].name, "floor");
+  EXPECT_EQ(mesh.boundaries[0].condition, "wall");
+  EXPECT_EQ(mesh.boundaries[0].faces.front(),
+            (FileBoundary::Face{2, 1, 0, FileBoundary::no_node}));  // looks out
+  EXPECT_EQ(mesh.boundaries[1].name, "zone_10");
+  EXPECT_EQ(mesh.boundaries[1].condition, "symmetry");
 }
 
 TEST(FluentSolidReader, RefusesWhatItCannotRead) {
@@ -84,11 +84,11 @@ TEST(FluentSolidReader, RefusesFilesThatEndEarly) {
 TEST(FluentSolidReader, TellsTheDimensions) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder.file("m.msh"), replaced(two_cells, "(2 3)", "(2 2)"));
-  EXPECT_FALSE(read_fluent_solid(folder.file("m.msh")));
+  EXPECT_THROW(read_fluent(folder.file("m.msh")), InputError) << "its nodes are of three";
   test::write_bytes(folder.file("m.msh"), replaced(two_cells, "(2 3)\n", ""));
-  EXPECT_FALSE(read_fluent_solid(folder.file("m.msh")));
+  EXPECT_THROW(read_fluent(folder.file("m.msh")), InputError) << "without a word on dimensions two are meant";
   test::write_bytes(folder.file("m.msh"), two_cells);
-  EXPECT_THROW(read_fluent(folder.file("m.msh")), InputError);
+  EXPECT_EQ(std::get<FileMesh>(read_fluent(folder.file("m.msh"))).dimension, 3);
 }
 
 /// One cube: the faces of its sides, back and front look into it.
@@ -102,7 +102,7 @@ TEST(FluentSolidFile, FacesLookIntoTheirFirstCell) {
   for (int i = 0; i < 4; ++i) plane.boundaries[0].edges.push_back({NodeId{i}, NodeId{(i + 1) % 4}});
   const Communicator alone(MPI_COMM_SELF);
   OutputSet outputs(alone);
-  write_solid(outputs, extruded(plane, {0, 1}, ExtrusionAxis::z), folder.file("a.fluent.msh"));
+  write_mesh(outputs, extruded(plane, {0, 1}, ExtrusionAxis::z), folder.file("a.fluent.msh"));
   outputs.commit();
   const std::string text = test::bytes_of(folder.file("a.fluent.msh"));
   EXPECT_NE(text.find("(2 3)\n(10 (0 1 8 0 3))\n"), std::string::npos) << text;

@@ -3,13 +3,15 @@
 
 #include <filesystem>
 
-#include "io/foam/foam_plane_file.hpp"
+#include "io/foam/foam_file.hpp"
 #include "io/foam/foam_polygons.hpp"
-#include "io/solid_file.hpp"
+#include "io/mesh_file.hpp"
+#include "io/model/check_solid.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
-#include "mesher/solid/check_solid.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 
 namespace quadloop {
 namespace {
@@ -57,7 +59,7 @@ std::string write_plane(const test::TemporaryFolder& folder, const std::string& 
 TEST(FoamReader, DividesPolygonsOfPlaneMeshes) {
   const test::TemporaryFolder folder;
   const std::string path = write_plane(folder, "patch", "empty");
-  const LoadedMesh loaded = read_foam_plane(path);
+  const LoadedMesh loaded = test::read_plane<read_foam>(path);
   for (const MeshFault& fault : validate(loaded.mesh))
     ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what;
   EXPECT_EQ(loaded.mesh.points.size(), 8U);
@@ -66,20 +68,20 @@ TEST(FoamReader, DividesPolygonsOfPlaneMeshes) {
   EXPECT_EQ(loaded.mesh.boundaries.size(), 4U);
   EXPECT_EQ(loaded.warnings,
             std::vector<std::string>{path + ": 1 polygonal cells are divided into 2 triangles and quads"});
-  const std::optional<SolidMesh> solid = read_solid(path);
+  const std::optional<FileMesh> solid = test::read_solid(path);
   EXPECT_TRUE(check_solid(*solid).faults.empty());
 }
 
 TEST(FoamReader, RefusesPolygonsInSpace) {
   const test::TemporaryFolder folder;
   const std::string path = write_plane(folder, "patch", "wall");
-  EXPECT_THROW(read_solid(path), InputError);
+  EXPECT_THROW(test::read_solid(path), InputError);
 }
 
 TEST(FoamReader, KeepsCyclicPatchesAndReportsThem) {
   const test::TemporaryFolder folder;
   const std::string path = write_plane(folder, "cyclic", "empty");
-  const LoadedMesh loaded = read_foam_plane(path);
+  const LoadedMesh loaded = test::read_plane<read_foam>(path);
   EXPECT_EQ(loaded.mesh.boundaries.at(2).name, "right");
   EXPECT_EQ(loaded.mesh.boundaries.at(3).name, "left");
   EXPECT_EQ(loaded.warnings.at(0),

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
@@ -19,7 +20,7 @@ using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
-const test::ReaderCheck check{read_msh, "m.msh"};
+const test::ReaderCheck check{test::read_plane<read_msh>, "m.msh"};
 
 /// A unit square as a quad with a triangle on top, tags with gaps, a node of no cell; the line numbers below
 /// count in it.
@@ -321,7 +322,7 @@ TEST(MshReader, RefusesBadRowsByLine) {
 }
 
 TEST(MshReader, RefusesWhatItDoesNotKnow) {
-  check.expect_refusal(replaced(old_house, "7 3 2 9 1", "7 4 2 9 1"), "m.msh:27: ", "4 (tetrahedron)");
+  check.expect_refusal(replaced(old_house, "7 3 2 9 1", "7 4 2 9 1"), "m.msh: ", "holds a 3D mesh");
   check.expect_refusal(replaced(old_house, "8 2 2 9 1", "8 9 2 9 1"), "m.msh:28: ", "ElementOrder = 1");
   check.expect_refusal(replaced(new_house, "2 1 3 1", "2 1 16 1"),
                        "m.msh:45: ", "16 (quadrilateral of second order");
@@ -346,7 +347,7 @@ TEST(MshWriter, KeepsNamesInQuotes) {
   mesh.boundaries[0].name = "5\" tube";
   mesh.boundaries.push_back({"nothing", "none", {}});
   write_msh(test::world(), mesh, folder.file("m.msh"));
-  EXPECT_EQ(boundary_names(read_msh(folder.file("m.msh"))),
+  EXPECT_EQ(boundary_names(test::read_plane<read_msh>(folder.file("m.msh"))),
             (std::vector<std::string>{"5' tube", "far field"}));
 }
 

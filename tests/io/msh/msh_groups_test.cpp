@@ -17,44 +17,15 @@ TEST(MshGroups, SignsSayNothing) {
   EXPECT_EQ(groups.physical_of(1, 30), 7);
   EXPECT_EQ(groups.physical_of(2, 30), 0) << "a surface of that tag";
   EXPECT_EQ(groups.physical_of(1, 31), 0);
-  ForeignMesh foreign;
-  EXPECT_EQ(groups.boundary_of(foreign, 7, 30), groups.boundary_of(foreign, -7, 99));
-  EXPECT_EQ(foreign.loaded.mesh.boundaries[0].name, "wall");
+  EXPECT_EQ(groups.name_of(1, 7), "wall");
+  EXPECT_EQ(groups.members_of(1, 7), 1);
 }
 
-TEST(MshGroups, BoundariesAreMadeAtTheirFirstElement) {
+TEST(MshGroups, AGroupWithoutANameHasItsNumber) {
   MshGroups groups;
-  groups.name_physical(1, 7, "never used");
   groups.name_physical(1, 8, "");
-  ForeignMesh foreign;
-  EXPECT_EQ(groups.boundary_of(foreign, 9, 1), 0);
-  EXPECT_EQ(groups.boundary_of(foreign, 8, 1), 1);
-  EXPECT_EQ(groups.boundary_of(foreign, 0, 12), 2);
-  EXPECT_EQ(groups.boundary_of(foreign, 0, 13), 3);
-  EXPECT_EQ(groups.boundary_of(foreign, 0, 12), 2);
-  std::vector<std::string> names;
-  for (const BoundaryEdges& boundary : foreign.loaded.mesh.boundaries) names.push_back(boundary.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"physical_9", "physical_8", "boundary_12", "boundary_13"}));
-  EXPECT_EQ(groups.curves_without_group(), 2);
-}
-
-TEST(MshGroups, GroupsOfOneNameAreOneBoundary) {
-  MshGroups groups;
-  groups.name_physical(1, 1, "wall");
-  groups.name_physical(1, 2, "wall");
-  ForeignMesh foreign;
-  EXPECT_EQ(groups.boundary_of(foreign, 1, 5), groups.boundary_of(foreign, 2, 6));
-}
-
-TEST(MshGroups, BlocksAreNamedApartFromBoundaries) {
-  MshGroups groups;
-  groups.name_physical(1, 1, "wall");
-  groups.name_physical(2, 1, "fluid");
-  ForeignMesh foreign;
-  EXPECT_EQ(groups.block_of(foreign, 1), 0);
-  EXPECT_EQ(groups.block_of(foreign, 0), 1);
-  EXPECT_EQ(groups.block_of(foreign, -1), 0);
-  EXPECT_EQ(foreign.loaded.block_names, (std::vector<std::string>{"fluid", "domain"}));
+  EXPECT_EQ(groups.name_of(1, 8), "physical_8");
+  EXPECT_EQ(groups.name_of(1, 9), "physical_9");
 }
 
 NodeTags tagged(const std::vector<std::int64_t>& tags, std::int64_t expected_twice = 0) {

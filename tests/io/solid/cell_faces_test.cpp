@@ -8,12 +8,13 @@
 #include <sstream>
 #include <tuple>
 
+#include "io/mesh_file.hpp"
 #include "io/solid/extruded_faces.hpp"
 #include "io/solid/held_faces.hpp"
-#include "io/solid_file.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -56,16 +57,16 @@ std::vector<Face> held(const std::string& path) {
   const Mesh whole = test::sample_mesh(3);
   const Communicator alone(MPI_COMM_SELF);
   OutputSet outputs(alone);
-  write_solid(outputs, extruded_sample(whole), path);
+  write_mesh(outputs, extruded_sample(whole), path);
   outputs.commit();
-  const std::optional<SolidMesh> mesh = read_solid(path);
+  const std::optional<FileMesh> mesh = test::read_solid(path);
   const HeldFaces faces(*mesh, path);
   std::vector<Face> found;
   for (const HeldFaces::Inner& face : faces.internal()) {
     auto& [owner, neighbour, nodes] =
         found.emplace_back(face.owner, face.neighbour, std::vector<std::int64_t>{});
     for (const std::int32_t node : faces.nodes(face)) {
-      if (node != SolidPatch::no_node) nodes.push_back(node);
+      if (node != FileBoundary::no_node) nodes.push_back(node);
     }
     std::ranges::sort(nodes);
   }

@@ -8,11 +8,11 @@
 #include <sstream>
 
 #include "io/formats.hpp"
+#include "io/mesh_file.hpp"
+#include "io/model/check_solid.hpp"
 #include "io/solid/solid_cell_values.hpp"
-#include "io/solid_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
-#include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
@@ -20,12 +20,12 @@
 namespace quadloop {
 namespace {
 
-constexpr std::int32_t none = SolidPatch::no_node;
+constexpr std::int32_t none = FileBoundary::no_node;
 
 /// Two cubes, a prism on the right, a pyramid on the first's top and a tetrahedron beside it, with
 /// coordinates that need all digits.
-SolidMesh sample() {
-  SolidMesh mesh;
+FileMesh sample() {
+  FileMesh mesh;
   mesh.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0}, {0, 0, 1},     {1, 0, 1},
                  {1, 1, 1},  {0, 1, 1},  {2, 0, 0},  {2, 0, 1}, {0.5, 0.5, 2}, {2, 0.5, 2},
                  {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}, {-1, 1, 1}};
@@ -34,13 +34,13 @@ SolidMesh sample() {
   mesh.prisms = {{1, 8, 2, 5, 9, 6}};
   mesh.pyramids = {{4, 5, 6, 7, 10}};
   mesh.tetrahedra = {{5, 11, 6, 10}};
-  mesh.patches = {{"floor", "wall", {{3, 2, 1, 0}, {13, 3, 0, 12}, {1, 2, 8, none}}},
-                  {"top-left", "symmetry", {{14, 4, 7, 15}}},
-                  {"rest", "none", {}}};
-  mesh.patches[2].faces = {{0, 1, 5, 4},      {2, 3, 7, 6},     {12, 13, 15, 14}, {12, 0, 4, 14},
-                           {3, 13, 15, 7},    {1, 8, 9, 5},     {8, 2, 6, 9},     {5, 9, 6, none},
-                           {4, 5, 10, none},  {6, 7, 10, none}, {7, 4, 10, none}, {5, 11, 10, none},
-                           {11, 6, 10, none}, {5, 6, 11, none}};
+  mesh.boundaries = {{"floor", "wall", {{3, 2, 1, 0}, {13, 3, 0, 12}, {1, 2, 8, none}}},
+                     {"top-left", "symmetry", {{14, 4, 7, 15}}},
+                     {"rest", "none", {}}};
+  mesh.boundaries[2].faces = {{0, 1, 5, 4},      {2, 3, 7, 6},     {12, 13, 15, 14}, {12, 0, 4, 14},
+                              {3, 13, 15, 7},    {1, 8, 9, 5},     {8, 2, 6, 9},     {5, 9, 6, none},
+                              {4, 5, 10, none},  {6, 7, 10, none}, {7, 4, 10, none}, {5, 11, 10, none},
+                              {11, 6, 10, none}, {5, 6, 11, none}};
   mesh.solution.emplace();
   mesh.solution->names = {"density", "x_velocity"};
   for (int i = 0; i < std::ssize(mesh.points); ++i)
@@ -49,9 +49,9 @@ SolidMesh sample() {
   return mesh;
 }
 
-SolidMesh through_file(const SolidMesh& mesh, const std::string& path) {
+FileMesh through_file(const FileMesh& mesh, const std::string& path) {
   test::write_alone(Communicator(MPI_COMM_SELF), mesh, path);
-  std::optional<SolidMesh> back = read_solid(path);
+  std::optional<FileMesh> back = test::read_solid(path);
   EXPECT_TRUE(back);
   EXPECT_TRUE(back->warnings.empty());
   return std::move(*back);
@@ -60,7 +60,7 @@ SolidMesh through_file(const SolidMesh& mesh, const std::string& path) {
 /// These tell the faces of cells, not with which node they begin.
 bool keeps_first_nodes(const std::string& format) { return format != "polyMesh" && format != "fluent.msh"; }
 
-void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node) {
+void expect_same(const FileMesh& back, const FileMesh& mesh, bool to_the_node) {
   EXPECT_EQ(back.points, mesh.points);
   for_each_kind_of_cell([&]<std::size_t width>() {
     auto found = cells_of<width>(back), wanted = cells_of<width>(mesh);
@@ -70,10 +70,10 @@ void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node)
     }
     EXPECT_EQ(found, wanted);
   });
-  ASSERT_EQ(back.patches.size(), mesh.patches.size());
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    EXPECT_EQ(back.patches[p].name, mesh.patches[p].name);
-    EXPECT_EQ(back.patches[p].faces.size(), mesh.patches[p].faces.size());
+  ASSERT_EQ(back.boundaries.size(), mesh.boundaries.size());
+  for (std::size_t p = 0; p < mesh.boundaries.size(); ++p) {
+    EXPECT_EQ(back.boundaries[p].name, mesh.boundaries[p].name);
+    EXPECT_EQ(back.boundaries[p].faces.size(), mesh.boundaries[p].faces.size());
   }
   const SolidFigures figures = check_solid(back);
   EXPECT_TRUE(figures.faults.empty()) << figures.faults.front().what;
@@ -82,15 +82,15 @@ void expect_same(const SolidMesh& back, const SolidMesh& mesh, bool to_the_node)
 TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
-  const SolidMesh mesh = sample();
+  const FileMesh mesh = sample();
   for (const std::string& first : formats_for({Content::solid})) {
     for (const std::string& second : formats_for({Content::solid})) {
       SCOPED_TRACE(first + " to " + second);
-      const SolidMesh between = through_file(mesh, folder.file("a." + first));
-      const SolidMesh back = through_file(between, folder.file("b." + second));
+      const FileMesh between = through_file(mesh, folder.file("a." + first));
+      const FileMesh back = through_file(between, folder.file("b." + second));
       expect_same(back, mesh, keeps_first_nodes(first) && keeps_first_nodes(second));
       const FileFormat &from = *format_named(first), &to = *format_named(second);
-      const bool carried = from.solution_in_solid && to.solution_in_solid;
+      const bool carried = from.holds(Content::solution) && to.holds(Content::solution);
       ASSERT_EQ(back.solution.has_value(), carried);
       if (carried) {
         EXPECT_EQ(back.solution->names, mesh.solution->names);
@@ -98,13 +98,14 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
         EXPECT_EQ(back.solution->cells.names, mesh.solution->cells.names);
         EXPECT_EQ(back.solution->cells.values, mesh.solution->cells.values);
       }
-      const bool conditions = from.conditions_in_solid && to.conditions_in_solid;
+      const bool conditions = from.holds(Content::conditions) && to.holds(Content::conditions);
       const char* unknown = second == "fluent.msh" ? "wall" : "none";
-      EXPECT_EQ(back.patches[0].condition, conditions ? "wall" : unknown);
-      EXPECT_EQ(back.patches[1].condition, conditions ? "symmetry" : unknown);
-      const std::size_t losses = (from.solution_in_solid && !to.solution_in_solid ? 1U : 0U) +
-                                 (from.conditions_in_solid && !to.conditions_in_solid ? 1U : 0U) +
-                                 (!from.conditions_in_solid && to.unknown_boundary != nullptr ? 1U : 0U);
+      EXPECT_EQ(back.boundaries[0].condition, conditions ? "wall" : unknown);
+      EXPECT_EQ(back.boundaries[1].condition, conditions ? "symmetry" : unknown);
+      const std::size_t losses =
+          (from.holds(Content::solution) && !to.holds(Content::solution) ? 1U : 0U) +
+          (from.holds(Content::conditions) && !to.holds(Content::conditions) ? 1U : 0U) +
+          (!from.holds(Content::conditions) && to.unknown_boundary != nullptr ? 1U : 0U);
       EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
     }
   }
@@ -114,10 +115,10 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
 TEST(ConvertSolid, PrismsHaveTheOrderOfEachFormat) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
-  SolidMesh mesh;
+  FileMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   mesh.prisms = {{0, 1, 2, 3, 4, 5}};
-  mesh.patches = {
+  mesh.boundaries = {
       {"all", "none", {{0, 2, 1, none}, {3, 4, 5, none}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}}};
   for (const auto& [format, row] : {std::pair{"su2", "13 0 2 1 3 5 4"}, {"msh", "6 2 2 2 1 2 3 4 5 6"}}) {
     const std::string path = folder.file(std::string("a.") + format);
@@ -134,7 +135,7 @@ TEST(ConvertSolid, CellsThatAreInsideOutAreTurned) {
   const std::string path = folder.file("a.su2");
   std::ofstream(path)
       << "NDIME= 3\nNELEM= 1\n13 0 1 2 3 4 5\nNPOIN= 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n";
-  const std::optional<SolidMesh> mesh = read_solid(path);
+  const std::optional<FileMesh> mesh = test::read_solid(path);
   ASSERT_EQ(mesh->warnings, std::vector<std::string>{path + ": 1 cell was inside out and turned"});
   EXPECT_EQ(mesh->prisms, (std::vector<std::array<std::int32_t, 6>>{{0, 1, 2, 3, 4, 5}}));
 }
@@ -152,12 +153,12 @@ TEST(ConvertSolid, OfSeveralGroupsOfGmshTheSmallestIsTaken) {
       << "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n6\n"
          "1 2 2 1 1 1 3 2\n2 2 2 2 1 1 3 2\n3 2 2 1 2 1 2 4\n4 2 2 1 3 2 3 4\n5 2 2 1 4 3 1 4\n"
          "6 4 2 5 1 1 2 3 4\n$EndElements\n";
-  std::optional<SolidMesh> mesh = read_solid(path);
-  ASSERT_EQ(mesh->patches.size(), 2);
-  EXPECT_EQ(mesh->patches[0].name, "skin");
-  EXPECT_EQ(mesh->patches[0].faces.size(), 3);
-  EXPECT_EQ(mesh->patches[1].name, "inlet");
-  EXPECT_EQ(mesh->patches[1].faces.size(), 1);
+  std::optional<FileMesh> mesh = test::read_solid(path);
+  ASSERT_EQ(mesh->boundaries.size(), 2);
+  EXPECT_EQ(mesh->boundaries[0].name, "skin");
+  EXPECT_EQ(mesh->boundaries[0].faces.size(), 3);
+  EXPECT_EQ(mesh->boundaries[1].name, "inlet");
+  EXPECT_EQ(mesh->boundaries[1].faces.size(), 1);
   EXPECT_TRUE(check_solid(*mesh).faults.empty());
   EXPECT_EQ(mesh->warnings,
             (std::vector<std::string>{
@@ -177,17 +178,17 @@ TEST(ConvertSolid, Su2ZonesAreBlocks) {
                       << marker << "IZONE= 2\n"
                       << tetrahedron << "0 0 -2\n"
                       << marker;
-  const std::optional<SolidMesh> mesh = read_solid(path);
+  const std::optional<FileMesh> mesh = test::read_solid(path);
   EXPECT_EQ(mesh->block_names, (std::vector<std::string>{"zone_1", "zone_2"}));
-  EXPECT_EQ(mesh->cell_to_block, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(blocks_of_cells(*mesh), (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(mesh->tetrahedra[1], (std::array{4, 6, 5, 7}));
-  ASSERT_EQ(mesh->patches.size(), 1);
-  EXPECT_EQ(mesh->patches[0].faces.size(), 8);
+  ASSERT_EQ(mesh->boundaries.size(), 1);
+  EXPECT_EQ(mesh->boundaries[0].faces.size(), 8);
 }
 
 TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {
   const Communicator alone(MPI_COMM_SELF);
-  const SolidMesh mesh = sample();
+  const FileMesh mesh = sample();
   const SolidStream stream(alone, mesh);
   const SolidCellValues cells(stream);
   EXPECT_EQ(cells.of_cell<4>(0, 1), 1);
@@ -196,8 +197,8 @@ TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {
   EXPECT_EQ(cells.of_face<4>(0, 0, 1), 4);  // the floor of either cube
   EXPECT_EQ(cells.of_face<4>(0, 1, 1), 5);
   EXPECT_EQ(cells.of_face<3>(0, 0, 1), 3);  // and of the prism
-  SolidMesh stray = sample();
-  stray.patches[1].faces.push_back({0, 2, 5, none});
+  FileMesh stray = sample();
+  stray.boundaries[1].faces.push_back({0, 2, 5, none});
   EXPECT_THROW(SolidCellValues(SolidStream(alone, stray)), OutputError);
 }
 
@@ -227,17 +228,17 @@ TEST(ConvertSolid, PiecesArePutTogether) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
-  const SolidMesh whole = sample();
-  SolidMesh first = whole, second = whole;
+  const FileMesh whole = sample();
+  FileMesh first = whole, second = whole;
   first.prisms.clear();
   first.tetrahedra.clear();
   first.solution->cells.values = {0.2, 2, 1 / 7.0, 4, 5e-9, 5};
   second.hexahedra.clear();
   second.solution->cells.values = {0.1, 1, 9, 9, 0.3, 3};
-  for (SolidMesh* piece : {&first, &second}) piece->patches.clear();
-  first.patches = {whole.patches[0], whole.patches[1]};
-  first.patches[0].faces.pop_back();
-  second.patches = {{"floor", "none", {whole.patches[0].faces[2]}}};
+  for (FileMesh* piece : {&first, &second}) piece->boundaries.clear();
+  first.boundaries = {whole.boundaries[0], whole.boundaries[1]};
+  first.boundaries[0].faces.pop_back();
+  second.boundaries = {{"floor", "none", {whole.boundaries[0].faces[2]}}};
   test::write_alone(alone, first, folder.file("a.vtu"));
   test::write_alone(alone, second, folder.file("b.vtu"));
   const auto list = [](const std::string& sources) {
@@ -246,20 +247,20 @@ TEST(ConvertSolid, PiecesArePutTogether) {
   };
   const std::string a = "<Piece Source=\"a.vtu\"/>", b = "<Piece Source=\"b.vtu\"/>";
   test::write_bytes(folder.file("all.pvtu"), list(a + b));
-  const std::optional<SolidMesh> back = read_solid(folder.file("all.pvtu"));
+  const std::optional<FileMesh> back = test::read_solid(folder.file("all.pvtu"));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->points, whole.points);
   for_each_kind_of_cell(
       [&]<std::size_t width>() { EXPECT_EQ(cells_of<width>(*back), cells_of<width>(whole)); });
   EXPECT_EQ(back->solution->values, whole.solution->values);
   EXPECT_EQ(back->solution->cells.values, whole.solution->cells.values);
-  ASSERT_EQ(back->patches.size(), 2);
-  EXPECT_EQ(back->patches[0].faces, whole.patches[0].faces);
+  ASSERT_EQ(back->boundaries.size(), 2);
+  EXPECT_EQ(back->boundaries[0].faces, whole.boundaries[0].faces);
   test::write_bytes(folder.file("one.pvtu"), list(b));
-  EXPECT_EQ(read_solid(folder.file("one.pvtu"))->pyramids, whole.pyramids);
+  EXPECT_EQ(test::read_solid(folder.file("one.pvtu"))->pyramids, whole.pyramids);
   second.solution->cells.names = {"p", "level"};
   test::write_alone(alone, second, folder.file("b.vtu"));
-  EXPECT_THROW(read_solid(folder.file("all.pvtu")), InputError);
+  EXPECT_THROW(test::read_solid(folder.file("all.pvtu")), InputError);
 }
 
 TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
@@ -276,22 +277,22 @@ TEST(ConvertSolid, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
 TEST(ConvertSolid, EmptyPatchesComeThroughAPolyMesh) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
-  SolidMesh mesh = sample();
-  mesh.patches[2].is_empty = true;
-  const SolidMesh back = through_file(mesh, folder.file("a.polyMesh"));
-  EXPECT_FALSE(back.patches[0].is_empty);
-  EXPECT_TRUE(back.patches[2].is_empty);
+  FileMesh mesh = sample();
+  mesh.boundaries[2].is_empty = true;
+  const FileMesh back = through_file(mesh, folder.file("a.polyMesh"));
+  EXPECT_FALSE(back.boundaries[0].is_empty);
+  EXPECT_TRUE(back.boundaries[2].is_empty);
 }
 
 TEST(ConvertSolid, FormatsOfFacesNeedEachFaceOnce) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
-  SolidMesh open = sample(), twice = sample(), stray = sample();
-  open.patches[1].faces.clear();
-  twice.patches[1].faces.push_back(twice.patches[0].faces[0]);
-  stray.patches[1].faces.push_back({0, 2, 5, none});
-  for (const SolidMesh* mesh : {&open, &twice, &stray}) {
+  FileMesh open = sample(), twice = sample(), stray = sample();
+  open.boundaries[1].faces.clear();
+  twice.boundaries[1].faces.push_back(twice.boundaries[0].faces[0]);
+  stray.boundaries[1].faces.push_back({0, 2, 5, none});
+  for (const FileMesh* mesh : {&open, &twice, &stray}) {
     EXPECT_THROW(test::write_alone(alone, *mesh, folder.file("a.polyMesh")), OutputError);
     EXPECT_THROW(test::write_alone(alone, *mesh, folder.file("a.fluent.msh")), OutputError);
   }

@@ -10,12 +10,10 @@
 
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/solid/block_collector.hpp"
-#include "io/solid_file.hpp"
+#include "io/model/cell_faces.hpp"
+#include "io/model/check_solid.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
-#include "mesher/solid/cell_faces.hpp"
-#include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
@@ -38,19 +36,20 @@ LoadedMesh two_blocks() {
 }
 
 /// Of each cell by its nodes, whatever their order.
-std::map<std::vector<std::int32_t>, std::string> blocks_by_nodes(const SolidMesh& mesh) {
+std::map<std::vector<std::int32_t>, std::string> blocks_by_nodes(const FileMesh& mesh) {
   std::map<std::vector<std::int32_t>, std::string> blocks;
+  const std::vector<std::int32_t> block_of = blocks_of_cells(mesh);
   for_each_cell(mesh, [&](const auto& cell, std::int64_t number) {
     std::vector<std::int32_t> nodes(cell.begin(), cell.end());
     std::ranges::sort(nodes);
-    blocks[nodes] = mesh.block_names.empty() ? "domain" : mesh.block_names[mesh.cell_to_block[number]];
+    blocks[nodes] = mesh.block_names.empty() ? "domain" : mesh.block_names[block_of[number]];
   });
   return blocks;
 }
 
 Names formats_with_blocks() {
   Names names = formats_for({Content::solid});
-  std::erase_if(names, [](const std::string& name) { return !format_named(name)->blocks_in_solid; });
+  std::erase_if(names, [](const std::string& name) { return !format_named(name)->holds(Content::blocks); });
   return names;
 }
 
@@ -72,13 +71,13 @@ TEST(SolidBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
     SCOPED_TRACE(format);
     const test::TemporaryFolder folder;
     OutputSet outputs(world());
-    write_solid(outputs, mesh, path_of(folder, format));
+    write_mesh(outputs, mesh, path_of(folder, format));
     outputs.commit();
     if (!world().is_root()) continue;
-    const std::optional<SolidMesh> back = read_solid(path_of(folder, format));
+    const std::optional<FileMesh> back = test::read_solid(path_of(folder, format));
     ASSERT_TRUE(back);
     ASSERT_EQ(back->block_names, whole.block_names);
-    ASSERT_EQ(back->cell_to_block.size(), 30);
+    ASSERT_EQ(blocks_of_cells(*back).size(), 30);
     const SolidFigures figures = check_solid(*back);
     EXPECT_TRUE(figures.faults.empty());
     ASSERT_EQ(figures.blocks.size(), 2);
@@ -93,37 +92,39 @@ TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
-  SolidMesh mesh;
+  FileMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},    {1, 0, 1},
                  {1, 1, 1}, {0, 1, 1}, {2, 0, 0}, {2, 0, 1}, {0.5, 0.5, 2}};
   mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
   mesh.prisms = {{1, 8, 2, 5, 9, 6}};
   mesh.pyramids = {{4, 5, 6, 7, 10}};
-  constexpr std::int32_t no_node = SolidPatch::no_node;
-  mesh.patches = {{"rest",
-                   "wall",
-                   {{3, 2, 1, 0},
-                    {1, 2, 8, no_node},
-                    {0, 1, 5, 4},
-                    {2, 3, 7, 6},
-                    {3, 0, 4, 7},
-                    {1, 8, 9, 5},
-                    {8, 2, 6, 9},
-                    {5, 9, 6, no_node},
-                    {4, 5, 10, no_node},
-                    {5, 6, 10, no_node},
-                    {6, 7, 10, no_node},
-                    {7, 4, 10, no_node}}}};
+  constexpr std::int32_t no_node = FileBoundary::no_node;
+  mesh.boundaries = {{"rest",
+                      "wall",
+                      {{3, 2, 1, 0},
+                       {1, 2, 8, no_node},
+                       {0, 1, 5, 4},
+                       {2, 3, 7, 6},
+                       {3, 0, 4, 7},
+                       {1, 8, 9, 5},
+                       {8, 2, 6, 9},
+                       {5, 9, 6, no_node},
+                       {4, 5, 10, no_node},
+                       {5, 6, 10, no_node},
+                       {6, 7, 10, no_node},
+                       {7, 4, 10, no_node}}}};
   mesh.block_names = {"tip", "base"};
-  mesh.cell_to_block = {0, 1, 1};  // pyramid, prism, hexahedron
+  mesh.cell_to_block[static_cast<std::size_t>(CellKind::pyramid)] = {0};
+  mesh.cell_to_block[static_cast<std::size_t>(CellKind::prism)] = {1};
+  mesh.cell_to_block[static_cast<std::size_t>(CellKind::hexahedron)] = {1};
   ASSERT_TRUE(check_solid(mesh).faults.empty());
   for (const std::string& first : formats_with_blocks()) {
     for (const std::string& second : formats_with_blocks()) {
       SCOPED_TRACE(first + " to " + second);
       test::write_alone(alone, mesh, path_of(folder, first));
-      const std::optional<SolidMesh> between = read_solid(path_of(folder, first));
+      const std::optional<FileMesh> between = test::read_solid(path_of(folder, first));
       test::write_alone(alone, *between, folder.file("b." + second));
-      const std::optional<SolidMesh> back = read_solid(folder.file("b." + second));
+      const std::optional<FileMesh> back = test::read_solid(folder.file("b." + second));
       EXPECT_TRUE(back->warnings.empty());
       EXPECT_EQ(blocks_by_nodes(*back), blocks_by_nodes(mesh));
       EXPECT_TRUE(check_solid(*back).faults.empty());
@@ -157,43 +158,24 @@ TEST(SolidBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
   };
   write_zones(
       "2 ( a { type cellZone; cellLabels List<label> 2(0 14); } b { cellLabels List<label> 2 ( 3 0 ); } )");
-  const std::optional<SolidMesh> back = read_solid(path);
+  const std::optional<FileMesh> back = test::read_solid(path);
   EXPECT_EQ(back->block_names, (Names{"a", "b", "domain"}));
-  EXPECT_EQ(back->cell_to_block, (std::vector<std::int32_t>{0, 2, 2, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 0}));
+  EXPECT_EQ(blocks_of_cells(*back), (std::vector<std::int32_t>{0, 2, 2, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 0}));
   ASSERT_EQ(back->warnings.size(), 1);
   EXPECT_NE(back->warnings[0].find("1 cells are in several zones"), std::string::npos);
   const LoadedMesh plane = read_mesh(path);  // has the cells of a block one after another
   EXPECT_TRUE(std::ranges::is_sorted(plane.triangle_to_block));
   EXPECT_TRUE(std::ranges::is_sorted(plane.quad_to_block));
   write_zones("1 ( a { type cellZone; cellLabels List<label> 1(15); } )");
-  EXPECT_THROW(read_solid(path), InputError);
+  EXPECT_THROW(test::read_solid(path), InputError);
   write_zones("1 ( a { type cellZone; cellLabels List<label> 0(); } )");
-  EXPECT_TRUE(read_solid(path)->block_names.empty());
+  EXPECT_FALSE(test::read_solid(path)->has_blocks());
 }
 
 TEST(SolidBlocks, CellsAreNumberedBlockByBlock) {
   const Communicator alone(MPI_COMM_SELF);
   const PlaneBlocks blocks{{"a", "b"}, {1, 0, 1}, {0, 1}};
   EXPECT_EQ(numbers_by_block(alone, blocks), (std::vector<std::int64_t>{2, 0, 3, 1, 4}));
-}
-
-TEST(BlockCollector, LeavesOutBlocksWithoutCells) {
-  SolidMesh mesh;
-  BlockCollector blocks;
-  blocks.named("none");
-  mesh.prisms.push_back({0, 1, 2, 3, 4, 5});
-  blocks.take(mesh, blocks.named("b"));
-  mesh.tetrahedra.push_back({0, 1, 2, 6});
-  BlockCollector one = blocks;
-  one.take(mesh, one.named("b"));
-  blocks.take(mesh, blocks.named("a"));
-  blocks.put_into(mesh);
-  EXPECT_EQ(mesh.block_names, (Names{"b", "a"}));
-  EXPECT_EQ(mesh.cell_to_block, (std::vector<std::int32_t>{1, 0}));
-  SolidMesh single;
-  one.put_into(single);
-  EXPECT_TRUE(single.block_names.empty());
-  EXPECT_TRUE(single.cell_to_block.empty());
 }
 
 }  // namespace

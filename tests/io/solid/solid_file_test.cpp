@@ -1,7 +1,5 @@
 // Each format of 3D meshes reads what it writes, the same bytes come from any number of ranks, and what is
 // damaged is refused.
-#include "io/solid_file.hpp"
-
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -12,9 +10,11 @@
 #include <sstream>
 
 #include "io/formats.hpp"
+#include "io/mesh_file.hpp"
+#include "io/model/check_solid.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
-#include "mesher/solid/check_solid.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/solid/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -51,11 +51,11 @@ void write(const Communicator& comm, const Mesh& whole, const Field& solution, c
   const Mesh part = scatter_mesh(comm, whole, order);
   const Field field = scatter_field(comm, solution, part, order);
   OutputSet outputs(comm);
-  write_solid(outputs, extruded(part, {0, 0.5, 2}, axis, &field), path);
+  write_mesh(outputs, extruded(part, {0, 0.5, 2}, axis, &field), path);
   outputs.commit();
 }
 
-void expect_sample(const SolidMesh& mesh, const FileFormat& format) {
+void expect_sample(const FileMesh& mesh, const FileFormat& format) {
   EXPECT_EQ(mesh.points.size(), 54);
   EXPECT_EQ(mesh.prisms.size(), 20);
   EXPECT_EQ(mesh.hexahedra.size(), 10);
@@ -64,7 +64,7 @@ void expect_sample(const SolidMesh& mesh, const FileFormat& format) {
   EXPECT_NEAR(figures.volume, 10 * 2, 1e-12);
   ASSERT_EQ(figures.patches.size(), 4);
   const std::vector<std::string> own{"wall", "far field", "back", "front"};
-  const std::vector<std::string> names = format.patch_names == nullptr ? own : format.patch_names(own);
+  const std::vector<std::string> names = format.boundary_names == nullptr ? own : format.boundary_names(own);
   const std::vector<double> areas{20, 8, 10, 10};
   for (std::size_t n = 0; n < 4; ++n) {
     EXPECT_EQ(figures.patches[n].name, format.name == "cgns" ? own[n] : names[n]);
@@ -73,7 +73,7 @@ void expect_sample(const SolidMesh& mesh, const FileFormat& format) {
 }
 
 /// Each cell has the values of the plane's cell that it stands on, two layers of each.
-void expect_values_of_cells(const SolidMesh& mesh, const CellValues& plane, ExtrusionAxis axis) {
+void expect_values_of_cells(const FileMesh& mesh, const CellValues& plane, ExtrusionAxis axis) {
   ASSERT_TRUE(mesh.solution);
   const CellValues& cells = mesh.solution->cells;
   ASSERT_EQ(cells.names,
@@ -104,10 +104,10 @@ TEST(SolidFile, EachReadsWhatItWrites) {
       const std::string path = path_in(folder.path() + "/all", format);
       write(world(), whole, solution, path, axis);
       if (!world().is_root()) continue;
-      const std::optional<SolidMesh> mesh = read_solid(path);
+      const std::optional<FileMesh> mesh = test::read_solid(path);
       ASSERT_TRUE(mesh);
       expect_sample(*mesh, format);
-      if (format.solution_in_solid) expect_values_of_cells(*mesh, solution.cells, axis);
+      if (format.holds(Content::solution)) expect_values_of_cells(*mesh, solution.cells, axis);
       if (name == "cgns") continue;  // holds the time
       const Communicator alone(MPI_COMM_SELF);
       write(alone, whole, solution, path_in(folder.path() + "/alone", format), axis);
@@ -127,7 +127,7 @@ TEST(SolidFile, PlaneMeshesAreNone) {
     OutputSet outputs(alone);
     format_named(name)->write_mesh(outputs, mesh, path, nullptr);
     outputs.commit();
-    EXPECT_FALSE(read_solid(path)) << name;
+    EXPECT_FALSE(test::read_solid(path)) << name;
   }
 }
 
@@ -165,7 +165,7 @@ TEST(SolidFile, DamagedOnesAreRefusedOrRead) {
       }
       std::ofstream(damaged, std::ios::binary) << bytes;
       try {
-        if (const std::optional<SolidMesh> mesh = read_solid(path)) check_solid(*mesh);
+        if (const std::optional<FileMesh> mesh = test::read_solid(path)) check_solid(*mesh);
       } catch (const InputError& refusal) {
         EXPECT_NE(std::string(refusal.what()).find(folder.path()), std::string::npos) << refusal.what();
       }

@@ -1,18 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "io/files/output_file.hpp"
-#include "io/solid_file.hpp"
+#include "io/mesh_file.hpp"
 
 namespace quadloop::test {
 
 /// The mesh, which one rank holds whole, as the only output of a set.
-inline void write_alone(const Communicator& alone, const SolidMesh& mesh, const std::string& path,
+inline void write_alone(const Communicator& alone, const FileMesh& mesh, const std::string& path,
                         const std::string& format = {}) {
   OutputSet outputs(alone);
-  write_solid(outputs, mesh, path, format);
+  write_mesh(outputs, mesh, path, format);
   outputs.commit();
+}
+
+/// The 3D mesh of a file; none where it holds a plane one.
+inline std::optional<FileMesh> read_solid(const std::string& path) {
+  MeshOfFile mesh = read_mesh_file(path);
+  if (std::holds_alternative<LoadedMesh>(mesh)) return {};
+  return std::get<FileMesh>(std::move(mesh));
 }
 
 }  // namespace quadloop::test

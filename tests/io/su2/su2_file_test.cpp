@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
@@ -16,7 +17,7 @@ using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
-const test::ReaderCheck check{read_su2, "m.su2"};
+const test::ReaderCheck check{test::read_plane<read_su2>, "m.su2"};
 
 /// A unit square as a quad with a triangle on top; the line numbers below count in it.
 const std::string house =
@@ -115,7 +116,7 @@ TEST(Su2Reader, RefusesWhatItDoesNotKnow) {
   check.expect_refusal(replaced(house, "9 0 1 2 3", "66 0 1 2 3"), "m.su2:3: ", "type 66;");
   check.expect_refusal(replaced(house, "3 0 1\n", "1 0\n"),
                        "m.su2:14: ", "marker floor has an element of type 1 (vertex)");
-  check.expect_refusal(replaced(house, "NDIME= 2", "NDIME= 3"), "m.su2:1: ", "3 dimensions");
+  check.expect_refusal(replaced(house, "NDIME= 2", "NDIME= 1"), "m.su2:1: ", "1 dimensions");
   check.expect_refusal(replaced(house, "5 3 2 4", "22 3 2 4 0 1 2"),
                        "m.su2:4: ", "22 (triangle of second order)");
   check.expect_refusal(replaced(house, "5 3 2 4", "105 3 2 4 0 1 2"),
@@ -183,7 +184,7 @@ TEST(Su2Writer, GivesMarkersNamesThatSu2Takes) {
   mesh.boundaries[0].name = "far,field";
   mesh.boundaries.push_back({"nothing", "none", {}});
   write_su2(test::world(), mesh, folder.file("m.su2"));
-  const LoadedMesh loaded = read_su2(folder.file("m.su2"));
+  const LoadedMesh loaded = test::read_plane<read_su2>(folder.file("m.su2"));
   ASSERT_EQ(loaded.mesh.boundaries.size(), 2U);
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "far_field");
   EXPECT_EQ(loaded.mesh.boundaries[1].name, "far_field_2");

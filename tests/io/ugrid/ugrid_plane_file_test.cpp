@@ -5,6 +5,7 @@
 
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 using test::replaced;
 
-const test::ReaderCheck check{read_ugrid_plane, "m.ugrid"};
+const test::ReaderCheck check{test::read_plane<read_ugrid_plane>, "m.ugrid"};
 
 /// A unit square as a quad with a triangle on top; the line numbers below count in it.
 const std::string house =
@@ -42,12 +43,12 @@ TEST(UgridPlane, NamesStandInTheMapbc) {
   const test::TemporaryFolder folder;
   test::write_bytes(folder.file("m.ugrid"), house);
   test::write_bytes(folder.file("m.mapbc"), "2\n1 4000 floor\n7 5000 walls\n");
-  const LoadedMesh loaded = read_ugrid_plane(folder.file("m.ugrid"));
+  const LoadedMesh loaded = test::read_plane<read_ugrid_plane>(folder.file("m.ugrid"));
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "floor");
   EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
   EXPECT_EQ(loaded.mesh.boundaries[1].condition, "farfield");
   test::write_bytes(folder.file("m.ugrid.mapbc"), "2\n1 0 own\n7 5000 walls\n");
-  EXPECT_EQ(read_ugrid_plane(folder.file("m.ugrid")).mesh.boundaries[0].name, "own");
+  EXPECT_EQ(test::read_plane<read_ugrid_plane>(folder.file("m.ugrid")).mesh.boundaries[0].name, "own");
 }
 
 TEST(UgridPlane, RefusesWhatItCannotRead) {

@@ -10,6 +10,7 @@
 #include "io/mesh_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 
@@ -63,7 +64,7 @@ class PvtuReader : public ::testing::Test {
   }
   void expect_refusal(const std::string& says) {
     try {
-      read_pvtu(folder_.file("m.pvtu"));
+      test::read_plane<read_pvtu>(folder_.file("m.pvtu"));
       ADD_FAILURE() << "not refused: " << says;
     } catch (const InputError& refusal) {
       EXPECT_NE(std::string(refusal.what()).find(says), std::string::npos) << refusal.what();
@@ -74,7 +75,7 @@ class PvtuReader : public ::testing::Test {
 };
 
 TEST_F(PvtuReader, PutsPiecesTogether) {
-  const LoadedMesh loaded = read_pvtu(folder_.file("m.pvtu"));
+  const LoadedMesh loaded = test::read_plane<read_pvtu>(folder_.file("m.pvtu"));
   EXPECT_TRUE(validate(loaded.mesh).empty());
   EXPECT_EQ(loaded.mesh.points,
             (std::vector<Point>{{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {3, 0}}));
@@ -92,7 +93,7 @@ TEST_F(PvtuReader, KeepsTheValuesOfCells) {
   };
   with_cells("parts/a.vtu", "p", "0.5 0.25");
   with_cells("parts/b.vtu", "p", "0.125 8");  // its first cell is the first piece's second
-  const LoadedMesh loaded = read_pvtu(folder_.file("m.pvtu"));
+  const LoadedMesh loaded = test::read_plane<read_pvtu>(folder_.file("m.pvtu"));
   EXPECT_EQ(loaded.solution->cells.names, std::vector<std::string>{"p"});
   EXPECT_EQ(loaded.solution->cells.values, (std::vector<double>{0.5, 0.25, 8}));
   EXPECT_EQ(loaded.solution->values, (std::vector<double>{1, 2, 3, 4, 5, 6, 8, 7}));

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mesher/mesh/check/validate.hpp"
+#include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
@@ -20,7 +21,7 @@ using test::node;
 using test::replaced;
 using test::TemporaryFolder;
 
-const test::ReaderCheck check{read_vtu, "m.vtu"};
+const test::ReaderCheck check{test::read_plane<read_vtu>, "m.vtu"};
 
 /// A unit square as a quad with a triangle on top, as a program that knows nothing of boundaries writes it;
 /// line numbers below count in it.
@@ -305,7 +306,7 @@ TEST(VtuFile, ComesBackWithBlocksBoundariesAndSolution) {
   OutputSet outputs(test::world());
   write_vtu(outputs, whole, folder.file("m.vtu"));
   outputs.commit();
-  const LoadedMesh loaded = read_vtu(folder.file("m.vtu"));
+  const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("m.vtu"));
   EXPECT_EQ(loaded.mesh.points, whole.mesh.points);
   EXPECT_EQ(loaded.mesh.triangles, whole.mesh.triangles);
   EXPECT_EQ(loaded.mesh.quads, whole.mesh.quads);
@@ -331,7 +332,7 @@ TEST(VtuWriter, ControlCharactersInNamesAreNoXml) {
   OutputSet outputs(test::world());
   write_vtu(outputs, whole, folder.file("m.vtu"));
   outputs.commit();
-  const LoadedMesh loaded = read_vtu(folder.file("m.vtu"));
+  const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("m.vtu"));
   EXPECT_EQ(loaded.mesh.boundaries[1].name, "inner\x01wall");  // a list of codes holds it
   EXPECT_EQ(loaded.solution->names, (std::vector<std::string>{"p_q", "pressure"}));
 }
@@ -345,7 +346,7 @@ TEST(VtuWriter, NamesBoundariesForPeople) {
   const std::string bytes = test::bytes_of(folder.file("m.vtu"));
   EXPECT_NE(bytes.find("Name=\"a &quot;wet&quot; wall\" NumberOfTuples=\"2\" format=\"ascii\">\n2 1\n"),
             std::string::npos);
-  const LoadedMesh loaded = read_vtu(folder.file("m.vtu"));
+  const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("m.vtu"));
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "boundary_names");
   EXPECT_EQ(loaded.mesh.boundaries[1].name, "a \"wet\" wall");
 }

@@ -18,7 +18,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "io/files/reading/value_pipe.hpp"
 #include "io/files/staging_folder.hpp"
-#include "io/loaded/pass_mesh.hpp"
+#include "io/model/pass_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 

@@ -1,0 +1,350 @@
+#include "io/model/clean_up.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "io/model/mesh_of_file.hpp"
+#include "io/model/orient_cells.hpp"
+#include "io/model/repeated_rows.hpp"
+#include "mesher/base/ids.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using Face = FileBoundary::Face;
+
+/// With the rows of `width` values that begin at `rows`.
+template <class Cells>
+void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::vector<double>::iterator rows,
+                   std::size_t width) {
+  if (std::is_sorted(cell_to_block.begin(), cell_to_block.end())) return;
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cell_to_block[a] < cell_to_block[b]; });
+  Cells sorted;
+  sorted.reserve(cells.size());
+  for (const std::size_t cell : order) sorted.push_back(cells[cell]);
+  cells = std::move(sorted);
+  std::vector<double> sorted_rows;
+  for (const std::size_t cell : order)
+    sorted_rows.insert(sorted_rows.end(), rows + cell * width, rows + (cell + 1) * width);
+  std::ranges::copy(sorted_rows, rows);
+  std::sort(cell_to_block.begin(), cell_to_block.end());
+}
+
+std::int64_t size_of_group(const std::vector<std::int64_t>& sizes, std::int32_t group) {
+  return group < std::ssize(sizes) ? sizes[group] : 0;
+}
+
+/// Drops the cells of one kind that stand for others. Takes their rows from the front of `rows`, and appends
+/// those of the cells that stay to `kept_values`.
+template <class Cells>
+void drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::size_t width,
+                         std::span<const std::string> block_names, const GroupSizes& sizes,
+                         std::span<const double>& rows, std::vector<double>& kept_values,
+                         RepeatedElements& repeated) {
+  const auto kept = kept_rows(
+      cells, [](const auto& nodes) { return nodes; },
+      [&](std::size_t i) { return size_of_group(sizes.of_blocks, cell_to_block[i]); });
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto row = rows.subspan(i * width, width);
+    if (kept[i] == i) kept_values.insert(kept_values.end(), row.begin(), row.end());
+    if (kept[i] != i) ++repeated[{block_names[cell_to_block[kept[i]]], block_names[cell_to_block[i]]}];
+  }
+  rows = rows.subspan(cells.size() * width);
+  keep_rows(cell_to_block, kept);
+  keep_rows(cells, kept);
+}
+
+void drop_repeated_faces(FileMesh& mesh, const GroupSizes& sizes, RepeatedElements& repeated) {
+  struct FaceOfBoundary {
+    Face nodes;
+    std::int32_t boundary;
+    std::size_t place;
+  };
+  std::vector<FaceOfBoundary> faces;
+  for (std::int32_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
+    const FileBoundary& boundary = mesh.boundaries[b];
+    for (std::size_t i = 0; i < boundary.faces.size(); ++i)
+      faces.push_back({boundary.faces[i], b, boundary.places.empty() ? 0 : boundary.places[i]});
+  }
+  const auto kept = kept_rows(
+      faces, [](const FaceOfBoundary& face) { return face.nodes; },
+      [&](std::size_t i) { return size_of_group(sizes.of_boundaries, faces[i].boundary); });
+  for (FileBoundary& boundary : mesh.boundaries) boundary.faces.clear();
+  for (FileBoundary& boundary : mesh.boundaries) boundary.places.clear();
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    FileBoundary& boundary = mesh.boundaries[faces[i].boundary];
+    if (kept[i] == i) {
+      boundary.faces.push_back(faces[i].nodes);
+      boundary.places.push_back(faces[i].place);
+    } else {
+      ++repeated[{mesh.boundaries[faces[kept[i]].boundary].name, boundary.name}];
+    }
+  }
+}
+
+/// Calls `visit(node)` for each node of each cell and of each boundary face.
+template <class FileMeshOrConst, class Visit>
+void for_each_named_node(FileMeshOrConst& mesh, const Visit& visit) {
+  for_each_kind([&]<CellKind kind>() {
+    for (auto& nodes : cells_of<kind>(mesh)) std::for_each(nodes.begin(), nodes.end(), visit);
+  });
+  for (auto& boundary : mesh.boundaries) {
+    for (auto& face : boundary.faces) {
+      for (auto& node : face) {
+        if (node != FileBoundary::no_node) visit(node);
+      }
+    }
+  }
+}
+
+/// Keeps the nodes whose `new_id` is not negative, and gives all that name a node the new number. The new
+/// numbers ascend.
+void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
+  for_each_named_node(mesh, [&](std::int32_t& node) { node = new_id[node]; });
+  std::ranges::for_each(mesh.periodic_nodes, [&](std::int32_t& node) { node = new_id[node]; });
+  std::erase(mesh.periodic_nodes, -1);
+}
+
+std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
+  const std::size_t at = cell;
+  const std::size_t triangles = loaded.triangle_to_block.size();
+  return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
+}
+
+[[noreturn]] void refuse_edge(const Mesh& mesh, const FileBoundary& boundary, std::size_t number,
+                              const TextScanner& scan) {
+  const Face& edge = boundary.faces[number];
+  const Point a = mesh.point(NodeId{edge[0]}), b = mesh.point(NodeId{edge[1]});
+  scan.refuse_at(boundary.places.empty() ? 0 : boundary.places[number],
+                 fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
+                             "cell; take it out of the boundary, "
+                             "or mesh the surface beside it",
+                             boundary.name, a.x, a.y, b.x, b.y));
+}
+
+/// Gives the edges to their boundaries, or to inner curves of the same names where they lie inside a block.
+void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded, const TextScanner& scan) {
+  const EdgeTable table(loaded.mesh);
+  for (const FileBoundary& boundary : boundaries) {
+    BoundaryEdges outer{boundary.name, boundary.condition, {}, boundary.layers}, inner{boundary.name, {}, {}};
+    for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+      NodeId from{boundary.faces[i][0]}, to{boundary.faces[i][1]};
+      const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
+      if (left < 0 && right < 0) refuse_edge(loaded.mesh, boundary, i, scan);
+      const bool between = left >= 0 && right >= 0;
+      if (between && block_of(loaded, left) == block_of(loaded, right)) {
+        inner.edges.push_back({from, to});
+        continue;
+      }
+      if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
+      outer.edges.push_back({from, to});
+    }
+    if (!outer.edges.empty()) loaded.mesh.boundaries.push_back(std::move(outer));
+    if (!inner.edges.empty()) loaded.inner_curves.push_back(std::move(inner));
+  }
+}
+
+void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (const BoundaryEdges& curve : loaded.inner_curves) {
+    names.push_back(curve.name);
+    count += curve.edges.size();
+  }
+  if (names.empty()) return;
+  loaded.warnings.push_back(
+      fmt::format("{}: {} edges between two cells are no boundary and were left out: those of {}", path,
+                  count, some_names(names)));
+}
+
+void add_outer_boundary(Mesh& mesh) {
+  const EdgeTable table(mesh);
+  BoundaryEdges outer{"boundary", "none", {}};
+  for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
+    if (table.cell_left_of(to, from) < 0) outer.edges.push_back({from, to});
+  });
+  if (!outer.edges.empty()) mesh.boundaries.push_back(std::move(outer));
+}
+
+/// The cells of one kind with typed node numbers.
+template <std::size_t width>
+std::vector<std::array<NodeId, width>> with_ids(const std::vector<std::array<std::int32_t, width>>& cells) {
+  std::vector<std::array<NodeId, width>> result;
+  result.reserve(cells.size());
+  for (const auto& nodes : cells) {
+    auto& ids = result.emplace_back();
+    std::ranges::transform(nodes, ids.begin(), [](std::int32_t node) { return NodeId{node}; });
+  }
+  return result;
+}
+
+/// All but the boundaries.
+LoadedMesh cells_and_points(FileMesh& file) {
+  LoadedMesh loaded;
+  Mesh& mesh = loaded.mesh;
+  mesh.points.reserve(file.points.size());
+  for (const Point3 p : file.points) mesh.points.push_back({p.x, p.y});
+  mesh.owned_nodes = size32(mesh.points);
+  mesh.triangles = with_ids(file.triangles);
+  mesh.quads = with_ids(file.quads);
+  mesh.strips = std::move(file.strips);
+  loaded.triangle_to_block = std::move(file.cell_to_block[0]);
+  loaded.quad_to_block = std::move(file.cell_to_block[1]);
+  loaded.block_names = std::move(file.block_names);
+  loaded.blocks = size32(loaded.block_names);
+  for (const std::int32_t node : file.periodic_nodes) loaded.periodic_nodes.push_back(NodeId{node});
+  loaded.solution = std::move(file.solution);
+  loaded.warnings = std::move(file.warnings);
+  return loaded;
+}
+
+}  // namespace
+
+void drop_repeated(FileMesh& mesh, const std::string& path, const GroupSizes& sizes) {
+  Field none;
+  CellValues& values = (mesh.solution ? *mesh.solution : none).cells;
+  const std::size_t width = values.width();
+  std::span<const double> rows = values.values;
+  std::vector<double> kept_values;
+  RepeatedElements repeated;
+  for_each_kind([&]<CellKind kind>() {
+    drop_repeated_cells(cells_of<kind>(mesh), mesh.cell_to_block[static_cast<std::size_t>(kind)], width,
+                        mesh.block_names, sizes, rows, kept_values, repeated);
+  });
+  drop_repeated_faces(mesh, sizes, repeated);
+  values.values = std::move(kept_values);
+  warn_of_repeated(repeated, path, mesh.warnings);
+}
+
+std::vector<char> used_nodes(const FileMesh& mesh) {
+  std::vector<char> is_used(mesh.points.size(), 0);
+  for_each_named_node(mesh, [&](std::int32_t node) { is_used[node] = 1; });
+  return is_used;
+}
+
+void drop_unused_nodes(FileMesh& mesh, const std::string& path) {
+  const std::vector<char> is_used = used_nodes(mesh);
+  const auto dropped = std::ranges::count(is_used, 0);
+  if (dropped == 0) return;
+  std::vector<std::int32_t> new_id(is_used.size(), -1);
+  std::int32_t kept = 0;
+  for (std::size_t node = 0; node < is_used.size(); ++node) {
+    if (is_used[node] == 0) continue;
+    mesh.points[kept] = mesh.points[node];
+    new_id[node] = kept++;
+  }
+  mesh.points.resize(kept);
+  renumber_nodes(mesh, new_id);
+  mesh.warnings.push_back(fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
+}
+
+void unite_nodes(FileMesh& mesh) {
+  std::vector<Point3>& points = mesh.points;
+  std::vector<std::int32_t> order(points.size()), first_of(points.size()), new_id(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](std::int32_t i) { return std::tuple(points[i].x, points[i].y, points[i].z); };
+  std::ranges::stable_sort(order, {}, place);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
+    first_of[order[k]] = again ? first_of[order[k - 1]] : order[k];
+  }
+  Field none;
+  Field& solution = mesh.solution ? *mesh.solution : none;
+  const auto width = std::ssize(solution.names);
+  std::int32_t kept = 0;
+  for (std::int32_t i = 0; i < std::ssize(points); ++i) {
+    if (first_of[i] == i) {
+      std::copy_n(solution.values.begin() + i * width, width, solution.values.begin() + kept * width);
+      points[kept] = points[i];
+      new_id[i] = kept++;
+    } else {
+      new_id[i] = new_id[first_of[i]];  // the first comes before
+    }
+  }
+  points.resize(kept);
+  solution.values.resize(kept * width);
+  renumber_nodes(mesh, new_id);
+}
+
+void drop_empty_groups(FileMesh& mesh) {
+  std::vector<std::int32_t> new_number(mesh.block_names.size(), -1);
+  for (const auto& blocks : mesh.cell_to_block) {
+    for (const std::int32_t block : blocks) new_number[block] = 0;
+  }
+  std::int32_t kept = 0;
+  for (std::size_t block = 0; block < new_number.size(); ++block) {
+    if (new_number[block] < 0) continue;
+    new_number[block] = kept;
+    std::swap(mesh.block_names[kept++], mesh.block_names[block]);
+  }
+  mesh.block_names.resize(kept);
+  for (auto& blocks : mesh.cell_to_block) {
+    for (std::int32_t& block : blocks) block = new_number[block];
+  }
+  std::erase_if(mesh.boundaries, [](const FileBoundary& boundary) { return boundary.faces.empty(); });
+}
+
+void order_by_blocks(LoadedMesh& loaded) {
+  Mesh& mesh = loaded.mesh;
+  if (!loaded.solution) loaded.solution.emplace();
+  CellValues& values = loaded.solution->cells;
+  const std::size_t width = values.width();
+  sort_by_block(mesh.triangles, loaded.triangle_to_block, values.values.begin(), width);
+  sort_by_block(mesh.quads, loaded.quad_to_block, values.values.begin() + mesh.triangles.size() * width,
+                width);
+  if (loaded.solution->empty()) loaded.solution.reset();
+}
+
+LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
+  if (file.triangles.empty() && file.quads.empty())
+    scan.refuse("the file has no triangle and no quadrilateral; a mesh needs cells");
+  drop_empty_groups(file);
+  LoadedMesh loaded = cells_and_points(file);
+  const std::int64_t turned = orient_cells(loaded.mesh);
+  order_by_blocks(loaded);
+  place_edges(file.boundaries, loaded, scan);
+  if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
+  if (turned > 0)
+    loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
+  warn_of_inner_curves(loaded, scan.path());
+  return loaded;
+}
+
+FileMesh file_mesh_of(const LoadedMesh& loaded) {
+  FileMesh file;
+  file.dimension = 2;
+  for (const Point p : loaded.mesh.points) file.points.push_back({p.x, p.y, 0});
+  const auto nodes_of = [](const auto& ids) {
+    std::array<std::int32_t, std::tuple_size_v<std::decay_t<decltype(ids)>>> nodes;
+    std::ranges::transform(ids, nodes.begin(), [](NodeId id) { return id.value(); });
+    return nodes;
+  };
+  for (const std::string& block : loaded.block_names) file.block_named(block);
+  for (std::size_t i = 0; i < loaded.mesh.triangles.size(); ++i)
+    add_cell<CellKind::triangle>(file, nodes_of(loaded.mesh.triangles[i]), loaded.triangle_to_block[i]);
+  for (std::size_t i = 0; i < loaded.mesh.quads.size(); ++i)
+    add_cell<CellKind::quad>(file, nodes_of(loaded.mesh.quads[i]), loaded.quad_to_block[i]);
+  for (const BoundaryEdges& boundary : loaded.mesh.boundaries) {
+    FileBoundary& own = file.boundaries[file.boundary_named(boundary.name)];
+    own.condition = boundary.condition;
+    own.layers = boundary.layers;
+    for (const auto& [from, to] : boundary.edges)
+      own.faces.push_back({from.value(), to.value(), FileBoundary::no_node, FileBoundary::no_node});
+  }
+  file.solution = loaded.solution;
+  file.strips = loaded.mesh.strips;
+  file.warnings = loaded.warnings;
+  return file;
+}
+
+}  // namespace quadloop

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/model/point3.hpp"
+#include "io/text/name_index.hpp"
+#include "mesher/mesh/field.hpp"
+#include "mesher/mesh/mesh.hpp"
+
+namespace quadloop {
+
+/// The boundary faces under one name: edges in a plane mesh, triangles and quads in a 3D mesh.
+struct FileBoundary {
+  static constexpr std::int32_t no_node = -1;
+  using Face = std::array<std::int32_t, 4>;  ///< nodes in turn; no_node after the last of an edge or triangle
+
+  std::string name, condition = "none";
+  std::vector<Face> faces;
+  bool is_empty = false;     ///< an end of a plane mesh that is one cell thick ("empty" in OpenFOAM)
+  bool is_periodic = false;  ///< its nodes have partners on another boundary ("cyclic" in OpenFOAM)
+  WallLayers layers = {};    ///< in a plane mesh
+  std::vector<std::size_t> places = {};  ///< of the faces in the file, for messages; may be empty
+};
+
+/// The kinds of cells: the first two are those of a plane mesh, the others those of a 3D mesh.
+enum class CellKind : std::uint8_t { triangle, quad, tetrahedron, pyramid, prism, hexahedron };
+inline constexpr std::size_t cell_kinds = 6;
+
+/// A mesh as a file has it, of two or three dimensions, whole on one rank. Nodes are counted from 0. The
+/// nodes of a 3D cell are in the order of CGNS: the first three or four counter-clockwise as seen from the
+/// others, which follow in the same order.
+struct FileMesh {
+  std::int32_t dimension = 3;
+  std::vector<Point3> points;  ///< z = 0 in a plane mesh
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::array<std::int32_t, 4>> quads;
+  std::vector<std::array<std::int32_t, 4>> tetrahedra;
+  std::vector<std::array<std::int32_t, 5>> pyramids;
+  std::vector<std::array<std::int32_t, 6>> prisms;
+  std::vector<std::array<std::int32_t, 8>> hexahedra;
+  std::vector<FileBoundary> boundaries;
+  std::optional<Field> solution;  ///< rows of cells are in the order of the kinds
+  std::vector<std::string> block_names;
+  /// For each kind the block of each cell, an index into block_names; empty where nothing is known of blocks.
+  std::array<std::vector<std::int32_t>, cell_kinds> cell_to_block;
+  std::vector<std::int32_t> periodic_nodes;  ///< of sides that a plane file marks as periodic
+  std::vector<StripLayers> strips;           ///< of a plane mesh
+  std::vector<std::string> warnings;         ///< what the reader changed or left out, with the file's name
+
+  /// The index of the boundary, or block, of this name, which is added if there is none.
+  std::int32_t boundary_named(const std::string& name) {
+    const auto [number, is_new] = boundary_numbers.entry_of(name);
+    if (is_new) boundaries.push_back({name, "none", {}});
+    return number;
+  }
+  std::int32_t block_named(const std::string& name) {
+    const auto [number, is_new] = block_numbers.entry_of(name);
+    if (is_new) block_names.push_back(name);
+    return number;
+  }
+  bool has_blocks() const { return block_names.size() > 1; }
+
+  /// Of the names that were given to the functions above, by which they are found again.
+  NameIndex boundary_numbers = {}, block_numbers = {};
+};
+
+/// The cells of a kind.
+template <CellKind kind, class FileMeshOrConst>
+auto& cells_of(FileMeshOrConst& mesh) {
+  if constexpr (kind == CellKind::triangle) return mesh.triangles;
+  if constexpr (kind == CellKind::quad) return mesh.quads;
+  if constexpr (kind == CellKind::tetrahedron) return mesh.tetrahedra;
+  if constexpr (kind == CellKind::pyramid) return mesh.pyramids;
+  if constexpr (kind == CellKind::prism) return mesh.prisms;
+  if constexpr (kind == CellKind::hexahedron) return mesh.hexahedra;
+}
+
+/// The kind of 3D cells with so many nodes.
+template <std::size_t width>
+constexpr CellKind kind_of_width() {
+  static_assert(width == 4 || width == 5 || width == 6 || width == 8);
+  return width == 4   ? CellKind::tetrahedron
+         : width == 5 ? CellKind::pyramid
+         : width == 6 ? CellKind::prism
+                      : CellKind::hexahedron;
+}
+
+/// The 3D cells with so many nodes.
+template <std::size_t width, class FileMeshOrConst>
+auto& cells_of(FileMeshOrConst& mesh) {
+  return cells_of<kind_of_width<width>()>(mesh);
+}
+
+/// Calls `visit.operator()<kind>()` for the kinds in their order.
+template <class Visit>
+void for_each_kind(const Visit& visit) {
+  visit.template operator()<CellKind::triangle>();
+  visit.template operator()<CellKind::quad>();
+  visit.template operator()<CellKind::tetrahedron>();
+  visit.template operator()<CellKind::pyramid>();
+  visit.template operator()<CellKind::prism>();
+  visit.template operator()<CellKind::hexahedron>();
+}
+
+/// Calls `visit.operator()<width>()` for the widths of 3D cells, in the order of their kinds.
+template <class Visit>
+void for_each_kind_of_cell(const Visit& visit) {
+  visit.template operator()<4>();
+  visit.template operator()<5>();
+  visit.template operator()<6>();
+  visit.template operator()<8>();
+}
+
+/// Adds a cell of a block.
+template <CellKind kind, class Nodes>
+void add_cell(FileMesh& mesh, const Nodes& nodes, std::int32_t block) {
+  cells_of<kind>(mesh).push_back(nodes);
+  mesh.cell_to_block[static_cast<std::size_t>(kind)].push_back(block);
+}
+
+/// The number of cells of all kinds.
+inline std::int64_t cell_count(const FileMesh& mesh) {
+  std::int64_t count = 0;
+  for_each_kind([&]<CellKind kind>() { count += std::ssize(cells_of<kind>(mesh)); });
+  return count;
+}
+
+/// The block of each cell, in the order of the kinds.
+inline std::vector<std::int32_t> blocks_of_cells(const FileMesh& mesh) {
+  std::vector<std::int32_t> all;
+  for (const auto& blocks : mesh.cell_to_block) all.insert(all.end(), blocks.begin(), blocks.end());
+  return all;
+}
+
+}  // namespace quadloop

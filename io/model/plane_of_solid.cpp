@@ -1,0 +1,249 @@
+#include "io/model/plane_of_solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "io/model/cell_faces.hpp"
+#include "io/model/clean_up.hpp"
+#include "io/model/solid_faces.hpp"
+#include "mesher/base/error.hpp"
+#include "mesher/mesh/topology.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// The plane's own axes and the one across it: u, v and across are right-handed.
+struct PlaneAxes {
+  char across = 'z';
+
+  Point in_plane(Point3 p) const {
+    return across == 'z' ? Point{p.x, p.y} : across == 'x' ? Point{p.y, p.z} : Point{p.x, p.z};
+  }
+  double along(Point3 p) const { return across == 'z' ? p.z : across == 'x' ? p.x : -p.y; }
+};
+
+/// Twice the area vector of a face; of a quad from its diagonals.
+Point3 twice_area(const FileMesh& mesh, const FileBoundary::Face& face) {
+  const auto at = [&](std::size_t i) { return mesh.points[face[i]]; };
+  return is_triangle(face) ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
+}
+
+PlaneAxes axes_of(const FileMesh& mesh) {
+  Point3 sum;
+  for (const FileBoundary& patch : mesh.boundaries) {
+    for (const FileBoundary::Face& face : patch.faces) {
+      if (!patch.is_empty) break;
+      const Point3 area = twice_area(mesh, face);
+      sum = sum + Point3{std::abs(area.x), std::abs(area.y), std::abs(area.z)};
+    }
+  }
+  if (sum.z >= sum.x && sum.z >= sum.y) return {'z'};
+  return {sum.x >= sum.y ? 'x' : 'y'};
+}
+
+/// A face of a cell that is on an empty patch.
+struct EmptyFace {
+  std::int32_t patch = -1, number = -1;  ///< where it stands
+  std::int32_t local = -1;               ///< which of the cell's faces it is
+};
+
+class PlaneMaker {
+ public:
+  PlaneMaker(const FileMesh& solid, const std::string& path)
+      : solid_{solid}, path_{path}, axes_{axes_of(solid)}, new_node_(solid.points.size(), -1) {}
+
+  LoadedMesh run() {
+    find_empty_faces();
+    for_each_cell(solid_, [&](const auto& nodes, std::int64_t cell) { sort_out(nodes, cell); });
+    number_nodes();
+    for (const auto& [face, cell] : backs_) add_cell(face);
+    add_boundaries();
+    copy_solution();
+    plane_.mesh.owned_nodes = size32(plane_.mesh.points);
+    take_blocks();
+    plane_.warnings = solid_.warnings;
+    return std::move(plane_);
+  }
+
+ private:
+  static constexpr double most_lean = 1e-6;  // of an edge across the plane, by its length
+
+  struct Back {
+    FileBoundary::Face nodes;  ///< as the patch has them, or the other way round, so that they look outwards
+    std::int64_t cell;
+  };
+
+  [[noreturn]] void refuse(std::int64_t cell, const std::string& fault) const {
+    throw InputError(fmt::format("{}: cell {} {}; a mesh with patches of type empty is one cell thick", path_,
+                                 cell, fault));
+  }
+
+  void find_empty_faces() {
+    std::int64_t cells = 0;
+    for_each_cell(solid_, [&](const auto&, std::int64_t) { ++cells; });
+    empty_.resize(cells);
+    for_each_face(solid_, [this](std::int32_t, std::span<const FaceMention> same) {
+      if (same.size() != 2 || same[0].owner >= 0 || same[1].owner < 0) return;
+      const std::int32_t patch = -1 - same[0].owner;
+      if (!solid_.boundaries[patch].is_empty) return;
+      auto& faces = empty_[same[1].owner];
+      if (faces[1].local >= 0) refuse(same[1].owner, "has more than two faces on such patches");
+      faces[faces[0].local < 0 ? 0 : 1] = {patch, same[0].number, same[1].number};
+    });
+  }
+
+  /// Which of a cell's two empty faces is the back.
+  template <std::size_t width>
+  void sort_out(const std::array<std::int32_t, width>& nodes, std::int64_t cell) {
+    auto [back, front] = empty_[cell];
+    if (front.local < 0) refuse(cell, "does not have two faces on such patches");
+    const auto outer = [&](const EmptyFace& face) {
+      return face_of(nodes, CellFaces<width>::faces[face.local]);
+    };
+    if (axes_.along(twice_area(solid_, outer(back))) > 0) std::swap(back, front);
+    if (!(axes_.along(twice_area(solid_, outer(back))) < 0) ||
+        !(axes_.along(twice_area(solid_, outer(front))) > 0))
+      refuse(cell, fmt::format("does not lie between two faces across {}", axes_.across));
+    const FileBoundary::Face own = outer(back);
+    backs_.push_back({in_order_of(own, solid_.boundaries[back.patch].faces[back.number]), cell});
+    require_upright(nodes, own, outer(front), cell);
+    for (const std::int32_t node : corners_of(own)) new_node_[node] = 0;
+  }
+
+  /// The nodes of `given`, which are those of `own`, in the direction of `own`.
+  static FileBoundary::Face in_order_of(const FileBoundary::Face& own, FileBoundary::Face given) {
+    const std::size_t width = corners_of(own).size();
+    const auto at = std::find(own.begin(), own.end(), given[0]) - own.begin();
+    if (own[(at + 1) % width] != given[1]) std::reverse(given.begin(), given.begin() + width);
+    return given;
+  }
+
+  /// Edges between back and front run along the axis.
+  template <std::size_t width>
+  void require_upright(const std::array<std::int32_t, width>& nodes, const FileBoundary::Face& back,
+                       const FileBoundary::Face& front, std::int64_t cell) const {
+    const auto is_of = [](const FileBoundary::Face& face, std::int32_t node) {
+      return std::ranges::count(face, node) > 0;
+    };
+    for (const LocalFace& local : CellFaces<width>::faces) {
+      const FileBoundary::Face side = face_of(nodes, local);
+      const auto corners = corners_of(side);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const std::int32_t from = corners[k], to = corners[(k + 1) % corners.size()];
+        if (!is_of(back, from) || !is_of(front, to)) continue;
+        const Point3 edge = solid_.points[to] - solid_.points[from];
+        const Point lean = axes_.in_plane(edge);
+        if (std::max(std::abs(lean.x), std::abs(lean.y)) > most_lean * axes_.along(edge) ||
+            is_of(front, from))
+          refuse(cell, fmt::format("is not drawn out along {}", axes_.across));
+      }
+    }
+  }
+
+  void number_nodes() {
+    std::int32_t next = 0;
+    for (std::size_t node = 0; node < new_node_.size(); ++node) {
+      if (new_node_[node] < 0) continue;
+      new_node_[node] = next++;
+      plane_.mesh.points.push_back(axes_.in_plane(solid_.points[node]));
+    }
+  }
+
+  /// From a back face, which is clockwise as seen from the front.
+  void add_cell(const FileBoundary::Face& face) {
+    const auto node = [&](std::size_t k) { return NodeId{new_node_[face[k]]}; };
+    if (is_triangle(face)) {
+      plane_.mesh.triangles.push_back({node(2), node(1), node(0)});
+    } else {
+      plane_.mesh.quads.push_back({node(3), node(2), node(1), node(0)});
+    }
+  }
+
+  void add_boundaries() {
+    const EdgeTable table(plane_.mesh);
+    for (const FileBoundary& patch : solid_.boundaries) {
+      if (patch.is_empty || patch.faces.empty()) continue;
+      BoundaryEdges boundary{patch.name, patch.condition, {}};
+      for (const FileBoundary::Face& face : patch.faces) {
+        std::array<NodeId, 2> edge = edge_of(face, patch.name);
+        if (table.cell_left_of(edge[0], edge[1]) < 0) std::swap(edge[0], edge[1]);
+        boundary.edges.push_back(edge);
+        if (patch.is_periodic)
+          plane_.periodic_nodes.insert(plane_.periodic_nodes.end(), edge.begin(), edge.end());
+      }
+      plane_.mesh.boundaries.push_back(std::move(boundary));
+    }
+  }
+
+  /// The edge that a side has on the back, in the side's own direction.
+  std::array<NodeId, 2> edge_of(const FileBoundary::Face& face, const std::string& patch) const {
+    const auto corners = corners_of(face);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const std::int32_t from = new_node_[corners[k]], to = new_node_[corners[(k + 1) % corners.size()]];
+      if (from >= 0 && to >= 0) return {NodeId{from}, NodeId{to}};
+    }
+    throw InputError(
+        path_ + ": a face of patch " + patch +
+        " has no edge on the back of the plane; a mesh with patches of type empty is one cell thick");
+  }
+
+  void copy_solution() {
+    if (!solid_.solution) return;
+    const Field& solid = *solid_.solution;
+    Field& plane = plane_.solution.emplace();
+    plane.names = solid.names;
+    plane.constants = solid.constants;
+    plane.cells = solid.cells;  // prisms before hexahedra, as triangles before quads
+    for (std::size_t node = 0; node < new_node_.size(); ++node) {
+      if (new_node_[node] < 0) continue;
+      const auto row = solid.row(NodeId{static_cast<std::int32_t>(node)});
+      plane.values.insert(plane.values.end(), row.begin(), row.end());
+    }
+  }
+
+  /// Those of the prisms and hexahedra.
+  void take_blocks() {
+    plane_.triangle_to_block = solid_.cell_to_block[static_cast<std::size_t>(CellKind::prism)];
+    plane_.quad_to_block = solid_.cell_to_block[static_cast<std::size_t>(CellKind::hexahedron)];
+    plane_.triangle_to_block.resize(plane_.mesh.triangles.size(), 0);
+    plane_.quad_to_block.resize(plane_.mesh.quads.size(), 0);
+    plane_.block_names = solid_.has_blocks() ? solid_.block_names : std::vector<std::string>{"domain"};
+    plane_.blocks = size32(plane_.block_names);
+    order_by_blocks(plane_);
+  }
+
+  const FileMesh& solid_;
+  std::string path_;
+  PlaneAxes axes_;
+  std::vector<std::array<EmptyFace, 2>> empty_;  ///< of each cell
+  std::vector<Back> backs_;                      ///< in the order of the cells
+  std::vector<std::int32_t> new_node_;  ///< of each node, in the plane; -1 where it is not on the back
+  LoadedMesh plane_;
+};
+
+}  // namespace
+
+bool is_one_cell_thick(const FileMesh& mesh) {
+  return std::ranges::any_of(mesh.boundaries, [](const FileBoundary& patch) { return patch.is_empty; });
+}
+
+LoadedMesh plane_of_solid(const FileMesh& solid, const std::string& path) {
+  return PlaneMaker(solid, path).run();
+}
+
+LoadedMesh plane_of(MeshOfFile mesh, const std::string& path) {
+  if (LoadedMesh* plane = std::get_if<LoadedMesh>(&mesh)) return std::move(*plane);
+  const FileMesh& solid = std::get<FileMesh>(mesh);
+  if (is_one_cell_thick(solid)) return plane_of_solid(solid, path);
+  throw InputError(path +
+                   ": holds a 3D mesh, where a plane one is wanted (a 3D mesh is taken for a plane one where "
+                   "it is one cell thick between patches of the type empty)");
+}
+
+}  // namespace quadloop

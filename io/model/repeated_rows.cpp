@@ -1,0 +1,40 @@
+#include "io/model/repeated_rows.hpp"
+
+#include <fmt/format.h>
+
+namespace quadloop {
+
+void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
+                      std::vector<std::string>& warnings) {
+  constexpr std::size_t most_lines = 5;
+  std::int64_t same = 0;
+  std::size_t lines = 0;
+  for (const auto& [names, count] : repeated) {
+    const auto& [kept, other] = names;
+    if (kept == other) {
+      same += count;
+    } else if (++lines <= most_lines) {
+      warnings.push_back(
+          fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are taken for '{}'", path, count,
+                      kept, other, kept));
+    }
+  }
+  if (lines > most_lines)
+    warnings.push_back(
+        fmt::format("{}: {} more pairs of groups have common elements", path, lines - most_lines));
+  if (same > 0)
+    warnings.push_back(
+        fmt::format("{}: {} elements stand there more than once; the first of each was taken", path, same));
+}
+
+std::string some_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  const std::size_t shown = names.size() <= most ? names.size() : most - 1;
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " and " : ", ", names[i]);
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
+}  // namespace quadloop
