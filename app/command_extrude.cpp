@@ -20,7 +20,7 @@
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/model/plane_of_solid.hpp"
-#include "io/solid/solid_blocks.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"

@@ -35,12 +35,6 @@ namespace quadloop {
 
 namespace {
 
-/// The writer of a format that has no place for a solution.
-template <void (*write)(OutputSet&, const Mesh&, const std::string&)>
-void write_mesh_alone(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field*) {
-  write(outputs, mesh, path);
-}
-
 std::vector<std::string> msh_group_names(const std::vector<std::string>& boundaries) {
   std::vector<std::string> names = boundaries;
   std::ranges::transform(boundaries, names.begin(), msh_group_name);
@@ -63,13 +57,9 @@ FileFormat msh_row(const std::string& name) {
           .program = "Gmsh",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::solid},
           .read = read_msh_or_fluent,
-          .write_mesh = [](OutputSet& outputs, const Mesh& mesh, const std::string& path,
-                           const Field*) { write_msh(outputs, mesh, path, version); },
-          .write_blocks = [](OutputSet& outputs, const LoadedMesh& whole,
-                             const std::string& path) { write_msh(outputs, whole, path, version); },
-          .boundary_names = msh_group_names,
-          .write_solid = [](OutputSet& outputs, const SolidStream& mesh,
-                            const std::string& path) { write_msh_solid(outputs, mesh, path, version); }};
+          .write = [](OutputSet& outputs, const MeshStream& mesh,
+                      const std::string& path) { write_msh(outputs, mesh, path, version); },
+          .boundary_names = msh_group_names};
 }
 
 /// One for each order of bytes.
@@ -79,9 +69,9 @@ FileFormat ugrid_row(const std::string& name) {
           .program = "AFLR3",
           .places = {Content::conditions, Content::solid},
           .read = read_ugrid<order>,
+          .write = write_ugrid<order>,
           .boundary_names = mapbc_names,
-          .file_beside = mapbc_path,
-          .write_solid = write_ugrid<order>};
+          .file_beside = mapbc_path};
 }
 
 /// Medit's text has the suffix of the program's own; what comes through a pipe is the program's.
@@ -98,8 +88,7 @@ FileFormat medit_row() {
           .program = "MMG, FreeFEM",
           .places = {Content::mesh, Content::blocks},
           .read = read_medit,
-          .write_mesh = write_mesh_alone<write_medit>,
-          .write_blocks = write_medit,
+          .write = write_medit,
           .boundary_names = medit_boundary_names};
 }
 
@@ -110,13 +99,11 @@ std::vector<FileFormat> native_rows() {
            .places = {mesh, solution, constants, blocks, layers},
            .by_default = true,
            .read = read_native_or_medit,
-           .write_mesh = write_native,
-           .write_blocks = write_native},
+           .write = write_native},
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
-           .write_mesh = write_binary,
-           .write_blocks = write_binary}};
+           .write = write_binary}};
 }
 
 FileFormat cgns_row() {
@@ -125,10 +112,9 @@ FileFormat cgns_row() {
           .places = {mesh, solution, conditions, layers, solid},
           .by_default = true,
           .read = read_cgns,
-          .write_mesh = write_cgns,
+          .write = write_cgns,
           .boundary_names = cgns_boundary_names,
-          .variable_names = cgns_variable_renames,
-          .write_solid = write_cgns_solid};
+          .variable_names = cgns_variable_renames};
 }
 
 /// One file, and the list of pieces.
@@ -138,27 +124,22 @@ std::vector<FileFormat> vtk_rows() {
            .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
-           .write_mesh = write_vtu,
-           .write_blocks = write_vtu,
-           .write_solid = write_vtu_solid},
+           .write = write_vtu},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, block_names, layers, solid},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
-           .write_mesh = write_pvtu,
-           .write_blocks = write_pvtu,
-           .file_beside = pvtu_piece_path,
-           .write_solid = write_pvtu_solid}};
+           .write = write_pvtu,
+           .file_beside = pvtu_piece_path}};
 }
 
 FileFormat su2_row() {
   return {.name = "su2",
           .places = {Content::mesh, Content::solid},
           .read = read_su2,
-          .write_mesh = write_mesh_alone<write_su2>,
-          .boundary_names = su2_marker_names,
-          .write_solid = write_su2_solid};
+          .write = write_su2,
+          .boundary_names = su2_marker_names};
 }
 
 FileFormat fluent_row() {
@@ -167,11 +148,9 @@ FileFormat fluent_row() {
           .program = "Fluent",
           .places = {mesh, blocks, block_names, conditions, solid},
           .read = read_fluent,
-          .write_mesh = write_mesh_alone<write_fluent>,
-          .write_blocks = write_fluent,
+          .write = write_fluent,
           .boundary_names = fluent_zone_names,
-          .unknown_boundary = "a wall",
-          .write_solid = write_fluent_solid};
+          .unknown_boundary = "a wall"};
 }
 
 FileFormat plane_ugrid_row() {
@@ -179,7 +158,7 @@ FileFormat plane_ugrid_row() {
           .program = "AFLR2",
           .places = {Content::mesh, Content::conditions},
           .read = read_ugrid_plane,
-          .write_mesh = write_mesh_alone<write_ugrid_plane>,
+          .write = write_ugrid_plane,
           .boundary_names = mapbc_names,
           .unknown_boundary = "of type 0 in the .mapbc",
           .file_beside = plane_mapbc_path};
@@ -191,11 +170,9 @@ FileFormat foam_row() {
           .program = "OpenFOAM",
           .places = {mesh, blocks, block_names, conditions, solid},
           .read = read_foam,
-          .write_mesh = write_mesh_alone<write_foam_plane>,
-          .write_blocks = write_foam_plane,
+          .write = write_foam,
           .boundary_names = foam_patch_names,
           .unknown_boundary = "a plain patch, no wall",
-          .write_solid = write_foam,
           .single_block_name = false,
           .is_folder = true};
 }
@@ -316,7 +293,8 @@ std::vector<std::string> default_formats() {
 std::vector<std::string> written_formats() {
   std::vector<std::string> names;
   for (const FileFormat& format : file_formats()) {
-    if (format.write_mesh != nullptr || format.write_solution != nullptr) names.push_back(format.name);
+    if ((format.holds(Content::mesh) && format.write != nullptr) || format.write_solution != nullptr)
+      names.push_back(format.name);
   }
   return names;
 }

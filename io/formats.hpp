@@ -7,7 +7,7 @@
 #include "io/files/output_file.hpp"
 #include "io/model/loaded_solution.hpp"
 #include "io/model/mesh_of_file.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
@@ -37,11 +37,8 @@ struct FileFormat {
 
   /// On the calling rank alone; null: no mesh is read. Throws InputError.
   MeshOfFile (*read)(const std::string& path) = nullptr;
-  /// A distributed mesh, with its solution unless that is null. *Collective.* Throws OutputError.
-  void (*write_mesh)(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-                     const Field* solution) = nullptr;
-  /// Where there is a place for blocks: a mesh that the set's only rank holds whole, block by block.
-  void (*write_blocks)(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) = nullptr;
+  /// A mesh of the dimensions that there is a place for. *Collective.* Throws OutputError.
+  void (*write)(OutputSet& outputs, const MeshStream& mesh, const std::string& path) = nullptr;
   /// The boundaries' names as a file has them; null: as they are.
   std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
 
@@ -59,8 +56,6 @@ struct FileFormat {
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 
-  /// A 3D mesh, with its solution where there is a place for one. *Collective.* Throws OutputError.
-  void (*write_solid)(OutputSet& outputs, const SolidStream& mesh, const std::string& path) = nullptr;
   bool single_block_name = true;  ///< whether names of blocks have a place also where there is only one
   bool is_folder = false;
 

@@ -38,11 +38,11 @@ const FileFormat* solid_format(const std::string& path, const std::string& name 
   return format != nullptr && format->holds(Content::solid) ? format : nullptr;
 }
 
-void write_stream(OutputSet& outputs, const SolidStream& stream, const std::string& path,
-                  const std::string& name) {
-  const FileFormat* format = solid_format(path, name);
-  QUADLOOP_REQUIRE(format != nullptr, "a 3D mesh is written in a format that holds none");
-  format->write_solid(outputs, stream, path);
+void write_solid(OutputSet& outputs, const MeshStream& mesh, const std::string& path,
+                 const std::string& format) {
+  const FileFormat* row = solid_format(path, format);
+  QUADLOOP_REQUIRE(row != nullptr, "a 3D mesh is written in a format that holds none");
+  row->write(outputs, mesh, path);
 }
 
 void clean_up_names(std::vector<std::string*> names, std::optional<Field>& solution, const std::string& path,
@@ -196,8 +196,7 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
-  if (row->write_blocks != nullptr) return row->write_blocks(outputs, whole, path);
-  row->write_mesh(outputs, whole.mesh, path, whole.solution ? &*whole.solution : nullptr);
+  row->write(outputs, MeshStream(outputs.communicator(), whole), path);
 }
 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
@@ -215,7 +214,8 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
                 double gamma) {
   const FileFormat* format = format_of(path);
   QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
-  if (format->write_mesh != nullptr) format->write_mesh(outputs, mesh, path, solution);
+  if (format->holds(Content::mesh))
+    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution), path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
@@ -278,12 +278,12 @@ void require_solid_suffix(const std::string& path) {
 
 void write_mesh(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path,
                 const std::string& format) {
-  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+  write_solid(outputs, MeshStream(outputs.communicator(), mesh), path, format);
 }
 
 void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& path,
                 const std::string& format) {
-  write_stream(outputs, SolidStream(outputs.communicator(), mesh), path, format);
+  write_solid(outputs, MeshStream(outputs.communicator(), mesh), path, format);
 }
 
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {

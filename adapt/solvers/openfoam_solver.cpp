@@ -14,7 +14,7 @@
 #include "io/files/output_file.hpp"
 #include "io/foam/foam_fields.hpp"
 #include "io/foam/foam_file.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -132,7 +132,7 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
 void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string& folder) {
   OutputSet outputs(comm);
   const ExtrudedMesh one_thick = extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr);
-  write_foam(outputs, SolidStream(comm, one_thick),
+  write_foam(outputs, MeshStream(comm, one_thick),
              folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
   outputs.commit();
 }

@@ -1,182 +1,214 @@
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <span>
 
 #include "io/cgns/cgns_file.hpp"
-#include "io/cgns/cgns_handle.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
-#include "io/files/boundary_stream.hpp"
-#include "io/files/row_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
+#include "io/stream/stream_cell_values.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t rows_per_piece = std::int64_t{1} << 18;  // at most 4 MB of nodes or of quads
+/// Rows of an array type as one list of numbers.
+template <class Number, std::size_t width>
+std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
+  return {rows.empty() ? nullptr : rows.front().data(), rows.size() * width};
+}
 
-/// The collective side: every rank hands its rows over, rank 0 alone has a sink.
 class CgnsWriter {
  public:
-  CgnsWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, boundaries_{comm_, mesh} {
-    counts_ = {comm_.sum(mesh.owned_nodes), comm_.sum(size_of(mesh.triangles)),
-               comm_.sum(size_of(mesh.quads)), 0};
+  CgnsWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path)
+      : stream_{stream}, cells_{stream} {
     refuse_too_large(path);
     staged_ = outputs.stage(path);
-    on_root([&] {
-      sink_ = std::make_unique<CgnsSink>(staged_, 2);
-      sink_->begin_zone(counts_.nodes, counts_.triangles + counts_.quads);
+    stream_.on_root([&] {
+      sink_ = std::make_unique<CgnsSink>(staged_, stream_.is_plane() ? 2 : 3);
+      sink_->begin_zone(stream_.counts().nodes, stream_.counts().cells());
     });
   }
 
-  void write_mesh() {
-    const RowStream nodes{comm_, mesh_.owned_nodes, rows_per_piece};
-    on_root([&] { sink_->begin_rows(); });
-    nodes.run<double>(
-        [&](std::int64_t begin, std::int64_t end) {
-          std::vector<double> coordinates;
-          coordinates.reserve(2 * (end - begin));
-          for (std::int64_t i = begin; i < end; ++i)
-            coordinates.insert(coordinates.end(), {mesh_.points[i].x, mesh_.points[i].y});
-          return coordinates;
-        },
-        [&](std::span<const double> coordinates) { sink_->put_coordinates(coordinates); });
-    write_section("TRI_3", TRI_3, std::span(mesh_.triangles), counts_.triangles);
-    write_section("QUAD_4", QUAD_4, std::span(mesh_.quads), counts_.quads);
+  void write() {
+    stream_.on_root([&] { sink_->begin_rows(); });
+    stream_.is_plane() ? write_points<2>() : write_points<3>();
+    for_each_kind([&]<CellKind kind>() { write_cells<kind>(); });
+    if (!stream_.variables().empty()) write_solution();
+    if (!cells_.names().empty()) write_solution_of_cells();
+    write_boundaries();
   }
 
-  void write_solution(const Field& solution) {
-    write_fields(Vertex, solution.names, {{mesh_.owned_nodes, solution.values.data()}});
-    const double* const of_cells = solution.cells.values.data();
-    write_fields(CellCenter, solution.cells.names,
-                 {{size_of(mesh_.triangles), of_cells},
-                  {size_of(mesh_.quads), of_cells + mesh_.triangles.size() * solution.cells.width()}});
+ private:
+  template <std::size_t dimension>
+  void write_points() {
+    stream_.rows(
+        stream_.point_rows(),
+        [&](std::int64_t i) {
+          const Point3 p = stream_.point(i);
+          if constexpr (dimension == 2) return std::array{p.x, p.y};
+          if constexpr (dimension == 3) return std::array{p.x, p.y, p.z};
+        },
+        [&](auto rows) { sink_->put_coordinates(flat<double>(rows)); });
+  }
+
+  void refuse_too_large(const std::string& path) const {
+    const StreamCounts& counts = stream_.counts();
+    std::int64_t elements = counts.cells();
+    for (const StreamedPatch& patch : stream_.patches()) elements += patch.faces();
+    if (elements <= largest_cgns_size && counts.largest_array() <= largest_cgns_size) return;
+    throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
+                      " elements are more than this CGNS library can count (32-bit sizes); write a " +
+                      (stream_.is_plane() ? ".mesh" : ".vtu") + " file instead");
+  }
+
+  auto put() {
+    return [this](auto faces) { patches_->put(flat<cgsize_t>(faces)); };
+  }
+
+  template <CellKind kind>
+  static constexpr ElementType_t type_of_cells = kind == CellKind::triangle      ? TRI_3
+                                                 : kind == CellKind::quad        ? QUAD_4
+                                                 : kind == CellKind::tetrahedron ? TETRA_4
+                                                 : kind == CellKind::pyramid     ? PYRA_5
+                                                 : kind == CellKind::prism       ? PENTA_6
+                                                                                 : HEXA_8;
+
+  template <CellKind kind>
+  void write_cells() {
+    const std::int64_t all = stream_.counts().of(kind);
+    if (all == 0) return;
+    const ElementType_t type = type_of_cells<kind>;
+    stream_.on_root([&] { sink_->begin_section(cg_ElementTypeName(type), type, all); });
+    stream_.rows(
+        stream_.cell_rows<kind>(), [&](std::int64_t i) { return as<cgsize_t>(stream_.cell<kind>(i), 1); },
+        [&](auto some) { sink_->put_elements(flat<cgsize_t>(some), cell_width<kind>); });
+  }
+
+  void write_solution() {
+    const std::vector<std::string> names = stream_.variables();
+    begin_solution(Vertex);
+    write_values(names, stream_.point_rows(),
+                 [&](std::int64_t row, std::size_t variable) { return stream_.value(row, variable); });
+  }
+
+  /// In the order of the elements.
+  void write_solution_of_cells() {
+    const std::vector<std::string> names = cells_.names();
+    begin_solution(CellCenter);
+    for_each_kind([&]<CellKind kind>() {
+      write_values(names, stream_.cell_rows<kind>(), [&](std::int64_t row, std::size_t variable) {
+        return cells_.of_cell<kind>(row, variable);
+      });
+    });
+  }
+
+  void begin_solution(GridLocation_t location) {
+    stream_.on_root([&] {
+      sink_->begin_solution(location);
+      sink_->begin_rows();
+    });
+  }
+
+  /// The ranks' next rows of the solution under way.
+  template <class Value>
+  void write_values(const std::vector<std::string>& names, std::int64_t count, const Value& value) {
+    const std::size_t wide = names.size();
+    const RowStream rows{stream_.communicator(), count,
+                         std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(wide))};
+    rows.run<double>(
+        [&](std::int64_t begin, std::int64_t end) {
+          std::vector<double> values;
+          values.reserve((end - begin) * wide);
+          for (std::int64_t i = begin; i < end; ++i) {
+            for (std::size_t k = 0; k < wide; ++k) values.push_back(value(i, k));
+          }
+          return values;
+        },
+        [&](std::span<const double> values) { sink_->put_solution(values, names); });
   }
 
   /// Last of all: libcgns is done with the file.
   void write_boundaries() {
-    std::unique_ptr<CgnsPatches> sink;
-    std::vector<std::string> names;
-    on_root([&] {
+    stream_.on_root([&] {
       sink_->close();
-      if (boundaries_.all_edges() == 0) return;
-      sink = std::make_unique<CgnsPatches>(staged_, counts_.triangles + counts_.quads + 1);
-      names = cgns_boundary_names(names_of(mesh_.boundaries));
+      if (stream_.patches().empty()) return;
+      patches_ = std::make_unique<CgnsPatches>(staged_, stream_.counts().cells() + 1);
     });
-    if (boundaries_.all_edges() == 0) return;
-    boundaries_.run(
-        [&](std::size_t n) {
-          const BoundaryEdges* const boundary = boundaries_.present()[n];
-          const std::string& name = names[boundary - mesh_.boundaries.data()];
-          sink->begin_patch();
-          sink->begin_section(name, BAR_2, boundaries_.edges_of(n));
-          sink->put_condition(name, *boundary, EdgeCenter);
-        },
-        [&](std::span<const BoundaryStream::Edge> edges) { sink->put(edges); });
-    on_root([&] {
-      sink->put_strips(mesh_.strips);
-      sink->close();
-    });
+    if (stream_.patches().empty()) return;
+    stream_.is_plane() ? write_edges() : write_patches();
+    stream_.on_root([&] { patches_->close(); });
   }
 
- private:
-  /// This rank's rows of one kind.
-  struct Rows {
-    std::int64_t count;
-    const double* values;
-  };
-
-  /// All ranks' rows of a kind, then those of the next.
-  void write_fields(GridLocation_t location, const std::vector<std::string>& variables,
-                    std::initializer_list<Rows> kinds) {
-    const std::size_t width = variables.size();
-    if (width == 0) return;
-    on_root([&] {
-      sink_->begin_solution(location);
-      sink_->begin_rows();
-    });
-    for (const Rows& rows : kinds) {
-      RowStream{comm_, rows.count, rows_per_piece}.run<double>(
-          [&](std::int64_t begin, std::int64_t end) {
-            return std::vector<double>(rows.values + begin * width, rows.values + end * width);
-          },
-          [&](std::span<const double> values) { sink_->put_solution(values, variables); });
-    }
-  }
-
-  template <class Rows>
-  static std::int64_t size_of(const Rows& rows) {
-    return std::ssize(rows);
-  }
-
-  template <class Action>
-  void on_root(const Action& action) {
-    comm_.together([&] {
-      if (comm_.is_root()) action();
-    });
-  }
-
-  void refuse_too_large(const std::string& path) const {
-    const std::int64_t elements = counts_.triangles + counts_.quads + boundaries_.all_edges();
-    if (counts_.nodes <= largest_cgns_size && elements <= largest_cgns_size &&
-        3 * counts_.triangles <= largest_cgns_size && 4 * counts_.quads <= largest_cgns_size) {
-      return;
-    }
-    throw OutputError(
-        path + ": " + std::to_string(counts_.nodes) + " nodes and " + std::to_string(elements) +
-        " elements are more than this CGNS library can count (32-bit sizes); write a .mesh file instead");
-  }
-
-  template <std::size_t width>
-  void write_section(const std::string& name, ElementType_t type,
-                     std::span<const std::array<NodeId, width>> rows, std::int64_t all_rows) {
-    if (all_rows == 0) return;
-    on_root([&] { sink_->begin_section(name, type, all_rows); });
-    const RowStream stream{comm_, std::ssize(rows), rows_per_piece};
-    stream.run<cgsize_t>(
-        [&](std::int64_t begin, std::int64_t end) {
-          std::vector<cgsize_t> nodes((end - begin) * width);
-          auto out = nodes.begin();
-          for (const auto& row : rows.subspan(begin, end - begin)) {
-            for (const NodeId node : row) *out++ = static_cast<cgsize_t>(mesh_.global(node).value() + 1);
-          }
-          return nodes;
-        },
-        [&](std::span<const cgsize_t> nodes) { sink_->put_elements(nodes, width); });
-  }
-
-  static std::vector<std::string> names_of(const std::vector<BoundaryEdges>& boundaries) {
+  /// Names are those of all boundaries, also of those without edges.
+  void write_edges() {
+    const std::vector<BoundaryEdges>& boundaries = stream_.extruded()->plane.boundaries;
     std::vector<std::string> names;
     for (const BoundaryEdges& boundary : boundaries) names.push_back(boundary.name);
-    return names;
+    names = cgns_boundary_names(names);
+    stream_.boundaries()->run(
+        [&](std::size_t n) {
+          const BoundaryEdges* const boundary = stream_.boundaries()->present()[n];
+          const std::string& name = names[boundary - boundaries.data()];
+          patches_->begin_patch();
+          patches_->begin_section(name, BAR_2, stream_.patches()[n].edges);
+          patches_->put_condition(name, *boundary, EdgeCenter);
+        },
+        [&](std::span<const BoundaryStream::Edge> edges) { patches_->put(edges); });
+    stream_.on_root([&] { patches_->put_strips(stream_.extruded()->plane.strips); });
   }
 
-  const Communicator& comm_;
-  const Mesh& mesh_;
-  MeshCounts counts_;
-  BoundaryStream boundaries_;
+  void write_patches() {
+    std::vector<std::string> wanted = stream_.patch_names();
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n)
+      wanted.push_back(wanted[n] + "_triangles");
+    names_ = cgns_boundary_names(wanted);
+    stream_.sides([&](std::size_t n) { begin(n, 0, stream_.patches()[n].quads); }, number_nodes, put());
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) write_patch(n);
+  }
+
+  /// A patch, on rank 0: its section of quads, after it one of triangles.
+  void begin(std::size_t patch, std::int64_t triangles, std::int64_t quads) {
+    const StreamedPatch& about = stream_.patches()[patch];
+    patches_->begin_patch();
+    if (quads > 0) patches_->begin_section(names_[patch], QUAD_4, quads);
+    if (triangles == 0) patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
+  }
+
+  /// One that is none of the sides.
+  void write_patch(std::size_t patch) {
+    const StreamedPatch& about = stream_.patches()[patch];
+    if (about.faces() == 0) return;
+    stream_.on_root([&] { begin(patch, about.triangles, about.quads); });
+    if (about.quads > 0) stream_.faces<4>(patch, number_nodes, put());
+    if (about.triangles == 0) return;
+    const std::size_t more = stream_.patches().size() - stream_.side_patches();
+    stream_.on_root([&] {
+      patches_->begin_section(names_[patch + (about.quads > 0 ? more : 0)], TRI_3, about.triangles);
+      patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
+    });
+    stream_.faces<3>(patch, number_nodes, put());
+  }
+
+  static constexpr auto number_nodes = [](const auto& nodes) { return as<cgsize_t>(nodes, 1); };
+  static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;
+
+  const MeshStream& stream_;
+  const StreamCellValues cells_;
   StagedFile staged_;
-  std::unique_ptr<CgnsSink> sink_;  ///< on rank 0 only
+  std::vector<std::string>
+      names_;  ///< of patches, then of the triangles of those that are no sides; the next two on rank 0 only
+  std::unique_ptr<CgnsSink> sink_;
+  std::unique_ptr<CgnsPatches> patches_;
 };
 
 }  // namespace
 
-void write_cgns(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
-  CgnsWriter writer(outputs, mesh, path);
-  writer.write_mesh();
-  if (solution != nullptr) writer.write_solution(*solution);
-  writer.write_boundaries();
-}
-
-void write_cgns(const Communicator& comm, const Mesh& mesh, const std::string& path, const Field* solution) {
-  OutputSet outputs(comm);
-  write_cgns(outputs, mesh, path, solution);
-  outputs.commit();
+void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  CgnsWriter(mesh, outputs, path).write();
 }
 
 }  // namespace quadloop

@@ -10,7 +10,7 @@
 #include "io/fluent/fluent_zones.hpp"
 #include "io/model/cell_faces.hpp"
 #include "io/model/clean_up.hpp"
-#include "io/solid/cell_of_sides.hpp"
+#include "io/stream/cell_of_sides.hpp"
 
 namespace quadloop {
 

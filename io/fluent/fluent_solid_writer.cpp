@@ -5,26 +5,28 @@
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_zones.hpp"
 #include "io/model/cell_faces.hpp"
-#include "io/solid/extruded_faces.hpp"
-#include "io/solid/held_faces.hpp"
-#include "io/solid/solid_blocks.hpp"
+#include "io/stream/extruded_faces.hpp"
+#include "io/stream/held_faces.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
 
 namespace {
 
-/// Fluent's numbers for cells of so many nodes.
-template <std::size_t width>
-constexpr int fluent_kind = width == 4   ? 2
-                            : width == 5 ? 5
-                            : width == 6 ? 6
-                                         : 4;
+/// Fluent's numbers for kinds of cells.
+template <CellKind kind>
+constexpr int fluent_kind = kind == CellKind::triangle      ? 1
+                            : kind == CellKind::quad        ? 3
+                            : kind == CellKind::tetrahedron ? 2
+                            : kind == CellKind::pyramid     ? 5
+                            : kind == CellKind::prism       ? 6
+                                                            : 4;
 
 /// Zones: 1 the nodes, 2, 3, ... the cells of each block, then the faces inside, then the patches.
 class FluentSolidWriter {
  public:
-  FluentSolidWriter(OutputSet& outputs, const SolidStream& stream, const std::string& path)
+  FluentSolidWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : stream_{stream}, blocks_{stream}, file_{outputs, path} {
     require_countable_in_fluent(path, stream.counts().nodes, stream.counts().cells());
     if (stream.held() != nullptr) {
@@ -82,16 +84,16 @@ class FluentSolidWriter {
     std::int64_t first = 1;
     for (std::int32_t block = 0; block < blocks_.count(); ++block) {
       std::int64_t cells = 0;
-      int kinds = 0, kind = 0;
-      for_each_kind_of_cell([&]<std::size_t width>() {
-        const std::int64_t count = stream_.communicator().sum(blocks_.rows<width>(block).size());
+      int kinds = 0, zone_kind = 0;
+      for_each_kind([&]<CellKind kind>() {
+        const std::int64_t count = stream_.communicator().sum(blocks_.rows<kind>(block).size());
         if (count == 0) return;
         cells += count;
-        kind = ++kinds > 1 ? 0 : fluent_kind<width>;
+        zone_kind = ++kinds > 1 ? 0 : fluent_kind<kind>;
       });
       file_.write("(12 (" + fluent_hexadecimal(2 + block) + " " + fluent_hexadecimal(first) + " " +
-                  fluent_hexadecimal(first + cells - 1) + " 1 " + std::to_string(kind) + ")");
-      if (kind == 0) write_kinds(block);
+                  fluent_hexadecimal(first + cells - 1) + " 1 " + std::to_string(zone_kind) + ")");
+      if (zone_kind == 0) write_kinds(block);
       file_.write(")\n");
       first += cells;
     }
@@ -99,9 +101,9 @@ class FluentSolidWriter {
 
   void write_kinds(std::int32_t block) {
     file_.write("(\n");
-    for_each_kind_of_cell([&]<std::size_t width>() {
-      file_.write_rows(blocks_.rows<width>(block).size(), 1,
-                       [](TextRows& text, std::int64_t) { text.put(fluent_kind<width>, ' '); });
+    for_each_kind([&]<CellKind kind>() {
+      file_.write_rows(blocks_.rows<kind>(block).size(), 1,
+                       [](TextRows& text, std::int64_t) { text.put(fluent_kind<kind>, ' '); });
     });
     file_.write("\n)");
   }
@@ -223,8 +225,8 @@ class FluentSolidWriter {
     file_.write(text);
   }
 
-  const SolidStream& stream_;
-  const SolidBlocks blocks_;
+  const MeshStream& stream_;
+  const StreamBlocks blocks_;
   TextOutput file_;
   std::optional<ExtrudedFaces> extruded_;  ///< this or the next
   std::optional<HeldFaces> held_;
@@ -235,7 +237,7 @@ class FluentSolidWriter {
 
 }  // namespace
 
-void write_fluent_solid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+void write_fluent_solid(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
   FluentSolidWriter(outputs, mesh, path).write();
 }
 

@@ -6,7 +6,7 @@
 
 #include "io/fluent/fluent_file.hpp"
 #include "io/fluent/fluent_zones.hpp"
-#include "io/solid/require_conforming.hpp"
+#include "io/stream/require_conforming.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
@@ -17,23 +17,21 @@ namespace quadloop {
 namespace {
 
 /// Zones: 1 the nodes, 2, 3, ... the cells of each block, then the faces inside, then the boundaries.
-class FluentWriter {
+class FluentPlaneWriter {
  public:
-  /// `whole`, where given, is the mesh with its blocks, on one rank.
-  FluentWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path,
-               const LoadedMesh* whole = nullptr)
+  FluentPlaneWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : comm_{outputs.communicator()},
-        mesh_{mesh},
-        whole_{whole != nullptr && has_named_blocks(*whole) ? whole : nullptr},
+        mesh_{stream.extruded()->plane},
+        whole_{stream.extruded()->blocks},
         file_{outputs, path},
-        boundaries_{comm_, mesh},
-        cells_{edge_cells(comm_, mesh)},
-        triangles_{comm_.sum(std::ssize(mesh.triangles))},
-        quads_{comm_.sum(std::ssize(mesh.quads))},
+        boundaries_{*stream.boundaries()},
+        cells_{edge_cells(comm_, mesh_)},
+        triangles_{stream.counts().of(CellKind::triangle)},
+        quads_{stream.counts().of(CellKind::quad)},
         in_block_{{.triangles = triangles_, .quads = quads_}} {
     require_countable_in_fluent(path, comm_.sum(mesh_.owned_nodes), triangles_ + quads_);
     if (whole_ != nullptr) number_by_block();
-    require_conforming(comm_, mesh, cells_, std::ssize(between_), path);
+    require_conforming(comm_, mesh_, cells_, std::ssize(between_), path);
   }
 
   void write() {
@@ -45,7 +43,7 @@ class FluentWriter {
   }
 
  private:
-  std::int32_t blocks() const { return whole_ != nullptr ? whole_->blocks : 1; }
+  std::int32_t blocks() const { return whole_ != nullptr ? size32(whole_->names) : 1; }
   std::int64_t inner_zone() const { return 2 + blocks(); }
 
   /// Numbers of cells from 1; those of a block follow each other.
@@ -69,7 +67,7 @@ class FluentWriter {
     }
   }
   std::int32_t block_of(std::int64_t cell) const {
-    return cell < triangles_ ? whole_->triangle_to_block[cell] : whole_->quad_to_block[cell - triangles_];
+    return cell < triangles_ ? whole_->of_triangles[cell] : whole_->of_quads[cell - triangles_];
   }
 
   void write_nodes() {
@@ -233,17 +231,14 @@ class FluentWriter {
 
   std::vector<std::string> block_names() const {
     if (whole_ == nullptr) return {"domain"};
-    std::vector<std::string> names = whole_->block_names;
-    for (std::int32_t b = static_cast<std::int32_t>(names.size()); b < blocks(); ++b)
-      names.push_back("block_" + std::to_string(b + 1));
-    return fluent_zone_names(names);
+    return fluent_zone_names(whole_->names);
   }
 
   const Communicator& comm_;
   const Mesh& mesh_;
-  const LoadedMesh* whole_;
+  const PlaneBlocks* whole_;  ///< null: one; else the only rank has the whole mesh
   TextOutput file_;
-  BoundaryStream boundaries_;
+  const BoundaryStream& boundaries_;
   EdgeCells cells_;
   std::int64_t triangles_, quads_;  ///< over all ranks
   bool has_inner_ = false;
@@ -258,12 +253,9 @@ std::vector<std::string> fluent_zone_names(const std::vector<std::string>& names
   return plain_names(names);
 }
 
-void write_fluent(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
-  FluentWriter(outputs, mesh, path).write();
-}
-
-void write_fluent(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  FluentWriter(outputs, whole.mesh, path, &whole).write();
+void write_fluent(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  if (!mesh.is_plane()) return write_fluent_solid(outputs, mesh, path);
+  FluentPlaneWriter(outputs, mesh, path).write();
 }
 
 }  // namespace quadloop

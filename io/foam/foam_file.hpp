@@ -5,7 +5,7 @@
 
 #include "io/files/output_file.hpp"
 #include "io/model/mesh_of_file.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
@@ -14,7 +14,7 @@ namespace quadloop {
 /// on any number of ranks. Internal faces are in upper-triangular order. Of one layer the two ends are of the
 /// type "empty", else "symmetryPlane"; walls are "wall", boundaries of symmetry "symmetry", all others
 /// "patch". *Collective.* Throws OutputError on all ranks.
-void write_foam(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
+void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
 /// The names of patches there: plain_words().
 std::vector<std::string> foam_patch_names(const std::vector<std::string>& names);

@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-std::vector<std::string> foam_files(const SolidBlocks& blocks) {
+std::vector<std::string> foam_files(const StreamBlocks& blocks) {
   std::vector<std::string> files{"points", "faces", "owner", "neighbour", "boundary"};
   if (blocks.several()) files.emplace_back("cellZones");
   return files;
@@ -18,7 +18,7 @@ std::string foam_head(const std::string& type, const std::string& object, const 
   return head + "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
 }
 
-std::string foam_counts_note(const SolidCounts& counts, std::int64_t faces, std::int64_t internal_faces) {
+std::string foam_counts_note(const StreamCounts& counts, std::int64_t faces, std::int64_t internal_faces) {
   return "nPoints:" + std::to_string(counts.nodes) + "  nCells:" + std::to_string(counts.cells()) +
          "  nFaces:" + std::to_string(faces) + "  nInternalFaces:" + std::to_string(internal_faces);
 }
@@ -48,7 +48,7 @@ void write_foam_boundary(const Communicator& comm, const StagedFile& staged,
   file.close();
 }
 
-void write_foam_points(const SolidStream& stream, const StagedFile& staged) {
+void write_foam_points(const MeshStream& stream, const StagedFile& staged) {
   TextOutput file(stream.communicator(), staged);
   file.write(foam_head("vectorField", "points") + std::to_string(stream.counts().nodes) + "\n(\n");
   file.write_rows(stream.point_rows(), 4, [&](TextRows& text, std::int64_t i) {
@@ -63,22 +63,22 @@ void write_foam_points(const SolidStream& stream, const StagedFile& staged) {
   file.close();
 }
 
-void write_foam_zones(const SolidStream& stream, const SolidBlocks& blocks, const StagedFile& staged) {
+void write_foam_zones(const MeshStream& stream, const StreamBlocks& blocks, const StagedFile& staged) {
   const Communicator& comm = stream.communicator();
   TextOutput file(comm, staged);
   const std::vector<std::string> names = foam_patch_names(blocks.names());
   file.write(foam_head("regIOobject", "cellZones") + std::to_string(names.size()) + "\n(\n");
   for (std::int32_t block = 0; block < blocks.count(); ++block) {
     std::int64_t cells = 0, before = 0;
-    for_each_kind_of_cell([&]<std::size_t width>() { cells += comm.sum(blocks.rows<width>(block).size()); });
+    for_each_kind([&]<CellKind kind>() { cells += comm.sum(blocks.rows<kind>(block).size()); });
     file.write(names[block] + "\n{\n    type cellZone;\n    cellLabels      List<label>\n" +
                std::to_string(cells) + "\n(\n");
-    for_each_kind_of_cell([&]<std::size_t width>() {
-      const BlockRows rows = blocks.rows<width>(block);
-      const std::int64_t first = before + comm.exclusive_sum(stream.cell_rows<width>());
+    for_each_kind([&]<CellKind kind>() {
+      const BlockRows rows = blocks.rows<kind>(block);
+      const std::int64_t first = before + comm.exclusive_sum(stream.cell_rows<kind>());
       file.write_rows(rows.size(), 1,
                       [&](TextRows& text, std::int64_t i) { text.put(first + rows[i], '\n'); });
-      before += stream.all_cells<width>();
+      before += stream.counts().of(kind);
     });
     file.write(")\n;\n}\n");
   }

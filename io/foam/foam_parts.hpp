@@ -6,20 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "io/solid/solid_blocks.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
 
 /// The files of a polyMesh: the five that each has, and of several blocks the zones of cells.
-std::vector<std::string> foam_files(const SolidBlocks& blocks);
+std::vector<std::string> foam_files(const StreamBlocks& blocks);
 
 /// The header of one of them.
 std::string foam_head(const std::string& type, const std::string& object, const std::string& note = {});
 
 /// What owner and neighbour say of the mesh in their headers.
-std::string foam_counts_note(const SolidCounts& counts, std::int64_t faces, std::int64_t internal_faces);
+std::string foam_counts_note(const StreamCounts& counts, std::int64_t faces, std::int64_t internal_faces);
 
 /// The type of a patch for Boundary::condition.
 std::string foam_patch_type(const std::string& condition);
@@ -30,10 +30,10 @@ void write_foam_boundary(const Communicator& comm, const StagedFile& staged,
                          std::int64_t internal_faces);
 
 /// The file `points`. *Collective.*
-void write_foam_points(const SolidStream& stream, const StagedFile& staged);
+void write_foam_points(const MeshStream& stream, const StagedFile& staged);
 
 /// The file `cellZones`: a zone for each block. *Collective.*
-void write_foam_zones(const SolidStream& stream, const SolidBlocks& blocks, const StagedFile& staged);
+void write_foam_zones(const MeshStream& stream, const StreamBlocks& blocks, const StagedFile& staged);
 
 /// A face takes room for one number more than it has nodes.
 template <class Node, std::size_t width>
@@ -44,6 +44,6 @@ void put_foam_face(TextRows& text, const std::array<Node, width>& nodes) {
 }
 
 /// The writer of a mesh that the only rank holds.
-void write_foam_held(OutputSet& outputs, const SolidStream& stream, const std::string& path);
+void write_foam_held(OutputSet& outputs, const MeshStream& stream, const std::string& path);
 
 }  // namespace quadloop

@@ -2,8 +2,8 @@
 
 #include "io/foam/foam_file.hpp"
 #include "io/model/extruded_mesh.hpp"
-#include "io/solid/require_conforming.hpp"
-#include "io/solid/solid_blocks.hpp"
+#include "io/stream/require_conforming.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 
 namespace quadloop {
@@ -28,24 +28,15 @@ Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
   return result;
 }
 
-void write(OutputSet& outputs, const Mesh& mesh, const std::string& path, const PlaneBlocks* blocks) {
-  const Communicator& comm = outputs.communicator();
-  const Mesh plane = without_interfaces(comm, mesh);
-  require_conforming(comm, plane, edge_cells(comm, plane), 0, path);
-  ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
-  layer.blocks = blocks;
-  write_foam(outputs, SolidStream(comm, layer), path);
-}
-
 }  // namespace
 
-void write_foam_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
-  write(outputs, mesh, path, nullptr);
-}
-
-void write_foam_plane(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  const PlaneBlocks blocks = plane_blocks(whole);
-  write(outputs, whole.mesh, path, whole.blocks > 1 ? &blocks : nullptr);
+void write_foam_plane(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  const Communicator& comm = outputs.communicator();
+  const Mesh plane = without_interfaces(comm, mesh.extruded()->plane);
+  require_conforming(comm, plane, edge_cells(comm, plane), 0, path);
+  ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
+  layer.blocks = mesh.extruded()->blocks;
+  write_foam(outputs, MeshStream(comm, layer), path);
 }
 
 }  // namespace quadloop

@@ -12,7 +12,7 @@
 #include "io/foam/foam_scanner.hpp"
 #include "io/model/clean_up.hpp"
 #include "io/model/repeated_rows.hpp"
-#include "io/solid/cell_of_sides.hpp"
+#include "io/stream/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -1,6 +1,6 @@
 #include "io/foam/foam_parts.hpp"
 #include "io/model/cell_faces.hpp"
-#include "io/solid/held_faces.hpp"
+#include "io/stream/held_faces.hpp"
 
 namespace quadloop {
 
@@ -16,7 +16,7 @@ void put_face(TextRows& text, const FileBoundary::Face& face) {
 
 class FoamHeldWriter {
  public:
-  FoamHeldWriter(OutputSet& outputs, const SolidStream& stream, const std::string& path)
+  FoamHeldWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : stream_{stream},
         mesh_{*stream.held()},
         faces_{mesh_, path},
@@ -74,16 +74,16 @@ class FoamHeldWriter {
     file.close();
   }
 
-  const SolidStream& stream_;
+  const MeshStream& stream_;
   const FileMesh& mesh_;
   HeldFaces faces_;
-  const SolidBlocks blocks_;
+  const StreamBlocks blocks_;
   std::vector<StagedFile> staged_;
 };
 
 }  // namespace
 
-void write_foam_held(OutputSet& outputs, const SolidStream& stream, const std::string& path) {
+void write_foam_held(OutputSet& outputs, const MeshStream& stream, const std::string& path) {
   FoamHeldWriter(outputs, stream, path).write();
 }
 

@@ -1,6 +1,7 @@
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_parts.hpp"
-#include "io/solid/extruded_faces.hpp"
+#include "io/foam/foam_plane_file.hpp"
+#include "io/stream/extruded_faces.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 
@@ -10,7 +11,7 @@ namespace {
 
 class FoamWriter {
  public:
-  FoamWriter(OutputSet& outputs, const SolidStream& stream, const std::string& path)
+  FoamWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : comm_{outputs.communicator()},
         stream_{stream},
         mesh_{*stream.extruded()},
@@ -98,9 +99,9 @@ class FoamWriter {
   }
 
   const Communicator& comm_;
-  const SolidStream& stream_;
+  const MeshStream& stream_;
   const ExtrudedMesh& mesh_;
-  const SolidBlocks blocks_;
+  const StreamBlocks blocks_;
   std::vector<StagedFile> staged_;
   ExtrudedFaces faces_;
   std::int64_t all_faces_ = 0;
@@ -112,7 +113,8 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
   return plain_words(names);
 }
 
-void write_foam(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  if (mesh.is_plane()) return write_foam_plane(outputs, mesh, path);
   if (mesh.held() != nullptr) return write_foam_held(outputs, mesh, path);
   FoamWriter(outputs, mesh, path).write();
 }

@@ -5,7 +5,7 @@
 
 #include "io/files/output_file.hpp"
 #include "io/model/mesh_of_file.hpp"
-#include "mesher/mesh/mesh.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
@@ -21,8 +21,7 @@ MeshOfFile read_medit(const std::string& path);
 
 /// Writes such a file: references of boundaries are those of medit_boundary_names(), cells have that of their
 /// block, from 1. *Collective.* Throws OutputError on all ranks.
-void write_medit(OutputSet& outputs, const Mesh& mesh, const std::string& path);
-void write_medit(OutputSet& outputs, const LoadedMesh& whole, const std::string& path);
+void write_medit(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
 /// The names as they are read back: "boundary_<reference>" stays, the others get the first references that
 /// are free, from 1.

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "io/medit/medit_file.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/text_output.hpp"
 
 namespace quadloop {
@@ -39,47 +40,42 @@ std::vector<std::int32_t> medit_references(const std::vector<std::string>& names
 
 class MeditWriter {
  public:
-  /// `whole`, where given, is the mesh with its blocks, on one rank.
-  MeditWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path, const LoadedMesh* whole)
-      : comm_{outputs.communicator()}, mesh_{mesh}, whole_{whole}, file_{outputs, path} {}
+  MeditWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
+      : stream_{stream}, blocks_{stream}, file_{outputs, path} {}
 
   void write() {
-    file_.write("MeshVersionFormatted 2\nDimension 2\n" + head("Vertices", mesh_.owned_nodes));
-    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::int64_t i) {
-      text.put(mesh_.points[i].x, ' ');
-      text.put(mesh_.points[i].y, ' ');
+    file_.write("MeshVersionFormatted 2\nDimension 2\n" + head("Vertices", stream_.counts().nodes));
+    file_.write_rows(stream_.point_rows(), 3, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = stream_.point(i);
+      text.put(p.x, ' ');
+      text.put(p.y, ' ');
       text.put(0, '\n');
     });
-    write_cells("Triangles", mesh_.triangles, &LoadedMesh::triangle_to_block);
-    write_cells("Quadrilaterals", mesh_.quads, &LoadedMesh::quad_to_block);
+    write_cells<CellKind::triangle>("Triangles");
+    write_cells<CellKind::quad>("Quadrilaterals");
     write_edges();
     file_.write("End\n");
     file_.close();
   }
 
  private:
-  /// *Collective.*
-  std::string head(const std::string& section, std::int64_t rows) const {
-    return section + "\n" + std::to_string(comm_.sum(rows)) + "\n";
+  static std::string head(const std::string& section, std::int64_t rows) {
+    return section + "\n" + std::to_string(rows) + "\n";
   }
 
-  template <class Cells>
-  void write_cells(const char* section, const Cells& cells,
-                   std::vector<std::int32_t> LoadedMesh::*cell_to_block) {
-    if (comm_.sum(std::ssize(cells)) == 0) return;
-    file_.write(head(section, std::ssize(cells)));
-    file_.write_rows(std::ssize(cells), std::tuple_size_v<typename Cells::value_type> + 1,
-                     [&](TextRows& text, std::int64_t i) {
-                       for (const NodeId node : cells[i]) text.put(mesh_.global(node).value() + 1, ' ');
-                       text.put(whole_ == nullptr ? 1 : (whole_->*cell_to_block)[i] + 1, '\n');
-                     });
+  template <CellKind kind>
+  void write_cells(const char* section) {
+    if (stream_.counts().of(kind) == 0) return;
+    file_.write(head(section, stream_.counts().of(kind)));
+    file_.write_rows(stream_.cell_rows<kind>(), cell_width<kind> + 1, [&](TextRows& text, std::int64_t i) {
+      for (const NodeNumber node : stream_.cell<kind>(i)) text.put(node + 1, ' ');
+      text.put(blocks_.of<kind>(i) + 1, '\n');
+    });
   }
 
   void write_edges() {
-    const BoundaryStream boundaries(comm_, mesh_);
-    std::vector<std::string> names;
-    for (const BoundaryEdges* boundary : boundaries.present()) names.push_back(boundary->name);
-    const std::vector<std::int32_t> references = medit_references(names);
+    const BoundaryStream& boundaries = *stream_.boundaries();
+    const std::vector<std::int32_t> references = medit_references(stream_.patch_names());
     file_.write("Edges\n" + std::to_string(boundaries.all_edges()) + "\n");
     file_.write_boundaries(
         boundaries, 3, [](std::size_t) { return std::string(); },
@@ -90,9 +86,8 @@ class MeditWriter {
         });
   }
 
-  const Communicator& comm_;
-  const Mesh& mesh_;
-  const LoadedMesh* whole_;
+  const MeshStream& stream_;
+  const StreamBlocks blocks_;
   TextOutput file_;
 };
 
@@ -105,12 +100,8 @@ std::vector<std::string> medit_boundary_names(const std::vector<std::string>& na
   return read_back;
 }
 
-void write_medit(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
-  MeditWriter(outputs, mesh, path, nullptr).write();
-}
-
-void write_medit(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  MeditWriter(outputs, whole.mesh, path, &whole).write();
+void write_medit(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  MeditWriter(outputs, mesh, path).write();
 }
 
 }  // namespace quadloop

@@ -20,7 +20,7 @@ enum class ExtrusionAxis { y, z };
 std::vector<double> even_heights(std::int64_t layers, double thickness);
 
 /// A node of the 3D mesh, numbered over all ranks, from 0.
-using SolidNode = std::int64_t;
+using NodeNumber = std::int64_t;
 
 /// The blocks of a plane mesh, those of this rank's cells by their places among the names, which are the same
 /// on all ranks.
@@ -48,7 +48,7 @@ struct ExtrudedMesh {
   std::int64_t layers() const { return levels() - 1; }
   double height() const { return std::abs(heights.back() - heights.front()); }
 
-  SolidNode node(GlobalNodeId of_plane, std::int64_t level) const {
+  NodeNumber node(GlobalNodeId of_plane, std::int64_t level) const {
     return of_plane.value() * levels() + level;
   }
   std::int64_t point_rows() const { return plane.owned_nodes * levels(); }
@@ -60,38 +60,38 @@ struct ExtrudedMesh {
     const double along = heights[row % levels()];
     return axis == ExtrusionAxis::z ? Point3{p.x, p.y, along} : Point3{p.x, along, p.y};
   }
-  std::array<SolidNode, 6> prism(std::int64_t row) const { return column(plane.triangles, row); }
-  std::array<SolidNode, 8> hexahedron(std::int64_t row) const { return column(plane.quads, row); }
+  std::array<NodeNumber, 6> prism(std::int64_t row) const { return column(plane.triangles, row); }
+  std::array<NodeNumber, 8> hexahedron(std::int64_t row) const { return column(plane.quads, row); }
 
   /// The face of layer `layer` on a boundary edge of the plane, seen from outside counter-clockwise.
-  std::array<SolidNode, 4> side(GlobalNodeId from, GlobalNodeId to, std::int64_t layer) const {
+  std::array<NodeNumber, 4> side(GlobalNodeId from, GlobalNodeId to, std::int64_t layer) const {
     return {node(from, layer), node(to, layer), node(to, layer + 1), node(from, layer + 1)};
   }
   /// The faces of a cell of the plane on the two ends, seen from outside counter-clockwise.
   template <std::size_t width>
-  std::array<SolidNode, width> back_face(const std::array<NodeId, width>& cell) const {
-    std::array<SolidNode, width> face;
+  std::array<NodeNumber, width> back_face(const std::array<NodeId, width>& cell) const {
+    std::array<NodeNumber, width> face;
     for (std::size_t i = 0; i < width; ++i) face[i] = node(plane.global(cell[width - 1 - i]), 0);
     return face;
   }
   template <std::size_t width>
-  std::array<SolidNode, width> front_face(const std::array<NodeId, width>& cell) const {
+  std::array<NodeNumber, width> front_face(const std::array<NodeId, width>& cell) const {
     return face_at(cell, layers());
   }
   /// As seen from the front counter-clockwise.
   template <std::size_t width>
-  std::array<SolidNode, width> face_at(const std::array<NodeId, width>& cell, std::int64_t level) const {
-    std::array<SolidNode, width> face;
+  std::array<NodeNumber, width> face_at(const std::array<NodeId, width>& cell, std::int64_t level) const {
+    std::array<NodeNumber, width> face;
     for (std::size_t i = 0; i < width; ++i) face[i] = node(plane.global(cell[i]), level);
     return face;
   }
 
  private:
   template <std::size_t width>
-  std::array<SolidNode, 2 * width> column(const std::vector<std::array<NodeId, width>>& cells,
-                                          std::int64_t row) const {
+  std::array<NodeNumber, 2 * width> column(const std::vector<std::array<NodeId, width>>& cells,
+                                           std::int64_t row) const {
     const std::array<NodeId, width>& cell = cells[row / layers()];
-    std::array<SolidNode, 2 * width> nodes;
+    std::array<NodeNumber, 2 * width> nodes;
     for (std::size_t i = 0; i < width; ++i) {
       nodes[i] = node(plane.global(cell[i]), row % layers());
       nodes[i + width] = nodes[i] + 1;

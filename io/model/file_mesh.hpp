@@ -79,6 +79,14 @@ auto& cells_of(FileMeshOrConst& mesh) {
   if constexpr (kind == CellKind::hexahedron) return mesh.hexahedra;
 }
 
+/// The number of nodes of a cell.
+template <CellKind kind>
+inline constexpr std::size_t cell_width = kind == CellKind::triangle                                ? 3
+                                          : kind == CellKind::quad || kind == CellKind::tetrahedron ? 4
+                                          : kind == CellKind::pyramid                               ? 5
+                                          : kind == CellKind::prism                                 ? 6
+                                                                                                    : 8;
+
 /// The kind of 3D cells with so many nodes.
 template <std::size_t width>
 constexpr CellKind kind_of_width() {

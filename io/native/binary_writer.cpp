@@ -4,7 +4,6 @@
 #include <span>
 
 #include "io/files/binary_output.hpp"
-#include "io/files/boundary_stream.hpp"
 #include "io/files/shared_output.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/binary_file.hpp"
@@ -17,39 +16,25 @@ namespace {
 
 class BinaryWriter {
  public:
-  BinaryWriter(OutputSet& outputs, const Mesh& mesh, const Field* solution, const std::string& path)
+  BinaryWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : comm_{outputs.communicator()},
-        mesh_{mesh},
-        solution_{solution},
-        boundaries_{comm_, mesh},
+        mesh_{stream.extruded()->plane},
+        solution_{stream.extruded()->solution},
+        boundaries_{*stream.boundaries()},
         file_{outputs, outputs.stage(path)} {
-    header_.nodes = comm_.sum(mesh.owned_nodes);
+    header_.nodes = stream.counts().nodes;
     header_.node_bytes = node_bytes_for(header_.nodes);
     for (std::size_t n = 0; n < boundaries_.present().size(); ++n) {
       const BoundaryEdges& boundary = *boundaries_.present()[n];
       header_.boundaries.push_back(
           {boundary.name, boundary.condition, boundaries_.edges_of(n), boundary.layers});
     }
-    for (const StripLayers& strip : mesh.strips) header_.strips += comments_of(strip);
-    if (solution == nullptr) return;
-    header_.constants = std::ssize(solution->constants);
-    header_.variables = distinct_words(solution->names, path);
-    header_.cell_variables = distinct_words(solution->cells.names, path);
-  }
-
-  /// Of a mesh that is one.
-  void one_block() {
-    header_.blocks = {{"domain", comm_.sum(std::ssize(mesh_.triangles)), comm_.sum(std::ssize(mesh_.quads))}};
-  }
-
-  /// Where one rank has all.
-  void blocks_of(const LoadedMesh& whole) {
-    for (std::int32_t b = 0; b < whole.blocks; ++b) {
-      const std::string name =
-          static_cast<std::size_t>(b) < whole.block_names.size() ? whole.block_names[b] : "domain";
-      header_.blocks.push_back(
-          {name, std::ranges::count(whole.triangle_to_block, b), std::ranges::count(whole.quad_to_block, b)});
-    }
+    for (const StripLayers& strip : mesh_.strips) header_.strips += comments_of(strip);
+    put_blocks(stream);
+    if (solution_ == nullptr) return;
+    header_.constants = std::ssize(solution_->constants);
+    header_.variables = distinct_words(solution_->names, path);
+    header_.cell_variables = distinct_words(solution_->cells.names, path);
   }
 
   void write() {
@@ -67,6 +52,18 @@ class BinaryWriter {
   }
 
  private:
+  void put_blocks(const MeshStream& stream) {
+    const PlaneBlocks* blocks = stream.extruded()->blocks;
+    if (blocks == nullptr) {
+      const StreamCounts& all = stream.counts();
+      header_.blocks = {{"domain", all.of(CellKind::triangle), all.of(CellKind::quad)}};
+      return;
+    }
+    for (std::int32_t b = 0; b < std::ssize(blocks->names); ++b)
+      header_.blocks.push_back({blocks->names[b], std::ranges::count(blocks->of_triangles, b),
+                                std::ranges::count(blocks->of_quads, b)});
+  }
+
   /// Rank 0's bytes.
   void at_root(std::string_view bytes) {
     comm_.together([&] {
@@ -141,7 +138,7 @@ class BinaryWriter {
   const Communicator& comm_;
   const Mesh& mesh_;
   const Field* solution_;
-  const BoundaryStream boundaries_;
+  const BoundaryStream& boundaries_;
   SharedOutput file_;
   BinaryHeader header_;
   std::int64_t end_ = 0;  ///< of what is written, over all ranks
@@ -149,16 +146,8 @@ class BinaryWriter {
 
 }  // namespace
 
-void write_binary(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
-  BinaryWriter writer(outputs, mesh, solution, path);
-  writer.one_block();
-  writer.write();
-}
-
-void write_binary(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  BinaryWriter writer(outputs, whole.mesh, whole.solution ? &*whole.solution : nullptr, path);
-  writer.blocks_of(whole);
-  writer.write();
+void write_binary(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  BinaryWriter(outputs, mesh, path).write();
 }
 
 }  // namespace quadloop

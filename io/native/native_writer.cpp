@@ -12,23 +12,22 @@ namespace {
 
 class NativeWriter {
  public:
-  NativeWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, path_{path}, file_{outputs, path} {}
+  NativeWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
+      : comm_{outputs.communicator()},
+        mesh_{stream.extruded()->plane},
+        blocks_{stream.extruded()->blocks},
+        path_{path},
+        file_{outputs, path} {}
 
   void write_mesh() {
     write_nodes();
-    file_.write("#Number of blocks\n1\n");
-    write_block(std::span(mesh_.triangles), std::span(mesh_.quads));
-    write_boundaries();
-  }
-
-  /// Where one rank has all: the cells of each block in turn.
-  void write_blocks(const LoadedMesh& whole) {
-    write_nodes();
-    file_.write("#Number of blocks\n" + std::to_string(whole.blocks) + "\n");
-    for (std::int32_t block = 0; block < whole.blocks; ++block) {
-      write_block(cells_of_block(mesh_.triangles, whole.triangle_to_block, block),
-                  cells_of_block(mesh_.quads, whole.quad_to_block, block));
+    const std::size_t blocks = blocks_ == nullptr ? 1 : blocks_->names.size();
+    file_.write("#Number of blocks\n" + std::to_string(blocks) + "\n");
+    for (std::int32_t block = 0; block < static_cast<std::int32_t>(blocks); ++block) {
+      write_connectivity("#Number of triangular elements\n",
+                         cells_in(mesh_.triangles, &PlaneBlocks::of_triangles, block));
+      write_connectivity("#Number of quadrilateral elements\n",
+                         cells_in(mesh_.quads, &PlaneBlocks::of_quads, block));
     }
     write_boundaries();
   }
@@ -49,10 +48,13 @@ class NativeWriter {
   void close() { file_.close(); }
 
  private:
-  void write_block(std::span<const std::array<NodeId, 3>> triangles,
-                   std::span<const std::array<NodeId, 4>> quads) {
-    write_connectivity("#Number of triangular elements\n", triangles);
-    write_connectivity("#Number of quadrilateral elements\n", quads);
+  /// The cells of a block follow each other.
+  template <class Cells>
+  std::span<const typename Cells::value_type> cells_in(const Cells& cells,
+                                                       std::vector<std::int32_t> PlaneBlocks::*of_cells,
+                                                       std::int32_t block) const {
+    if (blocks_ == nullptr) return std::span(cells);
+    return cells_of_block(cells, blocks_->*of_cells, block);
   }
 
   void write_nodes() {
@@ -113,31 +115,19 @@ class NativeWriter {
 
   const Communicator& comm_;
   const Mesh& mesh_;
+  const PlaneBlocks* blocks_;  ///< null: one
   std::string path_;
   TextOutput file_;
 };
 
 }  // namespace
 
-void write_native(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field* solution) {
+void write_native(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
   NativeWriter writer(outputs, mesh, path);
   writer.write_mesh();
-  if (solution != nullptr) writer.write_solution(*solution);
+  if (const Field* solution = mesh.extruded()->solution; solution != nullptr)
+    writer.write_solution(*solution);
   writer.close();
-}
-
-void write_native(OutputSet& outputs, const LoadedMesh& whole, const std::string& path) {
-  NativeWriter writer(outputs, whole.mesh, path);
-  writer.write_blocks(whole);
-  if (whole.solution) writer.write_solution(*whole.solution);
-  writer.close();
-}
-
-void write_native(const Communicator& comm, const Mesh& mesh, const std::string& path,
-                  const Field* solution) {
-  OutputSet outputs(comm);
-  write_native(outputs, mesh, path, solution);
-  outputs.commit();
 }
 
 }  // namespace quadloop

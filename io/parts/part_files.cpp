@@ -63,13 +63,13 @@ void PartFiles::write(const std::string& prefix, const PartIndex& index, const s
 
 void PartFiles::write_part(const std::string& prefix, const PartIndex& index, const MeshPart& part) {
   const LoadedMesh loaded = loaded_part(part, index.blocks);
-  const Field* const field = loaded.solution ? &*loaded.solution : nullptr;
+  const MeshStream stream(outputs_.communicator(), loaded);
   for (const std::string& format : index.formats) {
     const std::string path = part_path(prefix, part.number, format);
-    if (format == "mesh") write_native(outputs_, loaded, path);
-    if (format == "vtu") write_vtu(outputs_, loaded, path);
+    if (format == "mesh") write_native(outputs_, stream, path);
+    if (format == "vtu") write_vtu(outputs_, stream, path);
     if (format == "cgns") {
-      write_cgns(outputs_, loaded.mesh, path, field);
+      write_cgns(outputs_, stream, path);
       put_part_into_cgns(outputs_.staged_last(), part, index.parts);
     }
   }

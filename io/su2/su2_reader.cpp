@@ -2,7 +2,7 @@
 
 #include "io/model/clean_up.hpp"
 #include "io/model/matching_sides.hpp"
-#include "io/solid/vtk_cell.hpp"
+#include "io/stream/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_text.hpp"
 

@@ -1,5 +1,5 @@
-#include <span>
-
+#include "io/stream/mesh_stream.hpp"
+#include "io/stream/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
@@ -8,68 +8,108 @@ namespace quadloop {
 
 namespace {
 
-constexpr int vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
-
 class Su2Writer {
  public:
-  Su2Writer(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()}, mesh_{mesh}, file_{outputs, path} {}
+  Su2Writer(OutputSet& outputs, const MeshStream& stream, const std::string& path)
+      : stream_{stream}, file_{outputs, path} {}
 
-  void write_mesh() {
-    const std::int64_t triangles = total(mesh_.triangles), quads = total(mesh_.quads);
-    file_.write("NDIME= 2\nNELEM= " + std::to_string(triangles + quads) + "\n");
-    write_elements(vtk_triangle, std::span(mesh_.triangles), 0);
-    write_elements(vtk_quad, std::span(mesh_.quads), triangles);
+  void write() {
+    file_.write((stream_.is_plane() ? "NDIME= 2\nNELEM= " : "NDIME= 3\nNELEM= ") +
+                std::to_string(stream_.counts().cells()) + "\n");
+    for_each_kind([&]<CellKind kind>() { write_cells<kind>(); });
     write_points();
     write_markers();
     file_.close();
   }
 
  private:
-  std::int64_t total(const auto& rows) const { return comm_.sum(std::ssize(rows)); }
+  /// Rows of a plane mesh end with their numbers over all ranks; `number` is that of the row.
+  void end_row(TextRows& text, std::int64_t number) const {
+    if (stream_.is_plane()) {
+      text.mark(' ');
+      text.put(number, '\n');
+    } else {
+      text.mark('\n');
+    }
+  }
 
-  /// Each row ends with its number, counted from `first` over all ranks.
-  template <std::size_t width>
-  void write_elements(int type, std::span<const std::array<NodeId, width>> rows, std::int64_t first) {
-    const std::int64_t number = first + comm_.exclusive_sum(std::ssize(rows));
-    file_.write_rows(rows.size(), width + 2, [&](TextRows& text, std::int64_t i) {
-      text.put(type, ' ');
-      for (const NodeId node : rows[i]) text.put(mesh_.global(node).value(), ' ');
-      text.put(number + i, '\n');
+  template <CellKind kind>
+  void write_cells() {
+    const std::int64_t rows = stream_.cell_rows<kind>();
+    const std::int64_t first = written_ + file_.communicator().exclusive_sum(rows);
+    written_ += stream_.counts().of(kind);
+    file_.write_rows(rows, cell_width<kind> + 2, [&](TextRows& text, std::int64_t i) {
+      put_element(text, vtk_type_of<kind>, in_vtk_order(stream_.cell<kind>(i)));
+      end_row(text, first + i);
     });
   }
 
   void write_points() {
-    file_.write("NPOIN= " + std::to_string(comm_.sum(mesh_.owned_nodes)) + "\n");
-    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::int64_t i) {
-      text.put(mesh_.points[i].x, ' ');
-      text.put(mesh_.points[i].y, ' ');
-      text.put(mesh_.first_node + i, '\n');
+    file_.write("NPOIN= " + std::to_string(stream_.counts().nodes) + "\n");
+    const std::int64_t first = file_.communicator().exclusive_sum(stream_.point_rows());
+    file_.write_rows(stream_.point_rows(), 4, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = stream_.point(i);
+      text.put(p.x, ' ');
+      text.put(p.y);
+      if (!stream_.is_plane()) {
+        text.mark(' ');
+        text.put(p.z);
+      }
+      end_row(text, first + i);
     });
   }
 
-  void write_markers() {
-    const BoundaryStream boundaries(comm_, mesh_);
-    std::vector<std::string> own_names;
-    for (const BoundaryEdges* boundary : boundaries.present()) own_names.push_back(boundary->name);
-    const std::vector<std::string> names = su2_marker_names(own_names);
-    file_.write("NMARK= " + std::to_string(names.size()) + "\n");
-    file_.write_boundaries(
-        boundaries, 3,
-        [&](std::size_t n) {
-          return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(boundaries.edges_of(n)) +
-                 "\n";
-        },
-        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-          text.put(vtk_line, ' ');
-          text.put(edge[0], ' ');
-          text.put(edge[1], '\n');
-        });
+  /// Its type and nodes, without an end of the row.
+  template <std::size_t width>
+  static void put_element(TextRows& text, int type, const std::array<NodeNumber, width>& nodes) {
+    text.put(type);
+    for (const NodeNumber node : nodes) {
+      text.mark(' ');
+      text.put(node);
+    }
   }
 
-  const Communicator& comm_;
-  const Mesh& mesh_;
+  void write_markers() {
+    const std::vector<std::string> names = su2_marker_names(stream_.patch_names());
+    const auto head = [&](std::size_t n) {
+      return "MARKER_TAG= " + names[n] + "\nMARKER_ELEMS= " + std::to_string(stream_.patches()[n].faces()) +
+             "\n";
+    };
+    file_.write("NMARK= " + std::to_string(names.size()) + "\n");
+    if (stream_.boundaries() != nullptr)
+      file_.write_boundaries(
+          *stream_.boundaries(), 5 * std::max<std::int64_t>(1, stream_.layers()), head,
+          [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) { put_sides(text, edge); });
+    for (std::size_t n = stream_.side_patches(); n < names.size(); ++n) {
+      file_.write(head(n));
+      write_faces<3>(n);
+      write_faces<4>(n);
+    }
+  }
+
+  /// A line of a plane mesh, or a quad of each layer.
+  void put_sides(TextRows& text, const BoundaryStream::Edge& edge) const {
+    if (stream_.is_plane()) {
+      put_element(text, vtk_line, edge);
+      text.mark('\n');
+    }
+    for (std::int64_t layer = 0; layer < stream_.layers(); ++layer) {
+      put_element(text, vtk_quad, stream_.side(edge, layer));
+      text.mark('\n');
+    }
+  }
+
+  template <std::size_t width>
+  void write_faces(std::size_t patch) {
+    file_.write_rows(stream_.face_rows<width>(patch), width + 1, [&](TextRows& text, std::int64_t i) {
+      put_element(text, width == 3 ? vtk_triangle : vtk_quad, stream_.face<width>(patch, i));
+      text.mark('\n');
+    });
+  }
+
+  const MeshStream& stream_;
   TextOutput file_;
+  std::int64_t written_ = 0;  ///< cells, over all ranks
 };
 
 }  // namespace
@@ -78,14 +118,8 @@ std::vector<std::string> su2_marker_names(const std::vector<std::string>& bounda
   return plain_names(boundaries);
 }
 
-void write_su2(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
-  Su2Writer(outputs, mesh, path).write_mesh();
-}
-
-void write_su2(const Communicator& comm, const Mesh& mesh, const std::string& path) {
-  OutputSet outputs(comm);
-  write_su2(outputs, mesh, path);
-  outputs.commit();
+void write_su2(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  Su2Writer(outputs, mesh, path).write();
 }
 
 }  // namespace quadloop

@@ -24,11 +24,14 @@ class TextRows {
   TextRows(std::int64_t rows, std::size_t width) : text_(rows * width * longest_number) {}
 
   template <class Number>
-  void put(Number value, char after) {
+  void put(Number value) {
     char* const begin = text_.data() + used_;
-    char* const end = std::to_chars(begin, begin + longest_number, value).ptr;
-    *end = after;
-    used_ += end - begin + 1;
+    used_ += std::to_chars(begin, begin + longest_number, value).ptr - begin;
+  }
+  template <class Number>
+  void put(Number value, char after) {
+    put(value);
+    text_[used_++] = after;
   }
   void put_hexadecimal(std::int64_t value, char after) {
     char* const begin = text_.data() + used_;
@@ -36,7 +39,8 @@ class TextRows {
     *end = after;
     used_ += end - begin + 1;
   }
-  /// One sign more; rows must have asked for enough numbers that there is room for it.
+  /// One sign, as after a number that was put without one; rows must have asked for enough numbers that there
+  /// is room for it.
   void mark(char sign) { text_[used_++] = sign; }
   std::vector<char> take() {
     text_.resize(used_);

@@ -8,7 +8,7 @@
 
 #include "io/files/output_file.hpp"
 #include "io/model/mesh_of_file.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
@@ -17,7 +17,7 @@ namespace quadloop {
 /// are counter-clockwise as seen from outside. The bytes are the same on any number of ranks. *Collective.*
 /// Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
 template <std::endian order>
-void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path);
+void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
 /// The file of patches that goes with a 3D mesh: "a.b8.ugrid" has "a.mapbc". A plane one, which FUN3D does
 /// not read, has its own: "a.ugrid" has "a.ugrid.mapbc".

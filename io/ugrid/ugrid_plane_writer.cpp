@@ -10,30 +10,26 @@ namespace {
 
 class UgridPlaneWriter {
  public:
-  UgridPlaneWriter(OutputSet& outputs, const Mesh& mesh, const std::string& path)
-      : comm_{outputs.communicator()},
-        mesh_{mesh},
-        file_{outputs, path},
-        names_{outputs, plane_mapbc_path(path)},
-        boundaries_{comm_, mesh} {}
+  UgridPlaneWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
+      : stream_{stream}, file_{outputs, path}, names_{outputs, plane_mapbc_path(path)} {}
 
   void write() {
     write_names();
-    const std::int64_t triangles = comm_.sum(std::ssize(mesh_.triangles)),
-                       quads = comm_.sum(std::ssize(mesh_.quads));
-    file_.write(std::to_string(comm_.sum(mesh_.owned_nodes)) + " " + std::to_string(triangles) + " " +
-                std::to_string(quads) + " 0 0 0 0\n");
-    file_.write_rows(mesh_.owned_nodes, 3, [&](TextRows& text, std::int64_t i) {
-      text.put(mesh_.points[i].x, ' ');
-      text.put(mesh_.points[i].y, ' ');
+    const StreamCounts& all = stream_.counts();
+    file_.write(std::to_string(all.nodes) + " " + std::to_string(all.of(CellKind::triangle)) + " " +
+                std::to_string(all.of(CellKind::quad)) + " 0 0 0 0\n");
+    file_.write_rows(stream_.point_rows(), 3, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = stream_.point(i);
+      text.put(p.x, ' ');
+      text.put(p.y, ' ');
       text.put(0, '\n');
     });
-    write_cells(mesh_.triangles);
-    write_cells(mesh_.quads);
-    file_.write_root_rows(triangles + quads, 1, [](TextRows& text, std::int64_t) { text.put(1, '\n'); });
-    file_.write(std::to_string(boundaries_.all_edges()) + "\n");
+    write_cells<CellKind::triangle>();
+    write_cells<CellKind::quad>();
+    file_.write_root_rows(all.cells(), 1, [](TextRows& text, std::int64_t) { text.put(1, '\n'); });
+    file_.write(std::to_string(stream_.boundaries()->all_edges()) + "\n");
     file_.write_boundaries(
-        boundaries_, 3, [](std::size_t) { return std::string(); },
+        *stream_.boundaries(), 3, [](std::size_t) { return std::string(); },
         [](TextRows& text, std::size_t n, const BoundaryStream::Edge& edge) {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, ' ');
@@ -43,31 +39,29 @@ class UgridPlaneWriter {
   }
 
  private:
-  template <std::size_t width>
-  void write_cells(const std::vector<std::array<NodeId, width>>& cells) {
-    file_.write_rows(std::ssize(cells), width, [&](TextRows& text, std::int64_t i) {
-      for (std::size_t k = 0; k < width; ++k)
-        text.put(mesh_.global(cells[i][k]).value() + 1, k + 1 < width ? ' ' : '\n');
+  template <CellKind kind>
+  void write_cells() {
+    file_.write_rows(stream_.cell_rows<kind>(), cell_width<kind>, [&](TextRows& text, std::int64_t i) {
+      const auto nodes = stream_.cell<kind>(i);
+      for (const NodeNumber& node : nodes) text.put(node + 1, &node < &nodes.back() ? ' ' : '\n');
     });
   }
 
   void write_names() {
     std::vector<MapbcPatch> patches;
-    for (const BoundaryEdges* boundary : boundaries_.present())
-      patches.push_back({boundary->name, mapbc_condition(boundary->condition)});
+    for (const StreamedPatch& patch : stream_.patches())
+      patches.push_back({patch.name, mapbc_condition(patch.condition)});
     names_.write(mapbc_text(patches));
     names_.close();
   }
 
-  const Communicator& comm_;
-  const Mesh& mesh_;
+  const MeshStream& stream_;
   TextOutput file_, names_;
-  BoundaryStream boundaries_;
 };
 
 }  // namespace
 
-void write_ugrid_plane(OutputSet& outputs, const Mesh& mesh, const std::string& path) {
+void write_ugrid_plane(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
   UgridPlaneWriter(outputs, mesh, path).write();
 }
 

@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <limits>
 #include <memory>
 
 #include "io/files/binary_output.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// There the third node of a pyramid is its apex.
 template <std::size_t width>
-std::array<SolidNode, width> as_ugrid(const std::array<SolidNode, width>& cell) {
+std::array<NodeNumber, width> as_ugrid(const std::array<NodeNumber, width>& cell) {
   if constexpr (width == 5) return {cell[0], cell[3], cell[4], cell[1], cell[2]};
   return cell;
 }
@@ -20,7 +21,7 @@ std::array<SolidNode, width> as_ugrid(const std::array<SolidNode, width>& cell) 
 template <std::endian order>
 class UgridWriter {
  public:
-  UgridWriter(const SolidStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
+  UgridWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
     refuse_too_large(path);
     const StagedFile staged = outputs.stage(path), names = outputs.stage(mapbc_path(path));
     stream_.on_root([&] {
@@ -37,9 +38,9 @@ class UgridWriter {
     });
     write_faces();
     write_face_patches();
-    for_each_kind_of_cell([&]<std::size_t width>() {
-      put_rows(stream_.cell_rows<width>(),
-               [&](std::int64_t i) { return as<std::int32_t>(as_ugrid(stream_.cell<width>(i)), 1); });
+    for_each_kind([&]<CellKind kind>() {
+      put_rows(stream_.cell_rows<kind>(),
+               [&](std::int64_t i) { return as<std::int32_t>(as_ugrid(stream_.cell<kind>(i)), 1); });
     });
     stream_.on_root([&] { file_->close(); });
   }
@@ -47,9 +48,8 @@ class UgridWriter {
  private:
   void refuse_too_large(const std::string& path) const {
     constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    const SolidCounts& counts = stream_.counts();
-    if (counts.nodes <= most && counts.tetrahedra <= most && counts.pyramids <= most &&
-        counts.prisms <= most && counts.hexahedra <= most && stream_.patch_quads() <= most &&
+    const StreamCounts& counts = stream_.counts();
+    if (counts.nodes <= most && std::ranges::max(counts.of_kind) <= most && stream_.patch_quads() <= most &&
         stream_.patch_triangles() <= most)
       return;
     throw OutputError(
@@ -67,10 +67,10 @@ class UgridWriter {
   }
 
   void write_head() {
-    const SolidCounts& counts = stream_.counts();
-    const auto head = in_order<order>(as<std::int32_t>(
-        std::array<SolidNode, 7>{counts.nodes, stream_.patch_triangles(), stream_.patch_quads(),
-                                 counts.tetrahedra, counts.pyramids, counts.prisms, counts.hexahedra}));
+    const StreamCounts& counts = stream_.counts();
+    const auto head = in_order<order>(as<std::int32_t>(std::array<NodeNumber, 7>{
+        counts.nodes, stream_.patch_triangles(), stream_.patch_quads(), counts.of(CellKind::tetrahedron),
+        counts.of(CellKind::pyramid), counts.of(CellKind::prism), counts.of(CellKind::hexahedron)}));
     file_->write(bytes_of(std::span<const std::int32_t>(head)));
   }
 
@@ -108,18 +108,18 @@ class UgridWriter {
 
   static constexpr std::int64_t most_numbers = std::int64_t{1} << 18;
 
-  const SolidStream& stream_;
+  const MeshStream& stream_;
   std::unique_ptr<OutputFile> file_;  ///< on rank 0 only
 };
 
 }  // namespace
 
 template <std::endian order>
-void write_ugrid(OutputSet& outputs, const SolidStream& mesh, const std::string& path) {
+void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
   UgridWriter<order>(mesh, outputs, path).write();
 }
 
-template void write_ugrid<std::endian::little>(OutputSet&, const SolidStream&, const std::string&);
-template void write_ugrid<std::endian::big>(OutputSet&, const SolidStream&, const std::string&);
+template void write_ugrid<std::endian::little>(OutputSet&, const MeshStream&, const std::string&);
+template void write_ugrid<std::endian::big>(OutputSet&, const MeshStream&, const std::string&);
 
 }  // namespace quadloop

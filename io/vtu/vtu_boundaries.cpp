@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/model/repeated_rows.hpp"
-#include "io/solid/vtk_cell.hpp"
+#include "io/stream/vtk_cell.hpp"
 
 namespace quadloop {
 

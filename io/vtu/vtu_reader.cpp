@@ -6,7 +6,7 @@
 
 #include "io/model/clean_up.hpp"
 #include "io/model/strip_text.hpp"
-#include "io/solid/vtk_cell.hpp"
+#include "io/stream/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_boundaries.hpp"
 #include "io/vtu/vtu_file.hpp"

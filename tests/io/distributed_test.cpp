@@ -24,6 +24,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -72,9 +73,9 @@ struct Sample {
 TEST(NativeFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   const TemporaryFolder folder;
   const Sample sample;
-  write_native(world(), sample.own, folder.file("many.mesh"), &sample.own_solution);
+  test::write_alone(world(), sample.own, folder.file("many.mesh"), &sample.own_solution);
   if (!world().is_root()) return;
-  write_native(sample.alone, sample.mesh, folder.file("one.mesh"), &sample.solution);
+  test::write_alone(sample.alone, sample.mesh, folder.file("one.mesh"), &sample.solution);
   EXPECT_TRUE(test::bytes_of(folder.file("many.mesh")) == test::bytes_of(folder.file("one.mesh")));
   const LoadedMesh loaded = read_native(folder.file("many.mesh"));
   expect_same_mesh(loaded, sample.mesh);
@@ -90,7 +91,7 @@ TEST(BinaryFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   const auto write = [&](const Communicator& comm, const Mesh& mesh, const Field& solution,
                          const std::string& path) {
     OutputSet outputs(comm);
-    write_binary(outputs, mesh, path, &solution);
+    write_mesh(outputs, mesh, path, &solution);
     outputs.commit();
   };
   write(world(), sample.own, sample.own_solution, folder.file("many.qmesh"));
@@ -108,9 +109,9 @@ TEST(BinaryFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
 TEST(Su2File, SameBytesOnAnyNumberOfRanksAndComesBack) {
   const TemporaryFolder folder;
   Sample sample;
-  write_su2(world(), sample.own, folder.file("many.su2"));
+  test::write_alone(world(), sample.own, folder.file("many.su2"));
   if (!world().is_root()) return;
-  write_su2(sample.alone, sample.mesh, folder.file("one.su2"));
+  test::write_alone(sample.alone, sample.mesh, folder.file("one.su2"));
   EXPECT_TRUE(test::bytes_of(folder.file("many.su2")) == test::bytes_of(folder.file("one.su2")));
   sample.mesh.boundaries.at(1).name = "far_field";  // SU2 takes no blanks
   sample.mesh.boundaries[0].layers = {};            // nor layers
@@ -121,9 +122,9 @@ TEST(Su2File, SameBytesOnAnyNumberOfRanksAndComesBack) {
 TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   const TemporaryFolder folder;
   Sample sample;
-  write_msh(world(), sample.own, folder.file("many.msh"));
+  test::write_alone(world(), sample.own, folder.file("many.msh"));
   if (!world().is_root()) return;
-  write_msh(sample.alone, sample.mesh, folder.file("one.msh"));
+  test::write_alone(sample.alone, sample.mesh, folder.file("one.msh"));
   EXPECT_TRUE(test::bytes_of(folder.file("many.msh")) == test::bytes_of(folder.file("one.msh")));
   const LoadedMesh loaded = test::read_plane<read_msh>(folder.file("many.msh"));
   sample.mesh.boundaries[0].layers = {};  // it has no place for them
@@ -136,9 +137,9 @@ TEST(MshFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
 TEST(VtuFile, SameBytesOnAnyNumberOfRanksAndComesBack) {
   const TemporaryFolder folder;
   const Sample sample;
-  write_vtu(world(), sample.own, folder.file("many.vtu"), &sample.own_solution);
+  test::write_alone(world(), sample.own, folder.file("many.vtu"), &sample.own_solution);
   if (!world().is_root()) return;
-  write_vtu(sample.alone, sample.mesh, folder.file("one.vtu"), &sample.solution);
+  test::write_alone(sample.alone, sample.mesh, folder.file("one.vtu"), &sample.solution);
   EXPECT_TRUE(test::bytes_of(folder.file("many.vtu")) == test::bytes_of(folder.file("one.vtu")));
   const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("many.vtu"));
   expect_same_mesh(loaded, sample.mesh);
@@ -160,7 +161,7 @@ std::string bytes_below(const std::string& folder) {
 
 TEST(EveryFormat, SameBytesOnAnyNumberOfRanks) {
   for (const FileFormat& format : file_formats()) {
-    if (format.write_mesh == nullptr || format.name == "cgns") continue;  // that one holds the time
+    if (!format.holds(Content::mesh) || format.name == "cgns") continue;  // that one holds the time
     SCOPED_TRACE(format.name);
     const test::TemporaryFolder folder;
     for (const char* part : {"many", "one"}) {
@@ -168,11 +169,13 @@ TEST(EveryFormat, SameBytesOnAnyNumberOfRanks) {
     }
     const Sample sample;
     OutputSet many(world());
-    format.write_mesh(many, sample.own, folder.file("many") + "/a." + format.name, &sample.own_solution);
+    format.write(many, MeshStream(world(), sample.own, &sample.own_solution),
+                 folder.file("many") + "/a." + format.name);
     many.commit();
     if (!world().is_root()) continue;
     OutputSet one(sample.alone);
-    format.write_mesh(one, sample.mesh, folder.file("one") + "/a." + format.name, &sample.solution);
+    format.write(one, MeshStream(sample.alone, sample.mesh, &sample.solution),
+                 folder.file("one") + "/a." + format.name);
     one.commit();
     EXPECT_TRUE(bytes_below(folder.file("many")) == bytes_below(folder.file("one")));
   }
@@ -211,7 +214,7 @@ TEST(Su2Dat, SameBytesOnAnyNumberOfRanks) {
 TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {
   const TemporaryFolder folder;
   const Sample sample;
-  write_cgns(world(), sample.own, folder.file("m.cgns"), &sample.own_solution);
+  test::write_alone(world(), sample.own, folder.file("m.cgns"), &sample.own_solution);
   if (!world().is_root()) return;
   const LoadedMesh loaded = test::read_plane<read_cgns>(folder.file("m.cgns"));
   expect_same_mesh(loaded, sample.mesh);

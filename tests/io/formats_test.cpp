@@ -84,7 +84,7 @@ TEST(Formats, EachReadsWhatItWrites) {
     const std::string path = folder.file("a." + format.name);
     OutputSet outputs(alone);
     if (format.holds(Content::mesh)) {
-      format.write_mesh(outputs, mesh, path, &solution);
+      format.write(outputs, MeshStream(alone, mesh, &solution), path);
       outputs.commit();
       const LoadedMesh loaded = plane_of(format.read(path), path);
       EXPECT_EQ(loaded.mesh.points, mesh.points);
@@ -144,9 +144,12 @@ TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
     EXPECT_EQ(refusal(name, bytes), "") << name;
 }
 
-TEST(Formats, AreWrittenBlockByBlockWhereBlocksHaveAPlace) {
-  for (const FileFormat& format : file_formats())
-    EXPECT_EQ(format.write_blocks != nullptr, format.holds(Content::blocks)) << format.name;
+TEST(Formats, OfMeshesAreReadAndWritten) {
+  for (const FileFormat& format : file_formats()) {
+    const bool is_of_meshes = format.holds(Content::mesh) || format.holds(Content::solid);
+    EXPECT_EQ(format.write != nullptr, is_of_meshes) << format.name;
+    EXPECT_EQ(format.read != nullptr, is_of_meshes) << format.name;
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -162,9 +163,9 @@ class Formats : public testing::TestWithParam<std::string> {
 
   std::string write(const Mesh& other, const Field* values) const {
     const std::string path = folder.file("s" + GetParam());
-    if (GetParam() == ".mesh") write_native(test::world(), other, path, values);
-    if (GetParam() == ".cgns") write_cgns(test::world(), other, path, values);
-    if (GetParam() == ".vtu") write_vtu(test::world(), other, path, values);
+    if (GetParam() == ".mesh") test::write_alone(test::world(), other, path, values);
+    if (GetParam() == ".cgns") test::write_alone(test::world(), other, path, values);
+    if (GetParam() == ".vtu") test::write_alone(test::world(), other, path, values);
     return path;
   }
 };
@@ -231,8 +232,8 @@ TEST(SolutionNames, BlanksBecomeUnderscoresInEveryFormat) {
   const Mesh mesh = test::sample_mesh(5);
   Field solution = test::sample_solution(mesh);
   for (std::string& name : solution.names) name = "of \tname " + name;
-  write_vtu(test::world(), mesh, folder.file("a.vtu"), &solution);
-  write_native(test::world(), mesh, folder.file("a.mesh"), &solution);
+  test::write_alone(test::world(), mesh, folder.file("a.vtu"), &solution);
+  test::write_alone(test::world(), mesh, folder.file("a.mesh"), &solution);
   const auto names = read_solution(folder.file("a.vtu")).solution.names;
   EXPECT_EQ(names, read_solution(folder.file("a.mesh")).solution.names);
   for (const std::string& name : names) EXPECT_EQ(name.find_first_of(" \t"), std::string::npos) << name;
@@ -246,7 +247,7 @@ TEST(SolutionNames, CgnsKeepsEachVariable) {
   for (const auto& names :
        {std::vector<std::string>{of_40 + "1", of_40 + "2"}, {"density", "Density"}, {"a/b", "a_b"}}) {
     solution.names = names;
-    write_cgns(test::world(), mesh, folder.file("a.cgns"), &solution);
+    test::write_alone(test::world(), mesh, folder.file("a.cgns"), &solution);
     EXPECT_EQ(read_solution(folder.file("a.cgns")).solution.values, solution.values) << names[0];
   }
 }

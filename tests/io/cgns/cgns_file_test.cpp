@@ -18,6 +18,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -197,7 +198,7 @@ TEST(CgnsFile, KeepsTheNamesOfVariables) {
   field.cells.names = {"GridLocation", "CoordinateX"};
   for (std::size_t i = 0; i < 2 * (mesh.triangles.size() + mesh.quads.size()); ++i)
     field.cells.values.push_back(1 / static_cast<double>(i + 1));
-  write_cgns(alone, mesh, folder.file("a.cgns"), &field);
+  test::write_alone(alone, mesh, folder.file("a.cgns"), &field);
   const LoadedMesh read = test::read_plane<read_cgns>(folder.file("a.cgns"));
   ASSERT_TRUE(read.solution);
   EXPECT_EQ(read.solution->names, field.names);

@@ -19,6 +19,7 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -52,14 +53,19 @@ TEST(OutputSet, MissingFolderIsRefusedOnAllRanks) {
   const TemporaryFolder folder;
   const Mesh own = test::share_of(test::sample_mesh(5), world().rank(), world().size());
   const std::string inside = folder.file("missing/out");
-  EXPECT_EQ(test::status_of([&] { write_native(world(), own, inside + ".mesh"); }),
+  EXPECT_EQ(test::status_of([&] { test::write_alone(world(), own, inside + ".mesh"); }),
             ExitStatus::output_failed);
-  EXPECT_EQ(test::status_of([&] { write_cgns(world(), own, inside + ".cgns"); }), ExitStatus::output_failed);
+  EXPECT_EQ(test::status_of([&] { test::write_alone(world(), own, inside + ".cgns"); }),
+            ExitStatus::output_failed);
   EXPECT_EQ(test::status_of([&] {
               write_tree(world(), test::sample_tree(10, world().rank(), world().size()), inside + ".h5");
             }),
             ExitStatus::output_failed);
-  EXPECT_EQ(test::status_of([&] { write_native(world(), own, folder.path()); }), ExitStatus::output_failed);
+  EXPECT_EQ(test::status_of([&] {
+              OutputSet outputs(world());
+              write_native(outputs, MeshStream(world(), own), folder.path());
+            }),
+            ExitStatus::output_failed);
   EXPECT_EQ(test::files_in(folder.path()), 0U);
 }
 
@@ -95,7 +101,7 @@ TEST(OutputSet, OldFilesComeBackWhereOneCannotBeReplaced) {
   if (world().is_root()) test::write_bytes(first, "old");
   {
     OutputSet outputs(world());
-    for (const std::string& path : {first, second, third}) write_native(outputs, own, path);
+    for (const std::string& path : {first, second, third}) write_mesh(outputs, own, path);
     if (world().is_root()) std::filesystem::create_directory(third);
     EXPECT_EQ(test::status_of([&] { outputs.commit(); }), ExitStatus::output_failed);
   }
@@ -109,11 +115,11 @@ TEST(OutputSet, TwoSetsOfTheSameFilesDoNotMeet) {
   const TemporaryFolder folder;
   const Mesh small = test::share_of(test::sample_mesh(5), world().rank(), world().size());
   const Mesh large = test::share_of(test::sample_mesh(9), world().rank(), world().size());
-  write_native(world(), small, folder.file("small.mesh"));
-  write_native(world(), large, folder.file("large.mesh"));
+  test::write_alone(world(), small, folder.file("small.mesh"));
+  test::write_alone(world(), large, folder.file("large.mesh"));
   OutputSet first(world()), second(world());
-  write_native(first, small, folder.file("m.mesh"));
-  write_native(second, large, folder.file("m.mesh"));
+  write_mesh(first, small, folder.file("m.mesh"));
+  write_mesh(second, large, folder.file("m.mesh"));
   second.commit();
   EXPECT_EQ(test::bytes_of(folder.file("m.mesh")), test::bytes_of(folder.file("large.mesh")));
   world().barrier();
@@ -135,7 +141,7 @@ TEST(OutputSet, AHeldLockIsWaitedFor) {
       EXPECT_FALSE(std::filesystem::exists(folder.file("m.mesh")));
     });
   }
-  write_native(world(), own, folder.file("m.mesh"));
+  test::write_alone(world(), own, folder.file("m.mesh"));
   if (other.joinable()) other.join();
   EXPECT_EQ(test::files_in(folder.path()), 1U);
 }
@@ -147,9 +153,9 @@ TEST(OutputSet, OldFilesStandUntilTheCommit) {
   if (world().is_root()) test::write_bytes(first, "old");
   {
     OutputSet outputs(world());
-    write_native(outputs, own, first);
+    write_mesh(outputs, own, first);
     EXPECT_EQ(test::bytes_of(first), "old");
-    EXPECT_EQ(test::status_of([&] { write_native(outputs, own, folder.file("missing/b.mesh")); }),
+    EXPECT_EQ(test::status_of([&] { write_mesh(outputs, own, folder.file("missing/b.mesh")); }),
               ExitStatus::output_failed);
   }
   world().barrier();
@@ -157,8 +163,8 @@ TEST(OutputSet, OldFilesStandUntilTheCommit) {
   EXPECT_EQ(test::files_in(folder.path()), 1U);
   world().barrier();
   OutputSet outputs(world());
-  write_native(outputs, own, first);
-  write_native(outputs, own, second);
+  write_mesh(outputs, own, first);
+  write_mesh(outputs, own, second);
   outputs.commit();
   EXPECT_EQ(test::bytes_of(first), test::bytes_of(second));
   EXPECT_NE(test::bytes_of(first), "old");

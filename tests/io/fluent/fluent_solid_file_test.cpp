@@ -8,7 +8,7 @@
 #include "io/model/check_solid.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 
 namespace quadloop {
 namespace {

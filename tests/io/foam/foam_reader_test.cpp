@@ -11,7 +11,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/read_plane.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 
 namespace quadloop {
 namespace {

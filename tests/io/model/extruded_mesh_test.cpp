@@ -22,10 +22,10 @@ TEST(ExtrudedMesh, NumbersLevelsOfANodeOneAfterAnother) {
   const ExtrudedMesh mesh = extruded(plane, {0, 1, 3}, ExtrusionAxis::z);
   EXPECT_EQ(mesh.point_rows(), 12);
   EXPECT_EQ(mesh.point(5), (Point3{1, 0, 3}));
-  EXPECT_EQ(mesh.hexahedron(1), (std::array<SolidNode, 8>{1, 4, 7, 10, 2, 5, 8, 11}));
-  EXPECT_EQ(mesh.side(GlobalNodeId{0}, GlobalNodeId{1}, 0), (std::array<SolidNode, 4>{0, 3, 4, 1}));
-  EXPECT_EQ(mesh.back_face(plane.quads[0]), (std::array<SolidNode, 4>{9, 6, 3, 0}));
-  EXPECT_EQ(mesh.front_face(plane.quads[0]), (std::array<SolidNode, 4>{2, 5, 8, 11}));
+  EXPECT_EQ(mesh.hexahedron(1), (std::array<NodeNumber, 8>{1, 4, 7, 10, 2, 5, 8, 11}));
+  EXPECT_EQ(mesh.side(GlobalNodeId{0}, GlobalNodeId{1}, 0), (std::array<NodeNumber, 4>{0, 3, 4, 1}));
+  EXPECT_EQ(mesh.back_face(plane.quads[0]), (std::array<NodeNumber, 4>{9, 6, 3, 0}));
+  EXPECT_EQ(mesh.front_face(plane.quads[0]), (std::array<NodeNumber, 4>{2, 5, 8, 11}));
 }
 
 TEST(ExtrudedMesh, AlongYThePlaneStandsUp) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+#include "io/mesh_file.hpp"
 #include "io/native/binary_header.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -51,7 +52,7 @@ class BinaryFile : public testing::Test {
   std::string written(const LoadedMesh& whole) const {
     const Communicator alone(MPI_COMM_SELF);
     OutputSet outputs(alone);
-    write_binary(outputs, whole, folder_.file("m.qmesh"));
+    write_mesh(outputs, whole, folder_.file("m.qmesh"));
     outputs.commit();
     return test::bytes_of(folder_.file("m.qmesh"));
   }

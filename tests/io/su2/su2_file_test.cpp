@@ -7,6 +7,7 @@
 #include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
@@ -183,7 +184,7 @@ TEST(Su2Writer, GivesMarkersNamesThatSu2Takes) {
   Mesh mesh = test::sample_mesh(2);
   mesh.boundaries[0].name = "far,field";
   mesh.boundaries.push_back({"nothing", "none", {}});
-  write_su2(test::world(), mesh, folder.file("m.su2"));
+  test::write_alone(test::world(), mesh, folder.file("m.su2"));
   const LoadedMesh loaded = test::read_plane<read_su2>(folder.file("m.su2"));
   ASSERT_EQ(loaded.mesh.boundaries.size(), 2U);
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "far_field");

@@ -11,6 +11,7 @@
 #include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
@@ -304,7 +305,7 @@ TEST(VtuFile, ComesBackWithBlocksBoundariesAndSolution) {
   whole.solution = test::sample_solution(whole.mesh);
   whole.solution->names = {"p<q", "pressure"};
   OutputSet outputs(test::world());
-  write_vtu(outputs, whole, folder.file("m.vtu"));
+  write_mesh(outputs, whole, folder.file("m.vtu"));
   outputs.commit();
   const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("m.vtu"));
   EXPECT_EQ(loaded.mesh.points, whole.mesh.points);
@@ -330,7 +331,7 @@ TEST(VtuWriter, ControlCharactersInNamesAreNoXml) {
   whole.solution = test::sample_solution(whole.mesh);
   whole.solution->names = {"p\x02q", "pressure"};
   OutputSet outputs(test::world());
-  write_vtu(outputs, whole, folder.file("m.vtu"));
+  write_mesh(outputs, whole, folder.file("m.vtu"));
   outputs.commit();
   const LoadedMesh loaded = test::read_plane<read_vtu>(folder.file("m.vtu"));
   EXPECT_EQ(loaded.mesh.boundaries[1].name, "inner\x01wall");  // a list of codes holds it
@@ -342,7 +343,7 @@ TEST(VtuWriter, NamesBoundariesForPeople) {
   Mesh mesh = test::sample_mesh(3);
   mesh.boundaries[0].name = "boundary_names";  // one of our own arrays
   mesh.boundaries[1].name = "a \"wet\" wall";
-  write_vtu(test::world(), mesh, folder.file("m.vtu"));
+  test::write_alone(test::world(), mesh, folder.file("m.vtu"));
   const std::string bytes = test::bytes_of(folder.file("m.vtu"));
   EXPECT_NE(bytes.find("Name=\"a &quot;wet&quot; wall\" NumberOfTuples=\"2\" format=\"ascii\">\n2 1\n"),
             std::string::npos);

@@ -1,4 +1,4 @@
-#include "io/solid/extruded_faces.hpp"
+#include "io/stream/extruded_faces.hpp"
 
 #include <algorithm>
 #include <span>

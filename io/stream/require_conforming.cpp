@@ -1,4 +1,4 @@
-#include "io/solid/require_conforming.hpp"
+#include "io/stream/require_conforming.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "io/solid/vtk_cell.hpp"
+#include "io/stream/vtk_cell.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "io/solid/cell_of_sides.hpp"
+#include "io/stream/cell_of_sides.hpp"
 
 #include <algorithm>
 #include <type_traits>

@@ -1,5 +1,5 @@
 // Which plane meshes a format of faces takes.
-#include "io/solid/require_conforming.hpp"
+#include "io/stream/require_conforming.hpp"
 
 #include <gtest/gtest.h>
 #include <mpi.h>

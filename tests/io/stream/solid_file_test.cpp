@@ -14,7 +14,7 @@
 #include "io/model/check_solid.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -125,7 +125,7 @@ TEST(SolidFile, PlaneMeshesAreNone) {
     if (format_named(name)->is_folder) continue;  // that of a plane mesh is one cell thick
     const std::string path = folder.file("a." + name);
     OutputSet outputs(alone);
-    format_named(name)->write_mesh(outputs, mesh, path, nullptr);
+    format_named(name)->write(outputs, MeshStream(outputs.communicator(), mesh), path);
     outputs.commit();
     EXPECT_FALSE(test::read_solid(path)) << name;
   }

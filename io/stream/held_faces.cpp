@@ -1,4 +1,4 @@
-#include "io/solid/held_faces.hpp"
+#include "io/stream/held_faces.hpp"
 
 #include <algorithm>
 #include <span>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/model/loaded_mesh.hpp"
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
@@ -25,41 +25,38 @@ class BlockRows {
   std::int64_t layers_;
 };
 
-/// The blocks of a 3D mesh on its way into a file. A mesh that has none is one block, "domain".
-class SolidBlocks {
+/// The blocks of a mesh on its way into a file. A mesh that has none is one block, "domain".
+class StreamBlocks {
  public:
-  explicit SolidBlocks(const SolidStream& stream);
+  explicit StreamBlocks(const MeshStream& stream);
 
   bool several() const { return names_.size() > 1; }
+  /// Whether there are several, or one with a name of its own.
+  bool are_named() const { return several() || names_[0] != "domain"; }
   const std::vector<std::string>& names() const { return names_; }
   std::int32_t count() const { return static_cast<std::int32_t>(names_.size()); }
 
-  /// The block of a cell of so many nodes, from 0; the row is one of the stream's.
-  template <std::size_t width>
+  /// The block of a cell, from 0; the row is one of the stream's.
+  template <CellKind kind>
   std::int32_t of(std::int64_t row) const {
-    return several() ? of_rows<width>()[row / layers_] : 0;
+    return several() ? of_[static_cast<std::size_t>(kind)][row / layers_] : 0;
   }
-  /// This rank's cells of so many nodes in a block, in the stream's order.
-  template <std::size_t width>
+  /// This rank's cells of a kind in a block, in the stream's order.
+  template <CellKind kind>
   BlockRows rows(std::int32_t block) const {
     std::vector<std::int32_t> cells;
-    const std::int64_t all = stream_.cell_rows<width>() / layers_;
+    const std::int64_t all = stream_.cell_rows<kind>() / layers_;
     for (std::int32_t cell = 0; cell < all; ++cell) {
-      if (of<width>(cell * layers_) == block) cells.push_back(cell);
+      if (of<kind>(cell * layers_) == block) cells.push_back(cell);
     }
     return {std::move(cells), layers_};
   }
 
  private:
-  template <std::size_t width>
-  const std::vector<std::int32_t>& of_rows() const {
-    return of_[width];
-  }
-
-  const SolidStream& stream_;
+  const MeshStream& stream_;
   std::int64_t layers_;  ///< rows that are of one block; 1 of a mesh that is held
   std::vector<std::string> names_;
-  std::array<std::vector<std::int32_t>, 9> of_;  ///< of cells of so many nodes, one for so many rows
+  std::array<std::vector<std::int32_t>, cell_kinds> of_;  ///< of the cells of each kind, one for so many rows
 };
 
 /// Those of a whole mesh, named; one that has no name is "block_2", ... by its number.

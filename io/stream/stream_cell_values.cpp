@@ -1,4 +1,6 @@
-#include "io/solid/solid_cell_values.hpp"
+#include "io/stream/stream_cell_values.hpp"
+
+#include <algorithm>
 
 #include "io/model/cell_faces.hpp"
 #include "io/model/solid_faces.hpp"
@@ -8,7 +10,8 @@
 
 namespace quadloop {
 
-SolidCellValues::SolidCellValues(const SolidStream& stream) : stream_{stream}, held_{stream.held()} {
+StreamCellValues::StreamCellValues(const MeshStream& stream)
+    : stream_{stream}, held_{stream.held()}, layers_{std::max<std::int64_t>(1, stream.layers())} {
   if (held_ != nullptr) {
     if (!held_->solution || held_->solution->cells.names.empty()) return;
     names_ = held_->solution->cells.names;
@@ -18,9 +21,16 @@ SolidCellValues::SolidCellValues(const SolidStream& stream) : stream_{stream}, h
   const ExtrudedMesh& mesh = *stream.extruded();
   if (mesh.solution == nullptr || mesh.solution->cells.names.empty()) return;
   const CellValues& plane = mesh.solution->cells;
-  for (const ExtrudedVariable& variable : extruded_variables(plane.names, mesh.axis)) {
-    names_.push_back(variable.name);
-    columns_.push_back(variable.column);
+  if (stream.is_plane()) {
+    for (const std::string& name : plane.names) {
+      columns_.push_back(std::ssize(names_));
+      names_.push_back(name);
+    }
+  } else {
+    for (const ExtrudedVariable& variable : extruded_variables(plane.names, mesh.axis)) {
+      names_.push_back(variable.name);
+      columns_.push_back(variable.column);
+    }
   }
   const Communicator& comm = stream.communicator();
   const std::vector<std::int64_t> beside = edge_cells(comm, mesh.plane).of_boundary;
@@ -28,13 +38,13 @@ SolidCellValues::SolidCellValues(const SolidStream& stream) : stream_{stream}, h
                             plane.values, plane.width());
 }
 
-double SolidCellValues::of_plane(std::int64_t cell, std::size_t variable) const {
+double StreamCellValues::of_plane(std::int64_t cell, std::size_t variable) const {
   const std::int64_t column = columns_[variable];
   const CellValues& plane = stream_.extruded()->solution->cells;
   return column == ExtrudedVariable::zero ? 0 : plane.values[cell * plane.width() + column];
 }
 
-BoundaryStream SolidCellValues::along_sides(std::size_t variable) const {
+BoundaryStream StreamCellValues::along_sides(std::size_t variable) const {
   const ExtrudedMesh& mesh = *stream_.extruded();
   const std::size_t width = mesh.solution->cells.width();
   const std::int64_t column = columns_[variable];
@@ -47,7 +57,7 @@ BoundaryStream SolidCellValues::along_sides(std::size_t variable) const {
 }
 
 /// Patches come first among those that have a face.
-void SolidCellValues::find_cells_beside() {
+void StreamCellValues::find_cells_beside() {
   std::vector<std::vector<std::int32_t>> beside;
   for (const FileBoundary& patch : held_->boundaries) beside.emplace_back(patch.faces.size(), -1);
   for_each_face(*held_, [&](std::int32_t, std::span<const FaceMention> mentions) {

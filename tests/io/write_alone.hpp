@@ -17,6 +17,14 @@ inline void write_alone(const Communicator& alone, const FileMesh& mesh, const s
   outputs.commit();
 }
 
+/// A distributed mesh as the only output of a set, in the format of the suffix. *Collective.*
+inline void write_alone(const Communicator& comm, const Mesh& mesh, const std::string& path,
+                        const Field* solution = nullptr) {
+  OutputSet outputs(comm);
+  write_mesh(outputs, mesh, path, solution);
+  outputs.commit();
+}
+
 /// The 3D mesh of a file; none where it holds a plane one.
 inline std::optional<FileMesh> read_solid(const std::string& path) {
   MeshOfFile mesh = read_mesh_file(path);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,46 +12,58 @@
 #include "io/files/row_stream.hpp"
 #include "io/model/extruded_mesh.hpp"
 #include "io/model/file_mesh.hpp"
+#include "io/model/loaded_mesh.hpp"
 
 namespace quadloop {
 
-/// A patch of a 3D mesh on its way into a file.
+/// A boundary of a mesh on its way into a file.
 struct StreamedPatch {
   std::string name, condition;
-  std::int64_t triangles = 0, quads = 0;
-  char axis = ' ';  ///< the one that it is normal to: 'x', 'y', 'z', where it is known
+  std::int64_t edges = 0;                 ///< of a plane mesh
+  std::int64_t triangles = 0, quads = 0;  ///< of a 3D mesh
+  char axis = ' ';                        ///< the one that it is normal to: 'x', 'y', 'z', where it is known
 
-  std::int64_t faces() const { return triangles + quads; }
+  std::int64_t faces() const { return edges + triangles + quads; }
 };
 
 /// Numbers over all ranks.
-struct SolidCounts {
-  std::int64_t nodes = 0, tetrahedra = 0, pyramids = 0, prisms = 0, hexahedra = 0;
+struct StreamCounts {
+  std::int64_t nodes = 0;
+  std::array<std::int64_t, cell_kinds> of_kind{};
 
-  std::int64_t cells() const { return tetrahedra + pyramids + prisms + hexahedra; }
+  std::int64_t of(CellKind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
+  std::int64_t cells() const { return std::accumulate(of_kind.begin(), of_kind.end(), std::int64_t{0}); }
   /// The length of the longest array: of the nodes, or of the nodes of a kind of cells.
   std::int64_t largest_array() const;
 };
 
-/// A 3D mesh as it passes through rank 0 into a file, in bounded pieces: an extruded one, of which each rank
-/// makes its own rows, or one that the only rank holds. Rows are this rank's, from 0. All members that say so
-/// are *collective*.
-class SolidStream {
+/// A mesh as it passes through rank 0 into a file, in bounded pieces: a plane mesh or an extruded one, of
+/// which each rank makes its own rows, or one that the only rank holds as a file had it. Rows are this
+/// rank's, from 0. All members that say so are *collective*.
+class MeshStream {
  public:
-  /// The mesh must outlive it. *Collective.*
-  SolidStream(const Communicator& comm, const ExtrudedMesh& mesh);
-  /// `comm` has one rank.
-  SolidStream(const Communicator& comm, const FileMesh& mesh);
+  /// The mesh and what belongs to it must outlive it. *Collective.*
+  MeshStream(const Communicator& comm, const ExtrudedMesh& mesh);
+  /// A plane mesh, with its solution unless that is null, and its blocks where they have names.
+  MeshStream(const Communicator& comm, const Mesh& plane, const Field* solution = nullptr,
+             std::optional<PlaneBlocks> blocks = {});
+  /// The same of a mesh that the only rank holds whole.
+  MeshStream(const Communicator& comm, const LoadedMesh& whole);
+  /// A 3D mesh; `comm` has one rank.
+  MeshStream(const Communicator& comm, const FileMesh& mesh);
+  MeshStream(const MeshStream&) = delete;
+  MeshStream& operator=(const MeshStream&) = delete;
 
   const Communicator& communicator() const { return comm_; }
-  /// The one that it streams; null for the other.
+  bool is_plane() const { return extruded_ != nullptr && extruded_->layers() == 0; }
+  /// The one that it streams, of a plane mesh one of a single level; null for the other.
   const ExtrudedMesh* extruded() const { return extruded_; }
   const FileMesh* held() const { return held_; }
-  const SolidCounts& counts() const { return counts_; }
+  const StreamCounts& counts() const { return counts_; }
   /// Of an extruded mesh boundaries with edges in their order, the back, the front.
   const std::vector<StreamedPatch>& patches() const { return patches_; }
-  /// How many patches come first that sides() streams, all quads: those of an extruded mesh but its ends. The
-  /// others have face_rows().
+  /// How many patches come first that sides() streams: those of an extruded mesh but its ends, all of a plane
+  /// mesh. The others have face_rows().
   std::size_t side_patches() const { return side_patches_; }
   std::vector<std::string> patch_names() const;
   std::int64_t patch_triangles() const;  ///< of all patches
@@ -63,24 +76,22 @@ class SolidStream {
     return held_ != nullptr ? held_->points[row] : extruded_->point(row);
   }
 
-  /// Cells of so many nodes: tetrahedra, pyramids, prisms, hexahedra.
-  template <std::size_t width>
-  std::int64_t all_cells() const {
-    return width == 4   ? counts_.tetrahedra
-           : width == 5 ? counts_.pyramids
-           : width == 6 ? counts_.prisms
-                        : counts_.hexahedra;
-  }
-  template <std::size_t width>
+  template <CellKind kind>
   std::int64_t cell_rows() const {
-    if (held_ != nullptr) return std::ssize(cells_of<width>(*held_));
-    return width == 6 ? extruded_->prism_rows() : width == 8 ? extruded_->hexahedron_rows() : 0;
+    if (held_ != nullptr) return std::ssize(cells_of<kind>(*held_));
+    if constexpr (kind == CellKind::triangle) return is_plane() ? std::ssize(extruded_->plane.triangles) : 0;
+    if constexpr (kind == CellKind::quad) return is_plane() ? std::ssize(extruded_->plane.quads) : 0;
+    if constexpr (kind == CellKind::prism) return extruded_->prism_rows();
+    if constexpr (kind == CellKind::hexahedron) return extruded_->hexahedron_rows();
+    return 0;
   }
-  template <std::size_t width>
-  std::array<SolidNode, width> cell(std::int64_t row) const {
-    if (held_ != nullptr) return widened(cells_of<width>(*held_)[row]);
-    if constexpr (width == 6) return extruded_->prism(row);
-    if constexpr (width == 8) return extruded_->hexahedron(row);
+  template <CellKind kind>
+  std::array<NodeNumber, cell_width<kind>> cell(std::int64_t row) const {
+    if (held_ != nullptr) return widened(cells_of<kind>(*held_)[row]);
+    if constexpr (kind == CellKind::triangle) return extruded_->face_at(extruded_->plane.triangles[row], 0);
+    if constexpr (kind == CellKind::quad) return extruded_->face_at(extruded_->plane.quads[row], 0);
+    if constexpr (kind == CellKind::prism) return extruded_->prism(row);
+    if constexpr (kind == CellKind::hexahedron) return extruded_->hexahedron(row);
     return {};
   }
 
@@ -91,18 +102,18 @@ class SolidStream {
     return std::ssize(plane_cells<width>());
   }
   template <std::size_t width>
-  std::array<SolidNode, width> face(std::size_t patch, std::int64_t row) const {
+  std::array<NodeNumber, width> face(std::size_t patch, std::int64_t row) const {
     if (held_ != nullptr)
       return first_of<width>(held_->boundaries[patch].faces[held_faces<width>(patch)[row]]);
     const auto& cell = plane_cells<width>()[row];
     return patch == side_patches_ ? extruded_->back_face(cell) : extruded_->front_face(cell);
   }
 
-  /// For text, in the place of sides(): the edges of an extruded mesh's boundaries, null for one that is
-  /// held; on each edge one face of each layer.
+  /// For text, in the place of sides(): the edges of a plane or extruded mesh's boundaries, null for one that
+  /// is held; on each edge of an extruded mesh one face of each layer.
   const BoundaryStream* boundaries() const { return boundaries_ ? &*boundaries_ : nullptr; }
   std::int64_t layers() const { return extruded_ != nullptr ? extruded_->layers() : 0; }
-  std::array<SolidNode, 4> side(const BoundaryStream::Edge& edge, std::int64_t layer) const {
+  std::array<NodeNumber, 4> side(const BoundaryStream::Edge& edge, std::int64_t layer) const {
     return extruded_->side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer);
   }
 
@@ -140,11 +151,11 @@ class SolidStream {
         put);
   }
 
-  /// Faces of the sides: `begin(patch)`, then pieces of its faces, made by `make(nodes)`, go to `put`; all on
-  /// rank 0. *Collective.*
+  /// Faces of the sides of an extruded mesh: `begin(patch)`, then pieces of its faces, made by `make(nodes)`,
+  /// go to `put`; all on rank 0. *Collective.*
   template <class Begin, class Make, class Put>
   void sides(const Begin& begin, const Make& make, const Put& put) const {
-    using Row = decltype(make(std::array<SolidNode, 4>{}));
+    using Row = decltype(make(std::array<NodeNumber, 4>{}));
     constexpr std::size_t most = bytes_per_piece / sizeof(Row);
     std::vector<Row> made;
     if (!boundaries_) return;
@@ -170,15 +181,17 @@ class SolidStream {
   }
 
  private:
+  void take_extruded(const ExtrudedMesh& mesh);
+
   template <std::size_t width>
-  static std::array<SolidNode, width> widened(const std::array<std::int32_t, width>& nodes) {
-    std::array<SolidNode, width> result;
+  static std::array<NodeNumber, width> widened(const std::array<std::int32_t, width>& nodes) {
+    std::array<NodeNumber, width> result;
     for (std::size_t i = 0; i < width; ++i) result[i] = nodes[i];
     return result;
   }
   template <std::size_t width>
-  static std::array<SolidNode, width> first_of(const FileBoundary::Face& face) {
-    std::array<SolidNode, width> result;
+  static std::array<NodeNumber, width> first_of(const FileBoundary::Face& face) {
+    std::array<NodeNumber, width> result;
     for (std::size_t i = 0; i < width; ++i) result[i] = face[i];
     return result;
   }
@@ -197,8 +210,10 @@ class SolidStream {
   const Communicator& comm_;
   const ExtrudedMesh* extruded_ = nullptr;  ///< this or the next
   const FileMesh* held_ = nullptr;
-  SolidCounts counts_;
-  std::optional<BoundaryStream> boundaries_;                            ///< of an extruded mesh
+  StreamCounts counts_;
+  std::optional<PlaneBlocks> own_blocks_;                               ///< of a plane mesh
+  std::optional<ExtrudedMesh> own_plane_;                               ///< one of a single level
+  std::optional<BoundaryStream> boundaries_;                            ///< of a plane or extruded mesh
   std::vector<std::vector<std::int32_t>> held_triangles_, held_quads_;  ///< of each patch: which of its faces
   std::vector<StreamedPatch> patches_;
   std::size_t side_patches_ = 0;
@@ -208,7 +223,7 @@ class SolidStream {
 
 /// A row in another type of number, `more` added to each.
 template <class Number, std::size_t width>
-std::array<Number, width> as(const std::array<SolidNode, width>& nodes, SolidNode more = 0) {
+std::array<Number, width> as(const std::array<NodeNumber, width>& nodes, NodeNumber more = 0) {
   std::array<Number, width> result;
   for (std::size_t i = 0; i < width; ++i) result[i] = static_cast<Number>(nodes[i] + more);
   return result;

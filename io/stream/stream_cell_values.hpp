@@ -6,27 +6,28 @@
 #include <string>
 #include <vector>
 
-#include "io/solid/solid_stream.hpp"
+#include "io/stream/mesh_stream.hpp"
 
 namespace quadloop {
 
-/// The solution in the cells of a 3D mesh on its way into a file: of an extruded one each cell has the values
+/// The solution in the cells of a mesh on its way into a file: of an extruded one each cell has the values
 /// of the plane's cell that it stands on. Rows are those of the stream. Faces of patches have the values of
 /// the cell beside them, for formats that keep cells and faces in one list.
-class SolidCellValues {
+class StreamCellValues {
  public:
   /// The stream must outlive it. *Collective.* Throws OutputError where a face of a patch that is held
   /// belongs to no cell.
-  explicit SolidCellValues(const SolidStream& stream);
+  explicit StreamCellValues(const MeshStream& stream);
 
   const std::vector<std::string>& names() const { return names_; }
 
-  /// Of a cell of so many nodes.
-  template <std::size_t width>
+  /// Of a cell.
+  template <CellKind kind>
   double of_cell(std::int64_t row, std::size_t variable) const {
     if (held_ != nullptr)
-      return held_->solution->cells.values[held_row<width>(row) * names_.size() + variable];
-    return of_plane(row / stream_.layers() + (width == 8 ? plane_triangles() : 0), variable);
+      return held_->solution->cells.values[held_row<kind>(row) * names_.size() + variable];
+    constexpr bool is_quad = kind == CellKind::quad || kind == CellKind::hexahedron;
+    return of_plane(row / layers_ + (is_quad ? plane_triangles() : 0), variable);
   }
 
   /// Of a triangle (width 3), or a quad (4), of a patch that is none of the sides.
@@ -48,7 +49,7 @@ class SolidCellValues {
     along_sides(variable).run([](std::size_t) {},
                               [&](std::span<const BoundaryStream::Edge> edges) {
                                 for (const BoundaryStream::Edge& edge : edges) {
-                                  values.assign(stream_.layers(), std::bit_cast<double>(edge[0]));
+                                  values.assign(layers_, std::bit_cast<double>(edge[0]));
                                   put(std::span<const double>(values));
                                 }
                               });
@@ -56,11 +57,11 @@ class SolidCellValues {
 
  private:
   /// Among all cells that are held, kind after kind.
-  template <std::size_t width>
+  template <CellKind kind>
   std::int64_t held_row(std::int64_t row) const {
-    if (width > 4) row += std::ssize(held_->tetrahedra);
-    if (width > 5) row += std::ssize(held_->pyramids);
-    if (width > 6) row += std::ssize(held_->prisms);
+    for_each_kind([&]<CellKind before>() {
+      if (before < kind) row += std::ssize(cells_of<before>(*held_));
+    });
     return row;
   }
   std::int64_t plane_triangles() const { return std::ssize(stream_.extruded()->plane.triangles); }
@@ -69,8 +70,9 @@ class SolidCellValues {
   BoundaryStream along_sides(std::size_t variable) const;
   void find_cells_beside();
 
-  const SolidStream& stream_;
+  const MeshStream& stream_;
   const FileMesh* held_;
+  std::int64_t layers_;  ///< rows on each cell of the plane
   std::vector<std::string> names_;
   std::vector<std::int64_t> columns_;  ///< of an extruded mesh: of each variable
   std::vector<double> at_edges_;       ///< and rows of the plane's columns at its boundary edges

@@ -10,11 +10,11 @@
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/model/check_solid.hpp"
-#include "io/solid/solid_cell_values.hpp"
+#include "io/stream/stream_cell_values.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -189,17 +189,17 @@ TEST(ConvertSolid, Su2ZonesAreBlocks) {
 TEST(ConvertSolid, FacesHaveTheValuesOfTheCellBesideThem) {
   const Communicator alone(MPI_COMM_SELF);
   const FileMesh mesh = sample();
-  const SolidStream stream(alone, mesh);
-  const SolidCellValues cells(stream);
-  EXPECT_EQ(cells.of_cell<4>(0, 1), 1);
-  EXPECT_EQ(cells.of_cell<6>(0, 1), 3);
-  EXPECT_EQ(cells.of_cell<8>(1, 1), 5);
+  const MeshStream stream(alone, mesh);
+  const StreamCellValues cells(stream);
+  EXPECT_EQ(cells.of_cell<CellKind::tetrahedron>(0, 1), 1);
+  EXPECT_EQ(cells.of_cell<CellKind::prism>(0, 1), 3);
+  EXPECT_EQ(cells.of_cell<CellKind::hexahedron>(1, 1), 5);
   EXPECT_EQ(cells.of_face<4>(0, 0, 1), 4);  // the floor of either cube
   EXPECT_EQ(cells.of_face<4>(0, 1, 1), 5);
   EXPECT_EQ(cells.of_face<3>(0, 0, 1), 3);  // and of the prism
   FileMesh stray = sample();
   stray.boundaries[1].faces.push_back({0, 2, 5, none});
-  EXPECT_THROW(SolidCellValues(SolidStream(alone, stray)), OutputError);
+  EXPECT_THROW(StreamCellValues(MeshStream(alone, stray)), OutputError);
 }
 
 TEST(ConvertSolid, FacesOfAnExtrudedMeshHaveThemToo) {
@@ -207,8 +207,8 @@ TEST(ConvertSolid, FacesOfAnExtrudedMeshHaveThemToo) {
   const Mesh plane = test::sample_mesh(2);  // four triangles, two quads
   const Field field{{}, {}, {}, {{"p"}, {0, 1, 2, 3, 4, 5}}};
   const ExtrudedMesh mesh = extruded(plane, {0, 1, 3}, ExtrusionAxis::z, &field);
-  const SolidStream stream(alone, mesh);
-  const SolidCellValues cells(stream);
+  const MeshStream stream(alone, mesh);
+  const StreamCellValues cells(stream);
   const std::size_t back = stream.side_patches(), front = back + 1;
   for (std::int64_t row = 0; row < 4; ++row) EXPECT_EQ(cells.of_face<3>(back, row, 0), row);
   for (std::int64_t row = 0; row < 2; ++row) EXPECT_EQ(cells.of_face<4>(front, row, 0), 4 + row);

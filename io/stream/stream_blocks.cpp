@@ -1,20 +1,19 @@
-#include "io/solid/solid_blocks.hpp"
+#include "io/stream/stream_blocks.hpp"
 
 #include <algorithm>
 
 namespace quadloop {
 
-SolidBlocks::SolidBlocks(const SolidStream& stream)
+StreamBlocks::StreamBlocks(const MeshStream& stream)
     : stream_{stream}, layers_{std::max<std::int64_t>(1, stream.layers())} {
   if (const FileMesh* held = stream.held(); held != nullptr) {
     if (held->has_blocks()) names_ = held->block_names;
-    for_each_kind_of_cell([&]<std::size_t width>() {
-      if (several()) of_[width] = held->cell_to_block[static_cast<std::size_t>(kind_of_width<width>())];
-    });
+    if (several()) of_ = held->cell_to_block;
   } else if (const PlaneBlocks* blocks = stream.extruded()->blocks; blocks != nullptr) {
     names_ = blocks->names;
-    of_[6] = blocks->of_triangles;
-    of_[8] = blocks->of_quads;
+    const CellKind first = stream.is_plane() ? CellKind::triangle : CellKind::prism;
+    of_[static_cast<std::size_t>(first)] = blocks->of_triangles;
+    of_[static_cast<std::size_t>(first) + 1] = blocks->of_quads;  // quads, or hexahedra
   }
   if (names_.empty()) names_ = {"domain"};
 }

@@ -1,7 +1,5 @@
 // Blocks of 3D meshes: extruded and held, through each format that has a place for them; those of a plane
 // polyMesh; how readers collect them. The first on several ranks.
-#include "io/solid/solid_blocks.hpp"
-
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -12,10 +10,11 @@
 #include "io/mesh_file.hpp"
 #include "io/model/cell_faces.hpp"
 #include "io/model/check_solid.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -57,7 +56,7 @@ std::string path_of(const test::TemporaryFolder& folder, const std::string& form
   return folder.file("a." + format);
 }
 
-TEST(SolidBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
+TEST(StreamBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
   const LoadedMesh whole = two_blocks();
   const MeshOrder order = own_order(whole.mesh);
   const Mesh part = scatter_mesh(world(), whole.mesh, order);
@@ -88,7 +87,7 @@ TEST(SolidBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
   }
 }
 
-TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
+TEST(StreamBlocks, EveryPairOfFormatsKeepsThem) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const Communicator alone(MPI_COMM_SELF);
@@ -136,7 +135,7 @@ TEST(SolidBlocks, EveryPairOfFormatsKeepsThem) {
   EXPECT_EQ(std::ranges::count(losses, "a.su2: the blocks are written as one"), 1);
 }
 
-TEST(SolidBlocks, APlanePolyMeshHasThemAsZones) {
+TEST(StreamBlocks, APlanePolyMeshHasThemAsZones) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const LoadedMesh whole = two_blocks();
@@ -148,7 +147,7 @@ TEST(SolidBlocks, APlanePolyMeshHasThemAsZones) {
   EXPECT_EQ(back.quad_to_block, whole.quad_to_block);
 }
 
-TEST(SolidBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
+TEST(StreamBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
   const test::TemporaryFolder folder;
   if (!world().is_root()) return;
   const std::string path = folder.file("polyMesh");
@@ -172,7 +171,7 @@ TEST(SolidBlocks, ZonesOfAPolyMeshMayOverlapAndLeaveCellsOut) {
   EXPECT_FALSE(test::read_solid(path)->has_blocks());
 }
 
-TEST(SolidBlocks, CellsAreNumberedBlockByBlock) {
+TEST(StreamBlocks, CellsAreNumberedBlockByBlock) {
   const Communicator alone(MPI_COMM_SELF);
   const PlaneBlocks blocks{{"a", "b"}, {1, 0, 1}, {0, 1}};
   EXPECT_EQ(numbers_by_block(alone, blocks), (std::vector<std::int64_t>{2, 0, 3, 1, 4}));

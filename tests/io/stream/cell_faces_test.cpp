@@ -9,12 +9,12 @@
 #include <tuple>
 
 #include "io/mesh_file.hpp"
-#include "io/solid/extruded_faces.hpp"
-#include "io/solid/held_faces.hpp"
+#include "io/stream/extruded_faces.hpp"
+#include "io/stream/held_faces.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
-#include "tests/io/solid/write_alone.hpp"
+#include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
