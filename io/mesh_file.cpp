@@ -152,7 +152,7 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
       !content.boundary_names.empty())
     losses.push_back(
         fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns "
-                    "holds what the case says: convert that",
+                    "holds what the case says: begin with that",
                     path, format.unknown_boundary));
   return losses;
 }
