@@ -38,6 +38,22 @@ TEST_F(SettingsTest, AWallMayBeViscousOrInviscid) {
   }
 }
 
+TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
+  EXPECT_EQ(load(read("")).point(2), (Point{4, 4})) << "as they stand";
+  EXPECT_EQ(load(read("unit = \"none\"\n")).point(2), (Point{4, 4}));
+  EXPECT_EQ(load(read("unit = \"km\"\n")).point(2), (Point{4000, 4000}));
+  EXPECT_EQ(load(read("unit = \"inch\"\nscale = 2\n")).point(2), (Point{8 * 0.0254, 8 * 0.0254}));
+  EXPECT_NE(refused("unit = \"ell\"\n").find("'geometry.unit' is 'ell', but must be"), std::string::npos)
+      << refused("unit = \"ell\"\n");
+  EXPECT_NE(refused("unit = \"file\"\n").find("declares no unit of length; name its unit"), std::string::npos);
+  Warnings warnings;
+  std::vector<FileExtent> extents;
+  load_geometry(read("unit = \"mm\"\ntranslate = [7, 0]\n"), warnings, {}, &extents);
+  ASSERT_EQ(extents.size(), 1u);
+  EXPECT_EQ(extents[0].box.high, (Point{4, 4})) << "as they stand in the file";
+  EXPECT_EQ(extents[0].metres, 1e-3);
+}
+
 TEST_F(SettingsTest, ReadsEveryKey) {
   const Settings s = read(R"(far_field = 10
 scale = 2
