@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -94,36 +96,76 @@ std::optional<Edge> base_from(const Geometry& g, const WakeWall& wall, std::int3
   }
 }
 
-std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall) {
-  constexpr double base_over_box = 0.05;
-  std::vector<Edge> sharp, blunt;
+/// A twentieth of the extent of the boundaries that a wake begins at: the longest base, and how far off `at`
+/// may be.
+double reach_of_edges(const Geometry& g, const WakeWall& wall) {
+  constexpr double reach_over_box = 0.05;
   double low = g.box().high.x, high = g.box().low.x, bottom = g.box().high.y, top = g.box().low.y;
   for (const std::int32_t v : wall.segments()) {
     low = std::min(low, g.point(v).x), high = std::max(high, g.point(v).x);
     bottom = std::min(bottom, g.point(v).y), top = std::max(top, g.point(v).y);
   }
-  const double longest_base = base_over_box * std::max(high - low, top - bottom);
-  for (const std::int32_t v : wall.segments()) {
-    if (!wall.has(g.previous(v))) continue;
-    if (cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge) sharp.push_back({v, v});
-    if (const auto base = base_from(g, wall, v, longest_base)) blunt.push_back(*base);
-  }
-  return sharp.empty() ? blunt : sharp;
+  return reach_over_box * std::max(high - low, top - bottom);
 }
 
-Edge edge_of(const Geometry& g, const WakeWall& wall, const std::string& said) {
-  const std::vector<Edge> edges = edges_of(g, wall);
-  if (edges.size() == 1) return edges[0];
+struct Edges {
+  std::vector<Edge> sharp, blunt;
+};
+
+Edges edges_of(const Geometry& g, const WakeWall& wall, double longest_base) {
+  Edges edges;
+  for (const std::int32_t v : wall.segments()) {
+    if (!wall.has(g.previous(v))) continue;
+    if (cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge) edges.sharp.push_back({v, v});
+    if (const auto base = base_from(g, wall, v, longest_base)) edges.blunt.push_back(*base);
+  }
+  return edges;
+}
+
+Point middle_of(const Geometry& g, const Edge& edge) {
+  return edge.first == edge.second ? g.point(edge.first)
+                                   : 0.5 * (g.point(edge.first) + g.point(edge.second));
+}
+
+/// The first few: "(1, 0), (0, 0) and 3 more".
+std::string places_of(const Geometry& g, const std::vector<Edge>& edges) {
+  std::vector<std::string> places;
+  for (const Edge& edge : edges) {
+    const Point p = middle_of(g, edge);
+    places.push_back(fmt::format("({}, {})", p.x, p.y));
+  }
+  return first_few(places);
+}
+
+Edge edge_near(const Geometry& g, const std::vector<Edge>& edges, Point at, double reach,
+               const std::string& said) {
+  const auto distance = [&](const Edge& edge) {
+    return std::sqrt(place_on_segment(at, g.point(edge.first), g.point(edge.second)).squared_distance);
+  };
+  const Edge nearest = *std::ranges::min_element(edges, {}, distance);
+  if (distance(nearest) <= reach) return nearest;
+  throw InputError(fmt::format(
+      "{}: at = [{}, {}] lies {:.3g} from the nearest edge, and must not lie farther from it than {:.3g}; "
+      "there are edges at {}",
+      said, at.x, at.y, distance(nearest), reach, places_of(g, edges)));
+}
+
+Edge edge_of(const Geometry& g, const WakeWall& wall, const LayerLine& line, const std::string& said) {
+  const double reach = reach_of_edges(g, wall);
+  const auto [sharp, blunt] = edges_of(g, wall, reach);
+  std::vector<Edge> edges = sharp;
+  if (line.at || sharp.empty()) edges.insert(edges.end(), blunt.begin(), blunt.end());
   if (edges.empty())
     throw InputError(fmt::format(
         "{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
         "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
         "\"b\"]",
         said));
-  const Point one = g.point(edges[0].first), other = g.point(edges[1].first);
+  if (line.at) return edge_near(g, edges, *line.at, reach, said);
+  if (edges.size() == 1) return edges[0];
   throw InputError(
-      fmt::format("{}: there are {} edges, at ({}, {}) and ({}, {}) for two; give each a boundary of its own",
-                  said, edges.size(), one.x, one.y, other.x, other.y));
+      fmt::format("{}: there are {} edges, at {}; name the one at which the wake begins: at = [x, y]", said,
+                  edges.size(), places_of(g, edges)));
 }
 
 /// With its name and place alone.
@@ -142,8 +184,8 @@ PlacedLine named(const std::vector<LayerLine>& lines, std::size_t number) {
 void place_wake(const Geometry& g, const SegmentsOfBoundaries& segments, const LayerLine& line,
                 PlacedLine& placed) {
   const WakeWall wall(g, segments, line, said(placed, line));
-  const auto [first, last] = edge_of(g, wall, said(placed, line));
-  std::vector<Point> path{first == last ? g.point(first) : 0.5 * (g.point(first) + g.point(last))};
+  const auto [first, last] = edge_of(g, wall, line, said(placed, line));
+  std::vector<Point> path{middle_of(g, {first, last})};
   const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
   path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
   if (line.path.empty()) {

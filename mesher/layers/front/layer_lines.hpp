@@ -15,6 +15,7 @@ namespace quadloop {
 struct LayerLine {
   /// Of a wake: the boundary with the edge, or those that meet there; empty for a free line.
   std::vector<std::string> from;
+  std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
   std::vector<Point> path;          ///< of a wake: where it leads after the edge, or none for straight on
   double length = 0;                ///< of a wake without a path
   double spacing = 0;               ///< length wanted of the cells along it; above 0
@@ -23,7 +24,7 @@ struct LayerLine {
 
   friend bool operator==(const LayerLine& a, const LayerLine& b) {
     const auto made_of = [](const LayerLine& l) {
-      return std::tie(l.from, l.path, l.length, l.spacing, l.layers);
+      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers);
     };
     return made_of(a) == made_of(b);
   }
@@ -46,6 +47,7 @@ struct PlacedLine {
 /// Finds the edges at which wakes begin: the only vertex of its boundaries at which the wall turns away from
 /// the domain by more than 120 degrees; or else the only base, of one boundary, between two corners of more
 /// than 50 degrees and shorter than a twentieth of the boundaries' box, which together turn by more than 120.
+/// A wake with `at` begins at the nearest edge of both kinds, which must lie within a twentieth of that box.
 /// A wake without a path goes straight on, half way between the walls that meet there. Throws InputError for
 /// a boundary that is none or has no layers, for no such edge or several, and for two wakes from one.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
