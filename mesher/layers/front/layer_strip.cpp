@@ -18,7 +18,9 @@ constexpr double spreading = 0.1;        // of all layers together, over the dis
 constexpr double core_spreading = 0.05;  // of either half of the rows behind a base
 constexpr double flattest = 0.7;         // height of a row over the width of its columns, at most
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
+constexpr double most_rows_of_triangle = 3, flattest_triangle = 0.35;
 constexpr double leaf_over_column = 1.2;
+constexpr double flattest_at_end = 0.5, leaf_over_end_row = 2, triangle_over_end_row = 1.4;
 
 /// A polyline by its arc length.
 class Path {
@@ -150,7 +152,7 @@ class Strip {
 
   /// As wide as is wanted, at free ends as the rows are high.
   double width_wanted(double s) const {
-    const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest;
+    const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest_at_end;
     const double at_beginning = strip_.root ? width_at_root() : at_end;
     return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on});
   }
@@ -163,12 +165,13 @@ class Strip {
     const double last = base_->height(base_layers_) - base_->height(base_layers_ - 1);
     return std::min(wanted, std::max(base_->height(base_layers_) + over_last_layer * last, narrowest * wanted));
   }
-  /// On the base: as many as leave most of it to the columns behind it, and room before the next column.
+  /// On the base: at most those of the wall, as many as leave some of it to the columns behind it, and room
+  /// before the next column.
   int most_base_layers() const {
-    constexpr double share_of_half = 0.7;
+    constexpr double share_of_half = 0.6;
     const double room = std::min(strip_.root->spacing, line_.spacing);
     int layers = 0;
-    while (layers + 1 < strip_.core / 2 && base_->height(layers + 1) <= share_of_half * base_->half() &&
+    while (layers < strip_.layers && layers + 1 < strip_.core / 2 && base_->height(layers + 1) <= share_of_half * base_->half() &&
            2 * base_->height(layers + 1) - base_->height(layers) <= room)
       ++layers;
     return layers;
@@ -310,7 +313,8 @@ class Strip {
     const std::vector<Point>& across = strip_.columns[k];
     const double last_row =
         left ? length(across.back() - across[across.size() - 2]) : length(across[0] - across[1]);
-    const double gap = std::min(triangle_height * width_at(k), 3 * last_row);
+    const double gap = std::min(triangle_height * width_at(k),
+                                std::max(most_rows_of_triangle * last_row, flattest_triangle * width_at(k)));
     return strip_.root ? std::min(gap, steepest_front * reached_[k]) : gap;
   }
   Point outside(std::size_t k, bool left) const {
@@ -338,9 +342,9 @@ class Strip {
   void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {
     const double row =
         length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers() + strip_.core);
-    const Point beyond = triangle_height * row * out;
+    const Point beyond = triangle_over_end_row * row * out;
     strip_.corners[corner] = strip_.front.size();
-    add_front(outside(k, left_first) + beyond, leaf_over_column * row);
+    add_front(outside(k, left_first) + beyond, leaf_over_end_row * row);
     strip_.corners[corner + 1] = strip_.front.size();
     add_front(outside(k, !left_first) + beyond, leaf_over_column * width_at(k));
   }
