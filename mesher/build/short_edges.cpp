@@ -45,9 +45,10 @@ class ShortEdges {
 
   /// Whether the edge is a short base, such as a blunt trailing edge: the outline runs smoothly on from both
   /// of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses some of
-  /// them anyway.
+  /// them anyway. On a base with layers no leaf stands but columns, which need not be wider.
   bool is_short_base(std::int32_t edge) const {
-    return g_.kept(edge) && g_.kept(g_.next(edge)) && length_of(g_, edge) < min_ &&
+    const bool has_layers = g_.boundary(g_.boundary_of(edge)).layers.has_value();
+    return !has_layers && g_.kept(edge) && g_.kept(g_.next(edge)) && length_of(g_, edge) < min_ &&
            is_smooth(g_.next(edge), [&](std::int32_t v) { return g_.next(v); }) &&
            is_smooth(edge, [&](std::int32_t v) { return g_.previous(v); });
   }
