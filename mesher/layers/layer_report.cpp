@@ -18,6 +18,7 @@ namespace quadloop {
 namespace {
 
 constexpr double full = 0.985;
+constexpr double few = 0.5;  // of the thickness asked for: a warning tells of layers that are thinner
 
 /// One column, as all ranks know it.
 struct Column {
@@ -197,7 +198,6 @@ LayerReport report_layers(const Communicator& comm, const LayerFront& front, con
 }
 
 std::vector<std::string> warnings_of(const LayerReport& report) {
-  constexpr double few = 0.5;
   constexpr std::size_t most_named = 5;
   LayerReport thin;
   std::ranges::copy_if(report, std::back_inserter(thin),
@@ -235,9 +235,11 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
   const Geometry& outer = front.outer;
   IdVector<BoundaryId, WantedLeaf> wanted(outer.boundaries().size(), {});
   for (std::int32_t s = 0; s < outer.size(); ++s) {
+    const std::int32_t station = front.station_of[s];
+    if (station == WallLine::none || share_at(front, station) < few) continue;
     const double size = leaf_over_last_layer * front.last_heights[s];
     WantedLeaf& least = wanted[outer.boundary_of(s)];
-    if (size > 0 && size < std::min(min, least.size)) least = {size, outer.point(s)};
+    if (size < std::min(min, least.size)) least = {size, outer.point(s)};
   }
   std::vector<BoundaryId> limited;
   for (const BoundaryId b : wanted.ids()) {
