@@ -18,7 +18,7 @@ namespace quadloop {
 namespace {
 
 constexpr double full = 0.985;
-constexpr double few = 0.5;  // of the thickness asked for: a warning tells of layers that are thinner
+constexpr double thin_share = 0.5;  // of the thickness asked for: a warning tells of layers that are thinner
 
 /// One column, as all ranks know it.
 struct Column {
@@ -201,7 +201,7 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
   constexpr std::size_t most_named = 5;
   LayerReport thin;
   std::ranges::copy_if(report, std::back_inserter(thin),
-                       [](const BoundaryLayerReport& row) { return row.share_least < few; });
+                       [](const BoundaryLayerReport& row) { return row.share_least < thin_share; });
   std::ranges::stable_sort(thin, {}, &BoundaryLayerReport::share_least);
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
@@ -236,7 +236,7 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
   IdVector<BoundaryId, WantedLeaf> wanted(outer.boundaries().size(), {});
   for (std::int32_t s = 0; s < outer.size(); ++s) {
     const std::int32_t station = front.station_of[s];
-    if (station == WallLine::none || share_at(front, station) < few) continue;
+    if (station == WallLine::none || share_at(front, station) < thin_share) continue;
     const double size = leaf_over_last_layer * front.last_heights[s];
     WantedLeaf& least = wanted[outer.boundary_of(s)];
     if (size < std::min(min, least.size)) least = {size, outer.point(s)};
