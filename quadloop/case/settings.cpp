@@ -17,6 +17,7 @@
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
+#include "mesher/layers/front/layer_front.hpp"
 #include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
@@ -365,6 +366,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
       smallest = std::min(smallest, at_corner);
   }
   for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   // Leaf sizes halve: so there is one at most as large as asked for.
