@@ -50,7 +50,7 @@ iterations = 3
 cycles = 1
 variable = "density"
 """,
-    "loop.toml": TINY.replace("cycles = 4", "cycles = 1").replace("timeout = 100", "timeout = 2"),
+    "loop.toml": TINY.replace("cycles = 4", "cycles = 1"),
     "square.geom": (RING / "square.geom").read_text(),
     "solver.py": SOLVER,
 }
@@ -91,7 +91,8 @@ class Fault:
     says: tuple = ()
     environment: dict = field(default_factory=dict)
     launcher: tuple = ()
-    solver: str = ""
+    options: tuple = ()
+    solver: str = ""  # of SOLVER, what it does wrong
     number: signal.Signals | None = None  # sent at a random moment
     ranks: int = 1
 
@@ -114,7 +115,8 @@ FAULTS = [
     Fault("read-only folder", WRITING, 4, ("out",), launcher=READ_ONLY),
     *(Fault(f"solver: {fault}", ["adapt"], 3, ("cycle 0", *says), solver=fault)
       for fault, says in (("status", ("exit status 7",)), ("signal", ("signal 11",)), ("nothing", ("without leaving its solution",)),
-                          ("rubbish", ("solution.mesh:1",)), ("count", ("the file ends",)), ("nan", ("not finite",)), ("timeout", ("timeout",)))),
+                          ("rubbish", ("solution.mesh:1",)), ("count", ("the file ends",)), ("nan", ("not finite",)))),
+    Fault("solver hangs", ["adapt"], 3, ("cycle 0", "timeout"), solver="timeout", options=("--set", "solver.timeout=2")),
     *(Fault(f"{number.name} at a random moment", list(COMMANDS), -number, number=number) for number in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL)),
     *(Fault(f"{number.name} while the disk is slow to {call}", WRITING, -number, (), slow_disk(call), number=number)
       for number, call in ((signal.SIGTERM, "write"), (signal.SIGINT, "rename"))),
@@ -141,7 +143,7 @@ class Trial:
     def start(self, fault):
         mpirun = [MPIRUN, "-n", str(fault.ranks)] if fault.ranks > 1 else []
         environment = dict(os.environ, **fault.environment, TMPDIR=str(self.folder / "tmp"), OMPI_MCA_odls_base_sigkill_timeout="0")
-        return subprocess.Popen([*fault.launcher, *mpirun, QUADLOOP, *self.command.arguments, "--quiet"], cwd=self.folder, env=environment,
+        return subprocess.Popen([*fault.launcher, *mpirun, QUADLOOP, *self.command.arguments, *fault.options, "--quiet"], cwd=self.folder, env=environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
     def ended(self, process):
