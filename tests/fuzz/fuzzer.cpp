@@ -44,16 +44,19 @@ std::string line_at(const std::string& text, std::size_t at) {
 /// program itself. Crashes of libraries, and memory that a reader's limit refuses it, end in a refusal.
 bool is_of_ours(const std::filesystem::path& report) {
   std::ifstream file(report);
+  bool is_error = false;  // other lines are warnings, of a lacking symbolizer say
   for (std::string line; std::getline(file, line);) {
     const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
     if (has("out-of-memory") || has("out of memory") || has("allocation-size-too-big") || has("failed to "))
       return false;
-    if (!line.starts_with("    #") || has("libc.so") || has("libstdc++.so") || has("compiler-rt") ||
-        has("__interceptor") || has(" in operator ") || has(" in __asan") || has(" in __ubsan"))
+    is_error = is_error || has("ERROR: ") || has("runtime error: ");
+    if (!is_error || !line.starts_with("    #") || has("libc.so") || has("libstdc++.so") ||
+        has("compiler-rt") || has("__interceptor") || has(" in operator ") || has(" in __asan") ||
+        has(" in __ubsan"))
       continue;
     return !has(".so");
   }
-  return true;  // no frame at all
+  return is_error;  // without a frame
 }
 
 void abort_at_report_of_child() {
