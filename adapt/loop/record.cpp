@@ -164,7 +164,8 @@ JsonObject record_of(const std::vector<BoundaryForce>& forces) {
 std::string quality_text(const CycleRecord& record) {
   if (!record.layered) return fmt::format("smallest angle {:>4.1f}", record.worst_angle);
   return fmt::format(
-      "smallest angle outside layers {:>4.1f}, layers: aspect ratio {:.4g}, non-orthogonality {:.1f}, skewness "
+      "smallest angle outside layers {:>4.1f}, layers: aspect ratio {:.4g}, non-orthogonality {:.1f}, "
+      "skewness "
       "{:.2f}",
       record.layered->outer_angle, record.layered->aspect_ratio, record.layered->non_orthogonality,
       record.layered->skewness);

@@ -38,9 +38,9 @@ struct CycleRecord {
   std::uint64_t solution_digest = 0;  ///< of the values that the cycle's solution has
   CaseSettings settings;              ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
-  double worst_angle = 0;                ///< the smallest corner, degrees
+  double worst_angle = 0;               ///< the smallest corner, degrees
   std::optional<LayerQuality> layered;  ///< where the mesh has layers, whose thin cells have small corners
-  double mean = 0, deviation = 0;  ///< of log10 of the indicator
+  double mean = 0, deviation = 0;       ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
   std::optional<double> estimate;  ///< the norm of the interpolation error, where sizes follow from it
   std::optional<double> order;     ///< at which it fell from the cycle before

@@ -15,8 +15,8 @@ struct SizeBounds {
   /// No edge is wanted shorter than this: a metric that asks for it becomes larger as a whole, so that cells
   /// of a front that is thinner stay as long along it.
   double min = 0;
-  std::vector<double> most;  ///< at each owned node and copy: nor longer than this
-  double slope = 0.25;       ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
+  std::vector<double> most;        ///< at each owned node and copy: nor longer than this
+  double slope = 0.25;             ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
   std::vector<double> least = {};  ///< at each of them, or of none: nor shorter than this, which may be 0
 };
 

@@ -27,8 +27,7 @@ namespace {
 class NodeSearch {
  public:
   NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
-             const MarkFamily& family, std::span<const std::int8_t> finest,
-             std::optional<MirrorAxis> mirror)
+             const MarkFamily& family, std::span<const std::int8_t> finest, std::optional<MirrorAxis> mirror)
       : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest}, mirror_{mirror} {}
 
   ChangedSplits changes_at(double at) const {
@@ -92,13 +91,15 @@ std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
 }
 
 constexpr const char* text_of_facets =
-    "leaves at points of the outline that stand for a curve are not refined below half of its segments there, "
-    "as a flow has a peak at each point of a polygon; give the outline more points, or set adapt.facets = true";
+    "leaves at points of the outline that stand for a curve are not refined below half of its segments "
+    "there, "
+    "as a flow has a peak at each point of a polygon; give the outline more points, or set adapt.facets = "
+    "true";
 
 /// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options,
-                                const SolvedMesh& solved, const MarkFamily& family,
-                                const ChangedSplits& all, bool held) {
+                                const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
+                                bool held) {
   if (family.flat())
     return fmt::format("{} is constant",
                        options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
@@ -115,9 +116,9 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
   if (wanted == 0)
     return "no leaf is above the threshold adapt.refine, and none below adapt.coarsen had been split by "
            "adaptation";
-  const std::string bound =
-      held          ? "adapt.facets = false"
-      : options.min ? fmt::format("adapt.min = {}", *options.min) : "spacing.min, as adapt.min is not set,";
+  const std::string bound = held          ? "adapt.facets = false"
+                            : options.min ? fmt::format("adapt.min = {}", *options.min)
+                                          : "spacing.min, as adapt.min is not set,";
   std::int8_t coarsest = Quadrant::unit_level;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (marks[i] == Mark::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
@@ -269,7 +270,8 @@ MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
 void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                     const SolvedMesh& solved, AdaptationPlan& plan) {
   require_norm(options);
-  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest_of_leaves(input, options, solved));
+  const auto wanted =
+      made_from<WantedLevels>(comm, options, solved, finest_of_leaves(input, options, solved));
   require_at_nodes(options, solved, "mesh.type = \"metric\"");
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
@@ -312,7 +314,8 @@ void require_min_in_tree(const MeshInput& input, const AdaptOptions& options) {
   const double max = input.mesh.size.max;
   if (input.mesh.type != MeshType::metric || !options.min || *options.min <= max) return;
   throw InputError(
-      fmt::format("adapt.min = {} is above the largest size, spacing.max = {}, which leaves the metric no size to choose; make "
+      fmt::format("adapt.min = {} is above the largest size, spacing.max = {}, which leaves the metric no "
+                  "size to choose; make "
                   "adapt.min smaller",
                   *options.min, max));
 }

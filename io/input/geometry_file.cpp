@@ -19,10 +19,8 @@ namespace {
 
 std::map<std::string, GeometryReader>& readers() {
   static std::map<std::string, GeometryReader> all{
-      {".geom",
-       [](const std::string& path, const LayerNames&, std::vector<std::string>&, FileUnit&) {
-         return read_geom(path);
-       }},
+      {".geom", [](const std::string& path, const LayerNames&, std::vector<std::string>&,
+                   FileUnit&) { return read_geom(path); }},
       {".dat", [](const std::string& path, const LayerNames&, std::vector<std::string>& warnings, FileUnit&) {
          return read_airfoil(path, warnings);
        }}};

@@ -215,7 +215,8 @@ void add_dropped(const MeshReport& dropped, MeshReport& report) {
 /// The estimate is of the mesh outside: with the cells of strips, which are known by now.
 void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate) {
   for (const LayerStrip& strip : front.strips) {
-    const double of_columns = static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core),
+    const double of_columns =
+                     static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core),
                  of_base = strip.base_layers() * (strip.core - 2.0 * strip.base_layers());
     const double cells = (of_columns + of_base) * (divided ? 2 : 1);
     estimate.cells += cells;

@@ -34,8 +34,7 @@ FlatOutline::FlatOutline(const Outline& outline) {
 
 bool FlatOutline::faulty(std::int32_t s, std::int32_t t) const {
   if (next(t) == s) std::swap(s, t);
-  if (next(s) == t)
-    return overlap(point(t), point(s), point(next(t)));
+  if (next(s) == t) return overlap(point(t), point(s), point(next(t)));
   if (loop(s) != loop(t)) {  // loops may touch in a point of both
     for (const auto& [at, from] : {std::pair(s, next(s)), std::pair(next(s), s)}) {
       if (point(t) == point(at)) return overlap(point(at), point(from), point(next(t)));

@@ -121,9 +121,8 @@ class Sweep {
     for (const std::int32_t v : points) pass(v);
     std::erase_if(points, [&](std::int32_t v) { return ends_at(v) > 0 || begun_[flat_.loop(v)] != 0; });
     if (points.size() > 1)
-      std::ranges::sort(points, [&](std::int32_t v, std::int32_t w) {
-        return is_below(lower_at(v), lower_at(w));
-      });
+      std::ranges::sort(points,
+                        [&](std::int32_t v, std::int32_t w) { return is_below(lower_at(v), lower_at(w)); });
     for (const std::int32_t v : points) note_below(v);
   }
 

@@ -248,27 +248,29 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
   std::ranges::stable_sort(limited, {}, [&](BoundaryId b) { return wanted[b].size; });
   for (const BoundaryId b : limited | std::views::take(most_named))
     warnings.push_back(fmt::format(
-        "boundary '{}': its last layer is {:.3g} high near ({:.6g}, {:.6g}) and wants cells of at most {:.3g} "
+        "boundary '{}': its last layer is {:.3g} high near ({:.6g}, {:.6g}) and wants cells of at most "
+        "{:.3g} "
         "beside it, but spacing.min = {:.6g} ends the refinement before; make spacing.min smaller, or the "
         "layers thicker or fewer",
         outer.boundary(b).name, wanted[b].size / leaf_over_last_layer, wanted[b].at.x, wanted[b].at.y,
         wanted[b].size, min));
   if (limited.size() > most_named)
-    warnings.push_back(fmt::format("{} more boundaries have last layers that are thinner than half of "
-                                   "spacing.min = {:.6g}",
-                                   limited.size() - most_named, min));
+    warnings.push_back(
+        fmt::format("{} more boundaries have last layers that are thinner than half of "
+                    "spacing.min = {:.6g}",
+                    limited.size() - most_named, min));
 }
 
 /// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
 void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::string>& warnings) {
   const auto least = std::ranges::min_element(strip.spacing);
   if (*least >= min) return;
-  const Point at =
-      strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
-  warnings.push_back(fmt::format("{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
-                                 "smaller than spacing.min = {:.6g}: triangles there will be thin; make "
-                                 "spacing.min smaller, or the layers thicker or fewer",
-                                 strip.place, strip.name, *least, at.x, at.y, min));
+  const Point at = strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
+  warnings.push_back(
+      fmt::format("{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
+                  "smaller than spacing.min = {:.6g}: triangles there will be thin; make "
+                  "spacing.min smaller, or the layers thicker or fewer",
+                  strip.place, strip.name, *least, at.x, at.y, min));
 }
 
 /// A base without layers of its own has cells as high as the columns behind it are wide.

@@ -38,7 +38,8 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
   throw InputError(fmt::format(
       "{}: geometry.unit = \"file\", but the file declares no unit of length{}; name its unit, as in unit = "
       "\"mm\", or leave unit out to take the coordinates as they stand",
-      input.path, extent.declared.name.empty() ? "" : fmt::format(" that is known ('{}')", extent.declared.name)));
+      input.path,
+      extent.declared.name.empty() ? "" : fmt::format(" that is known ('{}')", extent.declared.name)));
 }
 
 /// Where the coordinates have a unit.

@@ -96,7 +96,8 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
 
 /// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer
 /// side of its box (or min if that is larger), min half the smallest spacing that its points, boundaries,
-/// corners, layers, lines with layers or the case's sources ask for, or 2^-20 of that side if that is larger, but at most half of max.
+/// corners, layers, lines with layers or the case's sources ask for, or 2^-20 of that side if that is larger,
+/// but at most half of max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
 /// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may

@@ -50,7 +50,8 @@ TEST(Validate, LetsLoopsTouchAtAVertexOfBoth) {
   // Holes that touch each other and the outer boundary, at its leftmost point and at another.
   for (const bool turned : {false, true}) {
     Chain outer = closed("outer", {{0, 0}, {9, -4}, {9, 4}});
-    const Chain left = closed("left", {{0, 0}, {4, 1}, {4, -1}}), right = closed("right", {{4, 1}, {9, 4}, {6, 0}});
+    const Chain left = closed("left", {{0, 0}, {4, 1}, {4, -1}}),
+                right = closed("right", {{4, 1}, {9, 4}, {6, 0}});
     if (turned) outer = reversed(outer);
     for (const auto& chains : {std::vector{outer, left, right}, std::vector{right, left, outer}}) {
       const auto places = validate(join_chains(chains));

@@ -75,8 +75,7 @@ class SplitRound {
 
   /// Returns whether any piece is split.
   bool find(double near) {
-    const BoxTree tree(size32(pieces_),
-                       [&](std::int32_t i) { return box_of(pieces_[i].a, pieces_[i].b); });
+    const BoxTree tree(size32(pieces_), [&](std::int32_t i) { return box_of(pieces_[i].a, pieces_[i].b); });
     bool any = false;
     for (std::int32_t i = 0; i < size32(pieces_); ++i) {
       tree.for_each_meeting(widened(box_of(pieces_[i].a, pieces_[i].b), near), [&](std::int32_t j) {

@@ -185,8 +185,8 @@ class IslandUnion {
   /// directed so.
   bool is_outermost(std::int32_t l, std::int32_t g) const {
     const LoopGroup& group = groups_[g];
-    const std::int32_t largest = *std::ranges::max_element(
-        group, {}, [&](std::int32_t other) { return std::abs(areas_[other]); });
+    const std::int32_t largest =
+        *std::ranges::max_element(group, {}, [&](std::int32_t other) { return std::abs(areas_[other]); });
     return l == largest || (outline_.loops[l].directed && areas_[l] > 0);
   }
 
@@ -208,8 +208,8 @@ class IslandUnion {
       for (std::size_t i = 0; i < loop.points.size(); ++i) {
         if (origins.empty() || origins.back().loop != l || origins.back().segment != loop.segment[i])
           origins.push_back({l, loop.segment[i]});
-        edges.push_back({loop.points[i], loop.points[(i + 1) % loop.points.size()], weight,
-                         size32(origins) - 1});
+        edges.push_back(
+            {loop.points[i], loop.points[(i + 1) % loop.points.size()], weight, size32(origins) - 1});
       }
     }
     for (const WindingLoop& found : outline_of_positive(edges, outside_of(g))) {
@@ -254,9 +254,9 @@ void warn_of_names_lost(const Outline& before, const Outline& after, std::vector
   for (const OutlineLoop& loop : after.loops) left.insert(loop.boundary.begin(), loop.boundary.end());
   for (std::int32_t b = 0; b < size32(before.names); ++b) {
     if (left.contains(BoundaryId{b})) continue;
-    warnings.push_back(fmt::format(
-        "geometry.overlap: boundary '{}' has no edge left: it lies inside the union of others",
-        before.names[b]));
+    warnings.push_back(
+        fmt::format("geometry.overlap: boundary '{}' has no edge left: it lies inside the union of others",
+                    before.names[b]));
   }
 }
 
@@ -267,9 +267,9 @@ Outline united_islands(const Outline& outline, double join, std::vector<std::str
   UnionCounts counts;
   Outline united = IslandUnion(outline, join * longer_side_of(outline)).run(counts);
   if (counts.joined > 0)
-    warnings.push_back(fmt::format(
-        "geometry.overlap: {} loops that overlap or touch became {}, the first of them {}", counts.joined,
-        counts.made, counts.first_joined));
+    warnings.push_back(
+        fmt::format("geometry.overlap: {} loops that overlap or touch became {}, the first of them {}",
+                    counts.joined, counts.made, counts.first_joined));
   if (counts.dropped > 0)
     warnings.push_back(fmt::format("geometry.overlap: {} loop{} inside islands dropped, the first {}",
                                    counts.dropped, counts.dropped == 1 ? " was" : "s were",

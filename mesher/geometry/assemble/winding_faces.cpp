@@ -32,9 +32,7 @@ class HalfEdges {
   std::int32_t origin(std::int32_t h) const { return origin_[h]; }
 
   /// Whether the domain is to its left, and not to its right.
-  bool bounds_domain(std::int32_t h) const {
-    return winding_[face_[h]] > 0 && winding_[face_[h ^ 1]] <= 0;
-  }
+  bool bounds_domain(std::int32_t h) const { return winding_[face_[h]] > 0 && winding_[face_[h ^ 1]] <= 0; }
 
   /// The next one that bounds the domain, counter-clockwise from the way back: so that what is between the
   /// two is no domain.

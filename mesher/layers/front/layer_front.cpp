@@ -129,9 +129,9 @@ class OuterOutline {
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
-  std::vector<char> covered_;  ///< vertices on which a run's last column lies
+  std::vector<char> covered_;                            ///< vertices on which a run's last column lies
   std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
-  std::vector<char> is_base_;  ///< of segments: whether a wake begins behind it
+  std::vector<char> is_base_;                            ///< of segments: whether a wake begins behind it
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
   std::vector<BoundaryId> boundary_;
@@ -439,8 +439,8 @@ std::optional<WakeRoot> likely_root(const Geometry& g, const PlacedLine& line) {
   root.left = g.point(line.edge) + thickness * left;
   root.right = g.point(line.base_end) + thickness * right;
   root.base = base_of(g, line);
-  root.spacing = std::min({leaf_over_last_layer * layer_heights(line.layers).back(), g.spacing_of(before),
-                           g.spacing_of(after)});
+  root.spacing = std::min(
+      {leaf_over_last_layer * layer_heights(line.layers).back(), g.spacing_of(before), g.spacing_of(after)});
   if (const double at_corner = g.corner_spacing_of(line.edge); at_corner > 0)
     root.spacing = std::min(root.spacing, at_corner);
   return root;

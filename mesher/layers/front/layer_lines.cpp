@@ -127,8 +127,7 @@ std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall, double longe
 }
 
 Point middle_of(const Geometry& g, const Edge& edge) {
-  return edge.first == edge.second ? g.point(edge.first)
-                                   : 0.5 * (g.point(edge.first) + g.point(edge.second));
+  return edge.first == edge.second ? g.point(edge.first) : 0.5 * (g.point(edge.first) + g.point(edge.second));
 }
 
 /// The first few: "(1, 0), (0, 0) and 3 more".
@@ -221,8 +220,8 @@ std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<
     const bool is_wake = !line.from.empty();
     if (is_wake) ++placed_wakes;
     const std::ptrdiff_t before = std::ssize(all) - placed_wakes;
-    PlacedLine placed = is_wake ? named(line, placed_wakes, wakes)
-                                : named(line, before + 1, std::ssize(lines) - wakes);
+    PlacedLine placed =
+        is_wake ? named(line, placed_wakes, wakes) : named(line, before + 1, std::ssize(lines) - wakes);
     if (is_wake) {
       place_wake(geometry, *walls, line, placed);
       const auto [first, is_new] = name_at.emplace(placed.edge, placed.name);

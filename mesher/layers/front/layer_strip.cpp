@@ -163,7 +163,8 @@ class Strip {
     const double wanted = strip_.root->spacing;
     if (base_layers_ == 0) return wanted;
     const double last = base_->height(base_layers_) - base_->height(base_layers_ - 1);
-    return std::min(wanted, std::max(base_->height(base_layers_) + over_last_layer * last, narrowest * wanted));
+    return std::min(wanted,
+                    std::max(base_->height(base_layers_) + over_last_layer * last, narrowest * wanted));
   }
   /// On the base: at most those of the wall, as many as leave some of it to the columns behind it, and room
   /// before the next column.
@@ -171,7 +172,8 @@ class Strip {
     constexpr double share_of_half = 0.6;
     const double room = std::min(strip_.root->spacing, line_.spacing);
     int layers = 0;
-    while (layers < strip_.layers && layers + 1 < strip_.core / 2 && base_->height(layers + 1) <= share_of_half * base_->half() &&
+    while (layers < strip_.layers && layers + 1 < strip_.core / 2 &&
+           base_->height(layers + 1) <= share_of_half * base_->half() &&
            2 * base_->height(layers + 1) - base_->height(layers) <= room)
       ++layers;
     return layers;

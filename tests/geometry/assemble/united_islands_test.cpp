@@ -110,8 +110,8 @@ TEST(UnitedIslands, OfEqualIslandsTheFirstGivesTheName) {
 TEST(UnitedIslands, ARingOfAPolygonStaysAHole) {
   Chain court = rectangle("a", {2, 2}, {8, 8});
   court.source = "a";
-  const Geometry g = united({sea, rectangle("a", {0, 0}, {10, 10}), court,
-                             rectangle("b", {10, 0}, {20, 10}), rectangle("shed", {4, 4}, {5, 5})});
+  const Geometry g = united({sea, rectangle("a", {0, 0}, {10, 10}), court, rectangle("b", {10, 0}, {20, 10}),
+                             rectangle("shed", {4, 4}, {5, 5})});
   EXPECT_EQ(g.loop_count(), 4);
   EXPECT_DOUBLE_EQ(area_of(g), sea_area - 200 + 36 - 1);
 }
@@ -151,8 +151,8 @@ TEST(UnitedIslands, WallsThatDifferByRoundingAreShared) {
     EXPECT_EQ(g.loop_count(), 2) << gap;
     EXPECT_EQ(g.size(), 12) << gap;
   }
-  const Geometry wide = united({sea, rectangle("a", {0, 0}, {10, 10}), rectangle("b", {10.01, 3}, {20, 8})},
-                               nullptr, 1e-4);
+  const Geometry wide =
+      united({sea, rectangle("a", {0, 0}, {10, 10}), rectangle("b", {10.01, 3}, {20, 8})}, nullptr, 1e-4);
   EXPECT_EQ(wide.loop_count(), 2) << "geometry.join says what is near";
 }
 

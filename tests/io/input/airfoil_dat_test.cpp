@@ -123,7 +123,8 @@ TEST_F(AirfoilDat, RefusesABrokenPoint) {
 
 TEST_F(AirfoilDat, PassesOverTheBoxOfAGridForMses) {
   expect_airfoil(airfoil_name + "-1.5 3.0 -2.0 2.5\n" + selig_rows, {});
-  EXPECT_EQ(refused(airfoil_name + "-1.5 3.0 -2.0 2.5\n-1.5 3.0 -2.0 2.5\n" + selig_rows).find("a.dat:3: "), 0u)
+  EXPECT_EQ(refused(airfoil_name + "-1.5 3.0 -2.0 2.5\n-1.5 3.0 -2.0 2.5\n" + selig_rows).find("a.dat:3: "),
+            0u)
       << "only the second row is one";
   EXPECT_EQ(refused(airfoil_name + "-1.5 3.0 -2.0 2.5 1\n" + selig_rows).find("a.dat:2: "), 0u);
 }

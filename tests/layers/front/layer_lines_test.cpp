@@ -37,9 +37,9 @@ TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
 }
 
 TEST(PlaceLines, AWakeBeginsAtTheEdgeNearestToItsPlace) {
-  const Geometry g = test::outline_of(
-      {{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
-       {{"dart", {{-2, 0}, {0, 0.5}, {2, 0.05}, {2, -0.05}, {0, -0.5}}, ten_layers}}});
+  const Geometry g =
+      test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
+                        {{"dart", {{-2, 0}, {0, 0.5}, {2, 0.05}, {2, -0.05}, {0, -0.5}}, ten_layers}}});
   LayerLine wake = wake_of("dart");
   EXPECT_EQ(test::refusal([&] { place_lines(g, {wake}); }),
             "wake, from = \"dart\": there are 2 edges, at (-2, 0), (2, 0); name the one at which the wake "
@@ -49,9 +49,10 @@ TEST(PlaceLines, AWakeBeginsAtTheEdgeNearestToItsPlace) {
   wake.at = Point{-1.9, 0.1};
   EXPECT_EQ(place_lines(g, {wake})[0].path[0], (Point{-2, 0}));
   wake.at = Point{1.7, 0.1};
-  EXPECT_EQ(test::refusal([&] { place_lines(g, {wake}); }),
-            "wake, from = \"dart\": at = [1.7, 0.1] lies 0.304 from the nearest edge, and must not lie farther "
-            "from it than 0.2; there are edges at (-2, 0), (2, 0)");
+  EXPECT_EQ(
+      test::refusal([&] { place_lines(g, {wake}); }),
+      "wake, from = \"dart\": at = [1.7, 0.1] lies 0.304 from the nearest edge, and must not lie farther "
+      "from it than 0.2; there are edges at (-2, 0), (2, 0)");
 }
 
 TEST(PlaceLines, ABluntEdgesWakeBeginsInTheMiddleOfItsBase) {

@@ -123,8 +123,8 @@ TEST(LayerStrip, TheBaseHasLayersOfTheHeightsAskedFor) {
     for (std::size_t i = 1; i < edges; ++i) {
       double nearest = 1;  // of the base's segments
       for (std::size_t k = 0; k + 1 < base.size(); ++k)
-        nearest = std::min(
-            nearest, std::sqrt(place_on_segment(second[i], base[k], base[k + 1]).squared_distance));
+        nearest =
+            std::min(nearest, std::sqrt(place_on_segment(second[i], base[k], base[k + 1]).squared_distance));
       EXPECT_NEAR(nearest, line_layers.first, 0.03 * line_layers.first);
     }
     expect_positive(strip);

@@ -45,7 +45,8 @@ TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
   EXPECT_EQ(load(read("unit = \"inch\"\nscale = 2\n")).point(2), (Point{8 * 0.0254, 8 * 0.0254}));
   EXPECT_NE(refused("unit = \"ell\"\n").find("'geometry.unit' is 'ell', but must be"), std::string::npos)
       << refused("unit = \"ell\"\n");
-  EXPECT_NE(refused("unit = \"file\"\n").find("declares no unit of length; name its unit"), std::string::npos);
+  EXPECT_NE(refused("unit = \"file\"\n").find("declares no unit of length; name its unit"),
+            std::string::npos);
   Warnings warnings;
   std::vector<FileExtent> extents;
   load_geometry(read("unit = \"mm\"\ntranslate = [7, 0]\n"), warnings, {}, &extents);

@@ -131,7 +131,8 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
   // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then
   // it takes a cycle for each level.
   std::vector<Mark> marks(second.leaves.size(), Mark::coarsen);
-  TreeRecord third = tree_of(input, changed_splits(world(), second, marks, levels_of(second, finest)).demands);
+  TreeRecord third =
+      tree_of(input, changed_splits(world(), second, marks, levels_of(second, finest)).demands);
   for (int cycle = 0; cycle < 4; ++cycle) {
     marks.assign(third.leaves.size(), Mark::coarsen);
     third = tree_of(input, changed_splits(world(), third, marks, levels_of(third, finest)).demands);
@@ -160,12 +161,13 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
   }
   EXPECT_GT(world().sum(std::ssize(tree.leaves)), 2 * world().sum(std::ssize(first.leaves)));
   const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
-  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, levels_of(tree, finest)).demands)),
-            all_leaves(tree));
+  EXPECT_EQ(
+      all_leaves(tree_of(input, changed_splits(world(), tree, nothing, levels_of(tree, finest)).demands)),
+      all_leaves(tree));
   for (int cycle = 0; cycle < 4; ++cycle) {
-    tree = tree_of(
-        input,
-        changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), levels_of(tree, finest)).demands);
+    tree = tree_of(input, changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere),
+                                         levels_of(tree, finest))
+                              .demands);
   }
   EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
