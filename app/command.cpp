@@ -1,5 +1,6 @@
 #include "app/command.hpp"
 
+#include <set>
 #include <utility>
 
 #include "mesher/base/log.hpp"
@@ -19,10 +20,12 @@ std::string record_text(const CommandRecord& record, const Outcome& outcome) {
 
 namespace {
 
-/// Into the record. Returns those that are shown.
+/// Into the record, each once. Returns those of them that are new and shown.
 std::vector<std::string> recorded(const CommandContext& context, std::vector<std::string> warnings) {
   constexpr std::size_t most_shown = 10;
   std::vector<std::string>& all = context.record.warnings;
+  std::set<std::string> known(all.begin(), all.end());
+  std::erase_if(warnings, [&](const std::string& warning) { return !known.insert(warning).second; });
   all.insert(all.end(), warnings.begin(), warnings.end());
   if (context.quiet && context.json) return {};
   if (context.verbose || warnings.size() <= most_shown) return warnings;

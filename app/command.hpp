@@ -43,7 +43,7 @@ struct CommandContext {
   /// Whether this rank prints the table for people.
   bool shows_table() const { return comm.is_root() && !quiet && !json; }
   /// From the root rank, after those noted: the first few, unless `verbose`; all of them into the record,
-  /// which with `quiet` is the only place.
+  /// which with `quiet` is the only place. What the record has already is passed over.
   void warn(const std::vector<std::string>& warnings) const;
   /// Those noted join the record. Returns the lines to print of them before the error that ends the command.
   std::vector<std::string> warnings_before_error() const;

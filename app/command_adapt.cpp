@@ -5,13 +5,13 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
 #include <variant>
 
 #include "adapt/loop/run_in_folder.hpp"
 #include "adapt/solvers/openfoam_template.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/extent_report.hpp"
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geom_text.hpp"
@@ -67,7 +67,8 @@ std::string outline_to_keep(const CaseInput& input) {
 }
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
-                           std::optional<double>& morph_to, Warnings& warnings, std::string& note) {
+                           std::optional<double>& morph_to, Warnings& warnings,
+                           std::vector<std::string>& notes) {
   CaseInput input =
       load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
   const Settings& settings = input.settings;
@@ -75,8 +76,9 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
-    note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
-                       flow.alpha);
+    notes.push_back(fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees",
+                                flow.mach, flow.alpha));
+  for (std::string& line : extent_lines(input.extents)) notes.push_back(std::move(line));
   morph_to = settings.morph_to;
   const std::string outline = outline_to_keep(input);
   ChosenSolver solver =
@@ -94,8 +96,8 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
 }
 
 std::string line_of(const CycleRecord& record) {
-  std::string line = fmt::format("cycle {:>2}  {:>8} nodes  smallest angle {:>4.1f}", record.cycle,
-                                 record.nodes, record.worst_angle);
+  std::string line =
+      fmt::format("cycle {:>2}  {:>8} nodes  {}", record.cycle, record.nodes, quality_text(record));
   if (record.morphed) line += *record.morphed ? "  same cells" : "  meshed anew";
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
@@ -157,31 +159,28 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
-  std::string note;
+  std::vector<std::string> notes;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
   std::optional<double> morph_to;
   comm.together([&] {
     std::optional<TreeAttributes> saved;
     if (former) saved = former->tree.attributes;
-    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, note);
+    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, notes);
   });
   adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  if (comm.is_root() && !note.empty()) log::information(note);
+  if (comm.is_root()) {
+    for (const std::string& line : notes) log::information(line);
+  }
   const std::string folder = folder_of(arguments);
   context.warn(former ? former->warnings : Warnings{});
-  std::set<std::string> told;
   std::vector<JsonObject> cycles;
   RunReport report;
   report.warning = [&](const std::string& warning) { context.warn({warning}); };
   report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
     if (context.shows_table()) std::cout << line_of(record) << std::endl;
     if (comm.is_root()) keep(record, folder, cycles, context.record);
-    Warnings fresh;
-    for (const std::string& warning : of_cycle) {
-      if (told.insert(warning).second) fresh.push_back(warning);
-    }
-    context.warn(fresh);
+    context.warn(of_cycle);
   };
   context.record.figures.add("folder", folder);
   context.record.figures.add("cycles", cycles);

@@ -9,6 +9,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/extent_report.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/formats.hpp"
@@ -174,6 +175,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
             : first_mesh_warnings(input));
   for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
+  if (comm.is_root()) add_extents(summary.figures, prepared.input.extents);
   if (parts) add_parts(summary, *parts, prepared.part_files);
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
   context.record.figures = record_of(summary);

@@ -12,6 +12,7 @@
 #include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/extent_report.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
 #include "io/files/output_file.hpp"
@@ -183,6 +184,7 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
   const std::vector<std::string> files = with_files_beside(problem.files);
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
+  if (context.comm.is_root()) add_extents(summary.figures, problem.input.extents);
   if (parts) add_parts(summary, *parts, problem.part_files);
   Figures of_transfer = transfer_figures(carried);
   if (carried.estimate) of_transfer.add("interpolation error", *carried.estimate, "{:.3e}");

@@ -40,9 +40,8 @@ void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& 
 
 std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes,
                      const std::vector<std::string>& warnings) {
-  std::string text =
-      fmt::format("cycle {}: {} nodes, {} triangles, {} quads, smallest angle {:.1f}\n", record.cycle,
-                  record.nodes, record.triangles, record.quads, record.worst_angle);
+  std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, {}\n", record.cycle,
+                                 record.nodes, record.triangles, record.quads, quality_text(record));
   for (const auto& [boundary, least, largest] : record.first_heights)
     text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   if (record.metric) text += lines_of(*record.metric);

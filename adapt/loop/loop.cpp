@@ -7,7 +7,10 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/generate/digests.hpp"
+#include "mesher/mesh/check/face_figures.hpp"
+#include "mesher/mesh/check/layer_figures.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
 
@@ -91,6 +94,14 @@ class Loop {
     if (!until.empty()) record.settled = end.settled;
   }
 
+  static std::optional<LayerQuality> layer_quality(const Communicator& comm, const Mesh& mesh) {
+    if (!has_layers(mesh)) return {};
+    const LayerPlaces places = layer_places(comm, mesh);
+    const FaceFigures faces = face_figures(comm, mesh, places).layers;
+    return LayerQuality{quality_by_layers(comm, mesh, places).others.smallest_degrees, faces.aspect_ratio,
+                        faces.non_orthogonality, faces.skewness};
+  }
+
   CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const CycleEnd& end,
                         const StageTimes& times) const {
     const QualitySummary quality = summarise_quality(comm_, end.solved.mesh);
@@ -102,6 +113,7 @@ class Loop {
     record.quads = quality.counts.quads;
     record.leaves = carried.generated.result.report.leaves;
     record.worst_angle = quality.smallest_degrees;
+    record.layered = layer_quality(comm_, end.solved.mesh);
     record.mean = end.plan.mean;
     record.deviation = end.plan.deviation;
     record.refined = end.plan.refined;

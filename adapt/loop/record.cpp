@@ -80,6 +80,12 @@ JsonObject figures_of(const CycleRecord& record) {
   json.add("quads", record.quads);
   json.add("leaves", record.leaves);
   json.add("worst_angle", record.worst_angle);
+  if (record.layered) {
+    json.add("outer_min_angle", record.layered->outer_angle);
+    json.add("layer_aspect_ratio", record.layered->aspect_ratio);
+    json.add("layer_non_orthogonality", record.layered->non_orthogonality);
+    json.add("layer_skewness", record.layered->skewness);
+  }
   json.add("indicator", object({{"mean", record.mean}, {"deviation", record.deviation}}));
   json.add("refined", record.refined);
   json.add("coarsened", record.coarsened);
@@ -153,6 +159,16 @@ JsonObject record_of(const std::vector<BoundaryForce>& forces) {
                                      {"cd_friction", force.cd_friction}}));
   }
   return json;
+}
+
+std::string quality_text(const CycleRecord& record) {
+  if (!record.layered) return fmt::format("smallest angle {:>4.1f}", record.worst_angle);
+  return fmt::format(
+      "smallest angle outside layers {:>4.1f}, layers: aspect ratio {:.4g}, non-orthogonality {:.1f}, "
+      "skewness "
+      "{:.2f}",
+      record.layered->outer_angle, record.layered->aspect_ratio, record.layered->non_orthogonality,
+      record.layered->skewness);
 }
 
 JsonObject seconds_of(const CycleRecord& record) { return object(record.seconds); }

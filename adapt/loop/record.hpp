@@ -22,6 +22,13 @@ struct FirstHeights {
   double least = 0, largest = 0;
 };
 
+/// What layers, and the cells outside them, are judged by.
+struct LayerQuality {
+  double outer_angle = 0;   ///< the smallest corner outside layers, degrees
+  double aspect_ratio = 0;  ///< of layers these: FaceFigures
+  double non_orthogonality = 0, skewness = 0;
+};
+
 /// What record.json keeps of a cycle.
 struct CycleRecord {
   int cycle = 0;
@@ -31,8 +38,9 @@ struct CycleRecord {
   std::uint64_t solution_digest = 0;  ///< of the values that the cycle's solution has
   CaseSettings settings;              ///< those that the cycle was made with
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
-  double worst_angle = 0;          ///< the smallest corner, degrees
-  double mean = 0, deviation = 0;  ///< of log10 of the indicator
+  double worst_angle = 0;               ///< the smallest corner, degrees
+  std::optional<LayerQuality> layered;  ///< where the mesh has layers, whose thin cells have small corners
+  double mean = 0, deviation = 0;       ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
   std::optional<double> estimate;  ///< the norm of the interpolation error, where sizes follow from it
   std::optional<double> order;     ///< at which it fell from the cycle before
@@ -55,6 +63,8 @@ struct CycleRecord {
 /// What the cycle came to, without its case and the seconds that it took.
 JsonObject figures_of(const CycleRecord& record);
 JsonObject seconds_of(const CycleRecord& record);
+/// For people: the smallest angle, in layers the figures of their faces.
+std::string quality_text(const CycleRecord& record);
 
 /// {goal: {"value": ..., "corrected": ..., "error": ..., "by_alpha": ..., "by_mach": ..., "adjoint_residual":
 /// ...}}

@@ -120,7 +120,8 @@ class Stretching {
                 solved,
                 bends(comm, solved, solution, demand),
                 demand.norm,
-                {demand.min, largest_sizes(comm, result, solved), 0.5 * (input.mesh.size.gradation - 1)}},
+                {demand.min, largest_sizes(comm, result, solved), 0.5 * (input.mesh.size.gradation - 1),
+                 demand.facets ? std::vector<double>() : least_at_facets(input.geometry, solved.points)}},
         wanted_{demand.nodes - nodes_in_layers(comm, solved)} {}
 
   StretchReport report;

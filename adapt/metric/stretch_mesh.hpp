@@ -17,6 +17,7 @@ struct MetricDemand {
   double norm = 2;                ///< the p of the L^p norm of the interpolation error
   std::int64_t nodes = 0;         ///< wanted, about
   double min = 0;                 ///< no edge is wanted shorter, in the geometry's unit
+  bool facets = false;            ///< whether edges at facets may be shorter than half of their segments
   std::int64_t tile_size = 8192;  ///< triangles, about, that are adapted at a time
 };
 

@@ -5,6 +5,7 @@
 
 #include "adapt/metric/gradation.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/geometry/facets.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
 namespace quadloop {
@@ -44,8 +45,20 @@ double WantedMetric::integral(const std::vector<Metric>& metrics) const {
   return reproducible_sum(comm_, terms);
 }
 
-Metric WantedMetric::within_bounds(const Metric& metric, double most) const {
-  const double ceiling = 1 / (bounds_.min * bounds_.min), excess = eigen_of(metric).larger / ceiling;
+std::vector<double> least_at_facets(const Geometry& geometry, std::span<const Point> points) {
+  const FacetZones facets(geometry);
+  std::vector<double> least;
+  if (facets.empty()) return least;
+  least.reserve(points.size());
+  for (const Point p : points) least.push_back(facets.least_size({p, p}));
+  return least;
+}
+
+Metric WantedMetric::within_bounds(const Metric& metric, std::size_t node) const {
+  const double most = bounds_.most[node];
+  const double at_node = bounds_.least.empty() ? 0 : std::min(bounds_.least[node], most);
+  const double min = std::max(bounds_.min, at_node);
+  const double ceiling = 1 / (min * min), excess = eigen_of(metric).larger / ceiling;
   Eigen2 e = eigen_of(intersection(excess > 1 ? Metric{1 / excess * metric} : metric, isotropic(most)));
   e.larger = std::min(e.larger, ceiling);
   e.smaller = std::min(std::max(e.smaller, 0x1p-46 * e.larger), ceiling);
@@ -56,7 +69,7 @@ std::vector<Metric> WantedMetric::bounded(double factor) const {
   std::vector<Metric> metrics;
   metrics.reserve(shapes_.size());
   for (std::size_t i = 0; i < shapes_.size(); ++i)
-    metrics.push_back(within_bounds(Metric{factor * shapes_[i]}, bounds_.most[i]));
+    metrics.push_back(within_bounds(Metric{factor * shapes_[i]}, i));
   limit_growth(comm_, mesh_, bounds_.slope, metrics);
   return metrics;
 }

@@ -5,6 +5,7 @@
 
 #include "adapt/metric/algebra/tensor.hpp"
 #include "mesher/base/parallel/communicator.hpp"
+#include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 
 namespace quadloop {
@@ -14,9 +15,13 @@ struct SizeBounds {
   /// No edge is wanted shorter than this: a metric that asks for it becomes larger as a whole, so that cells
   /// of a front that is thinner stay as long along it.
   double min = 0;
-  std::vector<double> most;  ///< at each owned node and copy: nor longer than this
-  double slope = 0.25;       ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
+  std::vector<double> most;        ///< at each owned node and copy: nor longer than this
+  double slope = 0.25;             ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
+  std::vector<double> least = {};  ///< at each of them, or of none: nor shorter than this, which may be 0
 };
+
+/// `least` at facets of an outline (FacetZones), by the points of nodes; of none where there is no facet.
+std::vector<double> least_at_facets(const Geometry& geometry, std::span<const Point> points);
 
 /// The metric that makes the L^p norm of the interpolation error least for its complexity, the integral of
 /// its density: det(H)^(-1 / (2 p + 2)) H, but for a factor, with the absolute hessians H (Loseille and
@@ -42,7 +47,7 @@ class WantedMetric {
  private:
   std::vector<Metric> bounded(double factor) const;
   double integral(const std::vector<Metric>& metrics) const;
-  Metric within_bounds(const Metric& metric, double most) const;
+  Metric within_bounds(const Metric& metric, std::size_t node) const;
 
   const Communicator& comm_;
   const Mesh& mesh_;

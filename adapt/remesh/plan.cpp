@@ -6,8 +6,10 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string_view>
 
+#include "adapt/remesh/demands/finest_levels.hpp"
 #include "adapt/remesh/demands/mark_family.hpp"
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
@@ -25,7 +27,7 @@ namespace {
 class NodeSearch {
  public:
   NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
-             const MarkFamily& family, int finest, std::optional<MirrorAxis> mirror)
+             const MarkFamily& family, std::span<const std::int8_t> finest, std::optional<MirrorAxis> mirror)
       : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest}, mirror_{mirror} {}
 
   ChangedSplits changes_at(double at) const {
@@ -60,7 +62,7 @@ class NodeSearch {
   const TrialCount& count_;
   const SolvedMesh& solved_;
   const MarkFamily& family_;
-  int finest_;
+  std::span<const std::int8_t> finest_;
   std::optional<MirrorAxis> mirror_;
 };
 
@@ -70,10 +72,34 @@ int finest_level(const MeshInput& input, const AdaptOptions& options) {
                      : lattice.finest_level(input.mesh.size.min);
 }
 
+std::vector<std::int8_t> finest_of_leaves(const MeshInput& input, const AdaptOptions& options,
+                                          const SolvedMesh& solved) {
+  return finest_levels(input.geometry, solved.tree, finest_level(input, options), options.facets);
+}
+
+/// Leaves that the rule marks, but that the outline's facets keep as they are. *Collective.*
+std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
+                            const std::vector<Mark>& marks, std::span<const std::int8_t> finest) {
+  std::int8_t deepest = 0;
+  for (const std::int8_t level : finest) deepest = std::max(deepest, level);
+  deepest = static_cast<std::int8_t>(comm.maximum(std::int64_t{deepest}));
+  std::int64_t held = 0;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == Mark::refine && finest[i] < deepest && solved.tree.leaves[i].level >= finest[i]) ++held;
+  }
+  return comm.sum(held);
+}
+
+constexpr const char* text_of_facets =
+    "leaves at points of the outline that stand for a curve are not refined below half of its segments "
+    "there, "
+    "as a flow has a peak at each point of a polygon; give the outline more points, or set adapt.facets = "
+    "true";
+
 /// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options,
-                                const SolvedMesh& solved, const MarkFamily& family,
-                                const ChangedSplits& all) {
+                                const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
+                                bool held) {
   if (family.flat())
     return fmt::format("{} is constant",
                        options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
@@ -90,8 +116,9 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
   if (wanted == 0)
     return "no leaf is above the threshold adapt.refine, and none below adapt.coarsen had been split by "
            "adaptation";
-  const std::string bound =
-      options.min ? fmt::format("adapt.min = {}", *options.min) : "spacing.min, as adapt.min is not set,";
+  const std::string bound = held          ? "adapt.facets = false"
+                            : options.min ? fmt::format("adapt.min = {}", *options.min)
+                                          : "spacing.min, as adapt.min is not set,";
   std::int8_t coarsest = Quadrant::unit_level;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (marks[i] == Mark::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
@@ -133,14 +160,16 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
 }
 
 void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror,
-                   AdaptationPlan& plan) {
+                   const TrialCount& count, std::span<const std::int8_t> finest,
+                   std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
   const auto family = made_from<MarkFamily>(comm, options, solved, mirror);
   const NodeSearch search(comm, count, solved, family, finest, mirror);
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   const bool bounded = !count.allowed(all);
   if (bounded) plan.warnings.emplace_back(text_of_bound);
+  const bool held = held_by_facets(comm, solved, family.marks(1), finest) > 0;
+  if (held) plan.warnings.emplace_back(text_of_facets);
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
   take(std::move(changes), plan);
@@ -148,7 +177,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
   plan.mean = family.mean();
   plan.deviation = family.deviation();
   if (!plan.changes_mesh())
-    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all);
+    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all, held);
 }
 
 /// That the options ask for.
@@ -161,8 +190,8 @@ std::int64_t bounded_nodes(const AdaptOptions& options, const SolvedMesh& solved
 
 /// By the sizes that make the L^p norm of the interpolation error least.
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, int finest, std::optional<MirrorAxis> mirror,
-                   AdaptationPlan& plan) {
+                   const TrialCount& count, const std::vector<std::int8_t>& finest,
+                   std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
   const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
   const std::int64_t nodes = bounded_nodes(options, solved);
   plan.estimate = wanted.error();
@@ -215,6 +244,7 @@ TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, 
   demand.norm = options.norm.value_or(demand.norm);
   demand.min = options.min.value_or(input.mesh.size.min);
   demand.stretch = *input.stretch;
+  demand.facets = options.facets;
   return demand;
 }
 
@@ -240,7 +270,8 @@ MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
 void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                     const SolvedMesh& solved, AdaptationPlan& plan) {
   require_norm(options);
-  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest_level(input, options));
+  const auto wanted =
+      made_from<WantedLevels>(comm, options, solved, finest_of_leaves(input, options, solved));
   require_at_nodes(options, solved, "mesh.type = \"metric\"");
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
@@ -253,6 +284,7 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
   plan.metric = metric_demand(options, solved.solution);
   plan.metric->nodes = allowed;
   plan.metric->min = options.min.value_or(input.mesh.size.min);
+  plan.metric->facets = options.facets;
 }
 
 }  // namespace
@@ -264,7 +296,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   plan.measured_wall = wall_to_follow(comm, input, options, solved);
   plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
   const TrialCount count(comm, input, plan.measured_wall);
-  const int finest = finest_level(input, options);
+  const std::vector<std::int8_t> finest = finest_of_leaves(input, options, solved);
   if (input.mesh.type == MeshType::metric)
     plan_by_metric(comm, input, options, solved, plan);
   else if (options.norm)
@@ -279,6 +311,13 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
 
 void require_min_in_tree(const MeshInput& input, const AdaptOptions& options) {
   finest_level(input, options);
+  const double max = input.mesh.size.max;
+  if (input.mesh.type != MeshType::metric || !options.min || *options.min <= max) return;
+  throw InputError(
+      fmt::format("adapt.min = {} is above the largest size, spacing.max = {}, which leaves the metric no "
+                  "size to choose; make "
+                  "adapt.min smaller",
+                  *options.min, max));
 }
 
 void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,

@@ -48,7 +48,8 @@ struct AdaptationPlan {
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 
-/// Throws InputError where adapt.min is smaller than leaves of the case's tree can be.
+/// Throws InputError where adapt.min is smaller than leaves of the case's tree can be, or, where the
+/// mesh follows a metric, larger than the largest size of the case.
 void require_min_in_tree(const MeshInput& input, const AdaptOptions& options);
 
 /// Refuses a number of nodes in which a mesh that follows a metric finds no place for the case's own sizes,

@@ -36,8 +36,10 @@ Asked asked_of(const Communicator& comm, const MeshInput& input, const Mesh& sol
                const TargetDemand& demand, const MeshResult& result) {
   const TreeAttributes& a = result.tree.attributes;
   const double extent = a.tree_edge * std::max(a.trees_x, a.trees_y);
-  const SizeBounds bounds{demand.min / demand.stretch, std::vector<double>(solved.points.size(), extent),
-                          0.5 * (input.mesh.size.gradation - 1)};
+  const SizeBounds bounds{
+      demand.min / demand.stretch, std::vector<double>(solved.points.size(), extent),
+      0.5 * (input.mesh.size.gradation - 1),
+      demand.facets ? std::vector<double>() : least_at_facets(input.geometry, solved.points)};
   const std::vector<Symmetric> bends =
       variable_bends(comm, solved, selected(solution, demand.variables, "adapt.variable"));
   const WantedMetric wanted(comm, solved, bends, demand.norm, bounds);

@@ -14,6 +14,7 @@ struct TargetDemand {
   double norm = 2;                     ///< the p of the L^p norm of the interpolation error
   double min = 0;                      ///< the edge of the smallest leaves, in the geometry's unit
   double stretch = 8;                  ///< a cell is made thinner by this at most
+  bool facets = false;                 ///< whether edges at facets may be shorter than half of their segments
 };
 
 /// Moves the nodes of a mesh that a tree has made, without layers, towards the shocks and layers of a

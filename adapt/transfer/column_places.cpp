@@ -62,6 +62,7 @@ std::vector<Point> column_places(const Communicator& comm, const Mesh& old_mesh,
   const IdVector<NodeId, double> rest = heights_to_front(comm, new_mesh, in_layers);
   for (const NodeId node : ids_below(NodeId{new_mesh.owned_nodes})) {
     if (!in_layers[node].valid() || in_layers[node].strip >= 0) continue;  // strips lie where they lay
+    if (rest[node] == 0) continue;  // on the front, or on a base whose layers end in a strip
     Point& p = places[node.value()];
     const auto [foot, edge] = new_wall.nearest(p);
     const Point shift = old_wall.nearest(foot).point - foot;

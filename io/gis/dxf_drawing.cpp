@@ -91,7 +91,9 @@ struct PartEntity {
 
 /// The units of the variable $INSUNITS, by its value.
 std::string unit_named(int value) {
-  constexpr std::array<const char*, 7> names{"", "inch", "foot", "mile", "mm", "cm", "m"};
+  constexpr std::array<const char*, 17> names{"",   "inch",   "foot",      "mile", "mm",   "cm",
+                                              "m",  "km",     "microinch", "mil",  "yard", "angstrom",
+                                              "nm", "micron", "dm",        "dam",  "hm"};
   return value > 0 && value < static_cast<int>(names.size()) ? names[value] : "";
 }
 

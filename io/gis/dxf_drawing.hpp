@@ -40,7 +40,7 @@ class DxfDrawing {
   /// The drawing with nothing but its entities, where it begins with a section that GDAL does not expect
   /// there.
   const std::string& entities_alone() const { return entities_alone_; }
-  /// The unit that the drawing declares; empty where it declares none.
+  /// The unit that the drawing declares, a name of length_units.hpp; empty where it declares none.
   const std::string& unit() const { return unit_; }
 
  private:

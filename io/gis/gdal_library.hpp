@@ -22,7 +22,7 @@ namespace quadloop {
                           DO(OGR_G_GetLinearGeometry) DO(OGR_G_GetPointCount) DO(OGR_G_GetX) DO(OGR_G_GetY) \
                               DO(OGR_G_HasCurveGeometry) DO(OGR_GT_Flatten) DO(OGR_GT_IsSubClassOf)         \
                                   DO(OGR_L_GetName) DO(OGR_L_GetNextFeature) DO(OGR_L_GetSpatialRef)        \
-                                      DO(OSRIsGeographic) DO(OGR_F_GetStyleString) DO(VSIFCloseL)           \
+                                      DO(OSRGetLinearUnits) DO(OSRIsGeographic) DO(OGR_F_GetStyleString) DO(VSIFCloseL)           \
                                           DO(VSIFileFromMemBuffer) DO(VSIUnlink)
 // clang-format on
 

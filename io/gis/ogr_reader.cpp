@@ -19,8 +19,8 @@
 #include "io/gis/gdal_library.hpp"
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/input/length_units.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/log.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
@@ -247,6 +247,18 @@ bool is_in_degrees(OGRLayerH layer) {
   return reference != nullptr && gdal().OSRIsGeographic(reference) != 0;
 }
 
+/// Of a map in a projection; of layers in different units none.
+void note_unit(OGRLayerH layer, FileUnit& unit) {
+  const OGRSpatialReferenceH reference = gdal().OGR_L_GetSpatialRef(layer);
+  if (reference == nullptr || gdal().OSRIsGeographic(reference) != 0) return;
+  char* name = nullptr;
+  const double metres = gdal().OSRGetLinearUnits(reference, &name);
+  if (unit.metres != 0 && unit.metres != metres)
+    unit = {};
+  else
+    unit = {name, metres};
+}
+
 void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
   while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)})
     collector.add_feature(feature.get(), layer, path);
@@ -286,7 +298,7 @@ void refuse_empty(const std::string& path, const LayerNames& layers, const Colle
 }  // namespace
 
 std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
-                            std::vector<std::string>& warnings) {
+                            std::vector<std::string>& warnings, FileUnit& unit) {
   require_input_file(path);
   std::optional<DxfDrawing> drawing;
   if (suffix_of(path) == ".dxf") drawing.emplace(path);
@@ -309,15 +321,14 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
     const OGRLayerH layer = gdal().GDALDatasetGetLayer(data.get(), i);
     const auto before = std::ssize(chains);
     read_layer(layer, path, collector);
+    if (!drawing) note_unit(layer, unit);
     if (is_in_degrees(layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }
   if (chains.empty()) refuse_empty(path, layers, collector);
   warn_of_degrees(path, in_degrees, warnings);
   if (!collector.left_out().empty())
     warnings.push_back(fmt::format("{}: left out: {}", path, collector.left_out().text()));
-  if (drawing && !drawing->unit().empty())
-    log::information(fmt::format("{}: the drawing's unit is the {}; coordinates are taken as they stand",
-                                 path, drawing->unit()));
+  if (drawing && !drawing->unit().empty()) unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0)};
   return chains;
 }
 

@@ -15,6 +15,6 @@ namespace quadloop {
 /// alone is read, and layers that are neither off nor frozen unless they are named; dimensions, texts,
 /// hatches, leaders and points are no outline. A spline has a point at each of its knots.
 std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
-                            std::vector<std::string>& warnings);
+                            std::vector<std::string>& warnings, FileUnit& unit);
 
 }  // namespace quadloop

@@ -52,8 +52,17 @@ bool is_remark(const LineReader& lines, bool in_head) {
   return !lines.is_number(0) || (in_head && lines.words().size() > 2 && !lines.is_number(1));
 }
 
-/// "999. 999." divides the elements of a wing in several files of the collections.
+/// "999. 999." divides the elements of an airfoil with flaps or slats.
 bool is_divider(Point p) { return p.x == p.y && p.x >= 999 && p.x < 1000; }
+
+/// The second row of a file for MSES, the box of its grid: XINL XOUTL YBOT YTOP.
+bool is_grid_box(const LineReader& lines) {
+  if (lines.words().size() != 4) return false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!lines.is_number(i)) return false;
+  }
+  return true;
+}
 
 /// Rows that are no points of the airfoil.
 struct PassedOver {
@@ -68,15 +77,16 @@ struct PassedOver {
   }
 };
 
-/// The numbers of a file: its points in their order, and before them the counts where it is Lednicer's.
+/// The numbers of one element: its points in their order, and before them the counts where the file is
+/// Lednicer's.
 class AirfoilRows {
  public:
-  /// Reads to the end of the file. What stands in the head beside the name, between the surfaces as words,
-  /// and after the last point is passed over.
-  explicit AirfoilRows(LineReader& lines) {
-    lines.require_next("the airfoil's name");
-    if (!is_name(lines)) add_point(lines);
-    while (lines.next()) take(lines);
+  /// Reads to the row that divides the elements, or to the end of the file. What stands in the head beside
+  /// the name, between the surfaces as words, and after the last point is passed over.
+  AirfoilRows(LineReader& lines, bool first) {
+    if (first) read_head(lines);
+    while (!divided_ && lines.next()) take(lines);
+    if (rows_.empty() && !first) return;
     if (rows_.empty()) lines.refuse("the file ends here, but the coordinates are missing");
     if (counts_ && rows_.size() != expected()) {
       lines.refuse(fmt::format(
@@ -86,6 +96,8 @@ class AirfoilRows {
   }
 
   std::vector<Point>& rows() { return rows_; }
+  bool divided() const { return divided_; }  ///< another element may follow
+  std::int64_t first_line() const { return first_line_; }
   std::optional<std::size_t> upper() const {
     return counts_ ? std::optional(static_cast<std::size_t>(counts_->x)) : std::nullopt;
   }
@@ -100,7 +112,15 @@ class AirfoilRows {
   }
 
  private:
+  void read_head(LineReader& lines) {
+    lines.require_next("the airfoil's name");
+    if (!is_name(lines)) return add_point(lines);
+    if (lines.next() && !is_grid_box(lines)) take(lines);
+  }
+
   void take(const LineReader& lines) {
+    divided_ = is_point(lines) && is_divider(read_point(lines));
+    if (divided_) return;
     const bool after_gap = lines.line() - last_point_line_ > usual_step_ || ended_;
     if (is_point(lines) && !(after_gap && is_whole())) return add_point(lines);
     if (!is_whole() && !is_remark(lines, rows_.empty() && !counts_)) read_point(lines);  // refuses
@@ -110,11 +130,7 @@ class AirfoilRows {
 
   void add_point(const LineReader& lines) {
     const Point p = read_point(lines);
-    if (is_divider(p)) {
-      lines.refuse(
-          "this row divides the elements of a wing; give each element a file of its own, and [geometry] file "
-          "= [...] all of them");
-    }
+    if (rows_.empty()) first_line_ = lines.line();
     if (rows_.size() == 1)
       usual_step_ = lines.line() - last_point_line_;  // some files have every other row blank
     last_point_line_ = lines.line();
@@ -138,8 +154,9 @@ class AirfoilRows {
   std::optional<Point> counts_;
   std::vector<Point> rows_;
   PassedOver passed_;
-  std::int64_t last_point_line_ = 0, usual_step_ = 1;
-  bool ended_ = false;  ///< what follows is no part of the airfoil
+  std::int64_t last_point_line_ = 0, usual_step_ = 1, first_line_ = 0;
+  bool ended_ = false;    ///< what follows is no part of the airfoil
+  bool divided_ = false;  ///< the last row read divides elements
 };
 
 /// Two surfaces that both run the same way between the edges, though no counts say so.
@@ -200,13 +217,10 @@ void check_gap(const std::vector<Point>& rows, const std::string& source,
                   source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
 }
 
-}  // namespace
-
-std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string>& warnings) {
-  LineReader lines(path);
-  AirfoilRows airfoil(lines);
+/// The outline of one element, clockwise.
+Chain chain_of(AirfoilRows& airfoil, const std::string& path, const std::string& source,
+               std::vector<std::string>& warnings) {
   std::vector<Point> rows = std::move(airfoil.rows());
-  const std::string source = path + ":1";
   airfoil.warn(path, warnings);
   if (airfoil.upper()) {
     rows = around(rows, *airfoil.upper());
@@ -224,7 +238,25 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   check_gap(rows, source, warnings);
   if (rows.size() > 1 && rows.front() == rows.back()) rows.pop_back();
   if (area(rows) > 0) std::reverse(rows.begin(), rows.end());
-  return {Chain{"airfoil", false, std::move(rows), source, false}};
+  return {"airfoil", false, std::move(rows), source, false};
+}
+
+}  // namespace
+
+std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string>& warnings) {
+  LineReader lines(path);
+  std::vector<Chain> elements;
+  bool more = true;
+  while (more) {
+    AirfoilRows rows(lines, elements.empty());
+    more = rows.divided();
+    if (rows.rows().empty()) continue;
+    const std::int64_t line = elements.empty() ? 1 : rows.first_line();
+    elements.push_back(chain_of(rows, path, fmt::format("{}:{}", path, line), warnings));
+  }
+  if (elements.size() == 1) return elements;
+  for (std::size_t i = 0; i < elements.size(); ++i) elements[i].name += fmt::format("_{}", i + 1);
+  return elements;
 }
 
 }  // namespace quadloop

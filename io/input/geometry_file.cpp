@@ -19,9 +19,9 @@ namespace {
 
 std::map<std::string, GeometryReader>& readers() {
   static std::map<std::string, GeometryReader> all{
-      {".geom",
-       [](const std::string& path, const LayerNames&, std::vector<std::string>&) { return read_geom(path); }},
-      {".dat", [](const std::string& path, const LayerNames&, std::vector<std::string>& warnings) {
+      {".geom", [](const std::string& path, const LayerNames&, std::vector<std::string>&,
+                   FileUnit&) { return read_geom(path); }},
+      {".dat", [](const std::string& path, const LayerNames&, std::vector<std::string>& warnings, FileUnit&) {
          return read_airfoil(path, warnings);
        }}};
   return all;
@@ -44,11 +44,13 @@ bool has_layers_of_drawings(const std::string& path) {
 }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
-                                 const LayerNames& layers) {
+                                 const LayerNames& layers, FileUnit* unit) {
   const std::string suffix = suffix_of(path);
   const auto reader = readers().find(suffix);
   if (reader != readers().end()) {
-    std::vector<Chain> chains = reader->second(path, layers, warnings);
+    FileUnit declared;
+    std::vector<Chain> chains = reader->second(path, layers, warnings, declared);
+    if (unit != nullptr) *unit = declared;
     std::vector<std::string*> names;
     for (Chain& chain : chains) names.push_back(&chain.name);
     std::ranges::move(clean_names(names, path), std::back_inserter(warnings));

@@ -13,12 +13,18 @@ namespace quadloop {
 /// are visible.
 using LayerNames = std::vector<std::string>;
 
+/// The unit of length that a file declares for its coordinates.
+struct FileUnit {
+  std::string name;   ///< empty where it declares none
+  double metres = 0;  ///< in one of it; 0: not known
+};
+
 /// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
 /// gis_suffixes where add_geometry_reader() has brought a reader for them; of those the layers given. On the
 /// calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix says. What
-/// was left out of the file is told by a warning each.
+/// was left out of the file is told by a warning each. `unit` is set where the file declares one.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
-                                 const LayerNames& layers = {});
+                                 const LayerNames& layers = {}, FileUnit* unit = nullptr);
 
 /// Whether the suffix is that of a file of airfoil coordinates, which outline a body.
 bool is_airfoil_file(const std::string& path);
@@ -37,7 +43,7 @@ std::vector<std::string> geometry_suffixes();
 bool has_layers_of_drawings(const std::string& path);
 
 using GeometryReader = std::vector<Chain> (*)(const std::string& path, const LayerNames& layers,
-                                              std::vector<std::string>& warnings);
+                                              std::vector<std::string>& warnings, FileUnit& unit);
 
 /// From here on files of this suffix are read by `reader`, in the whole process.
 void add_geometry_reader(const std::string& suffix, GeometryReader reader);

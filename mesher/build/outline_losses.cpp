@@ -27,7 +27,7 @@ std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char
   return seen;
 }
 
-/// Vertices that should be nodes, by their place; a place is one vertex's alone.
+/// Vertices that should be nodes, by their place; of several loops that touch there, the first.
 std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
   std::map<Point, std::int32_t> vertices;
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
@@ -48,10 +48,10 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   }
   is_node = seen_anywhere(comm, is_node);
   std::int32_t first = -1;
-  for (std::int32_t v = geometry.size() - 1; v >= 0; --v) {
-    if (!geometry.kept(v) || is_node[v] != 0) continue;
+  for (const auto& [place, v] : kept) {
+    if (is_node[v] != 0) continue;
     ++report.corners_lost;
-    first = v;
+    first = first < 0 ? v : std::min(first, v);
   }
   if (report.corners_lost == 0) return;
   const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;

@@ -47,9 +47,9 @@ class ShortEdges {
 
   /// The short base that begins with the vertex, such as a blunt trailing edge: the outline runs smoothly on
   /// from both of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses
-  /// some of them anyway.
+  /// some of them anyway. On a base with layers there is no leaf, but columns, which need not be wider.
   std::optional<Base> short_base_at(std::int32_t v) const {
-    if (!g_.kept(v)) return {};
+    if (!g_.kept(v) || g_.boundary(g_.boundary_of(v)).layers) return {};
     const std::optional<Geometry::Stretch> stretch = g_.stretch_shorter_than(min_, v);
     if (!stretch || !is_smooth(stretch->end, [&](std::int32_t u) { return g_.next(u); }) ||
         !is_smooth(v, [&](std::int32_t u) { return g_.previous(u); }))

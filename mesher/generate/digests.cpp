@@ -45,10 +45,11 @@ class WordDigest {
     }
   }
   void add(const LayerLine& line) {
-    const auto& [names, path, length, spacing, layers, where] = line;
+    const auto& [names, path, length, spacing, layers, where, at] = line;
     const std::string from = fmt::format("{}", fmt::join(names, "\n"));
     add(from.size());
     for (const unsigned char byte : from) add(std::uint64_t{byte});
+    if (at) add(*at);
     add(path.size());
     for (const Point p : path) add(p);
     add(length);

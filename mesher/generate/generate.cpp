@@ -212,28 +212,13 @@ void add_dropped(const MeshReport& dropped, MeshReport& report) {
                        [&](const std::string& name) { return !known.contains(name); });
 }
 
-/// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
-std::vector<std::string> warnings_of_strips(const LayerFront& front, double min) {
-  std::vector<std::string> warnings;
-  for (const LayerStrip& strip : front.strips) {
-    const auto least = std::ranges::min_element(strip.spacing);
-    if (*least >= min) continue;
-    const Point at =
-        strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
-    warnings.push_back(fmt::format(
-        "{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
-        "smaller than spacing.min = {:.6g}: triangles there will be thin; make spacing.min smaller, "
-        "or the layers thicker or fewer",
-        strip.place, strip.name, *least, at.x, at.y, min));
-  }
-  return warnings;
-}
-
 /// The estimate is of the mesh outside: with the cells of strips, which are known by now.
 void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate) {
   for (const LayerStrip& strip : front.strips) {
-    const double cells =
-        static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core) * (divided ? 2 : 1);
+    const double of_columns =
+                     static_cast<double>(strip.columns.size() - 1) * (2.0 * strip.layers + strip.core),
+                 of_base = strip.base_layers() * (strip.core - 2.0 * strip.base_layers());
+    const double cells = (of_columns + of_base) * (divided ? 2 : 1);
     estimate.cells += cells;
     estimate.layer_cells += cells;
   }
@@ -256,7 +241,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   generated.layers = report_layers(comm, front, generated.result.mesh);
   for (std::string& warning : warnings_of(generated.layers))
     generated.result.report.warnings.push_back(std::move(warning));
-  for (std::string& warning : warnings_of_strips(front, input.mesh.size.min))
+  for (std::string& warning : size_warnings(front, input.mesh.size.min))
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/point_table.hpp"
 
 namespace quadloop {
 
@@ -125,7 +126,21 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
     kept_[v] = before != after || corners[after.value()].exceeded_by(in, out);
     if (before == after && straight.undercut_by(in, out)) flags_[v] |= is_straight;
   }
+  keep_touching_points();
   shorten_spacing_between_corners();
+}
+
+void Geometry::keep_touching_points() {
+  const PointTable table(points_);
+  if (!table.any_twice()) return;
+  for (std::int32_t v = 0; v < size(); ++v) {
+    const std::int32_t first = table.find(point(v));
+    if (first == v) continue;
+    for (const std::int32_t touching : {first, v}) {  // loops touch there, in one node
+      kept_[touching] = 1;
+      flags_[touching] &= static_cast<std::uint8_t>(~is_straight);
+    }
+  }
 }
 
 std::optional<Geometry::Stretch> Geometry::stretch_shorter_than(double limit, std::int32_t v) const {

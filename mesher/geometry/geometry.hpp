@@ -110,6 +110,7 @@ class Geometry {
   std::uint64_t digest() const;
 
  private:
+  void keep_touching_points();
   void shorten_spacing_between_corners();
   double spacing_of_boundary(std::int32_t segment) const;
 

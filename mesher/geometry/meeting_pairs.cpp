@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::int64_t most_counted = 1000;  // enough for a user to know that the file is hopeless
 
+/// Whether the segments from `at` to a and b have more in common than that end.
+bool overlap(Point at, Point a, Point b) { return on_segment(a, at, b) || on_segment(b, at, a); }
+
 }  // namespace
 
 FlatOutline::FlatOutline(const Outline& outline) {
@@ -31,8 +34,13 @@ FlatOutline::FlatOutline(const Outline& outline) {
 
 bool FlatOutline::faulty(std::int32_t s, std::int32_t t) const {
   if (next(t) == s) std::swap(s, t);
-  if (next(s) == t)
-    return on_segment(point(s), point(t), point(next(t))) || on_segment(point(next(t)), point(s), point(t));
+  if (next(s) == t) return overlap(point(t), point(s), point(next(t)));
+  if (loop(s) != loop(t)) {  // loops may touch in a point of both
+    for (const auto& [at, from] : {std::pair(s, next(s)), std::pair(next(s), s)}) {
+      if (point(t) == point(at)) return overlap(point(at), point(from), point(next(t)));
+      if (point(next(t)) == point(at)) return overlap(point(at), point(from), point(t));
+    }
+  }
   return segments_meet(point(s), point(next(s)), point(t), point(next(t)));
 }
 

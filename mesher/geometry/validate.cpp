@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
+#include <numeric>
 #include <queue>
 #include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/meeting_pairs.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -33,15 +37,16 @@ class Sweep {
   bool run() {
     const std::vector<Event> starts = local_starts();
     auto start = starts.begin();
-    Point last{-std::numeric_limits<double>::infinity(), 0};
+    std::vector<std::int32_t> at_place;
     while (!met_ && (start != starts.end() || !coming_.empty())) {
       const bool starts_first =
           coming_.empty() || (start != starts.end() && start->place < coming_.top().place);
-      const Event event = starts_first ? *start++ : coming_.top();
-      if (!starts_first) coming_.pop();
-      if (event.place == last) return false;  // two points at one place
-      last = event.place;
-      visit(event.point);
+      const Point place = starts_first ? start->place : coming_.top().place;
+      at_place.clear();
+      for (; start != starts.end() && start->place == place; ++start) at_place.push_back(start->point);
+      for (; !coming_.empty() && coming_.top().place == place; coming_.pop())
+        at_place.push_back(coming_.top().point);
+      visit(at_place);
     }
     return !met_;
   }
@@ -99,7 +104,29 @@ class Sweep {
     return turn;
   }
 
-  void visit(std::int32_t v) {
+  /// How many segments end at a point.
+  int ends_at(std::int32_t v) const {
+    return (flat_.point(flat_.previous(v)) < flat_.point(v) ? 1 : 0) +
+           (flat_.point(flat_.next(v)) < flat_.point(v) ? 1 : 0);
+  }
+  std::int32_t lower_at(std::int32_t v) {
+    const std::int32_t before = flat_.previous(v);
+    return is_below(before, v) ? before : v;
+  }
+
+  /// The points at one place, most often one: first all that ends there is taken out, and nothing enters
+  /// before. Loops that begin there are noted from below.
+  void visit(std::vector<std::int32_t>& points) {
+    std::ranges::stable_sort(points, std::greater<>(), [&](std::int32_t v) { return ends_at(v); });
+    for (const std::int32_t v : points) pass(v);
+    std::erase_if(points, [&](std::int32_t v) { return ends_at(v) > 0 || begun_[flat_.loop(v)] != 0; });
+    if (points.size() > 1)
+      std::ranges::sort(points,
+                        [&](std::int32_t v, std::int32_t w) { return is_below(lower_at(v), lower_at(w)); });
+    for (const std::int32_t v : points) note_below(v);
+  }
+
+  void pass(std::int32_t v) {
     const std::int32_t before = flat_.previous(v), after = v;  // a segment has the number of its first point
     const bool first_ends = flat_.point(before) < flat_.point(v),
                second_ends = flat_.point(flat_.next(v)) < flat_.point(v);
@@ -113,7 +140,6 @@ class Sweep {
     } else {
       enter(before);
       enter(after);
-      if (!begun_[flat_.loop(v)]) note_below(v, before, after);
     }
   }
 
@@ -151,10 +177,10 @@ class Sweep {
   void check(std::int32_t s, std::int32_t t) { met_ = met_ || flat_.faulty(s, t); }
 
   /// At the first point of a loop, where both of its segments were just entered.
-  void note_below(std::int32_t v, std::int32_t s, std::int32_t t) {
+  void note_below(std::int32_t v) {
     begun_[flat_.loop(v)] = 1;
     first_points_.push_back(v);
-    const auto lower = status_at_[is_below(s, t) ? s : t];
+    const auto lower = status_at_[lower_at(v)];
     if (lower != status_.begin()) below_[flat_.loop(v)] = std::prev(lower)->segment;
   }
 
@@ -195,8 +221,44 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
                      b.y);
 }
 
-[[noreturn]] void refuse(const Outline& outline, const FlatOutline& flat) {
-  const MeetingPairs pairs = meeting_pairs(flat);
+/// Directions from a place, counter-clockwise from straight down.
+bool turns_before(Point from, Point a, Point b) {
+  const bool a_right = from < a, b_right = from < b;
+  return a_right != b_right ? a_right : orientation(from, a, b) > 0;
+}
+
+/// Whether the outline crosses itself in two of its points at one place: going round it, neighbours of the
+/// two take turns.
+bool cross_at_points(const FlatOutline& flat, std::int32_t v, std::int32_t w) {
+  const Point from = flat.point(v);
+  Point low = flat.point(flat.previous(v)), high = flat.point(flat.next(v));
+  if (turns_before(from, high, low)) std::swap(low, high);
+  const auto is_between = [&](Point p) { return turns_before(from, low, p) && turns_before(from, p, high); };
+  return is_between(flat.point(flat.previous(w))) != is_between(flat.point(flat.next(w)));
+}
+
+/// Two points of different loops at one place in which they cross; -1 where there are none.
+std::pair<std::int32_t, std::int32_t> crossing_points_of(const FlatOutline& flat) {
+  std::vector<std::int32_t> order(flat.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::int32_t v) { return std::pair(flat.point(v), v); });
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && flat.point(order[end]) == flat.point(order[begin])) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t j = i + 1; j < end; ++j) {
+        if (cross_at_points(flat, order[i], order[j])) return {order[i], order[j]};
+      }
+    }
+  }
+  return {-1, -1};
+}
+
+[[noreturn]] void refuse(const Outline& outline, const FlatOutline& flat, const std::string& remedy_of_two) {
+  MeetingPairs pairs = meeting_pairs(flat);
+  if (pairs.count == 0) {
+    std::tie(pairs.first, pairs.second) = crossing_points_of(flat);
+    if (pairs.first >= 0) pairs.count = 1;
+  }
   QUADLOOP_REQUIRE(pairs.count > 0, "the sweep found segments that meet, the search did not");
   const Point at = flat.meeting_point(pairs.first, pairs.second);
   const std::int64_t more = pairs.count - 1;
@@ -210,17 +272,19 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
   throw InputError(
       fmt::format("{}: boundary {} meets boundary {}{} at ({}, {}){}; boundaries must neither cross nor "
                   "touch: move or remove the points "
-                  "there",
+                  "there{}",
                   source, boundary_text(outline, flat, pairs.first),
-                  boundary_text(outline, flat, pairs.second), place_of_other, at.x, at.y, others));
+                  boundary_text(outline, flat, pairs.second), place_of_other, at.x, at.y, others,
+                  flat.loop(pairs.first) == flat.loop(pairs.second) ? "" : remedy_of_two));
 }
 
 }  // namespace
 
-std::vector<LoopNesting> validate(const Outline& outline) {
+std::vector<LoopNesting> validate(const Outline& outline, const std::string& remedy_of_two) {
   const FlatOutline flat(outline);
   Sweep sweep(flat);
-  if (!sweep.run()) refuse(outline, flat);
+  if (!sweep.run() || (PointTable(flat.points).any_twice() && crossing_points_of(flat).first >= 0))
+    refuse(outline, flat, remedy_of_two);
   return sweep.nestings();
 }
 

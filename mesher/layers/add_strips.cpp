@@ -31,10 +31,8 @@ class StripBuilder {
     grown_->put_together([&](NodeId node, std::vector<Point>& points) {
       const auto [begin, end] = behind_.equal_range(mesh_.global(node));
       for (auto it = begin; it != end; ++it) {
-        const FilledStrip& strip = strips_[it->second.strip];
-        const std::size_t k = it->second.column;
-        const std::vector<Point>& column = strip.strip().columns[k];
-        points.insert(points.end(), column.begin() + strip.own_begin(k), column.begin() + strip.own_end(k));
+        const std::vector<Point> own = strips_[it->second.strip].own_points(it->second.column);
+        points.insert(points.end(), own.begin(), own.end());
       }
     });
     mesh_.boundaries.pop_back();
@@ -54,6 +52,7 @@ class StripBuilder {
   std::vector<std::int32_t> nodes_behind();
   void exchange_numbers();
   GrownNode node(std::size_t strip, const FilledStrip::Corner& c) const;
+  GrownNode base_node(std::size_t strip, std::size_t line, std::size_t place) const;
   static GlobalNodeId wall_node(const FilledStrip& strip, bool left, std::int32_t ring);
   StripLayers layers_of(std::size_t s) const;
   void add_base(std::size_t s);
@@ -120,8 +119,7 @@ std::vector<std::int32_t> StripBuilder::nodes_behind() {
       const GlobalNodeId node = strip.front()[strip.anchor(k)].nodes[0];
       behind_.emplace(node, Column{s, k});
       if (owners_.rank_of(node) == comm_.rank())
-        added[owners_.local(node).value()] +=
-            static_cast<std::int32_t>(strip.own_end(k) - strip.own_begin(k));
+        added[owners_.local(node).value()] += static_cast<std::int32_t>(strip.own_nodes(k));
     }
   }
   return added;
@@ -155,8 +153,7 @@ void StripBuilder::exchange_numbers() {
     if (node != before) next = grown_nodes_.at(node).id.value() + 1;
     before = node;
     first_of_column_[column.strip][column.column] = GlobalNodeId{next};
-    const FilledStrip& strip = strips_[column.strip];
-    next += static_cast<std::int64_t>(strip.own_end(column.column) - strip.own_begin(column.column));
+    next += static_cast<std::int64_t>(strips_[column.strip].own_nodes(column.column));
   }
 }
 
@@ -176,6 +173,19 @@ GrownNode StripBuilder::node(std::size_t s, const FilledStrip::Corner& c) const 
   const std::int32_t left_ring = layers - (static_cast<std::int32_t>(strip.rows()) - row);
   const bool left = left_ring >= 0;
   return grown_nodes_.at(wall_node(strip, left, left ? left_ring : layers - row));
+}
+
+/// On a line of a base's layers, the last of which is the first column's middle.
+GrownNode StripBuilder::base_node(std::size_t s, std::size_t line, std::size_t place) const {
+  const FilledStrip& strip = strips_[s];
+  const std::size_t lines = strip.strip().base_lines.size(), foot = strip.strip().layers;
+  if (line == lines) return node(s, {false, 0, foot + lines + place});
+  const std::vector<Point>& points = strip.strip().base_lines[line];
+  if (place == 0) return node(s, {false, 0, foot + line});
+  if (place + 1 == points.size()) return node(s, {false, 0, strip.rows() - foot - line});
+  const std::size_t before =
+      strip.own_end(0) - strip.own_begin(0) + line * strip.base_nodes_of_line() + place - 1;
+  return {GlobalNodeId{first_of_column_[s][0].value() + static_cast<std::int64_t>(before)}, points[place]};
 }
 
 /// The number before of a node in the wall's column on one side of a wake: they stand behind that on the
@@ -201,15 +211,21 @@ StripLayers StripBuilder::layers_of(std::size_t s) const {
   return layers;
 }
 
-/// The wall's edges behind a blunt edge.
+/// The layers on the base of a blunt edge, and its edges.
 void StripBuilder::add_base(std::size_t s) {
   const FilledStrip& strip = strips_[s];
   const FrontEdge& edge = strip.front()[strip.anchor(0)];
   if (strip.strip().core == 0 || edge.rank != comm_.rank()) return;
   const BoundaryId wall = strip.strip().root->base_boundary;
-  for (std::size_t row = strip.rows() - strip.strip().layers;
-       row > static_cast<std::size_t>(strip.strip().layers); --row)
-    grown_->add_edge(wall.value(), edge.leaf, node(s, {false, 0, row}), node(s, {false, 0, row - 1}));
+  const std::size_t lines = strip.strip().base_lines.size(), edges = strip.strip().core - 2 * lines;
+  for (std::size_t place = edges; place > 0; --place)
+    grown_->add_edge(wall.value(), edge.leaf, base_node(s, 0, place), base_node(s, 0, place - 1));
+  for (std::size_t line = 0; line < lines; ++line) {
+    for (std::size_t place = 0; place < edges; ++place)
+      grown_->add_cell(edge.leaf,
+                       std::array{base_node(s, line, place), base_node(s, line + 1, place),
+                                  base_node(s, line + 1, place + 1), base_node(s, line, place + 1)});
+  }
 }
 
 void StripBuilder::add_cells(std::size_t s) {

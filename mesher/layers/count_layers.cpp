@@ -12,7 +12,8 @@ namespace {
 std::int64_t nodes_of(const LayerStrip& strip) {
   const std::int64_t across = 2 * strip.layers + strip.core + 1, columns = std::ssize(strip.columns);
   if (!strip.root) return columns * across;
-  return (columns - 1) * across + std::max(0, strip.core - 1);
+  const std::int64_t of_base = strip.base_layers() * std::int64_t{strip.core - 2 * strip.base_layers() - 1};
+  return (columns - 1) * across + std::max(0, strip.core - 1) + of_base;
 }
 
 /// How many of a column's nodes may be another's: in a fan all, at a wake's edge that on the wall.

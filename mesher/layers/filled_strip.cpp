@@ -28,6 +28,15 @@ FilledStrip::FilledStrip(const LayerStrip& strip, std::vector<FrontEdge> front)
   anchor_columns();
 }
 
+std::vector<Point> FilledStrip::own_points(std::size_t column) const {
+  const std::vector<Point>& across = strip_.columns[column];
+  std::vector<Point> points(across.begin() + own_begin(column), across.begin() + own_end(column));
+  if (!is_root(column)) return points;
+  for (const std::vector<Point>& line : strip_.base_lines)
+    points.insert(points.end(), line.begin() + 1, line.end() - 1);
+  return points;
+}
+
 std::size_t FilledStrip::number_of(std::size_t corner) const {
   const Point place = strip_.front[strip_.corners[corner]];
   const auto found = std::ranges::find(nodes_, place);

@@ -35,6 +35,16 @@ class FilledStrip {
   std::size_t own_end(std::size_t column) const {
     return is_root(column) ? std::max(own_begin(column), rows() - strip_.layers) : rows() + 1;
   }
+  /// The strip's own nodes on the lines of a base's layers, which stand behind those of the first column.
+  std::size_t base_nodes() const { return strip_.base_lines.size() * base_nodes_of_line(); }
+  std::size_t base_nodes_of_line() const {
+    return strip_.base_lines.empty() ? 0 : strip_.base_lines[0].size() - 2;
+  }
+  std::size_t own_nodes(std::size_t column) const {
+    return own_end(column) - own_begin(column) + (is_root(column) ? base_nodes() : 0);
+  }
+  /// Their places, in order.
+  std::vector<Point> own_points(std::size_t column) const;
   bool is_root(std::size_t column) const { return strip_.root && column == 0; }
   /// The edge whose first node the column's nodes stand behind.
   std::int32_t anchor(std::size_t column) const { return anchor_[column]; }

@@ -18,6 +18,7 @@ namespace quadloop {
 namespace {
 
 constexpr double full = 0.985;
+constexpr double thin_share = 0.5;  // of the thickness asked for: a warning tells of layers that are thinner
 
 /// One column, as all ranks know it.
 struct Column {
@@ -197,11 +198,10 @@ LayerReport report_layers(const Communicator& comm, const LayerFront& front, con
 }
 
 std::vector<std::string> warnings_of(const LayerReport& report) {
-  constexpr double few = 0.5;
   constexpr std::size_t most_named = 5;
   LayerReport thin;
   std::ranges::copy_if(report, std::back_inserter(thin),
-                       [](const BoundaryLayerReport& row) { return row.share_least < few; });
+                       [](const BoundaryLayerReport& row) { return row.share_least < thin_share; });
   std::ranges::stable_sort(thin, {}, &BoundaryLayerReport::share_least);
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
@@ -219,6 +219,84 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
         fmt::format("{} more boundaries have layers that are somewhere less than half as thick as asked; the "
                     "table at the end has them all",
                     thin.size() - most_named));
+  return warnings;
+}
+
+namespace {
+
+/// The smallest leaves that a boundary's layers want.
+struct WantedLeaf {
+  double size = std::numeric_limits<double>::infinity();
+  Point at;
+};
+
+void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std::string>& warnings) {
+  constexpr std::size_t most_named = 5;
+  const Geometry& outer = front.outer;
+  IdVector<BoundaryId, WantedLeaf> wanted(outer.boundaries().size(), {});
+  for (std::int32_t s = 0; s < outer.size(); ++s) {
+    const std::int32_t station = front.station_of[s];
+    if (station == WallLine::none || share_at(front, station) < thin_share) continue;
+    const double size = leaf_over_last_layer * front.last_heights[s];
+    WantedLeaf& least = wanted[outer.boundary_of(s)];
+    if (size < std::min(min, least.size)) least = {size, outer.point(s)};
+  }
+  std::vector<BoundaryId> limited;
+  for (const BoundaryId b : wanted.ids()) {
+    if (wanted[b].size < min) limited.push_back(b);
+  }
+  std::ranges::stable_sort(limited, {}, [&](BoundaryId b) { return wanted[b].size; });
+  for (const BoundaryId b : limited | std::views::take(most_named))
+    warnings.push_back(fmt::format(
+        "boundary '{}': its last layer is {:.3g} high near ({:.6g}, {:.6g}) and wants cells of at most "
+        "{:.3g} "
+        "beside it, but spacing.min = {:.6g} ends the refinement before; make spacing.min smaller, or the "
+        "layers thicker or fewer",
+        outer.boundary(b).name, wanted[b].size / leaf_over_last_layer, wanted[b].at.x, wanted[b].at.y,
+        wanted[b].size, min));
+  if (limited.size() > most_named)
+    warnings.push_back(
+        fmt::format("{} more boundaries have last layers that are thinner than half of "
+                    "spacing.min = {:.6g}",
+                    limited.size() - most_named, min));
+}
+
+/// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
+void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::string>& warnings) {
+  const auto least = std::ranges::min_element(strip.spacing);
+  if (*least >= min) return;
+  const Point at = strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
+  warnings.push_back(
+      fmt::format("{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
+                  "smaller than spacing.min = {:.6g}: triangles there will be thin; make "
+                  "spacing.min smaller, or the layers thicker or fewer",
+                  strip.place, strip.name, *least, at.x, at.y, min));
+}
+
+/// A base without layers of its own has cells as high as the columns behind it are wide.
+void add_warning_of_base(const LayerStrip& strip, std::vector<std::string>& warnings) {
+  constexpr double too_high = 1.5;
+  if (strip.core == 0 || strip.base_layers() > 0) return;
+  const std::size_t middle = strip.columns[0].size() / 2;
+  const Point at = strip.columns[0][middle];
+  const double height = length(strip.columns[1][middle] - at);
+  if (height <= too_high * strip.spec.first) return;
+  warnings.push_back(fmt::format(
+      "{}the blunt edge at ({:.6g}, {:.6g}), where {} begins, is too narrow or too slanted for layers on its "
+      "base: cells there are {:.3g} high instead of first = {:.3g}; make first smaller, or leave out this "
+      "wake",
+      strip.place, at.x, at.y, strip.name, height, strip.spec.first));
+}
+
+}  // namespace
+
+std::vector<std::string> size_warnings(const LayerFront& front, double min) {
+  std::vector<std::string> warnings;
+  add_warnings_of_walls(front, min, warnings);
+  for (const LayerStrip& strip : front.strips) {
+    add_warning_of_strip(strip, min, warnings);
+    add_warning_of_base(strip, warnings);
+  }
   return warnings;
 }
 

@@ -41,4 +41,10 @@ BoundaryLayerReport report_strip(const LayerStrip& strip);
 /// the thinnest first, five at most, and one that counts the others.
 std::vector<std::string> warnings_of(const LayerReport& report);
 
+/// What `min`, the smallest leaves allowed, keeps from being as small as layers want: leaves beside the last
+/// layers of walls, where these are half as thick as was asked or more, of which the five boundaries farthest
+/// from it are named, and beside strips; and bases of blunt edges that are too narrow for layers of their
+/// own. Each with its place.
+std::vector<std::string> size_warnings(const LayerFront& front, double min);
+
 }  // namespace quadloop

@@ -107,6 +107,7 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
     table->refuse("threshold", "is \"nodes\", but max_nodes is missing: it is the number to be met");
   }
   options.min = table->number("min", Range::positive());
+  options.facets = table->flag("facets");
   if (const auto word = table->choice("transfer", words_of(transfer_words)))
     options.transfer = *value_of(transfer_words, *word);
   table->finish();

@@ -27,7 +27,7 @@ void require_case_file(const std::string& path) {
 
 /// Another outline in the place of the case's, placed as the first of those; it may bring its own far field.
 void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
-  settings.files = {{path, path, settings.files.front().transform, {}}};
+  settings.files = {{path, path, settings.files.front().transform, {}, settings.files.front().unit}};
   if (!settings.far_field) return;
   for (const Chain& chain : read_geometry(path, warnings)) {
     if (chain.name == "farfield") settings.far_field.reset();
@@ -47,7 +47,7 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
     replace_geometry(arguments.geometry, settings, told_again_below);
   }
   warnings.insert(warnings.end(), settings.warnings.begin(), settings.warnings.end());
-  Geometry geometry = load_geometry(settings, warnings, arguments.saved);
+  Geometry geometry = load_geometry(settings, warnings, arguments.saved, &input.extents);
   require_layers_that_doubles_hold(geometry);
   const MeshOptions options = mesh_options(settings, geometry);
   if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))

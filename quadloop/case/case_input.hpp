@@ -21,6 +21,7 @@ struct CaseArguments {
 struct CaseInput {
   Settings settings;
   std::optional<MeshInput> mesh;
+  std::vector<FileExtent> extents;  ///< of the geometry files
 };
 
 /// Reads case and geometry. On the calling rank alone. Throws InputError; `warnings` then has those that came

@@ -77,6 +77,7 @@ LayerLine read_wake(const CaseTable& table) {
         "from",
         "is missing: the boundary whose edge, sharp or blunt, the wake begins at, or a list of those "
         "that meet there");
+  if (const auto at = table.numbers("at", 2)) wake.at = Point{(*at)[0], (*at)[1]};
   wake.path = read_path(table);
   const auto length = table.number("length", Range::positive());
   if (length.has_value() != wake.path.empty())

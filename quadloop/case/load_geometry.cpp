@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "io/input/geometry_file.hpp"
+#include "io/input/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
@@ -23,6 +24,28 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
                        std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
   if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
   return root_box(saved);
+}
+
+/// Box and unit of a file. Throws InputError where it is to declare a unit and does not.
+void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, FileExtent& extent) {
+  extent.path = input.path;
+  for (const Chain& chain : chains) {
+    for (const Point p : chain.points) extent.box.include(p);
+  }
+  if (input.unit == "none") return;
+  extent.metres = input.unit == "file" ? extent.declared.metres : *metres_in(input.unit);
+  if (extent.metres > 0) return;
+  throw InputError(fmt::format(
+      "{}: geometry.unit = \"file\", but the file declares no unit of length{}; name its unit, as in unit = "
+      "\"mm\", or leave unit out to take the coordinates as they stand",
+      input.path,
+      extent.declared.name.empty() ? "" : fmt::format(" that is known ('{}')", extent.declared.name)));
+}
+
+/// Where the coordinates have a unit.
+Transform in_metres(Transform transform, const FileExtent& extent) {
+  if (extent.metres > 0) transform.scale *= extent.metres;
+  return transform;
 }
 
 /// Their images stand for them.
@@ -44,7 +67,7 @@ void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
 }  // namespace
 
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
-                       const std::optional<TreeAttributes>& saved) {
+                       const std::optional<TreeAttributes>& saved, std::vector<FileExtent>* extents) {
   std::vector<Chain> chains;
   AssembleOptions options = settings.outline;
   for (const GeometryInput& input : settings.files) {
@@ -54,8 +77,12 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
           "{}: there is no file '{}'; check the name, which is relative to the case file's folder",
           input.where, input.path));
     }
-    std::vector<Chain> of_file = read_geometry(input.path, warnings, input.layers);
-    apply(input.transform, of_file);
+    FileExtent extent;
+    std::vector<Chain> of_file = read_geometry(input.path, warnings, input.layers, &extent.declared);
+    note_extent(input, of_file, extent);
+    if (extents != nullptr) extents->push_back(extent);
+    const Transform transform = in_metres(input.transform, extent);
+    apply(transform, of_file);
     if (!settings.inside && is_airfoil_file(input.path)) {
       for (const Chain& chain : of_file) options.bodies.push_back(chain.name);
     }

@@ -1,6 +1,7 @@
 #include "quadloop/case/settings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,13 @@
 #include "io/formats.hpp"
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/input/length_units.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
+#include "mesher/layers/front/layer_front.hpp"
 #include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
@@ -38,6 +41,17 @@ Value of_file(const CaseTable& table, const std::string& key, const std::vector<
   return values[file];
 }
 
+/// Units of the files' coordinates: one, or one for each file.
+std::vector<std::string> read_units(const CaseTable& table) {
+  std::vector<std::string> units = table.texts("unit");
+  for (const std::string& unit : units) {
+    if (unit == "none" || unit == "file" || metres_in(unit)) continue;
+    table.refuse("unit", fmt::format("is '{}', but must be \"none\", \"file\" or one of: {}", unit,
+                                     fmt::join(length_unit_names(), ", ")));
+  }
+  return units;
+}
+
 void read_geometry_table(const CaseTable& root, const std::string& case_path, Settings& settings) {
   const auto table = root.table("geometry");
   if (!table)
@@ -50,7 +64,7 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
   if (!hinges.empty() && turns.empty())
     table->refuse("rotate_about", "needs rotate, the angle in degrees, in the same table");
   const auto moves = table->pairs("translate");
-  const std::vector<std::string> layers = table->texts("layers");
+  const std::vector<std::string> layers = table->texts("layers"), units = read_units(*table);
   if (!layers.empty() && std::ranges::none_of(files, has_layers_of_drawings))
     table->refuse("layers", "chooses layers of drawings and maps, but no file is one");
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -61,12 +75,14 @@ void read_geometry_table(const CaseTable& root, const std::string& case_path, Se
     settings.files.push_back({(std::filesystem::path(case_path).parent_path() / files[i]).string(),
                               fmt::format("{}: 'geometry.file'", table->place("file")),
                               {scale, turn, {move[0], move[1]}, {hinge[0], hinge[1]}},
-                              layers});
+                              layers,
+                              of_file(*table, "unit", units, i, files.size(), std::string("none"))});
   }
   if (const auto width = table->number("far_field", Range::positive())) {
     settings.far_field = FarField{*width, fmt::format("{}: 'geometry.far_field'", table->place("far_field"))};
   }
   settings.outline.join = table->number("join", {0, 0.1, true, false}).value_or(settings.outline.join);
+  settings.outline.unite_islands = table->choice("overlap", {"error", "union"}) == "union";
   settings.inside = table->flag("inside");
   settings.mesh.may_vanish = table->choice("vanish", {"error", "allow"}) == "allow";
   table->finish();
@@ -350,6 +366,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
       smallest = std::min(smallest, at_corner);
   }
   for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
   // Leaf sizes halve: so there is one at most as large as asked for.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapt/remesh/demands/adapt_options.hpp"
+#include "io/input/geometry_file.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/transform.hpp"
@@ -23,6 +24,17 @@ struct GeometryInput {
   std::string where;  ///< the setting that names it, for messages
   Transform transform;
   std::vector<std::string> layers = {};  ///< of a drawing or map; empty: all, as read_geometry() says
+  /// "none": coordinates as they stand; "file": in the unit that the file declares; or a name of
+  /// length_units.hpp. But for "none" coordinates become metres.
+  std::string unit = "none";
+};
+
+/// What one geometry file holds, as it stands there.
+struct FileExtent {
+  std::string path;
+  Box box;
+  FileUnit declared;
+  double metres = 0;  ///< that one unit of its coordinates was taken for; 0: as they stand
 };
 
 /// The far field that the case asks for.
@@ -77,13 +89,15 @@ std::string format_suffix_of(const std::string& prefix);
 
 /// Reads, places and assembles the geometry. Where a saved tree's root is a far field of the wanted size
 /// round the geometry, the far field stands there again, though the geometry's centre may have moved. On the
-/// calling rank alone.
+/// calling rank alone. `extents` gains one entry for each file.
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
-                       const std::optional<TreeAttributes>& saved = {});
+                       const std::optional<TreeAttributes>& saved = {},
+                       std::vector<FileExtent>* extents = nullptr);
 
 /// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer
 /// side of its box (or min if that is larger), min half the smallest spacing that its points, boundaries,
-/// corners or the case's sources ask for, or 2^-20 of that side if that is larger, but at most half of max.
+/// corners, layers, lines with layers or the case's sources ask for, or 2^-20 of that side if that is larger,
+/// but at most half of max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
 /// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesher/base/id_vector.hpp"
+#include "mesher/geometry/facets.hpp"
 #include "mesher/lattice/lattice.hpp"
 #include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/settings.hpp"
@@ -60,23 +61,13 @@ struct Facets {
   Point first;
 };
 
-/// Of the points that stand for a curve, as they and a neighbour turn by so much and are no corners, those in
-/// cells shorter than half of the segments that meet there: the flow turns at single nodes, and its pressure
-/// jumps.
-IdVector<BoundaryId, Facets> facets_of(const MeshOptions& options, const Geometry& geometry) {
-  constexpr double visible_degrees = 2;
+/// Of the points that stand for a curve those in cells shorter than half of the segments that meet there: the
+/// flow turns at single nodes, and its pressure jumps.
+IdVector<BoundaryId, Facets> facets_in_small_cells(const MeshOptions& options, const Geometry& geometry) {
   IdVector<BoundaryId, Facets> facets(geometry.boundaries().size(), {});
-  const auto length_of = [&](std::int32_t s) {
-    return length(geometry.point(geometry.next(s)) - geometry.point(s));
-  };
-  for (std::int32_t v = 0; v < geometry.size(); ++v) {
-    const double turn = geometry.bend_degrees(v);
-    const double beside =
-        std::max(geometry.bend_degrees(geometry.previous(v)), geometry.bend_degrees(geometry.next(v)));
-    if (turn <= visible_degrees || beside <= visible_degrees) continue;
+  for (const auto& [v, turn, segment] : facets_of(geometry)) {
     const bool refined_to_min = options.size.curvature && turn > *options.size.curvature;
     const double wanted = refined_to_min ? options.size.min : geometry.spacing_of(v);
-    const double segment = std::min(length_of(v), length_of(geometry.previous(v)));
     if (wanted >= segment / 2) continue;
     Facets& of_boundary = facets[geometry.boundary_of(v)];
     if (of_boundary.points++ == 0) of_boundary = {1, 0, segment, geometry.point(v)};
@@ -88,7 +79,7 @@ IdVector<BoundaryId, Facets> facets_of(const MeshOptions& options, const Geometr
 
 Warnings facet_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
-  const auto facets = facets_of(options, geometry);
+  const auto facets = facets_in_small_cells(options, geometry);
   for (const BoundaryId b : facets.ids()) {
     const auto& [points, turn, shortest, first] = facets[b];
     if (points == 0) continue;

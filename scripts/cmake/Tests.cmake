@@ -2,6 +2,7 @@
 # `full` ones take long. `sanitize`, beside one of these: run under the sanitizers too, by `scripts/test --full`.
 include_guard(GLOBAL)
 string(FIND "${CMAKE_CXX_FLAGS}" "-fsanitize=" QUADLOOP_SANITIZED) # -1: no sanitizer
+string(REGEX MATCH "-fsanitize=|--coverage" QUADLOOP_SLOW "${CMAKE_CXX_FLAGS}")
 
 # The environment of every test: the same settings that scripts/mpirun gives its users, for programs that run alone too.
 set(QUADLOOP_TEST_ENVIRONMENT
@@ -32,7 +33,7 @@ function(quadloop_label_test name)
   if(TEST_SANITIZE)
     list(APPEND TEST_LABEL sanitize)
   endif()
-  if(NOT QUADLOOP_SANITIZED EQUAL -1)
+  if(QUADLOOP_SLOW)
     math(EXPR TEST_TIMEOUT "5 * ${TEST_TIMEOUT}")
   endif()
   # The tests with the longest timeouts start first, so that none of them runs alone at the end.

@@ -16,6 +16,11 @@ CASE = '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.5\nmax = 1\n'
 VANISH = CASE.replace("[spacing]", 'vanish = "allow"\n[spacing]')
 
 
+def polygon_area(loop):
+    points = [tuple(map(float, row.split())) for row in loop.splitlines()[2:]]
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, points[1:] + points[:1])) / 2
+
+
 class MeshWarnings(ProgramTest):
     def mesh(self, geometry, case=CASE, ranks=1):
         self.write("a.geom", geometry)
@@ -146,6 +151,56 @@ class MeshWarnings(ProgramTest):
             self.done("mesh", "case.toml", "-o", "again", "--tree", "a.tree.h5")
             for suffix in (".mesh", ".tree.h5"):
                 self.assertEqual((self.folder / f"again{suffix}").read_bytes(), (self.folder / f"a{suffix}").read_bytes(), root)
+
+    def same_on_ranks(self, case):
+        """The mesh by one rank, which others make too; its figures by `check`."""
+        self.write("case.toml", case)
+        self.done("mesh", "case.toml", "-o", "one")
+        for ranks in (2, 3, 5):
+            self.done("mesh", "case.toml", "-o", "many", ranks=ranks)
+            for suffix in (".mesh", ".tree.h5"):
+                self.assertEqual((self.folder / f"many{suffix}").read_bytes(), (self.folder / f"one{suffix}").read_bytes(), ranks)
+        return json.loads(self.done("check", "one.mesh", "--json")[0])
+
+    def test_loops_that_touch_in_a_point_are_one_pinched_node(self):
+        """Holes that touch each other, one the outer boundary in a corner and one in a point of its straight side."""
+        box = "box\n5\n0 0\n8 0\n8 5\n8 8\n0 8\n"
+        left, right, side = "left\n3\n0 0\n3 4.1\n4.1 2.9\n", "right\n3\n3 4.1\n4.2 7\n5.3 4.7\n", "side\n4\n8 5\n6.7 4.1\n6.1 5.3\n6.9 6.2\n"
+        for order in ((box, left, right, side), (side, right, left, box)):
+            self.write("a.geom", "4\n" + "".join(order))
+            for kind in ("hybrid", "delaunay"):
+                for least in (0.5, 0.11):
+                    case = CASE.replace("min = 0.5", f"min = {least}").replace("max = 1", f"max = {2 * least}")
+                    figures = self.same_on_ranks(case + f'[mesh]\ntype = "{kind}"\n')
+                    self.assertEqual(figures["pinched_nodes"], 3, (kind, least))
+                    area = 64 - sum(abs(polygon_area(loop)) for loop in (left, right, side))
+                    self.assertAlmostEqual(figures["area"], area, delta=0.02 * area)
+
+    def test_islands_that_overlap_become_one(self):
+        """Houses that share a wall, and two that overlap."""
+        house = lambda name, x0, y0, x1, y1: f"{name}\n4\n{x0} {y0}\n{x0} {y1}\n{x1} {y1}\n{x1} {y0}\n"
+        self.write("a.geom", "5\n" + BOX + house("a", 1, 1, 2, 2) + house("b", 2, 1, 3, 1.75) + house("c", 4, 4, 5, 5) + house("d", 4.5, 4.5, 6, 6))
+        case = CASE.replace("min = 0.5", "min = 0.25").replace("max = 1", "max = 0.5")
+        self.write("case.toml", case)
+        self.refused(1, ["boundary 'a'", "meets boundary 'b'", 'set geometry.overlap = "union"'], "mesh", "case.toml")
+        figures = self.same_on_ranks(case.replace("[spacing]", 'overlap = "union"\n[spacing]'))
+        self.assertAlmostEqual(figures["area"], 64 - 1.75 - (1 + 2.25 - 0.25), places=9)
+        self.assertEqual(figures["pinched_nodes"], 0)
+        self.assertEqual(sorted(name for name in figures["boundaries"]), ["a", "b", "box", "c", "d"])
+        _, warnings = self.done("mesh", "case.toml")
+        self.assertIn("geometry.overlap: 4 loops that overlap or touch became 2, the first of them boundary 'a'", warnings)
+
+    def test_the_extent_of_each_file_is_reported_with_its_unit(self):
+        square = "  0\nLWPOLYLINE\n  8\nwall\n 90\n4\n 70\n1\n" + "".join(f" 10\n{x}\n 20\n{y}\n" for x, y in ((0, 0), (80, 0), (80, 40), (0, 40)))
+        self.write("a.dxf", "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n" + square + "  0\nENDSEC\n  0\nEOF\n")
+        self.write("case.toml", '[geometry]\nfile = "a.dxf"\n')
+        self.assertIn("a.dxf: coordinates from (0, 0) to (80, 40), in mm, meshed as they stand", self.done("mesh", "case.toml")[0])
+        for unit, metres in (("file", 0.001), ("inch", 0.0254)):
+            table = self.done("mesh", "case.toml", "--set", f"geometry.unit={unit}", "-o", unit)[0]
+            self.assertIn(f"in mm, meshed in metres, {metres} for one", table)
+            record = json.loads(self.done("mesh", "case.toml", "--set", f"geometry.unit={unit}", "-o", unit, "--json")[0])
+            self.assertEqual(record["geometry"], [{"file": "a.dxf", "extent": [0, 0, 80, 40], "unit": "mm", "metres": metres}])
+            self.assertAlmostEqual(json.loads(self.done("check", f"{unit}.mesh", "--json")[0])["area"], 3200 * metres**2)
 
     def test_a_new_mesh_has_no_solution_for_a_csv(self):
         table, warnings = self.mesh("1\n" + BOX, CASE + '[output]\nformats = ["mesh", "csv"]\n')

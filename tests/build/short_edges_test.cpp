@@ -45,6 +45,17 @@ TEST(ShortEdges, ABaseThatCellsCanResolveStays) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ShortEdges, ABaseWithLayersStays) {
+  const Geometry bare = outline({body()});
+  Boundary wall{"wall"};
+  wall.layers = LayerSpec{0.01, 1.2, 1.2, 4};
+  const Geometry layered({wall}, {bare.points().begin(), bare.points().end()}, {0, 5},
+                         std::vector<BoundaryId>(5, BoundaryId{0}));
+  std::vector<std::string> warnings;
+  EXPECT_FALSE(short_edges_merged(layered, 0.125, warnings));
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST(ShortEdges, TheEdgeThatClosesALoopIsMergedToo) {
   std::vector<Point> points = body();
   points.push_back(points.front());

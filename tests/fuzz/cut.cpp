@@ -8,6 +8,7 @@
 #include "mesher/cut/leaf_cells.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/fuzz/fuzz.hpp"
+#include "tests/fuzz/outlines.hpp"
 
 namespace quadloop::fuzz {
 
@@ -16,20 +17,10 @@ namespace {
 using Points = std::vector<Point>;
 
 Geometry outline_from(Bytes& bytes) {
-  std::vector<Chain> chains{{"box", false, {{-3, -3}, {4, -3}, {4, 4}, {-3, 4}}, {}}};
-  if (bytes.below(2) == 1) chains.clear();
-  for (int loops = 1 + bytes.below(3); loops > 0; --loops) {
-    Chain chain{"loop", false, {}, {}};
-    for (int corners = 3 + bytes.below(6); corners > 0; --corners) {
-      const int x = bytes.below(33), y = bytes.below(33);
-      chain.points.push_back({(x - 8) / 16.0, (y - 8) / 16.0});
-    }
-    chains.push_back(chain);
-  }
   AssembleOptions options;
   options.domain_is_known = true;
   Warnings warnings;
-  return assemble(std::move(chains), options, warnings);
+  return assemble(loops_from(bytes), options, warnings);
 }
 
 /// The part of a polygon with dot(p, normal) <= limit.

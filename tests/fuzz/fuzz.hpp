@@ -11,8 +11,15 @@ namespace quadloop::fuzz {
 /// refused; everything else that they throw is a finding.
 int cut_leaf(const std::uint8_t* data, std::size_t size);
 int flip_edges(const std::uint8_t* data, std::size_t size);
+int layer_fronts(const std::uint8_t* data, std::size_t size);
+int small_mesh(const std::uint8_t* data, std::size_t size);
 
-/// Runs the target of that name: "cut", "flips", or the name of a file, "m.su2", whose reader gets the input.
+/// Reads an input under that name of a file: "m.su2" as a plane mesh, "solid.su2" as a 3D one, "solution.vtu"
+/// for its values; outlines, case files and trees by their suffixes. Throws InputError where it is refused.
+void read_file(std::string_view name, std::string_view input);
+
+/// Runs the target of that name: "cut", "flips", "layers", "mesh", or the name of a file that read_file()
+/// gets.
 /// Returns the message of a refusal, empty where there is none. A finding ends the process by abort(), with a
 /// line on stderr.
 std::string run(std::string_view target, const std::uint8_t* data, std::size_t size);

@@ -1,11 +1,14 @@
 // What libFuzzer calls. QUADLOOP_FUZZ_TARGET names the target. Half of the changes to text are made line by
 // line or number by number, so that the rest of the file still makes sense to its reader.
+// Sanitizers in child processes leave their reports in the folder QUADLOOP_FUZZ_REPORTS.
 #include <mpi.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 
@@ -37,6 +40,34 @@ std::string line_at(const std::string& text, std::size_t at) {
   return text.substr(begin, text.find('\n', begin) - begin) + "\n";
 }
 
+/// Whether a sanitizer's report is of code of ours: where it begins, the C and C++ libraries left out, in the
+/// program itself. Crashes of libraries, and memory that a reader's limit refuses it, end in a refusal.
+bool is_of_ours(const std::filesystem::path& report) {
+  std::ifstream file(report);
+  bool is_error = false;  // other lines are warnings, of a lacking symbolizer say
+  for (std::string line; std::getline(file, line);) {
+    const auto has = [&](const char* words) { return line.find(words) != std::string::npos; };
+    if (has("out-of-memory") || has("out of memory") || has("allocation-size-too-big") || has("failed to "))
+      return false;
+    is_error = is_error || has("ERROR: ") || has("runtime error: ");
+    if (!is_error || !line.starts_with("    #") || has("libc.so") || has("libstdc++.so") ||
+        has("compiler-rt") || has("__interceptor") || has(" in operator ") || has(" in __asan") ||
+        has(" in __ubsan"))
+      continue;
+    return !has(".so");
+  }
+  return is_error;  // without a frame
+}
+
+void abort_at_report_of_child() {
+  const char* const folder = std::getenv("QUADLOOP_FUZZ_REPORTS");
+  if (folder == nullptr) return;
+  for (const auto& report : std::filesystem::directory_iterator(folder)) {
+    if (is_of_ours(report)) std::abort();
+    std::filesystem::remove(report);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
@@ -47,6 +78,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   quadloop::fuzz::run(target(), data, size);
+  abort_at_report_of_child();
   return 0;
 }
 

@@ -20,8 +20,8 @@ using test::world;
 
 constexpr LayerSpec one_layer{0.06, 1, 1, 1};
 
-/// Square islands, each a boundary of its own with layers, in rows of a square frame.
-Geometry islands(int count, double size, const LayerSpec& layers = one_layer) {
+/// Islands of one shape, each a boundary of its own with layers, in rows of a square frame.
+Geometry islands_of(const std::vector<Point>& shape, int count, double spacing, const LayerSpec& layers) {
   const int rows = static_cast<int>(std::ceil(std::sqrt(count)));
   const double end = 4 * rows;
   std::vector<Boundary> boundaries{{.name = "frame", .spacing = 2}};
@@ -31,14 +31,23 @@ Geometry islands(int count, double size, const LayerSpec& layers = one_layer) {
   for (int island = 0; island < count; ++island) {
     const Point low{4 * (island % rows) + 2.013, 4 * (island / rows) + 2.017};
     boundaries.push_back(
-        {.name = "an_island_of_a_long_name_" + std::to_string(island), .spacing = size, .layers = layers});
-    for (const Point corner : {Point{0, 0}, Point{0, size}, Point{size, size}, Point{size, 0}}) {
+        {.name = "an_island_of_a_long_name_" + std::to_string(island), .spacing = spacing, .layers = layers});
+    for (const Point corner : shape) {
       points.push_back(low + corner);
       of_segment.push_back(BoundaryId{size32(boundaries) - 1});
     }
     starts.push_back(size32(points));
   }
   return {std::move(boundaries), std::move(points), std::move(starts), std::move(of_segment)};
+}
+
+Geometry islands(int count, double size, const LayerSpec& layers = one_layer) {
+  return islands_of({{0, 0}, {0, size}, {size, size}, {size, 0}}, count, size, layers);
+}
+
+/// With a sharp nose, where it begins, and a sharp tail 1 behind it.
+Geometry darts(int count) {
+  return islands_of({{0, 0}, {0.5, 0.2}, {1, 0}, {0.5, -0.2}}, count, 0.2, {0.03, 1.2, 1.2, 2});
 }
 
 MeshOptions coarse() {
@@ -85,6 +94,36 @@ TEST(Growth, OfLinesWithLayers) {
       input.lines.push_back(line);
     }
     generate_mesh(world(), input);
+  });
+}
+
+/// Each from a dart's sharp tail, of a boundary that has a sharp nose too.
+std::vector<LayerLine> wakes_of(const Geometry& geometry, int count) {
+  std::vector<LayerLine> wakes;
+  for (int k = 0; k < count; ++k) {
+    LayerLine wake;
+    wake.from = {geometry.boundaries()[1 + k].name};
+    wake.at = geometry.point(geometry.loop_start(1 + k)) + Point{1, 0};
+    wake.length = 0.7;
+    wake.spacing = 0.2;
+    wakes.push_back(wake);
+  }
+  return wakes;
+}
+
+TEST(Growth, OfWakes) {
+  expect_linear("wakes", 25, [](int count) {
+    MeshInput input{darts(count), coarse(), {}, 0};
+    input.lines = wakes_of(input.geometry, count);
+    generate_mesh(world(), input);
+  });
+  expect_linear("the places of wakes", 1000, [](int count) {
+    const Geometry geometry = darts(count);
+    EXPECT_EQ(std::ssize(place_lines(geometry, wakes_of(geometry, count))), count);
+  });
+  expect_linear("the front of wakes", 250, [](int count) {
+    const Geometry geometry = darts(count);
+    EXPECT_EQ(std::ssize(layer_front(geometry, {}, wakes_of(geometry, count)).strips), count);
   });
 }
 

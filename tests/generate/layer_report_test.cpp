@@ -104,6 +104,44 @@ TEST(LayerReport, WarnsWhereLessThanHalfIsReached) {
     EXPECT_EQ(std::ranges::count(made.result.report.warnings, warning), 1) << warning;
 }
 
+TEST(LayerReport, WarnsOfLeavesThatMinKeepsAboveTheLastLayer) {
+  MeshInput input = channel(2, true);
+  const LayerFront front = layer_front(input.geometry);
+  const double last = 0.01 * 1.5 * 1.5 * 1.5;
+  EXPECT_TRUE(size_warnings(front, 1.99 * last).empty());
+  const std::vector<std::string> warnings = size_warnings(front, 2.01 * last);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_TRUE(warnings[0].starts_with("boundary 'floor': its last layer is 0.0338 high near ("))
+      << warnings[0];
+  EXPECT_NE(warnings[0].find("wants cells of at most 0.0675 beside it, but spacing.min = 0.0678"),
+            std::string::npos)
+      << warnings[0];
+  input.mesh.size.min = 2.01 * last;
+  const GeneratedMesh made = generate_mesh(world(), input);
+  for (const std::string& warning : warnings)
+    EXPECT_EQ(std::ranges::count(made.result.report.warnings, warning), 1) << warning;
+}
+
+TEST(LayerReport, WarnsOfABaseWithoutLayers) {
+  const auto warnings = [](double half) {
+    Boundary box{"box", 0.5, 30, "none"}, body{"body", 0.1, 30, "wall"};
+    body.layers = four;
+    const std::vector<Point> points{{-4, -4}, {4, -4},   {4, 4},     {-4, 4},   {-1, 0.3},
+                                    {0, 0.3}, {1, half}, {1, -half}, {0, -0.3}, {-1, -0.3}};
+    std::vector<BoundaryId> of_segment(10, BoundaryId{1});
+    std::fill_n(of_segment.begin(), 4, BoundaryId{0});
+    const Geometry geometry({box, body}, points, {0, 4, 10}, of_segment);
+    return size_warnings(layer_front(geometry, {}, {{{"body"}, {}, 1.5, 0.1, {}, "case.toml:7"}}), 0);
+  };
+  EXPECT_TRUE(warnings(0.05).empty());
+  const std::vector<std::string> narrow = warnings(0.005);
+  ASSERT_EQ(narrow.size(), 1U);
+  EXPECT_TRUE(
+      narrow[0].starts_with("case.toml:7: the blunt edge at (1, 0), where wake begins, is too narrow"))
+      << narrow[0];
+  EXPECT_NE(narrow[0].find("high instead of first = 0.01"), std::string::npos) << narrow[0];
+}
+
 TEST(LayerReport, IsEmptyWithoutLayersAndCountsOnlyThoseThatAsk) {
   EXPECT_EQ(generate_mesh(world(), channel(2, false)).layers.size(), 1U);
   MeshInput plain = channel(2, false);

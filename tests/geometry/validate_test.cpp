@@ -7,11 +7,13 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/meeting_pairs.hpp"
+#include "mesher/geometry/predicates.hpp"
 #include "tests/geometry/outlines.hpp"
 
 namespace quadloop {
@@ -41,8 +43,32 @@ TEST(Validate, NamesBothBoundariesThatMeet) {
                 {"'one'", "'two'", "(2, 1)", "1 more"});
 }
 
-TEST(Validate, RefusesTouchingAtAVertex) {
-  expect_all_in(refused({square("one", {0, 0}, 1), square("two", {2, 2}, 1)}), {"'one'", "'two'", "(1, 1)"});
+TEST(Validate, LetsLoopsTouchAtAVertexOfBoth) {
+  const auto beside = validate(join_chains({square("one", {0, 0}, 1), square("two", {2, 2}, 1)}));
+  EXPECT_EQ(beside[0].depth, 0);
+  EXPECT_EQ(beside[1].depth, 0);
+  // Holes that touch each other and the outer boundary, at its leftmost point and at another.
+  for (const bool turned : {false, true}) {
+    Chain outer = closed("outer", {{0, 0}, {9, -4}, {9, 4}});
+    const Chain left = closed("left", {{0, 0}, {4, 1}, {4, -1}}),
+                right = closed("right", {{4, 1}, {9, 4}, {6, 0}});
+    if (turned) outer = reversed(outer);
+    for (const auto& chains : {std::vector{outer, left, right}, std::vector{right, left, outer}}) {
+      const auto places = validate(join_chains(chains));
+      const std::size_t at = chains[0].name == "outer" ? 0 : 2;
+      EXPECT_EQ(places[at].depth, 0);
+      EXPECT_EQ(places[at].counter_clockwise, !turned);
+      EXPECT_EQ(places[2 - at].depth, 1);
+      EXPECT_EQ(places[1].depth, 1);
+      EXPECT_EQ(places[1].parent, static_cast<std::int32_t>(at));
+      EXPECT_FALSE(places[1].counter_clockwise);
+    }
+  }
+}
+
+TEST(Validate, RefusesLoopsThatCrossInAVertexOfBoth) {
+  const Chain one = closed("one", {{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}});
+  expect_all_in(refused({one, closed("two", {{2, 2}, {1, 1}, {6, 2}})}), {"'one'", "'two'", "(2, 2)"});
 }
 
 TEST(Validate, RefusesTouchingAtASide) {
@@ -85,6 +111,40 @@ TEST(Validate, ReportsTheFirstPairOfTheInput) {
   expect_all_in(refused({left, left_twin, far_right, right_twin}), {"'left'", "'left_twin'"});
 }
 
+/// By angles: whether loops cross in a point of both.
+bool cross_at_a_vertex(const FlatOutline& flat) {
+  const auto size = size32(flat.points);
+  const auto angle = [&](std::int32_t v, std::int32_t to) {
+    const Point d = flat.point(to) - flat.point(v);
+    return std::atan2(d.y, d.x);
+  };
+  for (std::int32_t v = 0; v < size; ++v) {
+    const auto [low, high] = std::minmax({angle(v, flat.previous(v)), angle(v, flat.next(v))});
+    for (std::int32_t w = 0; w < size; ++w) {
+      if (v == w || flat.point(v) != flat.point(w)) continue;
+      const auto between = [&, low = low, high = high](std::int32_t to) {
+        return angle(w, to) > low && angle(w, to) < high;
+      };
+      if (between(flat.previous(w)) != between(flat.next(w))) return true;
+    }
+  }
+  return false;
+}
+
+/// How many other loops are round the middle of a loop's first segment, on which no other loop lies.
+std::int32_t depth_of(const FlatOutline& flat, std::size_t loop) {
+  const std::int32_t first = flat.loop_starts[loop];
+  const Point p = 0.5 * (flat.point(first) + flat.point(flat.next(first)));
+  std::set<std::size_t> odd;
+  for (std::int32_t s = 0; s < size32(flat.points); ++s) {
+    const Point a = flat.point(s), b = flat.point(flat.next(s));
+    if (flat.loop(s) == loop || (a.y > p.y) == (b.y > p.y)) continue;
+    if ((orientation(a, b, p) > 0) != (b.y > a.y)) continue;
+    if (!odd.insert(flat.loop(s)).second) odd.erase(flat.loop(s));
+  }
+  return static_cast<std::int32_t>(odd.size());
+}
+
 /// A star with the given number of points: simple, and with steep and flat segments.
 Chain star(const std::string& name, Point centre, double radius, int points) {
   Chain chain = closed(name, {});
@@ -98,13 +158,19 @@ Chain star(const std::string& name, Point centre, double radius, int points) {
 TEST(Validate, AgreesWithTryingAllPairs) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> coordinate(0, 12);
-  int valid = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  int valid = 0, touching = 0, nested = 0;
+  for (int trial = 0; trial < 16000; ++trial) {
     std::vector<Chain> chains;
-    for (int loop = 0; loop < 2; ++loop) {
+    for (int loop = 0; loop < 2 + trial % 2; ++loop) {
       std::vector<Point> points;
       const int size = 3 + trial % 3;
-      for (int i = 0; i < size; ++i) points.push_back({1.0 * coordinate(random), 1.0 * coordinate(random)});
+      const Point corner{1.0 * (coordinate(random) % 8), 1.0 * (coordinate(random) % 8)};
+      const int within = trial % 2 == 0 || loop == 0 ? 13 : 5;  // small loops often lie in others
+      for (int i = 0; i < size; ++i) {
+        const Point p{1.0 * (coordinate(random) % within), 1.0 * (coordinate(random) % within)};
+        points.push_back(within == 13 ? p : corner + p);
+      }
+      if (trial % 4 == 1 && loop == 0) points = {{0, 0}, {12, 0}, {12, 12}, {0, 12}};
       chains.push_back(closed(loop == 0 ? "one" : "two", points));
     }
     std::vector<std::string> warnings;
@@ -121,14 +187,22 @@ TEST(Validate, AgreesWithTryingAllPairs) {
     for (std::int32_t s = 0; s < size; ++s) {
       for (std::int32_t t = s + 1; t < size; ++t) simple = simple && !flat.faulty(s, t);
     }
+    simple = simple && !cross_at_a_vertex(flat);
     valid += simple;
     if (simple) {
-      EXPECT_NO_THROW(validate(outline)) << trial;
+      touching += std::set<Point>(flat.points.begin(), flat.points.end()).size() < flat.points.size();
+      const auto places = validate(outline);
+      for (std::size_t l = 0; l < places.size(); ++l) {
+        EXPECT_EQ(places[l].depth, depth_of(flat, l)) << trial;
+        nested += places[l].depth > 0;
+      }
     } else {
       EXPECT_THROW(validate(outline), InputError) << trial;
     }
   }
   EXPECT_GT(valid, 100);
+  EXPECT_GT(touching, 100);
+  EXPECT_GT(nested, 100);
 }
 
 /// Long chains go on from segment to segment along the sweep line, and turn back where the outline does.

@@ -132,7 +132,7 @@ TEST(AddStrips, TheMeshKnowsThemByTheirNames) {
   }
 }
 
-TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWakes) {
+TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWalls) {
   for (const auto& [geometry, lines] : trials()) {
     const Made made(world(), geometry, lines, false);
     const LayerPlaces places = layer_places(world(), made.mesh);
@@ -146,7 +146,7 @@ TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWakes) {
     for (const NodeId node : ids_below(NodeId{made.mesh.owned_nodes})) {
       const Point p = made.mesh.point(node);
       in_strips += places[node].strip >= 0 ? 1 : 0;
-      base_nodes += places[node].strip >= 0 && p.x == 2 && std::abs(p.y) < 0.05 ? 1 : 0;
+      base_nodes += places[node].boundary == 1 && p.x == 2 && std::abs(p.y) < 0.049 ? 1 : 0;
     }
     std::int64_t nodes = 0;
     for (const StripLayers& strip : made.mesh.strips) {
@@ -154,10 +154,14 @@ TEST(AddStrips, TheirCellsAreThoseOfLayersAndABaseIsTheWakes) {
       nodes += strip.columns() * std::int64_t{strip.across};
       if (strip.from_wall) nodes -= strip.across - std::max(0, strip.across - 2 - 2 * strip.layers.count);
     }
+    const LayerStrip& first = made.front.strips[0];
+    const std::int64_t on_base = first.core - 2 * first.base_layers(), layers = first.base_layers();
+    if (layers > 0) wanted += on_base + 2 * (layers - 1);  // of the base's cells those at the first column
     EXPECT_EQ(world().sum(cells), wanted);
     EXPECT_EQ(world().sum(in_strips), nodes) << "all but those of the wall's columns";
-    const LayerStrip& first = made.front.strips[0];
-    EXPECT_EQ(world().sum(base_nodes), first.root ? std::max(0, first.core - 1) : 0);
+    if (first.core > 0) {
+      EXPECT_EQ(world().sum(base_nodes), on_base - 1) << "the wall's";
+    }
   }
 }
 
@@ -170,7 +174,7 @@ TEST(AddStrips, WakesTakeAwayTheJumpsOfAreasAtEdges) {
   EXPECT_LT(jump({wake(), wake("nose")}), 10);
 }
 
-TEST(AddStrips, ABaseIsDividedByRowsOfItsOwn) {
+TEST(AddStrips, ABaseIsDividedByTheRowsBehindItsLayers) {
   const Made made(world(), body(0.1), {wake()}, false);
   std::int64_t on_base = 0;
   double length_of_base = 0;
@@ -180,7 +184,9 @@ TEST(AddStrips, ABaseIsDividedByRowsOfItsOwn) {
     ++on_base;
     length_of_base += a.y - b.y;  // with the domain to its left
   }
-  EXPECT_EQ(world().sum(on_base), made.front.strips[0].core);
+  const LayerStrip& strip = made.front.strips[0];
+  EXPECT_GE(strip.base_layers(), 1);
+  EXPECT_EQ(world().sum(on_base), strip.core - 2 * strip.base_layers());
   const auto lengths = world().all_gather_values(std::span<const double>(&length_of_base, 1));
   EXPECT_NEAR(std::accumulate(lengths.begin(), lengths.end(), 0.0), 0.1, 1e-12);
 }
@@ -215,7 +221,15 @@ TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
   const auto says = [](const std::vector<LayerLine>& lines) {
     return test::refusal([&] { layer_front(body(0), {}, lines); });
   };
-  EXPECT_NE(says({through}).find("meet boundary box"), std::string::npos);
+  const std::string at_box = says({through});
+  EXPECT_NE(at_box.find("the layers of wake, which begins at (2, 0), meet boundary box at (8, "),
+            std::string::npos)
+      << at_box;
+  through.path = {{3, 0.1}, {4, 0.6}, {5, 2}, {5.5, 4}, {5.5, 9}};  // over the box's upper side
+  through.length = 0;
+  const std::string at_top = says({through});
+  EXPECT_NE(at_top.find("meet boundary box at ("), std::string::npos) << at_top;
+  EXPECT_NE(at_top.find(", 8), "), std::string::npos) << at_top;
   LayerLine across = free_line();
   across.path = {{3, -1}, {3, 1}};
   EXPECT_NE(says({wake(), across}).find("meet those of"), std::string::npos);

@@ -44,6 +44,8 @@ struct AdaptOptions {
   Until until;
   /// Leaf size that adaptation may reach, in the geometry's unit; none: that of the case.
   std::optional<double> min;
+  /// Whether leaves at facets of the outline (FacetZones) may become smaller than half of the segments there.
+  bool facets = false;
   TransferKind transfer = TransferKind::linear;
   /// Where first heights of layers are to follow the wall shear of a solution.
   std::optional<WallFlow> wall_flow;

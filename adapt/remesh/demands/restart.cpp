@@ -110,8 +110,9 @@ std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput
 }
 
 ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
-                             int finest_level) {
-  QUADLOOP_REQUIRE(marks.size() == tree.leaves.size(), "one mark for each leaf");
+                             std::span<const std::int8_t> finest_levels) {
+  QUADLOOP_REQUIRE(marks.size() == tree.leaves.size() && finest_levels.size() == marks.size(),
+                   "one mark and one finest level for each leaf");
   std::optional<LeafRun> run;  // where some leaf is to be coarsened
   if (comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end()))
     run.emplace(comm, tree, marks);
@@ -119,7 +120,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
     std::uint32_t levels = leaf.adapted;
-    if (marks[i] == Mark::refine && leaf.level < finest_level) {
+    if (marks[i] == Mark::refine && leaf.level < finest_levels[i]) {
       levels |= 1U << leaf.level;
       ++changed.refined;
     }

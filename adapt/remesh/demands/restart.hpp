@@ -31,13 +31,13 @@ struct ChangedSplits {
   std::int64_t refined = 0, coarsened = 0;  ///< leaves to be split; leaves that are to go
 };
 
-/// One cycle's change. A leaf marked to be refined is split, unless it is of the finest level. Four siblings
-/// that are all marked to be coarsened become one again where adaptation had split it: what case, geometry
-/// and gradation ask for stays, and the same marks take back what they made. A leaf without cells, which
-/// nothing marks, goes with its siblings wherever some leaf is coarsened. `marks` has one entry for each leaf
-/// of this rank's share. *Collective.*
+/// One cycle's change. A leaf marked to be refined is split, unless it is of the finest level given for it.
+/// Four siblings that are all marked to be coarsened become one again where adaptation had split it: what
+/// case, geometry and gradation ask for stays, and the same marks take back what they made. A leaf without
+/// cells, which nothing marks, goes with its siblings wherever some leaf is coarsened. `marks` has one entry
+/// for each leaf of this rank's share. *Collective.*
 ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
-                             int finest_level);
+                             std::span<const std::int8_t> finest_levels);
 
 /// Keeps the root of a saved tree: sets the option where the geometry would now choose another. Throws
 /// InputError where the geometry does not lie in it.

@@ -60,8 +60,9 @@ ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree
 }
 
 WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                           int finest_level, std::optional<MirrorAxis> mirror)
-    : comm_{comm}, tree_{solved.tree}, finest_{finest_level}, mirror_{mirror}, norm_{*options.norm} {
+                           std::vector<std::int8_t> finest, std::optional<MirrorAxis> mirror)
+    : comm_{comm}, tree_{solved.tree}, finest_{std::move(finest)}, mirror_{mirror}, norm_{*options.norm} {
+  QUADLOOP_REQUIRE(finest_.size() == tree_.leaves.size(), "there must be one finest level for each leaf");
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   by_error_ = options.source == AdaptOptions::Source::error;
   InterpolationError error =
@@ -92,11 +93,12 @@ CellValues WantedLevels::of_cells(double complexity) const {
 
 std::vector<std::int8_t> WantedLevels::levels(double complexity) const {
   std::vector<std::int8_t> levels;
-  for (const double density : densities_) {
+  for (std::size_t i = 0; i < densities_.size(); ++i) {
+    const double density = densities_[i];
     const double edge = std::sqrt(total_ / (complexity * density));  // infinite where nothing is wanted
     const bool none = !(complexity * density > 0);
     levels.push_back(static_cast<std::int8_t>(
-        none ? 0 : std::min(level_for_size(tree_.attributes.tree_edge, edge), finest_)));
+        none ? 0 : std::min<int>(level_for_size(tree_.attributes.tree_edge, edge), finest_[i])));
   }
   return levels;
 }

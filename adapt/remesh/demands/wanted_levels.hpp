@@ -25,9 +25,10 @@ class WantedLevels {
  public:
   /// From the variables of the options, whose norm must be given. `solved` must outlive it. Throws InputError
   /// where the solution has no such variable, or one that is not finite. With a mirror axis leaves that are
-  /// each other's images want the same. *Collective.*
+  /// each other's images want the same. `finest` has one level for each leaf of this rank's share.
+  /// *Collective.*
   WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-               int finest_level, std::optional<MirrorAxis> mirror = {});
+               std::vector<std::int8_t> finest, std::optional<MirrorAxis> mirror = {});
 
   /// Whether all variables are linear, which asks for no sizes.
   bool flat() const { return !(total_ > 0); }
@@ -37,7 +38,7 @@ class WantedLevels {
   /// sizes, and at most the edge of a tree.
   CellValues of_cells(double complexity) const;
 
-  /// The level wanted of each of this rank's leaves, none finer than the finest, for sizes h of which the
+  /// The level wanted of each of this rank's leaves, none finer than its finest, for sizes h of which the
   /// integral of 1 / h^2 is `complexity`.
   std::vector<std::int8_t> levels(double complexity) const;
   /// The changes that lead to these. *Collective.*
@@ -48,7 +49,7 @@ class WantedLevels {
  private:
   const Communicator& comm_;
   const TreeRecord& tree_;
-  int finest_;
+  std::vector<std::int8_t> finest_;
   std::optional<MirrorAxis> mirror_;
   double norm_;
   bool by_error_ = false;  ///< by a solver's own error, not by what interpolation loses

@@ -9,6 +9,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
+#include "mesher/geometry/assemble/united_islands.hpp"
 #include "mesher/geometry/validate.hpp"
 
 namespace quadloop {
@@ -90,7 +91,28 @@ void require_outer_boundary(const Outline& outline, const std::vector<LoopNestin
   }
 }
 
+/// Drops those of which a union has left nothing; their rules have matched.
+std::vector<Boundary> boundaries_of(Outline& outline, const AssembleOptions& options) {
+  std::vector<Boundary> all =
+      boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
+  std::vector<char> used(all.size(), 0);
+  for (const OutlineLoop& loop : outline.loops) {
+    for (const BoundaryId b : loop.boundary) used[b.value()] = 1;
+  }
+  std::vector<Boundary> left;
+  std::vector<BoundaryId> new_ids;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    new_ids.push_back(BoundaryId{size32(left)});
+    if (used[b] != 0) left.push_back(std::move(all[b]));
+  }
+  for (OutlineLoop& loop : outline.loops) {
+    for (BoundaryId& b : loop.boundary) b = new_ids[b.value()];
+  }
+  return left;
+}
+
 Geometry to_geometry(Outline outline, const AssembleOptions& options) {
+  std::vector<Boundary> boundaries = boundaries_of(outline, options);
   std::size_t size = 0;
   for (const OutlineLoop& loop : outline.loops) size += loop.points.size();
   std::vector<Point> points;
@@ -104,11 +126,11 @@ Geometry to_geometry(Outline outline, const AssembleOptions& options) {
     loop_starts.push_back(size32(points));
     loop = {};  // a long one is not held twice
   }
-  std::vector<Boundary> boundaries =
-      boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
   return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts),
                   std::move(segment_boundary));
 }
+
+constexpr const char* union_remedy = ", or set geometry.overlap = \"union\" to join islands that overlap";
 
 /// Areas of a geometry much smaller than this leave the range of double precision.
 void require_extent(const Geometry& g) {
@@ -135,7 +157,8 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
     throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
   }
   Outline outline = join_chains(std::move(chains));
-  const std::vector<LoopNesting> nestings = validate(outline);
+  if (options.unite_islands) outline = united_islands(outline, options.join, warnings);
+  const std::vector<LoopNesting> nestings = validate(outline, options.unite_islands ? "" : union_remedy);
   require_far_field_only(outline, nestings, options.far_field);
   require_outer_boundary(outline, nestings, options.bodies);
   Warnings of_domain;

@@ -14,7 +14,8 @@ using Warnings = std::vector<std::string>;
 struct AssembleOptions {
   std::vector<BoundaryRule> rules;
   double default_corner_degrees = 30;  ///< of boundaries without a rule of their own
-  double join = 1e-9;  ///< ends of chains no farther apart than this share of the extent are joined
+  double join = 1e-9;          ///< ends of chains no farther apart than this share of the extent are joined
+  bool unite_islands = false;  ///< those that overlap or touch: united_islands()
   /// From a mesh, say: then nobody is told of loops that were turned, nor of several domains.
   bool domain_is_known = false;
   /// The setting that added a boundary around all others, empty where none did. Then no other boundary may

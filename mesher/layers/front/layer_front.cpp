@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -19,7 +20,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double leaf_over_last_layer = 2;
 constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18 degrees apart
 
 /// The segments at which wakes begin.
@@ -29,6 +29,14 @@ std::vector<std::int32_t> bases_of(const Geometry& g, const std::vector<PlacedLi
     for (std::int32_t s = line.edge; s != line.base_end; s = g.next(s)) bases.push_back(s);
   }
   return bases;
+}
+
+/// The points of the base that a wake begins behind; none at a sharp edge.
+std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
+  std::vector<Point> base;
+  for (std::int32_t v = wake.edge; v != wake.base_end; v = g.next(v)) base.push_back(g.point(v));
+  if (!base.empty()) base.push_back(g.point(wake.base_end));
+  return base;
 }
 
 /// The outline outside the layers, on its way to a Geometry.
@@ -45,6 +53,9 @@ class OuterOutline {
         covered_(g_.points().size(), 0),
         is_base_(g_.points().size(), 0) {
     for (const std::int32_t s : bases_of(g_, lines_)) is_base_[s] = 1;
+    for (const PlacedLine& l : lines_) {
+      if (l.edge != PlacedLine::nowhere) wake_from_.emplace(l.edge, &l);
+    }
     cover_ends();
     for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
       if (begins(i)) first_of_segment_[line_[i].segment] = i;
@@ -91,12 +102,6 @@ class OuterOutline {
     const std::int32_t first = first_of_segment_[wake.base_end];
     return line_[first].opens_wake ? line_.next(first) : first;
   }
-  std::vector<Point> base_of(const PlacedLine& wake) const {
-    std::vector<Point> base;
-    for (std::int32_t v = wake.edge; v != wake.base_end; v = g_.next(v)) base.push_back(g_.point(v));
-    if (!base.empty()) base.push_back(g_.point(wake.base_end));
-    return base;
-  }
   bool is_base(std::int32_t s) const { return is_base_[s] != 0; }
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
@@ -124,8 +129,9 @@ class OuterOutline {
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
-  std::vector<char> covered_;  ///< vertices on which a run's last column lies
-  std::vector<char> is_base_;  ///< of segments: whether a wake begins behind it
+  std::vector<char> covered_;                            ///< vertices on which a run's last column lies
+  std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
+  std::vector<char> is_base_;                            ///< of segments: whether a wake begins behind it
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
   std::vector<BoundaryId> boundary_;
@@ -164,16 +170,15 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
 
 /// From the column on the left of a wake round its front, up to the column on its right.
 void OuterOutline::add_wake(std::int32_t i) {
-  const auto at = std::ranges::find_if(lines_, [&](const PlacedLine& line) {
-    return line.edge != PlacedLine::nowhere && g_.point(line.edge) == line_[i].wall;
-  });
+  const std::int32_t edge = ends_run(i) ? g_.next(line_[i].segment) : line_[i].segment;
+  const PlacedLine* const at = wake_from_.at(edge);
   const std::int32_t before = line_.previous(i), right = first_at(*at);
   const double at_corner = g_.corner_spacing_of(at->edge);
   double spacing = std::min(spacing_after(before), spacing_after(right));
   if (at_corner > 0) spacing = std::min(spacing, at_corner);
   PlacedLine wake = *at;
   wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
-  strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(*at),
+  strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(g_, *at),
                                                spacing, g_.boundary_of(at->edge)}));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
@@ -284,36 +289,69 @@ const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
   });
 }
 
-[[noreturn]] void refuse_meeting(const LayerFront& front, std::int32_t s, std::int32_t other) {
-  const LayerStrip& strip = strip_at(front, s);
-  const BoundaryId boundary = front.outer.boundary_of(other);
-  const bool itself = boundary == front.strip_boundary() && &strip_at(front, other) == &strip;
-  const std::string what = itself ? "themselves"
-                           : boundary == front.strip_boundary()
-                               ? "those of " + strip_at(front, other).name
-                               : "boundary " + front.outer.boundary(boundary).name;
-  throw InputError(fmt::format(
-      "{}the layers of {} meet {} at ({}, {}); lead it elsewhere, or make it shorter or its spacing smaller",
-      strip.place, strip.name, what, front.outer.point(s).x, front.outer.point(s).y));
+/// Where two segments that meet have a point in common, but for rounding.
+Point common_point(Point a, Point b, Point c, Point d) {
+  const double slope = cross(b - a, d - c);
+  return slope == 0 ? c : a + (cross(c - a, d - c) / slope) * (b - a);
 }
 
-/// The fronts of strips keep away from everything else, and from themselves: two segments meet where one
-/// follows the other alone.
-void require_disjoint(const LayerFront& front) {
-  if (!front.has_strips()) return;
+/// Where a strip's front meets something that it must keep away from.
+struct Meeting {
+  std::int32_t segment = 0, other = 0;  ///< of the outer outline
+  Point at;
+};
+
+/// The middle of a strip's first column.
+Point beginning_of(const LayerStrip& strip) { return strip.columns[0][strip.columns[0].size() / 2]; }
+
+/// All in the order of segments: two segments meet where one follows the other alone.
+std::vector<Meeting> meetings_of_strips(const LayerFront& front) {
   const Geometry& g = front.outer;
   std::vector<Box> boxes;
   for (std::int32_t s = 0; s < g.size(); ++s) boxes.push_back(box_of(g.point(s), g.point(g.next(s))));
   const BoxTree tree(boxes);
+  std::vector<Meeting> meetings;
   for (std::int32_t s = 0; s < g.size(); ++s) {
     if (g.boundary_of(s) != front.strip_boundary()) continue;
     const Point a = g.point(s), b = g.point(g.next(s));
     tree.for_each_meeting(boxes[s], [&](std::int32_t t) {
       if (t == s || t == g.next(s) || t == g.previous(s)) return;
-      if (!segments_meet(a, b, g.point(t), g.point(g.next(t)))) return;
-      refuse_meeting(front, s, t);
+      const Point c = g.point(t), d = g.point(g.next(t));
+      if (segments_meet(a, b, c, d)) meetings.push_back({s, t, common_point(a, b, c, d)});
     });
   }
+  return meetings;
+}
+
+/// The strip of the first meeting, with its meeting nearest to where it begins.
+[[noreturn]] void refuse_meeting(const LayerFront& front, const std::vector<Meeting>& meetings) {
+  const LayerStrip& strip = strip_at(front, meetings[0].segment);
+  const Point begin = beginning_of(strip);
+  Meeting nearest = meetings[0];
+  for (const Meeting& meeting : meetings) {
+    if (length(meeting.at - begin) < length(nearest.at - begin) &&
+        &strip_at(front, meeting.segment) == &strip)
+      nearest = meeting;
+  }
+  const BoundaryId boundary = front.outer.boundary_of(nearest.other);
+  const bool itself = boundary == front.strip_boundary() && &strip_at(front, nearest.other) == &strip;
+  const std::string what = itself ? "themselves"
+                           : boundary == front.strip_boundary()
+                               ? "those of " + strip_at(front, nearest.other).name
+                               : "boundary " + front.outer.boundary(boundary).name;
+  throw InputError(
+      fmt::format("{}the layers of {}, which begins at ({:.6g}, {:.6g}), meet {} at ({:.6g}, {:.6g}), {:.3g} "
+                  "from there; make it shorter, lead it elsewhere, or ask for fewer or thinner layers or a "
+                  "smaller spacing along it",
+                  strip.place, strip.name, begin.x, begin.y, what, nearest.at.x, nearest.at.y,
+                  length(nearest.at - begin)));
+}
+
+/// The fronts of strips keep away from everything else, and from themselves.
+void require_disjoint(const LayerFront& front) {
+  if (!front.has_strips()) return;
+  const std::vector<Meeting> meetings = meetings_of_strips(front);
+  if (!meetings.empty()) refuse_meeting(front, meetings);
 }
 
 /// The outer outline, with loops as the sweep over an outline takes them.
@@ -389,6 +427,25 @@ void require_room(const LayerFront& front) {
   }
 }
 
+/// That of a wake whose wall's layers are as thick as they are asked for.
+std::optional<WakeRoot> likely_root(const Geometry& g, const PlacedLine& line) {
+  if (line.edge == PlacedLine::nowhere) return std::nullopt;
+  const std::int32_t before = g.previous(line.edge), after = line.base_end;
+  const Point along = direction_of(line.path[0], line.path[1]);
+  const Point left = unit(left_of(direction_of(g.point(before), g.point(line.edge))) + left_of(along)),
+              right = unit(left_of(direction_of(g.point(after), g.point(g.next(after)))) - left_of(along));
+  const double thickness = layers_thickness(line.layers);
+  WakeRoot root;
+  root.left = g.point(line.edge) + thickness * left;
+  root.right = g.point(line.base_end) + thickness * right;
+  root.base = base_of(g, line);
+  root.spacing = std::min(
+      {leaf_over_last_layer * layer_heights(line.layers).back(), g.spacing_of(before), g.spacing_of(after)});
+  if (const double at_corner = g.corner_spacing_of(line.edge); at_corner > 0)
+    root.spacing = std::min(root.spacing, at_corner);
+  return root;
+}
+
 }  // namespace
 
 void LayerFront::keep(const std::vector<std::int32_t>& stations) {
@@ -407,6 +464,21 @@ void LayerFront::keep(const std::vector<std::int32_t>& stations) {
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
                    const MeasuredWall& measured) {
   return wall_line(geometry, place_lines(geometry, lines), measured);
+}
+
+double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLine>& lines) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Boundary& boundary : geometry.boundaries()) {
+    if (boundary.layers)
+      least = std::min(least, leaf_over_last_layer * layer_heights(*boundary.layers).back());
+  }
+  constexpr double most_columns = 1e6;  // more are no mesh, and are refused as such
+  for (const PlacedLine& line : place_lines(geometry, lines)) {
+    if (least_size(line).columns > most_columns) continue;
+    const LayerStrip strip = layer_strip(line, likely_root(geometry, line));
+    least = std::min(least, std::ranges::min(strip.spacing));
+  }
+  return least;
 }
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,

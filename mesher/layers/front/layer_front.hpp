@@ -41,6 +41,12 @@ struct LayerFront {
   void keep(const std::vector<std::int32_t>& stations);
 };
 
+constexpr double leaf_over_last_layer = 2;  ///< of leaves beside the front, at most
+
+/// The size of the smallest leaves that layers on walls and on both sides of lines want where they are as
+/// thick as they are asked for; infinity where there are none. Throws InputError as place_lines().
+double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLine>& lines);
+
 /// The front of all boundaries that ask for layers, and of lines with layers. Layers are thinner where walls
 /// come close to each other or turn sharply into the domain, so that no two columns meet, and each wall keeps
 /// room for cells outside; both are proved with exact signs. `curvature`: degrees that the wall may turn

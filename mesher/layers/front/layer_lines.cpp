@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -25,38 +28,39 @@ std::string said(const PlacedLine& line, const LayerLine& asked) {
   return fmt::format("{}{}, from = \"{}\"", line.place, line.name, fmt::join(asked.from, "\", \""));
 }
 
-/// Each boundary's, in ascending order.
-using SegmentsOfBoundaries = IdVector<BoundaryId, std::vector<std::int32_t>>;
+/// Each boundary by its name, with its segments in ascending order.
+struct Walls {
+  explicit Walls(const Geometry& g) : segments(g.boundaries().size()) {
+    for (const BoundaryId b : segments.ids()) by_name.emplace(g.boundary(b).name, b);
+    for (std::int32_t s = 0; s < g.size(); ++s) segments[g.boundary_of(s)].push_back(s);
+  }
+  std::map<std::string, BoundaryId> by_name;
+  IdVector<BoundaryId, std::vector<std::int32_t>> segments;
+};
 
-SegmentsOfBoundaries segments_of_boundaries(const Geometry& g) {
-  SegmentsOfBoundaries segments(g.boundaries().size());
-  for (std::int32_t s = 0; s < g.size(); ++s) segments[g.boundary_of(s)].push_back(s);
-  return segments;
-}
-
-/// The boundaries that a wake begins at, as a flag for each of the geometry's.
+/// The boundaries that a wake begins at.
 class WakeWall {
  public:
-  WakeWall(const Geometry& g, const SegmentsOfBoundaries& segments, const LayerLine& line,
-           const std::string& said)
-      : g_{g}, has_(g.boundaries().size(), 0) {
+  WakeWall(const Geometry& g, const Walls& walls, const LayerLine& line, const std::string& said) : g_{g} {
     for (const std::string& name : line.from) {
-      const auto found = std::ranges::find(g.boundaries(), name, &Boundary::name);
-      if (found == g.boundaries().end()) refuse_unknown(name, said);
-      if (!found->layers)
+      const auto found = walls.by_name.find(name);
+      if (found == walls.by_name.end()) refuse_unknown(name, said);
+      const BoundaryId boundary = found->second;
+      if (!g.boundary(boundary).layers)
         throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
-      const BoundaryId boundary{static_cast<std::int32_t>(found - g.boundaries().begin())};
-      if (std::exchange(has_[boundary], 1) != 0) continue;
-      segments_.insert(segments_.end(), segments[boundary].begin(), segments[boundary].end());
+      if (has(boundary)) continue;
+      boundaries_.push_back(boundary);
+      segments_.insert(segments_.end(), walls.segments[boundary].begin(), walls.segments[boundary].end());
     }
     std::ranges::sort(segments_);
   }
   /// In ascending order.
   const std::vector<std::int32_t>& segments() const { return segments_; }
   /// Whether a segment is of one of them.
-  bool has(std::int32_t segment) const { return has_[g_.boundary_of(segment)] != 0; }
+  bool has(std::int32_t segment) const { return has(g_.boundary_of(segment)); }
 
  private:
+  bool has(BoundaryId b) const { return std::ranges::find(boundaries_, b) != boundaries_.end(); }
   [[noreturn]] void refuse_unknown(const std::string& name, const std::string& said) const {
     std::vector<std::string> names;
     for (const Boundary& boundary : g_.boundaries()) names.push_back(boundary.name);
@@ -65,7 +69,7 @@ class WakeWall {
   }
 
   const Geometry& g_;
-  IdVector<BoundaryId, char> has_;
+  std::vector<BoundaryId> boundaries_;
   std::vector<std::int32_t> segments_;
 };
 
@@ -94,56 +98,91 @@ std::optional<Edge> base_from(const Geometry& g, const WakeWall& wall, std::int3
   }
 }
 
-std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall) {
-  constexpr double base_over_box = 0.05;
-  std::vector<Edge> sharp, blunt;
+/// A twentieth of the extent of the boundaries that a wake begins at: the longest base, and how far off `at`
+/// may be.
+double reach_of_edges(const Geometry& g, const WakeWall& wall) {
+  constexpr double reach_over_box = 0.05;
   double low = g.box().high.x, high = g.box().low.x, bottom = g.box().high.y, top = g.box().low.y;
   for (const std::int32_t v : wall.segments()) {
     low = std::min(low, g.point(v).x), high = std::max(high, g.point(v).x);
     bottom = std::min(bottom, g.point(v).y), top = std::max(top, g.point(v).y);
   }
-  const double longest_base = base_over_box * std::max(high - low, top - bottom);
-  for (const std::int32_t v : wall.segments()) {
-    if (!wall.has(g.previous(v))) continue;
-    if (cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge) sharp.push_back({v, v});
-    if (const auto base = base_from(g, wall, v, longest_base)) blunt.push_back(*base);
-  }
-  return sharp.empty() ? blunt : sharp;
+  return reach_over_box * std::max(high - low, top - bottom);
 }
 
-Edge edge_of(const Geometry& g, const WakeWall& wall, const std::string& said) {
-  const std::vector<Edge> edges = edges_of(g, wall);
-  if (edges.size() == 1) return edges[0];
+/// Sharp ones, then blunt ones whose corners are not sharp.
+std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall, double longest_base) {
+  const auto is_sharp = [&](std::int32_t v) {
+    return wall.has(g.previous(v)) && cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge;
+  };
+  std::vector<Edge> edges, blunt;
+  for (const std::int32_t v : wall.segments()) {
+    if (!wall.has(g.previous(v))) continue;
+    if (is_sharp(v)) edges.push_back({v, v});
+    const auto base = base_from(g, wall, v, longest_base);
+    if (base && !is_sharp(v) && !is_sharp(base->second)) blunt.push_back(*base);
+  }
+  edges.insert(edges.end(), blunt.begin(), blunt.end());
+  return edges;
+}
+
+Point middle_of(const Geometry& g, const Edge& edge) {
+  return edge.first == edge.second ? g.point(edge.first) : 0.5 * (g.point(edge.first) + g.point(edge.second));
+}
+
+/// The first few: "(1, 0), (0, 0) and 3 more".
+std::string places_of(const Geometry& g, const std::vector<Edge>& edges) {
+  std::vector<std::string> places;
+  for (const Edge& edge : edges) {
+    const Point p = middle_of(g, edge);
+    places.push_back(fmt::format("({}, {})", p.x, p.y));
+  }
+  return first_few(places);
+}
+
+Edge edge_near(const Geometry& g, const std::vector<Edge>& edges, Point at, double reach,
+               const std::string& said) {
+  const auto distance = [&](const Edge& edge) {
+    return std::sqrt(place_on_segment(at, g.point(edge.first), g.point(edge.second)).squared_distance);
+  };
+  const Edge nearest = *std::ranges::min_element(edges, {}, distance);
+  if (distance(nearest) <= reach) return nearest;
+  throw InputError(fmt::format(
+      "{}: at = [{}, {}] lies {:.3g} from the nearest edge, and must not lie farther from it than {:.3g}; "
+      "there are edges at {}",
+      said, at.x, at.y, distance(nearest), reach, places_of(g, edges)));
+}
+
+Edge edge_of(const Geometry& g, const WakeWall& wall, const LayerLine& line, const std::string& said) {
+  const double reach = reach_of_edges(g, wall);
+  const std::vector<Edge> edges = edges_of(g, wall, reach);
   if (edges.empty())
     throw InputError(fmt::format(
         "{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
         "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
         "\"b\"]",
         said));
-  const Point one = g.point(edges[0].first), other = g.point(edges[1].first);
+  if (line.at) return edge_near(g, edges, *line.at, reach, said);
+  if (edges.size() == 1) return edges[0];
   throw InputError(
-      fmt::format("{}: there are {} edges, at ({}, {}) and ({}, {}) for two; give each a boundary of its own",
-                  said, edges.size(), one.x, one.y, other.x, other.y));
+      fmt::format("{}: there are {} edges, at {}; name the one at which the wake begins: at = [x, y]", said,
+                  edges.size(), places_of(g, edges)));
 }
 
-/// With its name and place alone.
-PlacedLine named(const std::vector<LayerLine>& lines, std::size_t number) {
-  const LayerLine& line = lines[number];
-  const auto same_kind = [&](const LayerLine& other) { return other.from.empty() == line.from.empty(); };
+/// With its name and place alone; `number`: among `all` of its kind, from 1 on.
+PlacedLine named(const LayerLine& line, std::ptrdiff_t number, std::ptrdiff_t all) {
   PlacedLine placed;
   placed.name = line.from.empty() ? "layer_line" : "wake";
-  if (std::ranges::count_if(lines, same_kind) > 1)
-    placed.name += fmt::format("_{}", 1 + std::count_if(lines.begin(), lines.begin() + number, same_kind));
+  if (all > 1) placed.name += fmt::format("_{}", number);
   if (!line.where.empty()) placed.place = line.where + ": ";
   placed.spacing = line.spacing;
   return placed;
 }
 
-void place_wake(const Geometry& g, const SegmentsOfBoundaries& segments, const LayerLine& line,
-                PlacedLine& placed) {
-  const WakeWall wall(g, segments, line, said(placed, line));
-  const auto [first, last] = edge_of(g, wall, said(placed, line));
-  std::vector<Point> path{first == last ? g.point(first) : 0.5 * (g.point(first) + g.point(last))};
+void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, PlacedLine& placed) {
+  const WakeWall wall(g, walls, line, said(placed, line));
+  const auto [first, last] = edge_of(g, wall, line, said(placed, line));
+  std::vector<Point> path{middle_of(g, {first, last})};
   const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
   path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
   if (line.path.empty()) {
@@ -162,29 +201,34 @@ void place_wake(const Geometry& g, const SegmentsOfBoundaries& segments, const L
                                  after.layers->count));
 }
 
-void require_edge_of_its_own(const std::vector<PlacedLine>& before, const PlacedLine& wake) {
-  const auto same = std::ranges::find(before, wake.edge, &PlacedLine::edge);
-  if (wake.edge == PlacedLine::nowhere || same == before.end()) return;
+[[noreturn]] void refuse_second(const PlacedLine& wake, const std::string& first) {
   throw InputError(fmt::format(
       "{}{} begins at the edge at ({}, {}), and so does {}; an edge has one wake: leave one of them out",
-      wake.place, wake.name, wake.path[0].x, wake.path[0].y, same->name));
+      wake.place, wake.name, wake.path[0].x, wake.path[0].y, first));
 }
 
 }  // namespace
 
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines) {
+  const std::ptrdiff_t wakes = std::ranges::count_if(lines, [](const auto& l) { return !l.from.empty(); });
+  std::optional<Walls> walls;
+  if (wakes > 0) walls.emplace(geometry);
   std::vector<PlacedLine> all;
-  const bool any_wake = std::ranges::any_of(lines, [](const LayerLine& l) { return !l.from.empty(); });
-  const SegmentsOfBoundaries segments = any_wake ? segments_of_boundaries(geometry) : SegmentsOfBoundaries{};
-  for (std::size_t number = 0; number < lines.size(); ++number) {
-    const LayerLine& line = lines[number];
-    PlacedLine placed = named(lines, number);
-    if (line.from.empty()) {
+  std::map<std::int32_t, std::string> name_at;  // of the wake that begins at a vertex
+  std::ptrdiff_t placed_wakes = 0;
+  for (const LayerLine& line : lines) {
+    const bool is_wake = !line.from.empty();
+    if (is_wake) ++placed_wakes;
+    const std::ptrdiff_t before = std::ssize(all) - placed_wakes;
+    PlacedLine placed =
+        is_wake ? named(line, placed_wakes, wakes) : named(line, before + 1, std::ssize(lines) - wakes);
+    if (is_wake) {
+      place_wake(geometry, *walls, line, placed);
+      const auto [first, is_new] = name_at.emplace(placed.edge, placed.name);
+      if (!is_new) refuse_second(placed, first->second);
+    } else {
       placed.path = line.path;
       placed.layers = *line.layers;
-    } else {
-      place_wake(geometry, segments, line, placed);
-      require_edge_of_its_own(all, placed);
     }
     all.push_back(std::move(placed));
   }

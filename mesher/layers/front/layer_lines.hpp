@@ -20,10 +20,11 @@ struct LayerLine {
   double spacing = 0;               ///< length wanted of the cells along it; above 0
   std::optional<LayerSpec> layers;  ///< of a free line
   std::string where = {};           ///< its place in the case file, "case.toml:12", for messages alone
+  std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
 
   friend bool operator==(const LayerLine& a, const LayerLine& b) {
     const auto made_of = [](const LayerLine& l) {
-      return std::tie(l.from, l.path, l.length, l.spacing, l.layers);
+      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers);
     };
     return made_of(a) == made_of(b);
   }
@@ -43,9 +44,10 @@ struct PlacedLine {
   std::string place = {};  ///< what a message about it begins with: "case.toml:12: ", or nothing
 };
 
-/// Finds the edges at which wakes begin: the only vertex of its boundaries at which the wall turns away from
-/// the domain by more than 120 degrees; or else the only base, of one boundary, between two corners of more
-/// than 50 degrees and shorter than a twentieth of the boundaries' box, which together turn by more than 120.
+/// Finds the edges at which wakes begin. An edge is a vertex of its boundaries at which the wall turns away
+/// from the domain by more than 120 degrees; or a base, of one boundary, between two corners of more than 50
+/// degrees and shorter than a twentieth of the boundaries' box, which together turn by more than 120. A wake
+/// begins at the only edge, or at that nearest to its `at`, which must lie within a twentieth of that box.
 /// A wake without a path goes straight on, half way between the walls that meet there. Throws InputError for
 /// a boundary that is none or has no layers, for no such edge or several, and for two wakes from one.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);

@@ -1,8 +1,11 @@
 #include "mesher/layers/front/layer_strip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
+#include "mesher/geometry/predicates.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {
@@ -15,7 +18,9 @@ constexpr double spreading = 0.1;        // of all layers together, over the dis
 constexpr double core_spreading = 0.05;  // of either half of the rows behind a base
 constexpr double flattest = 0.7;         // height of a row over the width of its columns, at most
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
+constexpr double most_rows_of_triangle = 3, flattest_triangle = 0.35;
 constexpr double leaf_over_column = 1.2;
+constexpr double flattest_at_end = 0.5, leaf_over_end_row = 2, triangle_over_end_row = 1.4;
 
 /// A polyline by its arc length.
 class Path {
@@ -41,6 +46,67 @@ class Path {
   std::vector<double> reached_;
 };
 
+/// The base of a blunt edge, with layers on it that begin at its two feet, as the rows behind it do.
+class Base {
+ public:
+  Base(const PlacedLine& line, const std::vector<Point>& points, int rows)
+      : points_{points}, turned_{points.rbegin(), points.rend()}, rows_{rows} {
+    LayerSpec half = line.layers;
+    half.count = rows;
+    heights_ = column_heights(half, half.first, 0.5 * path_.length()).reached;
+    normal_ = left_of(unit(points_.back() - points_.front()));
+  }
+  Base(const Base&) = delete;
+  Base& operator=(const Base&) = delete;
+
+  /// Of so many layers; `half`: of all that are as thick as half of the base.
+  double height(int layers) const { return heights_[layers]; }
+  double half() const { return heights_.back(); }
+
+  /// The line behind so many layers of all: from right to left.
+  std::vector<Point> line(int layers, int all) const {
+    const double stretch = (half() - heights_[layers]) / (half() - heights_[all]);
+    const auto from_foot = [&](int row) { return half() - stretch * (half() - heights_[row]); };
+    std::vector<Point> right, left;
+    for (int row = all; row < rows_; ++row) {
+      right.push_back(at(false, from_foot(row), layers));
+      left.push_back(at(true, from_foot(row), layers));
+    }
+    right.push_back(0.5 * (at(false, half(), layers) + at(true, half(), layers)));
+    right.insert(right.end(), left.rbegin(), left.rend());
+    return right;
+  }
+  /// The node from which the line behind so many layers goes on along the wake.
+  Point corner(bool left, int layers) const { return at(left, heights_[layers], layers); }
+
+ private:
+  /// So far along the base from one of its feet and so many layers off it; heights are normal to it.
+  Point at(bool left, double from_foot, int layers) const {
+    constexpr double least_cosine = 0.5, reach_over_base = 1.0 / 16;
+    const Path& path = left ? path_ : turned_path_;
+    const Point along = path.direction(from_foot, reach_over_base * path.length());
+    const double cosine = dot(normal_, left_of(left ? along : -1.0 * along));
+    return path.at(from_foot) + (heights_[layers] / std::max(cosine, least_cosine)) * normal_;
+  }
+
+  std::vector<Point> points_, turned_;  ///< from its left foot to its right one, and back
+  Path path_{points_}, turned_path_{turned_};
+  int rows_;
+  std::vector<double> heights_;
+  Point normal_;
+};
+
+/// Whether the cells between two lines, of which the first lies to the left of the second, are positive.
+bool is_positive(std::span<const Point> first, std::span<const Point> second) {
+  for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+    const std::array cell{first[i], second[i], second[i + 1], first[i + 1]};
+    for (std::size_t c = 0; c < cell.size(); ++c) {
+      if (orientation(cell[c], cell[(c + 1) % 4], cell[(c + 2) % 4]) <= 0) return false;
+    }
+  }
+  return true;
+}
+
 class Strip {
  public:
   Strip(const PlacedLine& line, const std::optional<WakeRoot>& root)
@@ -57,11 +123,14 @@ class Strip {
     half_base_ = 0.5 * length(root->base.front() - root->base.back());
     constexpr int most_rows = 1000;
     strip_.core = 2 * layers_within(line.layers, half_base_, most_rows);
+    base_.emplace(line, root->base, strip_.core / 2);
   }
 
   LayerStrip built() && {
+    if (strip_.core > 0) base_layers_ = most_base_layers();
     place_columns();
     for (std::size_t k = 0; k < reached_.size(); ++k) strip_.columns.push_back(column(k));
+    if (strip_.core > 0) lay_base();
     add_side(true);
     add_end();
     add_side(false);
@@ -83,9 +152,31 @@ class Strip {
 
   /// As wide as is wanted, at free ends as the rows are high.
   double width_wanted(double s) const {
-    const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest;
-    const double at_beginning = strip_.root ? strip_.root->spacing : at_end;
+    const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest_at_end;
+    const double at_beginning = strip_.root ? width_at_root() : at_end;
     return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on});
+  }
+
+  /// Of the first columns: behind the layers of a base as much narrower as lets sizes grow from these.
+  double width_at_root() const {
+    constexpr double over_last_layer = 3, narrowest = 0.25;
+    const double wanted = strip_.root->spacing;
+    if (base_layers_ == 0) return wanted;
+    const double last = base_->height(base_layers_) - base_->height(base_layers_ - 1);
+    return std::min(wanted,
+                    std::max(base_->height(base_layers_) + over_last_layer * last, narrowest * wanted));
+  }
+  /// On the base: at most those of the wall, as many as leave some of it to the columns behind it, and room
+  /// before the next column.
+  int most_base_layers() const {
+    constexpr double share_of_half = 0.6;
+    const double room = std::min(strip_.root->spacing, line_.spacing);
+    int layers = 0;
+    while (layers < strip_.layers && layers + 1 < strip_.core / 2 &&
+           base_->height(layers + 1) <= share_of_half * base_->half() &&
+           2 * base_->height(layers + 1) - base_->height(layers) <= room)
+      ++layers;
+    return layers;
   }
 
   void place_columns() {
@@ -138,7 +229,8 @@ class Strip {
   std::vector<Point> column(std::size_t k) const {
     std::vector<Point> across = side(k, false);
     std::ranges::reverse(across);
-    const std::vector<Point> left = side(k, true), core = core_rows(k, across.back(), left.front());
+    const std::vector<Point> left = side(k, true);
+    const std::vector<Point> core = k == 0 ? core_at_base() : core_rows(k, across.back(), left.front());
     across.insert(across.end(), core.begin(), core.end());
     across.insert(across.end(), left.begin() + (strip_.core == 0 ? 1 : 0), left.end());
     if (k == 0 && strip_.root) {  // to the last bit
@@ -169,16 +261,47 @@ class Strip {
                  widest = half_base_ + core_spreading * reached_[k];
     return std::max(half_base_, std::min(open, widest));
   }
-  /// Between the feet, without these: as high as the layers beside them there, growing to the middle.
+  /// Between the feet, without these: round the layers on the base.
+  std::vector<Point> core_at_base() const {
+    if (strip_.core == 0) return {};
+    std::vector<Point> rows;
+    for (int row = 1; row < base_layers_; ++row) rows.push_back(base_->corner(false, row));
+    const std::vector<Point> line = base_->line(base_layers_, base_layers_);
+    const bool with_ends = base_layers_ > 0;
+    rows.insert(rows.end(), line.begin() + (with_ends ? 0 : 1), line.end() - (with_ends ? 0 : 1));
+    for (int row = base_layers_ - 1; row > 0; --row) rows.push_back(base_->corner(true, row));
+    return rows;
+  }
+  /// The layers on the base, fewer where their cells would not be positive.
+  void lay_base() {
+    for (; base_layers_ > 0; --base_layers_) {
+      strip_.columns[0] = column(0);
+      strip_.base_lines.clear();
+      for (int layer = 0; layer < base_layers_; ++layer)
+        strip_.base_lines.push_back(base_->line(layer, base_layers_));
+      if (base_is_positive()) return;
+    }
+    strip_.base_lines.clear();
+    strip_.columns[0] = column(0);
+  }
+  bool base_is_positive() const {
+    const auto rows = [&](std::size_t k, int from_foot) {
+      return std::span(strip_.columns[k]).subspan(layers() + from_foot, strip_.core + 1 - 2 * from_foot);
+    };
+    if (!is_positive(rows(0, 0), rows(1, 0))) return false;
+    for (int layer = 1; layer < base_layers_; ++layer) {
+      if (!is_positive(strip_.base_lines[layer - 1], strip_.base_lines[layer])) return false;
+    }
+    return is_positive(strip_.base_lines.back(), rows(0, base_layers_));
+  }
+  /// The same behind the base: as high as the layers beside them there, growing to the middle.
   std::vector<Point> core_rows(std::size_t k, Point right, Point left) const {
     if (strip_.core == 0) return {};
     LayerSpec half = line_.layers;
     half.count = strip_.core / 2;
     const double width = length(left - right);
     const std::vector<double> heights = column_heights(half, first_height(k), 0.5 * width).reached;
-    const Path base(strip_.root->base);
     const auto at = [&](double share, bool from_left) {  // of the width
-      if (k == 0) return base.at((from_left ? share : 1 - share) * base.length());
       return from_left ? left + share * (right - left) : right + share * (left - right);
     };
     std::vector<Point> rows;
@@ -192,7 +315,8 @@ class Strip {
     const std::vector<Point>& across = strip_.columns[k];
     const double last_row =
         left ? length(across.back() - across[across.size() - 2]) : length(across[0] - across[1]);
-    const double gap = std::min(triangle_height * width_at(k), 3 * last_row);
+    const double gap = std::min(triangle_height * width_at(k),
+                                std::max(most_rows_of_triangle * last_row, flattest_triangle * width_at(k)));
     return strip_.root ? std::min(gap, steepest_front * reached_[k]) : gap;
   }
   Point outside(std::size_t k, bool left) const {
@@ -220,9 +344,9 @@ class Strip {
   void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {
     const double row =
         length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers() + strip_.core);
-    const Point beyond = triangle_height * row * out;
+    const Point beyond = triangle_over_end_row * row * out;
     strip_.corners[corner] = strip_.front.size();
-    add_front(outside(k, left_first) + beyond, leaf_over_column * row);
+    add_front(outside(k, left_first) + beyond, leaf_over_end_row * row);
     strip_.corners[corner + 1] = strip_.front.size();
     add_front(outside(k, !left_first) + beyond, leaf_over_column * width_at(k));
   }
@@ -230,6 +354,8 @@ class Strip {
   const PlacedLine& line_;
   Path path_;
   double thickness_, half_base_ = 0;
+  std::optional<Base> base_;
+  int base_layers_ = 0;
   std::vector<double> reached_;  ///< arc length to each column
   LayerStrip strip_;
 };

@@ -31,6 +31,11 @@ struct LayerStrip {
   int core = 0;                  ///< rows between them, behind a blunt edge; even
   /// 2 layers + core + 1 points each, from right to left.
   std::vector<std::vector<Point>> columns;
+  /// Layers on a blunt edge's base, of the heights asked for: lines along it, from the wall on and each from
+  /// right to left. The next one is the middle of the first column, base_layers() rows from its two feet;
+  /// the ends of each are that column's nodes on the way there. Empty: the first column lies on the base.
+  std::vector<std::vector<Point>> base_lines;
+  int base_layers() const { return static_cast<int>(base_lines.size()); }
   std::vector<Point> front;     ///< outside of it: along the left, round the end, back along the right; of a
                                 ///< free line round its beginning too, else from and to the root's columns
   std::vector<double> spacing;  ///< wanted of cells outside, on the way to the next point of the front; one

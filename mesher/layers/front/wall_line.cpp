@@ -81,7 +81,11 @@ std::vector<Point> places_between(Point from, Point to, double thickness, double
 
 WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
                    const std::vector<WakeStart>& wakes)
-    : geometry_{&geometry}, wakes_{wakes} {
+    : geometry_{&geometry} {
+  for (const WakeStart& wake : wakes) {
+    wakes_from_.emplace(wake.first, wake);
+    wakes_to_.emplace(wake.last, wake);
+  }
   for (const WallRun& run : runs) add_run(run);
   for (std::int32_t i = 0; i < size(); ++i) {
     width_.push_back(next_[i] == none ? 0 : length(stations_[next_[i]].wall - stations_[i].wall));
@@ -121,8 +125,8 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
   station.layers = run.layers[k];
   station.kept = g.kept(after);
   const Point first = left_of(station.before), last = left_of(station.after);
-  if (const auto wake = std::ranges::find(wakes_, after, &WakeStart::first); wake != wakes_.end())
-    return add_wake(station, run.layers[before_k], *wake);
+  if (const auto wake = wakes_from_.find(after); wake != wakes_from_.end())
+    return add_wake(station, run.layers[before_k], wake->second);
   const double turn = cross(station.before, station.after), cosine = dot(station.before, station.after);
   if (turn < 0 && cosine < cosine_of_sharp_edge) {
     station.shape = Station::Shape::fan;
@@ -189,11 +193,11 @@ void WallLine::add_end(const WallRun& run, bool first) {
   station.kept = true;
   station.direction = first ? direction_of(g.point(vertex), g.point(g.previous(vertex)))
                             : direction_of(g.point(vertex), g.point(g.next(vertex)));
-  const auto wake = std::ranges::find(wakes_, vertex, first ? &WakeStart::last : &WakeStart::first);
-  if (wake != wakes_.end()) {
+  const auto& wakes = first ? wakes_to_ : wakes_from_;
+  if (const auto wake = wakes.find(vertex); wake != wakes.end()) {
     station.at_wake = true;
     station.opens_wake = !first;
-    station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->direction));
+    station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->second.direction));
   }
   const double along = dot(station.direction, station.after);
   station.slope = (first ? along : -along) / dot(station.direction, left_of(station.after));

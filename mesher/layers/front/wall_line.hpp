@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -111,7 +112,7 @@ class WallLine {
   void link(std::int32_t begin, bool closed);
 
   const Geometry* geometry_;
-  std::vector<WakeStart> wakes_;
+  std::map<std::int32_t, WakeStart> wakes_from_, wakes_to_;  ///< by their first and last vertices
   std::vector<Station> stations_;
   std::vector<std::int32_t> next_, previous_;
   struct Run {

@@ -40,6 +40,9 @@ class Columns {
     return nodes;
   }
 
+  /// Whether the layers go on in a strip, as those on a base do behind which a wake begins.
+  bool ends_in_strip(const std::vector<NodeId>& column) const { return places_[column.back()].left > 0; }
+
   /// Of a node above the wall's; above a sharp edge its distance.
   double height(NodeId foot, NodeId node) const {
     constexpr double sharp = -0.5;  // columns of a fan stand where the wall turns by more than 120 degrees
@@ -105,7 +108,7 @@ struct LayerTally {
       whole += before = height;
     }
     if (column.size() > 1) first.push_back(columns_of.height(foot, column[1]));
-    thickness.push_back(whole);
+    if (!columns_of.ends_in_strip(column)) thickness.push_back(whole);
   }
 };
 

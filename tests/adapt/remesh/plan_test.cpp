@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,8 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/facets.hpp"
+#include "mesher/lattice/lattice.hpp"
 #include "tests/adapt/remesh/circular_front.hpp"
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
@@ -33,12 +37,14 @@ AdaptOptions adapt_options() {
 }
 
 /// A front across a quarter circle, on the mesh of `input`.
-SolvedMesh solved_front(const Communicator& comm, const MeshInput& input) {
-  MeshResult made = generate_mesh(comm, input).result;
+SolvedMesh solved_on(MeshResult made) {
   SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"q"}, {}, {}}, "front.mesh"};
   for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i)
     solved.solution.values.push_back(test::circular_front(solved.mesh.point(NodeId{i})));
   return solved;
+}
+SolvedMesh solved_front(const Communicator& comm, const MeshInput& input) {
+  return solved_on(generate_mesh(comm, input).result);
 }
 
 struct Counts {
@@ -283,6 +289,81 @@ TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
   const CarriedMesh next = carry_over(world(), input, plan, solved);
   EXPECT_LE(next.generated.result.tree.attributes.nodes, least);
+}
+
+/// A disc in the unit square by a polygon of 24 points, each of which turns by 15 degrees.
+MeshInput polygon_input() {
+  constexpr int corners = 24;
+  std::vector<Point> points;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    points.push_back({0.5 + 0.5 * std::cos(angle), 0.5 + 0.5 * std::sin(angle)});
+  }
+  MeshInput input{
+      {{{"side", 0, 30, "wall"}}, points, {0, corners}, std::vector<BoundaryId>(corners, BoundaryId{0})},
+      {},
+      {},
+      0};
+  input.mesh.size.min = input.mesh.size.max = 1.0 / 8;
+  return input;
+}
+
+/// Of all splits demanded at facets the least size that they lead to, over half of the segment there.
+double least_share_at_facets(const Communicator& comm, const MeshInput& input, const TreeRecord& tree,
+                             const AdaptationPlan& plan) {
+  const FacetZones facets(input.geometry);
+  const Lattice lattice(root_box(tree.attributes), tree.attributes.trees_x, tree.attributes.trees_y);
+  double share = 1e9;
+  for (const SplitDemand& demand : plan.demands) {
+    const double least = facets.least_size(lattice.box_of(demand.leaf));
+    if (least > 0) share = std::min(share, lattice.edge(std::bit_width(demand.levels)) / least);
+  }
+  return comm.minimum(share);
+}
+
+TEST(Plan, FacetsOfAPolygonAreNotResolved) {
+  const MeshInput input = polygon_input();
+  for (const bool by_sizes : {false, true}) {
+    for (const bool may : {false, true}) {
+      AdaptOptions options = adapt_options();
+      options.min = 1.0 / 1024;
+      options.facets = may;
+      if (by_sizes) {
+        options.norm = 2;
+        options.max_nodes = 4000;
+      }
+      double share = 1e9;
+      bool told = false;
+      SolvedMesh solved = solved_front(world(), input);
+      for (int cycle = 0; cycle < 4; ++cycle) {
+        const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
+        share = std::min(share, least_share_at_facets(world(), input, solved.tree, plan));
+        for (const std::string& warning : plan.warnings)
+          told = told || warning.find("adapt.facets = true") != std::string::npos;
+        GeneratedMesh next = generate_mesh(world(), input, DemandedSplits(world(), plan.demands));
+        solved = solved_on(std::move(next.result));
+      }
+      if (may) {
+        EXPECT_LT(share, 1) << by_sizes;
+      } else {
+        EXPECT_GE(share, 1) << by_sizes;
+      }
+      if (!by_sizes) {
+        EXPECT_EQ(told, !may);
+      }
+    }
+  }
+}
+
+TEST(Plan, AMetricNeedsRoomBetweenItsSizes) {
+  MeshInput input = square_input();
+  AdaptOptions options = adapt_options();
+  options.min = 2 * input.mesh.size.max;
+  EXPECT_NO_THROW(require_min_in_tree(input, options)) << "marks tell why none takes effect";
+  input.mesh.type = MeshType::metric;
+  EXPECT_THROW(require_min_in_tree(input, options), InputError);
+  options.min = input.mesh.size.max;
+  EXPECT_NO_THROW(require_min_in_tree(input, options));
 }
 
 TEST(Plan, TellsShapesByMeansRatherThanByTheFlowAtTheirEnd) {

@@ -20,12 +20,13 @@ class OgrReader : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { add_gis_formats(); }
   std::vector<Chain> read(const std::string& name, const std::string& text) {
-    return read_ogr(folder_.write(name, text), layers_, warnings_);
+    return read_ogr(folder_.write(name, text), layers_, warnings_, unit_);
   }
 
   test::InputFolder folder_;
   LayerNames layers_;
   std::vector<std::string> warnings_;
+  FileUnit unit_;
 };
 
 std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
@@ -121,6 +122,24 @@ std::string entity(const std::string& type, const std::string& handle, const std
 std::string dxf_circle(const std::string& handle, const std::string& layer, double radius,
                        const std::string& more = "") {
   return entity("CIRCLE", handle, fmt::format("  8\n{}\n{} 10\n0\n 20\n0\n 40\n{}\n", layer, more, radius));
+}
+
+TEST_F(OgrReader, TellsTheUnitThatAFileDeclares) {
+  read("a.dxf", drawing_of(dxf_circle("A1", "wall", 4)));
+  EXPECT_EQ(unit_.name, "mm");
+  EXPECT_EQ(unit_.metres, 1e-3);
+  unit_ = {};
+  read("b.dxf", dxf_of(dxf_circle("A1", "wall", 4)));
+  EXPECT_EQ(unit_.name, "");
+  const std::string loop = feature("", "Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]");
+  read("degrees.geojson", collection(loop));
+  EXPECT_EQ(unit_.name, "");
+  std::string projected = collection(loop);
+  projected.insert(projected.size() - 1,
+                   R"(,"crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::2263"}})");
+  read("feet.geojson", projected);
+  EXPECT_EQ(unit_.name, "US survey foot");
+  EXPECT_NEAR(unit_.metres, 0.3048006, 1e-7);
 }
 
 TEST_F(OgrReader, LeavesOutWhatIsNotSeenOrNoOutline) {

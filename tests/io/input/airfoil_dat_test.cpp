@@ -121,10 +121,28 @@ TEST_F(AirfoilDat, RefusesABrokenPoint) {
             0u);
 }
 
-TEST_F(AirfoilDat, RefusesSeveralElementsInOneFile) {
-  EXPECT_EQ(refused(airfoil_name + selig_rows + "999. 999.\n" + selig_rows)
-                .find("a.dat:7: this row divides the elements of a wing"),
-            0u);
+TEST_F(AirfoilDat, PassesOverTheBoxOfAGridForMses) {
+  expect_airfoil(airfoil_name + "-1.5 3.0 -2.0 2.5\n" + selig_rows, {});
+  EXPECT_EQ(refused(airfoil_name + "-1.5 3.0 -2.0 2.5\n-1.5 3.0 -2.0 2.5\n" + selig_rows).find("a.dat:3: "),
+            0u)
+      << "only the second row is one";
+  EXPECT_EQ(refused(airfoil_name + "-1.5 3.0 -2.0 2.5 1\n" + selig_rows).find("a.dat:2: "), 0u);
+}
+
+TEST_F(AirfoilDat, GivesEachElementALoopOfItsOwn) {
+  const std::string flap = "1.4 -0.1\n1.2 -0.02\n1.0 -0.05\n1.2 -0.08\n1.4 -0.1\n";
+  for (const std::string& box : {std::string(), std::string("-1.5 3.0 -2.0 2.5\n")}) {
+    for (const std::string end : {"", "999.0 999.0\n"}) {
+      const std::vector<Chain> chains = read_airfoil(
+          folder_.write("a.dat", airfoil_name + box + selig_rows + "999.0 999.0\n" + flap + end), warnings_);
+      ASSERT_EQ(chains.size(), 2u);
+      EXPECT_EQ(chains[0].name, "airfoil_1");
+      EXPECT_EQ(chains[1].name, "airfoil_2");
+      EXPECT_EQ(chains[0].points, read(airfoil_name + selig_rows));
+      EXPECT_EQ(chains[1].points, read(airfoil_name + flap));
+      EXPECT_TRUE(warnings_.empty());
+    }
+  }
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -73,6 +75,11 @@ TEST(LayerStrip, BothSidesAreMirrored) {
   }
 }
 
+/// Of a row of a wake along x; its nodes round the layers on a base stand aslant.
+double height_across(const LayerStrip& strip, std::size_t column, std::size_t row) {
+  return strip.columns[column][row + 1].y - strip.columns[column][row].y;
+}
+
 TEST(LayerStrip, ABaseIsDividedAsFinelyAsTheLayersBesideIt) {
   PlacedLine line = straight(6, 0.1);
   line.edge = 0;
@@ -83,14 +90,52 @@ TEST(LayerStrip, ABaseIsDividedAsFinelyAsTheLayersBesideIt) {
   expect_positive(strip);
   EXPECT_EQ(strip.core % 2, 0);
   EXPECT_EQ(strip.columns[0].size(), static_cast<std::size_t>(2 * line_layers.count + strip.core + 1));
-  for (int row = line_layers.count; row <= line_layers.count + strip.core; ++row)
-    EXPECT_EQ(strip.columns[0][row].x, 0) << "on the base";
   EXPECT_EQ(strip.columns[0][line_layers.count], (Point{0, -half}));
   EXPECT_EQ(strip.columns[0][line_layers.count + strip.core], (Point{0, half}));
   for (int row = line_layers.count - 1; row < line_layers.count + strip.core; ++row) {
-    const double ratio = row_height(strip, 0, row + 1) / row_height(strip, 0, row);
+    const double ratio = height_across(strip, 0, row + 1) / height_across(strip, 0, row);
     EXPECT_LT(std::max(ratio, 1 / ratio), 1.35) << row;
   }
+}
+
+/// A wake behind a base from one foot to the other, in the direction of x.
+LayerStrip wake_behind(const std::vector<Point>& base) {
+  PlacedLine line = straight(6, 0.1);
+  line.path[0] = 0.5 * (base.front() + base.back());
+  line.edge = 0;
+  line.base_end = size32(base) - 1;
+  const double h = layers_thickness(line_layers);
+  return layer_strip(line, WakeRoot{0, base.front() + Point{0, h}, base.back() - Point{0, h}, base, 0.04});
+}
+
+TEST(LayerStrip, TheBaseHasLayersOfTheHeightsAskedFor) {
+  const std::vector<std::vector<Point>> bases{
+      {{0, 0.1}, {0, -0.1}}, {{-0.02, 0.1}, {0.02, -0.1}}, {{0, 0.1}, {0.02, 0}, {0, -0.1}}};
+  for (const std::vector<Point>& base : bases) {
+    const LayerStrip strip = wake_behind(base);
+    ASSERT_GE(strip.base_layers(), base == bases[0] ? 2 : 1);
+    const std::size_t edges = strip.core - 2 * strip.base_layers();
+    ASSERT_GE(edges, 2U);
+    for (const std::vector<Point>& line : strip.base_lines) ASSERT_EQ(line.size(), edges + 1);
+    const auto middle = strip.columns[0].begin() + line_layers.count + strip.base_layers();
+    const std::vector<Point> behind(middle, middle + edges + 1);
+    const std::vector<Point>& second = strip.base_layers() > 1 ? strip.base_lines[1] : behind;
+    for (std::size_t i = 1; i < edges; ++i) {
+      double nearest = 1;  // of the base's segments
+      for (std::size_t k = 0; k + 1 < base.size(); ++k)
+        nearest =
+            std::min(nearest, std::sqrt(place_on_segment(second[i], base[k], base[k + 1]).squared_distance));
+      EXPECT_NEAR(nearest, line_layers.first, 0.03 * line_layers.first);
+    }
+    expect_positive(strip);
+  }
+}
+
+TEST(LayerStrip, ABaseThinnerThanALayerHasNone) {
+  const LayerStrip strip = wake_behind({{0, 0.004}, {0, -0.004}});
+  EXPECT_EQ(strip.base_layers(), 0);
+  for (int row = line_layers.count; row <= line_layers.count + strip.core; ++row)
+    EXPECT_EQ(strip.columns[0][row].x, 0) << "on the base";
 }
 
 TEST(LayerStrip, AFreeLineIsFineAlongItAndCoarseAtBothEnds) {

@@ -38,6 +38,23 @@ TEST_F(SettingsTest, AWallMayBeViscousOrInviscid) {
   }
 }
 
+TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
+  EXPECT_EQ(load(read("")).point(2), (Point{4, 4})) << "as they stand";
+  EXPECT_EQ(load(read("unit = \"none\"\n")).point(2), (Point{4, 4}));
+  EXPECT_EQ(load(read("unit = \"km\"\n")).point(2), (Point{4000, 4000}));
+  EXPECT_EQ(load(read("unit = \"inch\"\nscale = 2\n")).point(2), (Point{8 * 0.0254, 8 * 0.0254}));
+  EXPECT_NE(refused("unit = \"ell\"\n").find("'geometry.unit' is 'ell', but must be"), std::string::npos)
+      << refused("unit = \"ell\"\n");
+  EXPECT_NE(refused("unit = \"file\"\n").find("declares no unit of length; name its unit"),
+            std::string::npos);
+  Warnings warnings;
+  std::vector<FileExtent> extents;
+  load_geometry(read("unit = \"mm\"\ntranslate = [7, 0]\n"), warnings, {}, &extents);
+  ASSERT_EQ(extents.size(), 1u);
+  EXPECT_EQ(extents[0].box.high, (Point{4, 4})) << "as they stand in the file";
+  EXPECT_EQ(extents[0].metres, 1e-3);
+}
+
 TEST_F(SettingsTest, ReadsEveryKey) {
   const Settings s = read(R"(far_field = 10
 scale = 2
@@ -135,6 +152,22 @@ TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
             0.25);  // sizes halve: so there is a leaf no larger than max
 }
 
+TEST_F(SettingsTest, SizesAreSmallEnoughForLayersAndLines) {
+  const auto min = [&](const std::string& text) {
+    const Settings settings = read("far_field = 16\n[boundary.box]\nspacing = 0.125\n" + text);
+    return mesh_options(settings, load(settings)).size.min;
+  };
+  EXPECT_NEAR(min("layers = { first = 0.01, growth = 1.5, count = 2 }\n"), 0.015, 1e-12) << "the last layer";
+  EXPECT_EQ(min("layers = { first = 0.1, growth = 1.5, count = 2 }\n"), 0.0625);
+  const double of_line =
+      min("[[layer_line]]\npath = [[9, 9], [12, 9]]\nspacing = 0.1\nfirst = 0.001\ncount = 5\n");
+  EXPECT_LT(of_line, 0.002) << "as the rows at its ends are high";
+  EXPECT_GT(of_line, 0.001);
+  EXPECT_EQ(min("[spacing]\nmin = 0.03\n[[layer_line]]\npath = [[9, 9], [12, 9]]\nspacing = 0.1\nfirst = "
+                "0.001\ncount = 5\n"),
+            0.03);
+}
+
 TEST_F(SettingsTest, EachFileHasItsOwnPlace) {
   folder_.write("two.geom", "1\ntwo\n4\n0 0\n4 0\n4 4\n0 4\n");
   const std::string path = folder_.write("two.toml",
@@ -221,15 +254,15 @@ TEST_F(SettingsTest, ReadsWakesAndFreeLinesWithLayers) {
   EXPECT_TRUE(read("").lines.empty());
   const Settings settings = read(
       "[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n"
-      "[[wake]]\nfrom = \"box\"\npath = [[2, 0], [4, 1]]\nspacing = 0.2\n"
+      "[[wake]]\nfrom = \"box\"\nat = [1, 0]\npath = [[2, 0], [4, 1]]\nspacing = 0.2\n"
       "[[layer_line]]\npath = [[0, 0], [1, 1]]\nspacing = 0.3\nfirst = 1e-3\ncount = 5\n");
   ASSERT_EQ(settings.lines.size(), 3U);
   EXPECT_TRUE(settings.lines[0].where.ends_with("/case.toml:3")) << settings.lines[0].where;
-  EXPECT_TRUE(settings.lines[2].where.ends_with("/case.toml:11")) << settings.lines[2].where;
+  EXPECT_TRUE(settings.lines[2].where.ends_with("/case.toml:12")) << settings.lines[2].where;
   const auto both = read("[[wake]]\nfrom = [\"upper\", \"lower\"]\nlength = 1\nspacing = 1\n").lines;
   EXPECT_EQ(both[0].from, (std::vector<std::string>{"upper", "lower"}));
   EXPECT_EQ(settings.lines[0], (LayerLine{{"box"}, {}, 3, 0.1, {}}));
-  EXPECT_EQ(settings.lines[1], (LayerLine{{"box"}, {{2, 0}, {4, 1}}, 0, 0.2, {}}));
+  EXPECT_EQ(settings.lines[1], (LayerLine{{"box"}, {{2, 0}, {4, 1}}, 0, 0.2, {}, {}, Point{1, 0}}));
   EXPECT_EQ(settings.lines[2], (LayerLine{{}, {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
 }
 
@@ -242,6 +275,7 @@ TEST_F(SettingsTest, RefusesBadWakesAndFreeLines) {
   has(wake("length = 1\nspacing = 1"), "from' is missing");
   has(wake("from = \"a\"\nspacing = 1"), "length' or path must be given");
   has(wake("from = \"a\"\nlength = 1\npath = [[1, 1]]\nspacing = 1"), "length' or path must be given");
+  has(wake("from = \"a\"\nat = [1]\nlength = 1\nspacing = 1"), "at' ");
   has(wake("from = \"a\"\nlength = 1"), "spacing' is missing");
   has(wake("from = \"a\"\nlength = 1\nspacing = 0"), "spacing' is 0");
   has(wake("from = \"a\"\npath = [[1, 1], [1, 1]]\nspacing = 1"),

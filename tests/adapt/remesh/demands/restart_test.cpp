@@ -58,11 +58,16 @@ bool chosen(const Quadrant& q) {
 
 constexpr int finest = 12;
 
+/// The same for all leaves.
+std::vector<std::int8_t> levels_of(const TreeRecord& tree, int level) {
+  return std::vector<std::int8_t>(tree.leaves.size(), static_cast<std::int8_t>(level));
+}
+
 ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
   std::vector<Mark> marks;
   for (const LeafRecord& leaf : tree.leaves)
     marks.push_back(chosen(quadrant_of(leaf)) ? Mark::refine : Mark::keep);
-  return changed_splits(comm, tree, marks, finest);
+  return changed_splits(comm, tree, marks, levels_of(tree, finest));
 }
 
 class RestartUnderGradation : public testing::TestWithParam<double> {};
@@ -86,8 +91,8 @@ TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
   for (int cycle = 0; cycle < 2; ++cycle) {
     const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen),
         of_one(single.leaves.size(), Mark::coarsen);
-    const ChangedSplits by_all = changed_splits(world(), together, of_all, finest),
-                        by_one = changed_splits(alone, single, of_one, finest);
+    const ChangedSplits by_all = changed_splits(world(), together, of_all, levels_of(together, finest)),
+                        by_one = changed_splits(alone, single, of_one, levels_of(single, finest));
     EXPECT_EQ(by_all.coarsened, by_one.coarsened);
     EXPECT_GT(by_all.coarsened, 0);
     together = tree_of(input, by_all.demands);
@@ -126,10 +131,11 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
   // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then
   // it takes a cycle for each level.
   std::vector<Mark> marks(second.leaves.size(), Mark::coarsen);
-  TreeRecord third = tree_of(input, changed_splits(world(), second, marks, finest).demands);
+  TreeRecord third =
+      tree_of(input, changed_splits(world(), second, marks, levels_of(second, finest)).demands);
   for (int cycle = 0; cycle < 4; ++cycle) {
     marks.assign(third.leaves.size(), Mark::coarsen);
-    third = tree_of(input, changed_splits(world(), third, marks, finest).demands);
+    third = tree_of(input, changed_splits(world(), third, marks, levels_of(third, finest)).demands);
   }
   EXPECT_EQ(all_leaves(third), all_leaves(first));
 }
@@ -151,16 +157,17 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
   for (int cycle = 0; cycle < 2; ++cycle) {
     const auto marks = marks_of_cells(tree, Mark::refine,
                                       [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
-    tree = tree_of(input, changed_splits(world(), tree, marks, finest).demands);
+    tree = tree_of(input, changed_splits(world(), tree, marks, levels_of(tree, finest)).demands);
   }
   EXPECT_GT(world().sum(std::ssize(tree.leaves)), 2 * world().sum(std::ssize(first.leaves)));
   const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
-  EXPECT_EQ(all_leaves(tree_of(input, changed_splits(world(), tree, nothing, finest).demands)),
-            all_leaves(tree));
+  EXPECT_EQ(
+      all_leaves(tree_of(input, changed_splits(world(), tree, nothing, levels_of(tree, finest)).demands)),
+      all_leaves(tree));
   for (int cycle = 0; cycle < 4; ++cycle) {
-    tree = tree_of(
-        input,
-        changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere), finest).demands);
+    tree = tree_of(input, changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere),
+                                         levels_of(tree, finest))
+                              .demands);
   }
   EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
@@ -168,7 +175,7 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
 /// One cycle of a mark on every leaf.
 TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
   const ChangedSplits changed =
-      changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), finest);
+      changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), levels_of(tree, finest));
   const std::int64_t leaves = world().sum(std::ssize(tree.leaves));
   EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
   return tree_of(input, changed.demands);
@@ -197,7 +204,7 @@ TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
   const std::vector<Mark> marks(first.leaves.size(), Mark::coarsen);
-  const ChangedSplits changed = changed_splits(world(), first, marks, finest);
+  const ChangedSplits changed = changed_splits(world(), first, marks, levels_of(first, finest));
   EXPECT_EQ(changed.coarsened, 0);
   EXPECT_EQ(all_leaves(tree_of(input, changed.demands)), all_leaves(first));
 }
@@ -206,7 +213,7 @@ TEST(Restart, LeavesOfTheFinestLevelAreNotSplit) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
   const std::vector<Mark> marks(first.leaves.size(), Mark::refine);
-  EXPECT_EQ(changed_splits(world(), first, marks, 1).refined, 0);
+  EXPECT_EQ(changed_splits(world(), first, marks, levels_of(first, 1)).refined, 0);
 }
 
 TEST(Restart, WantedLevelsStandUnderACoarserCase) {

@@ -30,6 +30,11 @@ AdaptOptions sizes_for(std::int64_t nodes) {
   return options;
 }
 
+/// The same for all leaves.
+std::vector<std::int8_t> levels_of(const SolvedMesh& mesh, int level) {
+  return std::vector<std::int8_t>(mesh.tree.leaves.size(), static_cast<std::int8_t>(level));
+}
+
 double quadratic(Point p) { return p.x * p.x; }
 double linear(Point p) { return p.x; }
 
@@ -86,7 +91,7 @@ TEST(SplitsForLevels, JumpUpAndDownByAnyNumber) {
 TEST(WantedLevels, FollowTheFormula) {
   const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const SolvedMesh mesh = solved(world(), input, quadratic);  // of one size everywhere
-  const WantedLevels wanted(world(), sizes_for(1000), mesh, 10);
+  const WantedLevels wanted(world(), sizes_for(1000), mesh, levels_of(mesh, 10));
   EXPECT_FALSE(wanted.flat());
   // x^2 on squares of 1/16: the mean error is h^2 |q''| / 12.
   EXPECT_NEAR(wanted.error(), 2.0 / 256 / 12, 1e-8);
@@ -106,7 +111,7 @@ TEST(WantedLevels, FollowTheFormula) {
 TEST(WantedLevels, OfALinearFieldAskForNothing) {
   const MeshInput input = test::square_of_one_tree(1.0 / 16);
   const SolvedMesh mesh = solved(world(), input, linear);
-  EXPECT_TRUE(WantedLevels(world(), sizes_for(1000), mesh, 10).flat());
+  EXPECT_TRUE(WantedLevels(world(), sizes_for(1000), mesh, levels_of(mesh, 10)).flat());
   const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(1000), mesh);
   EXPECT_FALSE(plan.changes_mesh());
   EXPECT_EQ(plan.estimate, 0);

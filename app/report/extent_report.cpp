@@ -1,0 +1,49 @@
+#include "app/report/extent_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace quadloop {
+
+namespace {
+
+std::string line_of(const FileExtent& extent) {
+  const auto& [low, high] = extent.box;
+  const std::string unit = extent.declared.name.empty() ? "no unit declared" : "in " + extent.declared.name;
+  const std::string taken = extent.metres > 0 ? fmt::format("meshed in metres, {:.6g} for one", extent.metres)
+                                              : "meshed as they stand";
+  return fmt::format("{}: coordinates from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), {}, {}",
+                     std::filesystem::path(extent.path).filename().string(), low.x, low.y, high.x, high.y,
+                     unit, taken);
+}
+
+JsonObject json_of_extent(const FileExtent& extent) {
+  JsonObject json;
+  json.add("file", extent.path);
+  json.add("extent", std::vector{extent.box.low.x, extent.box.low.y, extent.box.high.x, extent.box.high.y});
+  json.add_raw("unit", extent.declared.name.empty() ? "null" : json_of(extent.declared.name));
+  json.add_raw("metres", extent.metres > 0 ? json_of(extent.metres) : "null");
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents) {
+  std::vector<std::string> lines;
+  const std::size_t listed = std::min(extents.size(), most_listed);
+  for (std::size_t i = 0; i < listed; ++i) lines.push_back(line_of(extents[i]));
+  if (extents.size() > listed)
+    lines.push_back(fmt::format("{} more geometry files; --json shows them", extents.size() - listed));
+  return lines;
+}
+
+void add_extents(Figures& figures, const std::vector<FileExtent>& extents) {
+  std::vector<JsonObject> json;
+  for (const FileExtent& extent : extents) json.push_back(json_of_extent(extent));
+  for (const std::string& line : extent_lines(extents)) figures.add_lines("  " + line + "\n");
+  figures.add_member("geometry", json_of(json));
+}
+
+}  // namespace quadloop

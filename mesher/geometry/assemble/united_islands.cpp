@@ -1,0 +1,281 @@
+#include "mesher/geometry/assemble/united_islands.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "mesher/base/ids.hpp"
+#include "mesher/geometry/assemble/split_loops.hpp"
+#include "mesher/geometry/assemble/winding_faces.hpp"
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/predicates.hpp"
+#include "mesher/geometry/validate.hpp"
+
+namespace quadloop {
+
+namespace {
+
+using LoopGroup = std::vector<std::int32_t>;  ///< loops that meet, ascending
+
+double longer_side_of(const Outline& outline) {
+  Box box;
+  for (const OutlineLoop& loop : outline.loops) {
+    for (const Point p : loop.points) box.include(p);
+  }
+  return std::max(box.width(), box.height());
+}
+
+/// Only its sign and order of size are needed.
+double area_of(const std::vector<Point>& points) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    sum += cross(points[i] - points[0], points[i + 1] - points[0]);
+  return 0.5 * sum;
+}
+
+std::int32_t root_of(std::vector<std::int32_t>& parents, std::int32_t l) {
+  while (parents[l] != l) l = parents[l] = parents[parents[l]];
+  return l;
+}
+
+/// Loops that have a point in common, directly or through others; in the order of their first loops.
+std::vector<LoopGroup> groups_of(const std::vector<SplitLoop>& loops) {
+  std::vector<std::int32_t> parents(loops.size());
+  std::iota(parents.begin(), parents.end(), 0);
+  std::map<Point, std::int32_t> first_at;
+  for (std::int32_t l = 0; l < size32(loops); ++l) {
+    for (const Point p : loops[l].points) {
+      const auto [found, is_new] = first_at.try_emplace(p, l);
+      if (is_new) continue;
+      const std::int32_t one = root_of(parents, found->second), other = root_of(parents, l);
+      parents[std::max(one, other)] = std::min(one, other);
+    }
+  }
+  std::map<std::int32_t, LoopGroup> by_root;
+  for (std::int32_t l = 0; l < size32(loops); ++l) by_root[root_of(parents, l)].push_back(l);
+  std::vector<LoopGroup> groups;
+  for (auto& [root, group] : by_root) groups.push_back(std::move(group));
+  return groups;
+}
+
+/// Tells which loops are around a point that is on none of them.
+class LoopsAround {
+ public:
+  explicit LoopsAround(const std::vector<SplitLoop>& loops) {
+    for (std::int32_t l = 0; l < size32(loops); ++l) {
+      const auto& points = loops[l].points;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        edges_.push_back({points[i], points[(i + 1) % points.size()], l});
+    }
+    tree_ = BoxTree(size32(edges_), [&](std::int32_t e) { return box_of(edges_[e].a, edges_[e].b); });
+  }
+
+  /// Ascending, by an exact count of the edges that a ray to the left crosses.
+  std::vector<std::int32_t> of(Point p) const {
+    std::set<std::int32_t> odd;
+    tree_.for_each_meeting({{-std::numeric_limits<double>::infinity(), p.y}, p}, [&](std::int32_t e) {
+      const auto& [a, b, loop] = edges_[e];
+      if ((a.y > p.y) == (b.y > p.y) || orientation(std::min(a, b, lower), std::max(a, b, lower), p) > 0)
+        return;
+      if (!odd.insert(loop).second) odd.erase(loop);
+    });
+    return {odd.begin(), odd.end()};
+  }
+
+ private:
+  struct Edge {
+    Point a, b;
+    std::int32_t loop = 0;
+  };
+  static bool lower(Point a, Point b) { return a.y < b.y; }
+
+  std::vector<Edge> edges_;
+  BoxTree tree_;
+};
+
+/// What is to be counted for the user.
+struct UnionCounts {
+  std::int64_t joined = 0, made = 0, dropped = 0;
+  std::string first_joined, first_dropped;
+};
+
+class IslandUnion {
+ public:
+  IslandUnion(const Outline& outline, double near)
+      : outline_{outline},
+        loops_{split_loops(outline, near)},
+        groups_{groups_of(loops_)},
+        around_{loops_},
+        areas_(loops_.size()),
+        sign_(loops_.size(), 0),
+        outer_(groups_.size()) {
+    for (std::size_t l = 0; l < loops_.size(); ++l) areas_[l] = area_of(loops_[l].points);
+    std::vector<std::int32_t> group_of(loops_.size());
+    for (std::int32_t g = 0; g < size32(groups_); ++g) {
+      for (const std::int32_t l : groups_[g]) group_of[l] = g;
+    }
+    for (std::int32_t g = 0; g < size32(groups_); ++g) {
+      outer_[g] = around_.of(loops_[groups_[g].front()].points.front());
+      std::erase_if(outer_[g], [&](std::int32_t l) { return group_of[l] == g; });
+      for (const std::int32_t l : groups_[g]) sign_[l] = sign_of(l, g);
+    }
+  }
+
+  Outline run(UnionCounts& counts) const {
+    Outline united{outline_.names, {}};
+    for (std::int32_t g = 0; g < size32(groups_); ++g) {
+      const LoopGroup& group = groups_[g];
+      const std::size_t before = united.loops.size();
+      if (group.size() > 1)
+        add_union(g, united.loops);
+      else if (const int outside = outside_of(g); (outside > 0) != (outside + sign_[group[0]] > 0))
+        united.loops.push_back(outline_.loops[group[0]]);
+      count(group, united.loops.size() - before, counts);
+    }
+    return united;
+  }
+
+ private:
+  const std::string& source(std::int32_t l) const { return outline_.loops[l].source; }
+  std::string text_of(std::int32_t l) const {
+    const OutlineLoop& loop = outline_.loops[l];
+    return fmt::format("boundary '{}' at ({}, {})", outline_.names[loop.boundary.front().value()],
+                       loop.points.front().x, loop.points.front().y);
+  }
+
+  /// Of two loops that meet: whether all points of the one that are none of the other lie in it.
+  bool is_inside(std::int32_t inner, std::int32_t l) const {
+    const std::set<Point> shared(loops_[l].points.begin(), loops_[l].points.end());
+    bool any = false;
+    for (const Point p : loops_[inner].points) {
+      if (shared.contains(p)) continue;
+      if (std::ranges::count(around_.of(p), l) == 0) return false;
+      any = true;
+    }
+    return any;
+  }
+  /// Whether this loop may be meant as a hole in the other: its file directs it, or both are of one feature.
+  bool may_be_hole_in(std::int32_t l, std::int32_t other) const {
+    return outline_.loops[l].directed || source(l) == source(other);
+  }
+
+  /// +1 for a loop with domain in it, -1 for an island.
+  int sign_of(std::int32_t l, std::int32_t g) const {
+    const std::vector<std::int32_t>& outer = outer_[g];
+    std::vector<std::int32_t> around;  // that count for this loop
+    for (const std::int32_t other : groups_[g]) {
+      if (other != l && may_be_hole_in(l, other) && is_inside(l, other)) around.push_back(other);
+    }
+    if (outer.empty() && around.empty()) return is_outermost(l, g) ? 1 : -1;
+    if ((outer.size() + around.size()) % 2 == 1) return -1;
+    around.insert(around.end(), outer.begin(), outer.end());
+    const bool is_hole =
+        outline_.loops[l].directed
+            ? areas_[l] > 0
+            : std::ranges::any_of(around, [&](std::int32_t other) { return source(other) == source(l); });
+    return is_hole ? 1 : -1;
+  }
+
+  /// Of loops with nothing around them that meet: the largest is the outer boundary, and others that are
+  /// directed so.
+  bool is_outermost(std::int32_t l, std::int32_t g) const {
+    const LoopGroup& group = groups_[g];
+    const std::int32_t largest =
+        *std::ranges::max_element(group, {}, [&](std::int32_t other) { return std::abs(areas_[other]); });
+    return l == largest || (outline_.loops[l].directed && areas_[l] > 0);
+  }
+
+  int outside_of(std::int32_t g) const {
+    int sum = 0;
+    for (const std::int32_t l : outer_[g]) sum += sign_[l];
+    return std::min(sum, 1);
+  }
+
+  void add_union(std::int32_t g, std::vector<OutlineLoop>& united) const {
+    struct Origin {
+      std::int32_t loop, segment;
+    };
+    std::vector<WindingEdge> edges;
+    std::vector<Origin> origins;
+    for (const std::int32_t l : groups_[g]) {
+      const SplitLoop& loop = loops_[l];
+      const int weight = areas_[l] > 0 ? sign_[l] : -sign_[l];
+      for (std::size_t i = 0; i < loop.points.size(); ++i) {
+        if (origins.empty() || origins.back().loop != l || origins.back().segment != loop.segment[i])
+          origins.push_back({l, loop.segment[i]});
+        edges.push_back(
+            {loop.points[i], loop.points[(i + 1) % loop.points.size()], weight, size32(origins) - 1});
+      }
+    }
+    for (const WindingLoop& found : outline_of_positive(edges, outside_of(g))) {
+      OutlineLoop loop;
+      for (std::size_t i = 0; i < found.points.size(); ++i) {
+        if (i > 0 && found.origin[i] == found.origin[i - 1]) continue;  // another loop split the segment here
+        const auto [l, segment] = origins[found.origin[i]];
+        loop.points.push_back(found.points[i]);
+        loop.boundary.push_back(outline_.loops[l].boundary[segment]);
+      }
+      loop.source = source(origins[found.origin.front()].loop);
+      united.push_back(std::move(loop));
+    }
+  }
+
+  void count(const LoopGroup& group, std::size_t made, UnionCounts& counts) const {
+    if (made == 0) {
+      if (counts.dropped == 0) counts.first_dropped = text_of(group.front());
+      counts.dropped += std::ssize(group);
+    } else if (group.size() > 1) {
+      if (counts.joined == 0) counts.first_joined = text_of(group[0]) + " and " + text_of(group[1]);
+      counts.joined += std::ssize(group);
+      counts.made += static_cast<std::int64_t>(made);
+    }
+  }
+
+  const Outline& outline_;
+  std::vector<SplitLoop> loops_;
+  std::vector<LoopGroup> groups_;
+  LoopsAround around_;
+  std::vector<double> areas_;
+  std::vector<int> sign_;
+  std::vector<std::vector<std::int32_t>> outer_;  ///< by group: the loops of other groups around it
+};
+
+void require_simple_loops(const Outline& outline) {
+  for (const OutlineLoop& loop : outline.loops) validate({outline.names, {loop}});
+}
+
+void warn_of_names_lost(const Outline& before, const Outline& after, std::vector<std::string>& warnings) {
+  std::set<BoundaryId> left;
+  for (const OutlineLoop& loop : after.loops) left.insert(loop.boundary.begin(), loop.boundary.end());
+  for (std::int32_t b = 0; b < size32(before.names); ++b) {
+    if (left.contains(BoundaryId{b})) continue;
+    warnings.push_back(
+        fmt::format("geometry.overlap: boundary '{}' has no edge left: it lies inside the union of others",
+                    before.names[b]));
+  }
+}
+
+}  // namespace
+
+Outline united_islands(const Outline& outline, double join, std::vector<std::string>& warnings) {
+  require_simple_loops(outline);
+  UnionCounts counts;
+  Outline united = IslandUnion(outline, join * longer_side_of(outline)).run(counts);
+  if (counts.joined > 0)
+    warnings.push_back(
+        fmt::format("geometry.overlap: {} loops that overlap or touch became {}, the first of them {}",
+                    counts.joined, counts.made, counts.first_joined));
+  if (counts.dropped > 0)
+    warnings.push_back(fmt::format("geometry.overlap: {} loop{} inside islands dropped, the first {}",
+                                   counts.dropped, counts.dropped == 1 ? " was" : "s were",
+                                   counts.first_dropped));
+  warn_of_names_lost(outline, united, warnings);
+  return united;
+}
+
+}  // namespace quadloop
