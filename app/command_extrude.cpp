@@ -11,6 +11,7 @@
 #include <span>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
@@ -115,7 +116,10 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
     require_readable_suffix(arguments.input);
     require_solid_suffix(arguments.output);
     if (!context.comm.is_root()) return;
-    whole = read_mesh(arguments.input);
+    MeshOfFile input = read_mesh_file(arguments.input);
+    if (const FileMesh* solid = std::get_if<FileMesh>(&input); solid != nullptr && !is_one_cell_thick(*solid))
+      throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
+    whole = plane_of(std::move(input), arguments.input);
     require_valid_input(whole, arguments.input);
     warnings = whole.warnings;
     for (std::string& loss : drop_interfaces(whole, arguments.output)) warnings.push_back(std::move(loss));

@@ -87,14 +87,29 @@ std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const Tre
   return inputs;
 }
 
+/// The first of the files that holds the tree's mesh. On the root alone.
+std::optional<Mesh> mesh_in_files(const TreeAttributes& tree, const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    if (!std::filesystem::exists(file)) continue;
+    try {
+      LoadedMesh loaded = read_mesh(file);
+      if (is_mesh_of_tree(loaded.mesh, tree)) return std::move(loaded.mesh);
+    } catch (const InputError&) {
+      continue;  // it was only a guess
+    }
+  }
+  return {};
+}
+
 /// Compares the mesh that the solution came with to the tree's own, and settles on one of them. Returns
 /// warnings. *Collective.*
 Warnings settle(const Communicator& comm, const RemeshArguments& arguments, const TreeRecord& tree,
                 const CaseInput& input, LoadedMesh& whole) {
   const std::vector<MeshInput> inputs = former_inputs(arguments, tree, input);
-  const TreeMesh own = mesh_of_tree(comm, tree, whole.mesh, files_beside(arguments.tree), inputs);
+  const auto find = [&] { return mesh_in_files(tree.attributes, files_beside(arguments.tree)); };
+  const TreeMesh own = mesh_of_tree(comm, tree, whole.mesh, find, inputs);
   comm.together([&] {
-    if (comm.is_root()) settle_mesh(own, whole, arguments.solution);
+    if (comm.is_root()) settle_mesh(own, whole.mesh, arguments.solution);
   });
   if (own.known) return {};
   return {
@@ -173,7 +188,9 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
 SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem,
                    Warnings& doubts) {
   doubts = settle(comm, arguments, problem.tree, problem.input, problem.whole);
-  SolvedMesh solved = spread_solved(comm, std::exchange(problem.whole, {}), std::move(problem.tree));
+  const LoadedMesh whole = std::exchange(problem.whole, {});
+  SolvedMesh solved =
+      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
   require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;

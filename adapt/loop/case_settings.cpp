@@ -4,6 +4,7 @@
 
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "mesher/generate/digests.hpp"
 
@@ -12,6 +13,13 @@ namespace quadloop {
 namespace {
 
 constexpr const char* template_files_key = "solver.template/";
+
+/// Of JSON values, whose numbers and lists may be written in several ways.
+bool is_same_value(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const auto first = nlohmann::json::parse(a, nullptr, false), second = nlohmann::json::parse(b, nullptr, false);
+  return !first.is_discarded() && first == second;
+}
 
 std::string text_of(const ChangedSetting& change) {
   const auto& [key, before, now] = change;
@@ -36,7 +44,7 @@ std::vector<ChangedSetting> changed_settings(const CaseSettings& before, const C
   for (const auto& [key, value] : now) all[key].now = value;
   std::vector<ChangedSetting> changed;
   for (const auto& [key, setting] : all) {
-    if (setting.before != setting.now) changed.push_back({key, setting.before, setting.now});
+    if (!is_same_value(setting.before, setting.now)) changed.push_back({key, setting.before, setting.now});
   }
   return changed;
 }

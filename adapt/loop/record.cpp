@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <sstream>
-#include <string_view>
+#include <nlohmann/json.hpp>
 
 namespace quadloop {
 
 namespace {
 
-constexpr const char* settings_begin = "  \"case\": {";
-constexpr const char* settings_end = "  },";
+using Json = nlohmann::ordered_json;
 
 JsonObject object(const std::vector<std::pair<std::string, double>>& members) {
   JsonObject json;
@@ -28,40 +26,27 @@ JsonObject record_of(const PassRecord& pass) {
   return json;
 }
 
-std::optional<std::uint64_t> digest_in(const std::string& json, const std::string& name) {
-  const std::string begin = "\n  \"" + name + "\": \"";
-  const std::size_t at = json.find(begin);
-  if (at == std::string::npos) return {};
+/// An empty object where the text is none.
+Json parsed(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+std::optional<std::uint64_t> digest_in(const Json& json, const std::string& name) {
+  const auto found = json.find(name);
+  if (found == json.end() || !found->is_string()) return {};
+  const auto& text = found->get_ref<const std::string&>();
   std::uint64_t digest = 0;
-  const char* first = json.data() + at + begin.size();
-  const auto [end, fault] = std::from_chars(first, json.data() + json.size(), digest, 16);
-  if (fault != std::errc{} || end - first != 16) return {};
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), digest, 16);
+  if (fault != std::errc{} || text.size() != 16 || end != text.data() + text.size()) return {};
   return digest;
 }
 
-/// The text between the quotes that JSON put there.
-std::string unquoted(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\\' && i + 1 < text.size()) ++i;
-    result += text[i];
-  }
-  return result;
-}
-
-CaseSettings settings_in(const std::string& json) {
+CaseSettings settings_in(const Json& json) {
   CaseSettings settings;
-  std::istringstream lines(json);
-  std::string line;
-  while (std::getline(lines, line) && line != settings_begin) {
-  }
-  while (std::getline(lines, line) && line != settings_end) {
-    const std::size_t begin = line.find('"'), end = line.find("\": ");
-    if (begin == std::string::npos || end == std::string::npos || end <= begin) continue;
-    std::string value = line.substr(end + 3);
-    if (value.ends_with(',')) value.pop_back();
-    settings.emplace_back(unquoted(std::string_view(line).substr(begin + 1, end - begin - 1)), value);
-  }
+  const auto found = json.find("case");
+  if (found == json.end() || !found->is_object()) return settings;
+  for (const auto& [key, value] : found->items()) settings.emplace_back(key, value.dump());
   return settings;
 }
 
@@ -181,19 +166,17 @@ std::string json_text(const CycleRecord& record) {
   return json.lines() + "\n";
 }
 
-std::optional<double> recorded_number(const std::string& json, const std::string& key) {
-  const std::string head = "\n  \"" + key + "\": ";
-  const std::size_t at = json.find(head);
-  if (at == std::string::npos) return {};
-  double value = 0;
-  const char* const begin = json.data() + at + head.size();
-  if (std::from_chars(begin, json.data() + json.size(), value).ec != std::errc()) return {};
-  return value;
+std::optional<double> recorded_number(const std::string& text, const std::string& key) {
+  const Json json = parsed(text);
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_number()) return {};
+  return found->get<double>();
 }
 
-std::optional<RecordedCase> recorded_case(const std::string& json) {
+std::optional<RecordedCase> recorded_case(const std::string& text) {
+  const Json json = parsed(text);
   const auto of_case = digest_in(json, "case_digest"), of_geometry = digest_in(json, "geometry_digest");
-  if (!of_case || !of_geometry || !json.ends_with("}\n}\n")) return {};
+  if (!of_case || !of_geometry || !text.ends_with('\n')) return {};
   return RecordedCase{*of_case, *of_geometry, digest_in(json, "solution_digest"), settings_in(json)};
 }
 

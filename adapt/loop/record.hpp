@@ -82,7 +82,7 @@ JsonObject record_of(const std::vector<BoundaryForce>& forces);
 /// One JSON object, a member a line; numbers are the shortest that read back as they are.
 std::string json_text(const CycleRecord& record);
 
-/// What a record's text says of the case. Read line by line, as json_text writes it.
+/// What a record's text says of the case.
 struct RecordedCase {
   std::uint64_t case_digest = 0, geometry_digest = 0;
   std::optional<std::uint64_t> solution_digest;  ///< records of earlier versions have none
@@ -90,9 +90,9 @@ struct RecordedCase {
 };
 
 /// What a record's text has under a key of its own that is a number, as `cl`. Empty where there is none.
-std::optional<double> recorded_number(const std::string& json, const std::string& key);
+std::optional<double> recorded_number(const std::string& text, const std::string& key);
 
 /// Empty where the text is no whole record of ours.
-std::optional<RecordedCase> recorded_case(const std::string& json);
+std::optional<RecordedCase> recorded_case(const std::string& text);
 
 }  // namespace quadloop

@@ -7,15 +7,14 @@
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
-#include "io/model/loaded_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop {
 
-SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree) {
-  const MeshOrder order = own_order(whole.mesh);  // along the curve, as the tree has the cells
-  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), {}, {}};
-  solved.solution = scatter_field(comm, whole.solution.value_or(Field{}), solved.mesh, order);
+SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree) {
+  const MeshOrder order = own_order(whole);  // along the curve, as the tree has the cells
+  SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
+  solved.solution = scatter_field(comm, solution, solved.mesh, order);
   return solved;
 }
 

@@ -10,11 +10,9 @@
 
 namespace quadloop {
 
-struct LoadedMesh;
-
-/// The whole mesh on the root, its cells in the order of the tree's leaves, and its tree, spread over the
-/// ranks. *Collective.*
-SolvedMesh spread_solved(const Communicator& comm, const LoadedMesh& whole, TreeRecord tree);
+/// The whole mesh on the root, its cells in the order of the tree's leaves, with its solution and its tree, spread
+/// over the ranks. *Collective.*
+SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree);
 
 /// What a mesh on the way to a run's first one came to, solved roughly.
 struct PassRecord {

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "adapt/remesh/smoothed_mesh.hpp"
-#include "io/mesh_file.hpp"
-#include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/compare_meshes.hpp"
@@ -18,27 +15,6 @@
 namespace quadloop {
 
 namespace {
-
-bool is_of(const TreeAttributes& tree, const Mesh& whole) {
-  const auto count = [](const auto& rows) { return std::ssize(rows); };
-  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
-                      count(whole.quads) == tree.quads;
-  return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
-}
-
-/// The first of the files that holds it. On the root alone.
-std::optional<Mesh> mesh_in_files(const TreeAttributes& tree, std::span<const std::string> files) {
-  for (const std::string& file : files) {
-    if (!std::filesystem::exists(file)) continue;
-    try {
-      LoadedMesh loaded = read_mesh(file);
-      if (is_of(tree, loaded.mesh)) return std::move(loaded.mesh);
-    } catch (const InputError&) {
-      continue;  // it was only a guess
-    }
-  }
-  return {};
-}
 
 /// All ranks' parts as one mesh on the root, as it would be read from its file; an empty one elsewhere.
 /// *Collective.*
@@ -62,8 +38,15 @@ void require_valid_cells(const Mesh& mesh, const std::string& path) {
 
 }  // namespace
 
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree) {
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
+  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
+                      count(whole.quads) == tree.quads;
+  return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
+}
+
 TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Mesh& solved,
-                      std::span<const std::string> beside, std::span<const MeshInput> inputs) {
+                      const std::function<std::optional<Mesh>()>& find, std::span<const MeshInput> inputs) {
   TreeMesh result;
   const auto fits = [&](const MeshInput& input) {
     return input.geometry.digest() == tree.attributes.geometry_digest &&
@@ -74,8 +57,8 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
   }
   std::optional<Mesh> found;
   if (comm.is_root()) {
-    result.is_solved = is_of(tree.attributes, solved);
-    if (!result.is_solved) found = mesh_in_files(tree.attributes, beside);
+    result.is_solved = is_mesh_of_tree(solved, tree.attributes);
+    if (!result.is_solved) found = find();
   }
   const auto input = std::ranges::find_if(inputs, fits);
   result.known = comm.any(result.is_solved || found.has_value());
@@ -89,21 +72,21 @@ TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Me
   return result;
 }
 
-void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path) {
+void settle_mesh(const TreeMesh& of_tree, Mesh& loaded, const std::string& path) {
   if (of_tree.is_solved) return;
-  if (!of_tree.known) return require_valid_cells(loaded.mesh, path);
-  const std::string other = difference(loaded.mesh, of_tree.whole);
+  if (!of_tree.known) return require_valid_cells(loaded, path);
+  const std::string other = difference(loaded, of_tree.whole);
   if (other.empty()) {
-    loaded.mesh = of_tree.whole;
+    loaded = of_tree.whole;
     return;
   }
-  const std::string fault = fault_of_smoothed(of_tree.whole, loaded.mesh, of_tree.outline);
+  const std::string fault = fault_of_smoothed(of_tree.whole, loaded, of_tree.outline);
   if (!fault.empty())
     throw InputError(path + ": " + other + " (nor is it the tree's mesh smoothed: " + fault + ")");
-  if (!same_cells_in_any_order(loaded.mesh, of_tree.whole)) return;
-  std::vector<Point> points = std::move(loaded.mesh.points);
-  loaded.mesh = of_tree.whole;
-  loaded.mesh.points = std::move(points);
+  if (!same_cells_in_any_order(loaded, of_tree.whole)) return;
+  std::vector<Point> points = std::move(loaded.points);
+  loaded = of_tree.whole;
+  loaded.points = std::move(points);
 }
 
 }  // namespace quadloop

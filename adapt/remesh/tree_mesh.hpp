@@ -1,11 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "io/model/loaded_mesh.hpp"
 #include "mesher/generate/generate.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
@@ -20,18 +20,20 @@ struct TreeMesh {
   bool is_solved = false;             ///< on the root alone
 };
 
-/// Looks for it: first `solved`, the root's mesh that a solution came with, then the files in `beside`, of
-/// which those that are not there or cannot be read are passed over; else it is made anew from the tree and
-/// the one of the inputs that has the tree's outline and case. Not known where none leads to it: case or
-/// outline has changed since. *Collective.*
+/// Whether a whole mesh is the one that the tree was saved with, to the last bit.
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree);
+
+/// Looks for it: first `solved`, the root's mesh that a solution came with, then what `find()` returns on the
+/// root, as from files; else it is made anew from the tree and the one of the inputs that has the tree's
+/// outline and case. Not known where none leads to it: case or outline has changed since. *Collective.*
 TreeMesh mesh_of_tree(const Communicator& comm, const TreeRecord& tree, const Mesh& solved,
-                      std::span<const std::string> beside, std::span<const MeshInput> inputs);
+                      const std::function<std::optional<Mesh>()>& find, std::span<const MeshInput> inputs);
 
 /// Settles on which mesh a solution counts. `loaded`, on the calling rank alone, is the mesh that the
 /// solution's file `path` came with. Where the tree's mesh is known, the nodes of the file must be within
 /// 1e-6 of a local edge of its own, and those take their place, with its cells; or they must be its own
 /// smoothed (fault_of_smoothed()). Where it is not known the cells must be valid. Throws InputError that
 /// names the file and the node, or the reason.
-void settle_mesh(const TreeMesh& of_tree, LoadedMesh& loaded, const std::string& path);
+void settle_mesh(const TreeMesh& of_tree, Mesh& loaded, const std::string& path);
 
 }  // namespace quadloop

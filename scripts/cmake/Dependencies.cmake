@@ -10,6 +10,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(EXPAT REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
 
 # Debian's p4est and cgns carry neither CMake packages nor pkg-config files.

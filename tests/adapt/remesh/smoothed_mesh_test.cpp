@@ -104,28 +104,22 @@ TEST(SmoothedMesh, AnotherMeshIsNone) {
   EXPECT_EQ(fault_of_smoothed(before, found, nullptr), "its cells are others");
 }
 
-LoadedMesh loaded(const Mesh& mesh) {
-  LoadedMesh result;
-  result.mesh = mesh;
-  return result;
-}
-
 TEST(SettleMesh, TheTreesOwnNodesTakeThePlaceOfRoundedOnes) {
   TreeMesh known{true, jittered(), nullptr};
-  LoadedMesh rounded = loaded(known.whole);
-  for (Point& p : rounded.mesh.points) p.x += 1e-9;
+  Mesh rounded = known.whole;
+  for (Point& p : rounded.points) p.x += 1e-9;
   settle_mesh(known, rounded, "file.vtu");
-  EXPECT_EQ(rounded.mesh.points, known.whole.points);
+  EXPECT_EQ(rounded.points, known.whole.points);
 }
 
 TEST(SettleMesh, SmoothedNodesStayAndOthersAreRefused) {
   const Geometry square = outline();
   TreeMesh known{true, jittered(), &square};
-  LoadedMesh found = loaded(smoothed(known.whole, true));
-  const auto points = found.mesh.points;
+  Mesh found = smoothed(known.whole, true);
+  const auto points = found.points;
   settle_mesh(known, found, "file.vtu");
-  EXPECT_EQ(found.mesh.points, points);
-  found.mesh.points.begin()->x -= 0.01;
+  EXPECT_EQ(found.points, points);
+  found.points.begin()->x -= 0.01;
   try {
     settle_mesh(known, found, "file.vtu");
     FAIL();
@@ -135,11 +129,11 @@ TEST(SettleMesh, SmoothedNodesStayAndOthersAreRefused) {
 }
 
 TEST(SettleMesh, WhereTheTreesMeshIsNotKnownCellsMustBeValid) {
-  LoadedMesh found = loaded(jittered());
+  Mesh found = jittered();
   EXPECT_NO_THROW(settle_mesh({}, found, "file.vtu"));
-  found.mesh.boundaries.clear();
+  found.boundaries.clear();
   EXPECT_NO_THROW(settle_mesh({}, found, "file.vtu")) << "names of boundaries do not matter";
-  std::swap(found.mesh.triangles.front()[0], found.mesh.triangles.front()[1]);
+  std::swap(found.triangles.front()[0], found.triangles.front()[1]);
   EXPECT_THROW(settle_mesh({}, found, "file.vtu"), InputError);
 }
 
