@@ -1,6 +1,9 @@
 #include "tests/fuzz/layers_from.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "mesher/base/error.hpp"
 
 namespace quadloop::fuzz {
 
@@ -32,7 +35,9 @@ std::vector<LayerLine> lines_from(Bytes& bytes) {
   LayerLine line;
   for (int points = 2 + bytes.below(2); points > 0; --points) {
     const int x = bytes.below(33), y = bytes.below(33);
-    line.path.push_back({(x - 8) / 16.0, (y - 8) / 16.0});
+    const Point p{(x - 8) / 16.0, (y - 8) / 16.0};
+    if (!line.path.empty() && line.path.back() == p) throw InputError("a line has one point twice");
+    line.path.push_back(p);
   }
   line.spacing = std::ldexp(1.0, -2 - bytes.below(4));
   line.layers = layers_from(bytes);
