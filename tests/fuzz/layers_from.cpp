@@ -9,7 +9,8 @@ namespace quadloop::fuzz {
 
 LayerSpec layers_from(Bytes& bytes) {
   LayerSpec spec;
-  spec.first = std::ldexp(1.0 + bytes.below(4) / 4.0, -3 - bytes.below(10));
+  const double mantissa = 1 + bytes.below(4) / 4.0;
+  spec.first = std::ldexp(mantissa, -3 - bytes.below(10));
   spec.growth = 1 + (1 + bytes.below(8)) / 8.0;
   spec.growth_to = std::min(2.0, spec.growth + bytes.below(3) / 4.0);
   spec.count = 1 + bytes.below(20);
