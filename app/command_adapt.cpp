@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "adapt/loop/run_in_folder.hpp"
@@ -67,8 +68,8 @@ std::string outline_to_keep(const CaseInput& input) {
 }
 
 AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
-                           std::optional<double>& morph_to, Warnings& warnings,
-                           std::vector<std::string>& notes) {
+                           std::optional<double>& morph_to, Warnings& warnings, std::string& note,
+                           std::string& extents) {
   CaseInput input =
       load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
   const Settings& settings = input.settings;
@@ -76,9 +77,9 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
   const EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
-    notes.push_back(fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees",
-                                flow.mach, flow.alpha));
-  for (std::string& line : extent_lines(input.extents)) notes.push_back(std::move(line));
+    note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
+                       flow.alpha);
+  for (const std::string& line : extent_lines(input.extents)) extents += "  " + line + "\n";
   morph_to = settings.morph_to;
   const std::string outline = outline_to_keep(input);
   ChosenSolver solver =
@@ -159,26 +160,24 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   std::optional<AdaptiveCase> adaptive;
-  std::vector<std::string> notes;
+  std::string note, extents;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
   std::optional<double> morph_to;
   comm.together([&] {
     std::optional<TreeAttributes> saved;
     if (former) saved = former->tree.attributes;
-    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, notes);
+    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, note, extents);
   });
   adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  if (comm.is_root()) {
-    for (const std::string& line : notes) log::information(line);
-  }
+  if (comm.is_root() && !note.empty()) log::information(note);
   const std::string folder = folder_of(arguments);
   context.warn(former ? former->warnings : Warnings{});
   std::vector<JsonObject> cycles;
   RunReport report;
   report.warning = [&](const std::string& warning) { context.warn({warning}); };
   report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
-    if (context.shows_table()) std::cout << line_of(record) << std::endl;
+    if (context.shows_table()) std::cout << std::exchange(extents, {}) << line_of(record) << std::endl;
     if (comm.is_root()) keep(record, folder, cycles, context.record);
     context.warn(of_cycle);
   };

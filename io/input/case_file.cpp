@@ -32,9 +32,16 @@ std::string kind_of(const toml::node& node) {
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
+/// A number, or a whole number as the nearest one; none where it is neither.
+std::optional<double> number_in(const toml::node& node) {
+  if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+  if (const auto* number = node.as_floating_point()) return number->get();
+  return std::nullopt;
+}
+
 /// A value as JSON on one line; 1 and 1.0 are the same number.
 std::string json_of(const toml::node& node) {
-  if (node.is_number()) return fmt::format("{}", *node.value<double>());
+  if (const auto number = number_in(node)) return fmt::format("{}", *number);
   std::vector<std::string> parts;
   if (const toml::array* list = node.as_array()) {
     for (const toml::node& value : *list) parts.push_back(json_of(value));
@@ -85,7 +92,7 @@ class Lookup {
       : table_{table}, key_{key}, range_{range} {}
 
   double number(const toml::node& node) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+    const auto value = number_in(node);
     if (!value) refuse("a number", node);
     if (!range_.contains(*value)) {
       const bool is_endless = std::isinf(*value) && std::isfinite(range_.low);

@@ -41,10 +41,8 @@ bool FrontPlaces::follows(const FrontPlace& first, const FrontPlace& second) con
   if (!first.valid() || !second.valid()) return false;
   const WallLine& line = front_->line;
   if (first.station == second.station && first.share < second.share) return true;
-  const std::int32_t distance_on = line.steps(first.station, second.station);
-  const std::int32_t distance_back = line.steps(second.station, first.station);
-  return distance_on != WallLine::none && distance_on != 0 &&
-         (distance_back == WallLine::none || distance_on <= distance_back);
+  const std::int32_t steps = line.steps(first.station, second.station);
+  return steps != WallLine::none && steps != 0;
 }
 
 IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const FrontPlaces& places,

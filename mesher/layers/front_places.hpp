@@ -27,7 +27,9 @@ class FrontPlaces {
   /// The place nearest to a node of the boundary; none where the boundary has no front. O(log n).
   FrontPlace locate(Point node, BoundaryId boundary) const;
 
-  /// Whether the second place follows the first one on the same line of wall, by the shorter way.
+  /// Whether the second place follows the first one on the same line of wall; round a loop each place follows
+  /// all others. An edge of the mesh outside has the domain to its left and leads on along the front, in a
+  /// coarse mesh past most of a small body's stations.
   bool follows(const FrontPlace& first, const FrontPlace& second) const;
 
  private:

@@ -202,6 +202,18 @@ class MeshWarnings(ProgramTest):
             self.assertEqual(record["geometry"], [{"file": "a.dxf", "extent": [0, 0, 80, 40], "unit": "mm", "metres": metres}])
             self.assertAlmostEqual(json.loads(self.done("check", f"{unit}.mesh", "--json")[0])["area"], 3200 * metres**2)
 
+    def test_a_warning_that_comes_again_is_printed_once(self):
+        """One drawing for two bodies is read twice."""
+        square = "  0\nLWPOLYLINE\n  8\nwall\n 90\n4\n 70\n1\n" + "".join(f" 10\n{x}\n 20\n{y}\n" for x, y in ((0, 0), (2, 0), (2, 2), (0, 2)))
+        text = "  0\nTEXT\n  8\nnotes\n 10\n1\n 20\n1\n 40\n1\n  1\nhello\n"
+        self.write("a.dxf", "  0\nSECTION\n  2\nENTITIES\n" + square + text + "  0\nENDSEC\n  0\nEOF\n")
+        self.write("case.toml", '[geometry]\nfile = ["a.dxf", "a.dxf"]\ntranslate = [[0, 0], [4, 0]]\nfar_field = 9\n')
+        for ranks in (1, 2):
+            _, warnings = self.done("mesh", "case.toml", ranks=ranks)
+            self.assertEqual(warnings.count("a.dxf: left out"), 1, warnings)
+        record = json.loads(self.done("mesh", "case.toml", "--json")[0])
+        self.assertEqual(sum("left out" in warning for warning in record["warnings"]), 1)
+
     def test_a_new_mesh_has_no_solution_for_a_csv(self):
         table, warnings = self.mesh("1\n" + BOX, CASE + '[output]\nformats = ["mesh", "csv"]\n')
         self.assertIn("a .csv holds a solution alone", warnings)

@@ -14,7 +14,8 @@ LayerSpec layers_from(Bytes& bytes);
 /// The outline of loops_from() with layers at the walls "loop", and now and then at "box".
 AssembleOptions walls_with_layers(Bytes& bytes);
 
-/// None, or one free line of two or three points.
+/// None, or one free line of two or three points. Throws InputError where two that follow each other are the
+/// same, as the reader of case files does.
 std::vector<LayerLine> lines_from(Bytes& bytes);
 
 }  // namespace quadloop::fuzz

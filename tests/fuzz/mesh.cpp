@@ -18,7 +18,8 @@ namespace {
 
 SizeOptions sizes_from(Bytes& bytes) {
   SizeOptions sizes;
-  sizes.min = std::ldexp(1 + bytes.below(4) / 4.0, -3 - bytes.below(4));
+  const double mantissa = 1 + bytes.below(4) / 4.0;
+  sizes.min = std::ldexp(mantissa, -3 - bytes.below(4));
   sizes.max = sizes.min * (1 + bytes.below(16));
   sizes.gradation = 1 + (1 + bytes.below(8)) / 8.0;
   if (bytes.below(4) == 0) sizes.curvature = 1.0 + bytes.below(90);

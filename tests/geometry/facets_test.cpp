@@ -24,7 +24,7 @@ TEST(Facets, ArePointsThatTurnVisiblyAndAreNoCorners) {
   ASSERT_EQ(facets.size(), 30u);
   EXPECT_NEAR(facets[0].turn_degrees, 12, 1e-9);
   EXPECT_NEAR(facets[0].segment, 2 * std::sin(std::numbers::pi / 30), 1e-12);
-  EXPECT_TRUE(facets_of(polygon(360)).empty()) << "1 degree is smooth";
+  EXPECT_TRUE(facets_of(polygon(180)).empty()) << "2 degrees are smooth";
   EXPECT_TRUE(facets_of(polygon(8)).empty()) << "45 degrees are corners";
 }
 

@@ -52,13 +52,14 @@ TEST(FrontPlaces, FollowEachOtherOnOneLineOfWall) {
   EXPECT_FALSE(places.follows(a, FrontPlace{}) || places.follows(FrontPlace{}, a));
 }
 
-TEST(FrontPlaces, RoundALoopTheShorterWayCounts) {
+TEST(FrontPlaces, RoundALoopAnEdgeMayLeadPastMostStations) {
   const Geometry geometry = test::rhombus_with_layers(four_layers, 0.25);
   const LayerFront front = layer_front(geometry);
   const FrontPlaces places(front);
   const FrontPlace last{front.line.size() - 2}, first{3};
   EXPECT_TRUE(places.follows(last, first));
-  EXPECT_FALSE(places.follows(first, last));
+  EXPECT_TRUE(places.follows(first, last));
+  EXPECT_FALSE(places.follows(last, last));
 }
 
 }  // namespace

@@ -181,6 +181,12 @@ class Fitting {
       other_segments_.push_back(s);
     }
     wall_tree_ = tree_of(walls_);
+    std::vector<Segment> first_points;
+    for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
+      const Point p = g.point(g.loop_start(loop));
+      first_points.push_back({p, p});
+    }
+    loop_tree_ = tree_of(first_points);
   }
   static BoxTree tree_of(const std::vector<Segment>& segments) {
     std::vector<Box> boxes;
@@ -298,6 +304,31 @@ class Fitting {
       meets_[i] = meets_[line_.next(i)] = 1;
     }
     mark_crossing_fronts();
+    mark_bodies_within();
+  }
+
+  /// A loop that no column and no front meets may still lie between two columns, all of it: then a point of
+  /// it does.
+  void mark_bodies_within() {
+    const Geometry& g = line_.geometry();
+    for (std::int32_t i = 0; i < line_.size(); ++i) {
+      if (!place_exists(i) || !front_moved(i)) continue;
+      const std::int32_t j = line_.next(i);
+      Box box = box_of(wall(i), front(i));
+      box.include(wall(j));
+      box.include(front(j));
+      loop_tree_.for_each_meeting(box, [&](std::int32_t loop) {
+        if (is_between_columns(i, g.point(g.loop_start(loop)))) meets_[i] = meets_[j] = 1;
+      });
+    }
+  }
+
+  /// Whether a point lies inside the strip between a station's column and the next one.
+  bool is_between_columns(std::int32_t i, Point p) const {
+    const std::int32_t j = line_.next(i);
+    const Point a = wall(i), b = wall(j), c = front(j), d = front(i);
+    const bool above_wall = a == b || orientation(a, b, p) > 0;
+    return above_wall && orientation(b, c, p) > 0 && orientation(c, d, p) > 0 && orientation(d, a, p) > 0;
   }
 
   bool is_positive(std::int32_t i) const {
@@ -330,6 +361,7 @@ class Fitting {
   std::vector<Segment> walls_;  ///< one for each station, then those without layers
   std::vector<std::int32_t> other_segments_;
   BoxTree wall_tree_;
+  BoxTree loop_tree_;  ///< of each loop's first point
   ColumnsOnWall columns_on_wall_;
   FrontTree fronts_;
   WallColumns columns_;

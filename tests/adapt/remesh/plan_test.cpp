@@ -326,16 +326,16 @@ TEST(Plan, FacetsOfAPolygonAreNotResolved) {
   for (const bool by_sizes : {false, true}) {
     for (const bool may : {false, true}) {
       AdaptOptions options = adapt_options();
-      options.min = 1.0 / 1024;
+      options.min = 1.0 / 256;
       options.facets = may;
       if (by_sizes) {
         options.norm = 2;
-        options.max_nodes = 4000;
+        options.max_nodes = 1200;
       }
       double share = 1e9;
       bool told = false;
       SolvedMesh solved = solved_front(world(), input);
-      for (int cycle = 0; cycle < 4; ++cycle) {
+      for (int cycle = 0; cycle < 3; ++cycle) {
         const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
         share = std::min(share, least_share_at_facets(world(), input, solved.tree, plan));
         for (const std::string& warning : plan.warnings)

@@ -28,6 +28,14 @@ TEST_F(CaseFile, GivesTypedValues) {
   EXPECT_NO_THROW(spacing.finish());
 }
 
+TEST_F(CaseFile, WholeNumbersOfAnySizeAreNumbers) {
+  const CaseTable root = read("a = 9223372036854775807\nb = 9007199254740993\n");
+  EXPECT_EQ(root.number("a"), 0x1p63);
+  EXPECT_EQ(root.number("b"), 0x1p53) << "the nearest one";
+  EXPECT_EQ(root.values({}), (std::vector<std::pair<std::string, std::string>>{{"a", "9.223372036854776e+18"},
+                                                                               {"b", "9007199254740992"}}));
+}
+
 TEST_F(CaseFile, OneValueOrAList) {
   const CaseTable root =
       read("a = \"x\"\nb = [\"x\", \"y\"]\nc = 1\nd = [1, 2]\ne = [1, 2]\nf = [[1, 2], [3, 4]]\n");

@@ -56,6 +56,26 @@ TEST(FitThickness, LayersThickerThanAChannelStayWithinIt) {
   }
 }
 
+TEST(FitThickness, ABodyBetweenTwoColumnsStaysOutsideTheLayers) {
+  // So thick are the layers asked for that the box has columns at its corners alone.
+  const auto body_in_box = [](std::vector<test::Side> body) {
+    return test::outline_of(
+        {{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, test::equal_layers(400, 20)}}, std::move(body)}, 1);
+  };
+  const std::vector<Point> small{{0.8, 0.3}, {0.75, 0.35}, {0.7, 0.3}, {0.75, 0.25}};
+  for (const Geometry& g : {body_in_box({{"body", small}}), body_in_box({{"body", small, four_layers}})}) {
+    const Fitted f(g);
+    std::int32_t after = 0;
+    for (std::int32_t i = 0; i < f.line.size(); ++i) {
+      if (f.geometry.boundary_of(f.line[i].segment) != BoundaryId{0}) continue;
+      ++after;
+      EXPECT_GT(cross(f.fitting.front[f.line.next(i)] - f.fitting.front[i], small[0] - f.fitting.front[i]), 0)
+          << "the front goes round the body, after station " << i;
+    }
+    EXPECT_EQ(after, 4);
+  }
+}
+
 TEST(FitThickness, WallsThatFaceEachOtherShareTheirGap) {
   const double gap = 0.6;
   const Fitted f(two_bars(gap));
