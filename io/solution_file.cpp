@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -37,42 +36,6 @@ void require_usable(const std::vector<std::string>& names, const std::vector<dou
   }
 }
 
-/// Empty where the cells are the same, in whatever order.
-template <std::size_t width>
-std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
-                            const std::vector<std::array<NodeId, width>>& wanted) {
-  if (found.size() != wanted.size())
-    return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one",
-                       found.size(), kind, wanted.size());
-  const auto other = other_cell(found, wanted);
-  if (!other) return {};
-  std::string nodes;
-  for (const NodeId node : *other) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
-  return fmt::format(
-      "of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one",
-      kind, nodes);
-}
-
-/// `points` are as many as `nodes`, or none where they are not known.
-std::string node_difference(std::int64_t nodes, const std::vector<Point>& points, const Mesh& mesh) {
-  if (nodes != std::ssize(mesh.points)) {
-    return fmt::format(
-        "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
-        nodes, mesh.points.size());
-  }
-  if (points.empty()) return {};
-  const NodeFlags elsewhere = nodes_elsewhere(points, mesh);
-  const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
-  if (first == elsewhere.end()) return {};
-  const std::size_t i = first - elsewhere.begin();
-  const Point p = points[i], wanted = mesh.points[i];
-  return fmt::format(
-      "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
-      "in another order; solve on this mesh "
-      "and keep its order of nodes",
-      i + 1, p.x, p.y, wanted.x, wanted.y);
-}
-
 LoadedSolution read_with_mesh(const std::string& path) {
   LoadedMesh loaded = read_mesh(path);
   require_values(loaded, path);
@@ -103,13 +66,6 @@ void require_solution_suffix(const std::string& path) {
   if (format != nullptr && format->holds(Content::solution)) return;
   throw InputError(path + ": no solution is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::solution}) + " file");
-}
-
-std::string difference(const Mesh& found, const Mesh& whole) {
-  std::string text = node_difference(std::ssize(found.points), found.points, whole);
-  if (text.empty()) text = cell_difference("triangles", found.triangles, whole.triangles);
-  if (text.empty()) text = cell_difference("quads", found.quads, whole.quads);
-  return text;
 }
 
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {

@@ -15,10 +15,6 @@ LoadedSolution read_solution(const std::string& path);
 /// Throws InputError unless the suffix is one that read_solution() knows; it lists them.
 void require_solution_suffix(const std::string& path);
 
-/// What require_same_mesh() would say of a solution on the mesh `found`, without the file's name; empty where
-/// it finds nothing.
-std::string difference(const Mesh& found, const Mesh& whole);
-
 /// Throws InputError unless the solution's mesh is `whole`, a mesh that the rank holds whole: as many nodes,
 /// each within 1e-6 of the shortest cell edge at it, and the same cells in any order, as far as the file
 /// tells. Names the file, and the count, node (from 1) or cell that differs.

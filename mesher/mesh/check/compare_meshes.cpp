@@ -1,5 +1,7 @@
 #include "mesher/mesh/check/compare_meshes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -40,6 +42,22 @@ IdVector<NodeId, double> shortest_edges(const Mesh& mesh) {
   return shortest;
 }
 
+/// Empty where the cells are the same, in whatever order.
+template <std::size_t width>
+std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
+                            const std::vector<std::array<NodeId, width>>& wanted) {
+  if (found.size() != wanted.size())
+    return fmt::format("has {} {}, the mesh {}; it is a solution of another mesh; solve on this one",
+                       found.size(), kind, wanted.size());
+  const auto other = other_cell(found, wanted);
+  if (!other) return {};
+  std::string nodes;
+  for (const NodeId node : *other) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
+  return fmt::format(
+      "of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one",
+      kind, nodes);
+}
+
 }  // namespace
 
 NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
@@ -63,6 +81,32 @@ std::optional<std::array<NodeId, 3>> other_cell(const Cells<3>& found, const Cel
 
 std::optional<std::array<NodeId, 4>> other_cell(const Cells<4>& found, const Cells<4>& wanted) {
   return first_other(found, wanted);
+}
+
+std::string node_difference(std::int64_t nodes, const std::vector<Point>& points, const Mesh& mesh) {
+  if (nodes != std::ssize(mesh.points)) {
+    return fmt::format(
+        "holds values at {} nodes, the mesh has {}; it is a solution of another mesh; solve on this one",
+        nodes, mesh.points.size());
+  }
+  if (points.empty()) return {};
+  const NodeFlags elsewhere = nodes_elsewhere(points, mesh);
+  const auto first = std::find(elsewhere.begin(), elsewhere.end(), 1);
+  if (first == elsewhere.end()) return {};
+  const std::size_t i = first - elsewhere.begin();
+  const Point p = points[i], wanted = mesh.points[i];
+  return fmt::format(
+      "node {} lies at ({}, {}), in the mesh at ({}, {}); it is a solution of another mesh, or its rows are "
+      "in another order; solve on this mesh "
+      "and keep its order of nodes",
+      i + 1, p.x, p.y, wanted.x, wanted.y);
+}
+
+std::string difference(const Mesh& found, const Mesh& whole) {
+  std::string text = node_difference(std::ssize(found.points), found.points, whole);
+  if (text.empty()) text = cell_difference("triangles", found.triangles, whole.triangles);
+  if (text.empty()) text = cell_difference("quads", found.quads, whole.quads);
+  return text;
 }
 
 }  // namespace quadloop
