@@ -82,7 +82,7 @@ class Layers(ProgramTest):
         self.assertAlmostEqual(row["thickness"][0], sum(heights), places=9)
         self.assertAlmostEqual(row["growth"][0], 1, places=9)
         self.assertAlmostEqual(row["growth"][2], max(b / a for a, b in zip(heights, heights[1:])), places=9)
-        self.make("first = 0.001, growth = 1.3, thickness = 0.05")
+        self.make("first = 0.001, growth = 1.3, thickness = 0.05", "", "--set", "spacing.min=0.02")
         (row,) = self.checked("out.mesh")["layers"]
         self.assertEqual(row["count"], 11)
         self.assertGreaterEqual(row["thickness"][0], 0.05)
