@@ -228,11 +228,13 @@ bool LeafCutter::status_at_start(bool& inside) const {
     return change == 1 || change == -1;
   }
   // Every crossing shares its place with its opposite: the parts of the sides between such places are all
-  // alike.
-  std::size_t i = 0;
-  while (stops_[i + 1].position == stops_[i].position) ++i;
-  inside =
-      input_.inside ? *input_.inside : inside_->contains(0.5 * (stops_[i].position + stops_[i + 1].position));
+  // alike. The middle of the longest is no end of it, even where others are as short as rounding.
+  Point from, to;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const Point p = stops_[i].position, q = stops_[(i + 1) % stops_.size()].position;
+    if (length(q - p) > length(to - from)) from = p, to = q;
+  }
+  inside = input_.inside ? *input_.inside : inside_->contains(0.5 * (from + to));
   return true;
 }
 

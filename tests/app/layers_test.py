@@ -16,7 +16,7 @@ BOX = "4\n{wall} open\n2\n0 0\n4 0\noutlet open\n2\n4 0\n4 2\ntop open\n2\n4 2\n
 CASE = """[geometry]
 file = "box.geom"
 [spacing]
-min = 0.05
+min = 0.035
 max = 0.5
 [boundary.wall]
 spacing = 0.2
@@ -62,6 +62,13 @@ class Layers(ProgramTest):
         self.assertEqual(said["layer_cells"] + said["outer_cells"], said["triangles"] + said["quads"])
         self.assertLess(abs(math.log(said["cells_estimated"] / (said["triangles"] + said["quads"]))), math.log(1.5))
 
+    def test_a_smallest_leaf_above_the_last_layer_is_warned_of(self):
+        self.write("box.geom", BOX.format(wall="wall"))
+        self.write("case.toml", CASE.format(layers="first = 0.001, growth = 1.3, count = 12").replace("0.035", "0.05"))
+        _, stderr = self.done("mesh", "case.toml", "-o", "out")
+        self.assertIn("boundary 'wall': its last layer is 0.0179 high near (", stderr)
+        self.assertIn("but spacing.min = 0.05 ends the refinement before", stderr)
+
     def test_every_way_to_ask(self):
         self.make("first = 0.001, growth = [1.1, 1.5], count = 16, equal = 2")
         (row,) = self.checked("out.mesh")["layers"]
@@ -75,7 +82,7 @@ class Layers(ProgramTest):
         self.assertAlmostEqual(row["thickness"][0], sum(heights), places=9)
         self.assertAlmostEqual(row["growth"][0], 1, places=9)
         self.assertAlmostEqual(row["growth"][2], max(b / a for a, b in zip(heights, heights[1:])), places=9)
-        self.make("first = 0.001, growth = 1.3, thickness = 0.05")
+        self.make("first = 0.001, growth = 1.3, thickness = 0.05", "", "--set", "spacing.min=0.02")
         (row,) = self.checked("out.mesh")["layers"]
         self.assertEqual(row["count"], 11)
         self.assertGreaterEqual(row["thickness"][0], 0.05)

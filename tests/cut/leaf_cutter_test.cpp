@@ -2,6 +2,7 @@
 // Figs 3.10, 3.11 and 3.14.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numeric>
 
 #include "mesher/base/ids.hpp"
@@ -177,6 +178,19 @@ TEST(LeafCutter, AThinWallAndATouchOfTheSide) {
   EXPECT_TRUE(tip.sound);
   EXPECT_EQ(tip.area, 1.0);
   EXPECT_EQ(tip.leaf.nodes.size(), 5U);
+}
+
+TEST(LeafCutter, ATipOnASideNextToACornerLeavesTheLeafInTheDomain) {
+  // Wedges of void from below whose tips lie on the bottom, as near to a corner as doubles can tell: the
+  // middle between the two rounds to either of them.
+  const double eps = std::numeric_limits<double>::epsilon();
+  const Points sea{{-2, -2}, {5, -2}, {5, 5}, {-2, 5}};
+  for (const double corner : {1.0, 1 + eps}) {
+    const Cut tip =
+        cut_box(loops_of({sea, {{corner + eps, 1}, {0.8, 0.2}, {0.4, 0.3}}}), Box{{corner, 1}, {2, 2}});
+    EXPECT_TRUE(tip.sound) << (corner > 1);
+    EXPECT_NEAR(tip.area, 1.0, 1e-14) << (corner > 1);
+  }
 }
 
 TEST(LeafCutter, PartsThatMeetInOneNodeOfASideAreLoopsOfTheirOwn) {

@@ -43,6 +43,16 @@ MeshOptions mesh_options_from(Bytes& bytes) {
   return options;
 }
 
+/// Moved by tenths, so that rounding parts corners from the lattice lines that they lie on.
+std::vector<Chain> moved_loops_from(Bytes& bytes) {
+  std::vector<Chain> chains = loops_from(bytes);
+  const double x = bytes.below(8) / 10.0, y = bytes.below(8) / 10.0;
+  for (Chain& chain : chains) {
+    for (Point& p : chain.points) p = p + Point{x, y};
+  }
+  return chains;
+}
+
 MeshInput input_from(Bytes& bytes) {
   const MeshOptions options = mesh_options_from(bytes);
   SmoothOptions smooth;
@@ -57,7 +67,7 @@ MeshInput input_from(Bytes& bytes) {
     lines = lines_from(bytes);
   }
   Warnings warnings;
-  MeshInput input{assemble(loops_from(bytes), outline, warnings), options, smooth};
+  MeshInput input{assemble(moved_loops_from(bytes), outline, warnings), options, smooth};
   input.lines = lines;
   return input;
 }
