@@ -9,8 +9,8 @@ namespace quadloop {
 
 namespace {
 
-/// Rowan's subplex, measured against eleven others of the library (docs/smoothing.md): none gives better
-/// cells, and it is the fastest.
+/// Rowan's subplex, measured against eleven others of the library (docs/notes/smoothing-studies.md): none
+/// gives better cells, and it is the fastest.
 constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;

@@ -3,7 +3,7 @@
 a figure of the flow beside what is known. Each is meshed from an outline that this script writes, or on a stretched mesh of its own. One row a flow,
 told as it ends; where a flow is not steady and is carried on in time, a line below the table tells of it. Standard library only.
 
-    flows.py --quadloop PROGRAM [--only TEXT] [--set KEY=VALUE]... [--update docs/flows.md] [--require]
+    flows.py --quadloop PROGRAM [--only TEXT] [--set KEY=VALUE]... [--update docs/notes/flows.md] [--require]
 
 --only     flows whose name contains the text
 --set      put over every flow's case, as solver.iterations=100

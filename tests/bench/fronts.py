@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Errors over nodes with and without nodes that gather at fronts (smooth.targets = "solution"), and with triangles that stretch (mesh.type = "metric").
 
-    fronts.py --quadloop PROGRAM [--nodes N ...] [--only ring|wedge|airfoil] [--kind TEXT] [--update docs/adaptation.md]
+    fronts.py --quadloop PROGRAM [--nodes N ...] [--only ring|wedge|airfoil] [--kind TEXT] [--update docs/notes/adaptation-studies.md]
 
 ring      a step of width 0.01 across a circle (cases/ring), no flow: L1 error of its linear interpolation
 wedge     the oblique shock of cases/wedge: L1 error of the density against the exact flow

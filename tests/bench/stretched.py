@@ -3,7 +3,7 @@
 with equal sides by wanted sizes, and, where it is on the PATH (`ffbamg` or `bamg`), one with BAMG's meshes from the same variables, all with the
 built-in solver. One row a cycle. Needs numpy.
 
-    stretched.py --quadloop PROGRAM [--nodes N ...] [--cycles N] [--only TEXT] [--update docs/adaptation.md]
+    stretched.py --quadloop PROGRAM [--nodes N ...] [--cycles N] [--only TEXT] [--update docs/notes/adaptation-studies.md]
 
 --nodes   wanted, of every mesh but the first
 --only    loops whose name contains the text

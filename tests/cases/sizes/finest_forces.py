@@ -1,4 +1,4 @@
-"""Lift and drag of the NACA 0012 at Mach 0.8 and 1.25 degrees on the finest meshes (docs/adaptation.md), and how near the cycles of a run come."""
+"""Lift and drag of the NACA 0012 at Mach 0.8 and 1.25 degrees on the finest meshes (docs/notes/adaptation-studies.md), and how near the cycles of a run come."""
 
 FINEST = {"cl": 0.3478, "cd": 0.02244}
 

@@ -5,7 +5,7 @@
 
 Without --full, on few nodes: the same files on 1 and on 3 ranks and after a cycle that is made again, records of goals, the fields that `solve` writes,
 refusals; at Mach 0.5 derivatives by angle of attack and Mach number against differences of flows solved anew on the same mesh. With --full:
-lift and drag at Mach 0.8 and 1.25 degrees within 0.5 % of those of the finest meshes (docs/adaptation.md) with at most half the nodes that marks need, in
+lift and drag at Mach 0.8 and 1.25 degrees within 0.5 % of those of the finest meshes (docs/notes/adaptation-studies.md) with at most half the nodes that marks need, in
 two cycles fewer.
 """
 import argparse
@@ -22,7 +22,7 @@ from quadloop_runs import ROOT, run
 
 CASES = ROOT / "cases" / "naca0012_m08"
 GOALS = CASES / "goals.toml"
-MARKS = {"nodes": 15729, "cycle": 3}  # docs/adaptation.md; run_wanted_sizes.py --full finds them anew
+MARKS = {"nodes": 15729, "cycle": 3}  # docs/notes/adaptation-studies.md; run_wanted_sizes.py --full finds them anew
 FEW = ["adapt.passes=0", "solver.iterations=60", "adapt.max_nodes=5000", "adapt.min=0.003"]
 
 

@@ -5,7 +5,7 @@
 
 Without --full, on few nodes: the number of nodes is met, the same files on 1 and on 3 ranks and after a cycle that is made again, estimates and their
 order in the records; the same with passes before the first cycle. With --full: lift and drag within 0.5 % of those of the finest meshes
-(docs/adaptation.md) with at most half the nodes that marks need, in fewer cycles, with passes in two fewer, and in half the processor time; a table.
+(docs/notes/adaptation-studies.md) with at most half the nodes that marks need, in fewer cycles, with passes in two fewer, and in half the processor time; a table.
 """
 import argparse
 import resource

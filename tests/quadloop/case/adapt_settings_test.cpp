@@ -35,7 +35,7 @@ TEST_F(Case, WithoutATableThereIsNoAdaptation) {
 }
 
 TEST_F(Case, AnEmptyTableHasTheDefaults) {
-  const AdaptOptions options = *adapt("[adapt]\n");  // as docs/case-file.md has them
+  const AdaptOptions options = *adapt("[adapt]\n");  // as docs/reference/case-file.md has them
   EXPECT_EQ(options.cycles, 5);
   EXPECT_EQ(options.source, AdaptOptions::Source::variables);
   EXPECT_EQ(options.variables, std::vector<std::string>{"density"});
