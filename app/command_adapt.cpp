@@ -99,7 +99,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
 std::string line_of(const CycleRecord& record) {
   std::string line =
       fmt::format("cycle {:>2}  {:>8} nodes  {}", record.cycle, record.nodes, quality_text(record));
-  if (record.morphed) line += *record.morphed ? "  same cells" : "  meshed anew";
+  if (record.morphed) line += *record.morphed ? "  morphed" : "  remeshed";
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
   if (record.estimate) line += fmt::format("  error {:.3e}", *record.estimate);
@@ -110,7 +110,7 @@ std::string line_of(const CycleRecord& record) {
   line += fmt::format("  {:.1f} s", seconds);
   for (const auto& [boundary, least, largest] : record.first_heights)
     line +=
-        fmt::format("\n          first heights asked for on {}: {:.4g} to {:.4g}", boundary, least, largest);
+        fmt::format("\n          target first heights on {}: {:.4g} to {:.4g}", boundary, least, largest);
   return line;
 }
 
@@ -133,9 +133,9 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
 /// A line where the run ended before its last cycle; else empty.
 std::string why_ended(const LoopEnd& end) {
   if (end.settled)
-    return fmt::format("  cycle {} has settled by adapt.until, so no further cycle\n", end.last);
+    return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
-  return fmt::format("  cycle {} marks no leaf, so no further cycle: {}\n", end.last,
+  return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
                      end.left->plan.reason_for_standing);
 }
 

@@ -125,9 +125,8 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
 
 [[noreturn]] void refuse_way(const MorphArguments& arguments, const MorphReport& report) {
   throw InputError(
-      fmt::format("{}: its cells cannot follow to {}: near ({:g}, {:g}) some turn over after {:.0f} % of the "
-                  "way; go there in "
-                  "steps that meshes still follow, or mesh the new outline anew",
+      fmt::format("{}: cannot morph to {}: cells near ({:g}, {:g}) become inverted after {:.0f} % of the "
+                  "movement; use smaller steps, or generate a new mesh",
                   arguments.input, arguments.geometry, report.worst_place.x, report.worst_place.y,
                   100 * report.possible_way));
 }
@@ -135,8 +134,8 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
 void require_derivative(const MorphArguments& arguments, const MorphReport& report) {
   if (report.smoothed)
     throw InputError(fmt::format(
-        "{}: its cells followed to {} by smoothing alone, so that nodes have no derivative there; begin "
-        "with a mesh nearer to that outline",
+        "{}: the mesh had to be smoothed on {}, so the node positions have no derivative; start from a mesh "
+        "closer to that geometry",
         arguments.input, arguments.geometry));
 }
 

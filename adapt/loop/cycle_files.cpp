@@ -43,7 +43,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
   std::string text = fmt::format("cycle {}: {} nodes, {} triangles, {} quads, {}\n", record.cycle,
                                  record.nodes, record.triangles, record.quads, quality_text(record));
   for (const auto& [boundary, least, largest] : record.first_heights)
-    text += fmt::format("first heights asked for on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
+    text += fmt::format("target first heights on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   if (record.metric) text += lines_of(*record.metric);
   for (const std::string& line : notes) text += line + "\n";
   for (const GoalValue& goal : record.goals) text += line_of(goal) + "\n";
@@ -51,7 +51,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
   if (record.estimate) text += fmt::format("error {:.4g}", *record.estimate);
   if (record.order) text += fmt::format(", order {:.2f}", *record.order);
   if (record.estimate) text += "\n";
-  text += fmt::format("marks for the next cycle: {} leaves to be split, {} to go\n", record.refined,
+  text += fmt::format("marks for the next cycle: {} quadtree cells to split, {} to remove\n", record.refined,
                       record.coarsened);
   for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
   return text;

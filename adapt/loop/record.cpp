@@ -42,11 +42,19 @@ std::optional<std::uint64_t> digest_in(const Json& json, const std::string& name
   return digest;
 }
 
+/// On one line, lists as a case's settings are written.
+std::string one_line(const Json& value) {
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const Json& part : value) text += (text.empty() ? "" : ", ") + one_line(part);
+  return "[" + text + "]";
+}
+
 CaseSettings settings_in(const Json& json) {
   CaseSettings settings;
   const auto found = json.find("case");
   if (found == json.end() || !found->is_object()) return settings;
-  for (const auto& [key, value] : found->items()) settings.emplace_back(key, value.dump());
+  for (const auto& [key, value] : found->items()) settings.emplace_back(key, one_line(value));
   return settings;
 }
 

@@ -128,16 +128,17 @@ bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const Mor
 std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wished) {
   const std::string why = has_outline_of(old, input)
                               ? fmt::format("{} are not those that it was made with", what_shapes_cells)
-                              : "its outline, or what its boundaries ask for, has changed";
+                              : "the geometry or the settings of its boundaries have changed";
   const std::string cure =
       wished || has_outline_of(old, input) ? "" : "; design.morph_to in the case file keeps the cells";
-  return fmt::format("{}: is meshed anew, as {}{}", old.file, why, cure);
+  return fmt::format("{}: was remeshed, because {}{}", old.file, why, cure);
 }
 
 /// What a mesh made anew by the tree alone leaves out.
 std::string without_stretched_cells(const SolvedMesh& old, const char* setting) {
   return fmt::format(
-      "{}: {}: cycle 0 is the mesh of the case's own tree, without stretched cells; an adaptation makes them",
+      "{}: {}: cycle 0 is the mesh of the case's quadtree, without anisotropic cells; the first adaptation "
+      "creates them",
       old.file, setting);
 }
 
@@ -152,8 +153,8 @@ CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, con
   if (morphed.carried) {
     if (has_other_settings(input, old, *wish))
       morphed.carried->generated.result.report.warnings.push_back(
-          fmt::format("{}: {} are not those that it was made with{}; its cells are kept, and the settings "
-                      "wait for the next mesh that is made anew",
+          fmt::format("{}: {} are not those that it was made with{}; its cells are kept, and the new settings "
+                      "take effect at the next remeshing",
                       old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
     return std::move(*morphed.carried);
   }

@@ -91,10 +91,8 @@ std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
 }
 
 constexpr const char* text_of_facets =
-    "leaves at points of the outline that stand for a curve are not refined below half of its segments "
-    "there, "
-    "as a flow has a peak at each point of a polygon; give the outline more points, or set adapt.facets = "
-    "true";
+    "cells at the points of a polygonal boundary are not refined below half of its segments, because the flow "
+    "has a peak at each point; supply more points, or set adapt.facets = true";
 
 /// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options,
@@ -112,10 +110,10 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
   const std::vector<Mark> marks = family.marks(1);
   const std::int64_t wanted = count_of(comm, marks, Mark::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)
-    return "no leaf is larger than " + options.variables.front() + " asks for there";
+    return "no cell is larger than its size in " + options.variables.front();
   if (wanted == 0)
-    return "no leaf is above the threshold adapt.refine, and none below adapt.coarsen had been split by "
-           "adaptation";
+    return "no cell is above the threshold adapt.refine, and adaptation has split no cell below "
+           "adapt.coarsen";
   const std::string bound = held          ? "adapt.facets = false"
                             : options.min ? fmt::format("adapt.min = {}", *options.min)
                                           : "spacing.min, as adapt.min is not set,";
@@ -125,7 +123,7 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
   }
   const double edge = solved.tree.attributes.tree_edge /
                       static_cast<double>(std::int64_t{1} << comm.minimum(std::int64_t{coarsest}));
-  return fmt::format("{} lets none of the {} leaves above the threshold be split, of edges up to {}", bound,
+  return fmt::format("{} prevents refinement of the {} cells above the threshold, with edges up to {}", bound,
                      wanted, edge);
 }
 
@@ -141,7 +139,7 @@ Made made_from(const Communicator& comm, const AdaptOptions& options, const Solv
 }
 
 constexpr const char* text_of_bound =
-    "the mesh is kept to what --max-cells or free memory allows: fewer leaves are refined than are marked";
+    "--max-cells or free memory limits the mesh: fewer cells are refined than marked";
 
 void take(ChangedSplits changes, AdaptationPlan& plan) {
   plan.refined = changes.refined;
@@ -211,7 +209,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   const bool by_error = options.source == AdaptOptions::Source::error;
   plan.reason_for_standing =
       wanted.flat() ? by_error ? "the error is 0 everywhere" : "no variable has a second derivative"
-                    : "all leaves have the sizes that are wanted of them";
+                    : "all cells have their target sizes";
 }
 
 /// What --max-cells and free memory leave of them.
@@ -281,10 +279,11 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
   }
   const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
   if (allowed < nodes) plan.warnings.emplace_back(text_of_bound);
-  plan.metric = metric_demand(options, solved.solution);
-  plan.metric->nodes = allowed;
-  plan.metric->min = options.min.value_or(input.mesh.size.min);
-  plan.metric->facets = options.facets;
+  MetricDemand metric = metric_demand(options, solved.solution);
+  metric.nodes = allowed;
+  metric.min = options.min.value_or(input.mesh.size.min);
+  metric.facets = options.facets;
+  plan.anisotropy = std::move(metric);
 }
 
 }  // namespace
@@ -303,9 +302,9 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
     plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
     plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);
-  if (input.stretch && !plan.flat) plan.targets = target_demand(input, options, solved);
+  if (input.stretch && !plan.flat) plan.anisotropy = target_demand(input, options, solved);
   if (!plan.changes_mesh())
-    plan.warnings.push_back("no leaf is marked, the mesh stays: " + plan.reason_for_standing);
+    plan.warnings.push_back("no cell is marked, the mesh stays: " + plan.reason_for_standing);
   return plan;
 }
 

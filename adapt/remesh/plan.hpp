@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "adapt/metric/stretch_mesh.hpp"
@@ -25,8 +26,9 @@ struct AdaptationPlan {
   CellValues estimates_of_cells;       ///< then also `interpolation_error` and `wanted_size` of its cells
   MeasuredWall measured_wall;          ///< that first heights of layers are to follow; the same on every rank
   bool new_heights = false;            ///< they differ from those of the last mesh
-  std::optional<MetricDemand> metric;  ///< that the next mesh is to follow, on the tree of the case alone
-  std::optional<TargetDemand> targets;  ///< that the nodes of the next mesh are to be moved by
+  /// What anisotropic cells the next mesh is to have: none, those of a metric, on the tree of the case alone, or
+  /// quadtree cells whose nodes are moved.
+  std::variant<std::monostate, MetricDemand, TargetDemand> anisotropy;
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
   bool flat = false;                ///< the solution asks for nothing anywhere
@@ -34,7 +36,7 @@ struct AdaptationPlan {
 
   /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
   bool changes_mesh() const {
-    return refined + coarsened > 0 || new_heights || metric.has_value() || targets.has_value();
+    return refined + coarsened > 0 || new_heights || !std::holds_alternative<std::monostate>(anisotropy);
   }
 };
 

@@ -56,14 +56,13 @@ CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const A
                        const SolvedMesh& old) {
   CarriedMesh carried;
   MeshChange stretch;
-  if (plan.targets) {
-    stretch = [&](const MeshInput& outer, MeshResult& result) {
-      gather_at_fronts(comm, outer, old.mesh, old.solution, *plan.targets, result);
+  if (const auto* targets = std::get_if<TargetDemand>(&plan.anisotropy)) {
+    stretch = [&, targets](const MeshInput& outer, MeshResult& result) {
+      gather_at_fronts(comm, outer, old.mesh, old.solution, *targets, result);
     };
-  }
-  if (plan.metric) {
-    stretch = [&](const MeshInput& outer, MeshResult& result) {
-      StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *plan.metric, result);
+  } else if (const auto* metric = std::get_if<MetricDemand>(&plan.anisotropy)) {
+    stretch = [&, metric](const MeshInput& outer, MeshResult& result) {
+      StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *metric, result);
       result.report.warnings.insert(result.report.warnings.end(), report.warnings.begin(),
                                     report.warnings.end());
       carried.stretched = report.figures;

@@ -80,10 +80,9 @@ void require_valid(const LoadedMesh& smoothed, const std::string& file) {
   if (inverted == 0) refuse_invalid(file, faults);
   const Point place = worst_place(smoothed.mesh);
   throw InputError(
-      fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. Give "
-                  "more --sweeps, or mend the mesh "
-                  "there: nodes between blocks stay, and those of the outline but for straight or "
-                  "--geometry's parts of it",
+      fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. "
+                  "Increase --sweeps, or repair the mesh there: nodes between blocks are fixed, and boundary "
+                  "nodes slide only along straight parts, or along --geometry",
                   file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
 }
 

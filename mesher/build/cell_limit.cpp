@@ -90,7 +90,7 @@ class Relaxation {
   }
 
   static std::string text_of(const CellDemand& demand) {
-    return fmt::format("{} = {:g} asks for most of them", demand.key, demand.value);
+    return fmt::format("{} = {:g} causes most of them", demand.key, demand.value);
   }
 
   static double loosened_by(const CellDemand& demand, int halvings) {
@@ -140,12 +140,11 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
     const bool fits =
         share_of(limit, estimate_mesh(geometry, options.type, domain, leaves)) <= share_that_fits;
     if (fits && demanded.for_layers())
-      return "the leaves that the case asks for are too large for its layers to stand on, and smaller ones "
-             "there "
-             "are too many: ask for fewer layers, or thinner ones";
+      return "the layers require smaller cells at their outer edge than the case has, and these are too many: "
+             "use fewer or thinner layers";
     if (fits)
-      return "what adaptation has asked of the tree is the cause: lower adapt.max_nodes, or raise adapt.min "
-             "or adapt.refine";
+      return "the refinement by adaptation is the cause: reduce adapt.max_nodes, or increase adapt.min or "
+             "adapt.refine";
   }
   return Relaxation(limit, geometry, options, none).cure();
 }
@@ -167,7 +166,7 @@ void require_within(const MeshEstimate& estimate, const Geometry& geometry, cons
   const bool by_memory = estimate.cells <= limit.cells;
   const std::string allowed = by_memory ? fmt::format("{} are free", text_of_bytes(limit.bytes))
                                         : fmt::format("--max-cells allows {:.0f}", limit.cells);
-  const std::string or_else = by_memory ? fmt::format("use more machines, or insist with --max-cells {}",
+  const std::string or_else = by_memory ? fmt::format("use more machines, or override the memory check with --max-cells {}",
                                                       text_of_cells(rounded_up(1.2 * estimate.cells)))
                                         : fmt::format("allow more with --max-cells {}",
                                                       text_of_cells(rounded_up(1.2 * estimate.cells)));

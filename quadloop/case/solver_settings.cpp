@@ -92,7 +92,7 @@ void read_euler_keys(const CaseTable& table, EulerOptions& options) {
     options.far_field = EulerOptions::FarField::vortex;
   if (options.far_field == EulerOptions::FarField::vortex && options.mach >= 1)
     table.refuse("far_field",
-                 fmt::format("is for streams slower than sound; leave it out at mach {}", options.mach));
+                 fmt::format("requires a subsonic free stream; remove it at mach {}", options.mach));
   options.reference_length =
       table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
@@ -190,8 +190,8 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
     });
     if (rule.condition == "outflow" && !has_pressure)
       warnings.push_back(rule.where +
-                         " is an outflow without a pressure: gas slower than sound leaves there as into a "
-                         "vacuum; set pressure = 1 for that of the free stream");
+                         " is a subsonic outflow without back pressure, where gas leaves as into a vacuum; set "
+                         "pressure = 1 for the static pressure of the free stream");
   }
   return warnings;
 }

@@ -97,9 +97,9 @@ class Estimate(ProgramTest):
             result = self.run_program("mesh", case, "-o", "out", "--max-cells", "30000")
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-            self.assertIn(f"{value:g} asks for most of them", result.stderr)
+            self.assertIn(f"{value:g} causes most of them", result.stderr)
             self.assertIn(setting, result.stderr)
-            fits = float(re.search(r"asks for most of them: (\S+) fits;", result.stderr)[1])
+            fits = float(re.search(r"causes most of them: (\S+) fits;", result.stderr)[1])
             self.done("mesh", self.case(outline, FEW.format(**{**usual, key: fits})), "-o", "out", "--max-cells", "30000", "--quiet")
 
     def test_a_million_million_cells_are_refused(self):
@@ -113,13 +113,13 @@ class Estimate(ProgramTest):
         with subprocess.Popen([QUADLOOP, "mesh", case, "-o", "out"], cwd=self.folder, stderr=subprocess.PIPE, text=True) as run:
             line = run.stderr.readline()
             run.terminate()
-        self.assertRegex(line, r"^quadloop: info: about \d\.?\d*e\+07 cells, \S+ GiB of memory; boundary.wall.spacing = 4e-06 asks for most of them$")
+        self.assertRegex(line, r"^quadloop: info: about \d\.?\d*e\+07 cells, \S+ GiB of memory; boundary.wall.spacing = 4e-06 causes most of them$")
 
     def test_adaptation_keeps_within_the_limit(self):
         cells = []
         for allowed in ("2400", "100000"):
             warnings = self.done("adapt", str(CASES / "wedge/case.toml"), "-o", allowed, "--cycles", "1", "--max-cells", allowed)[1]
-            self.assertEqual("fewer leaves are refined than are marked" in warnings, allowed == "2400", warnings)
+            self.assertEqual("fewer cells are refined than marked" in warnings, allowed == "2400", warnings)
             counts = [json.loads((self.folder / allowed / f"cycle_0{k}/record.json").read_text()) for k in (0, 1)]
             cells.append([record["triangles"] + record["quads"] for record in counts])
         self.assertEqual(cells[0][0], cells[1][0])

@@ -87,7 +87,7 @@ def main():
         case = following_case(folder)
         alone = folder / "alone"
         told = adapt(args.quadloop, case, alone)
-        require("first heights asked for on airfoil" in told, told)
+        require("target first heights on airfoil" in told, told)
         check_heights(alone)
         for cycle in (0, 1, 2):
             nodes = json.loads((alone / f"cycle_0{cycle}" / "record.json").read_text())["nodes"]

@@ -188,7 +188,7 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
         << name;
   const std::string log = test::bytes_of(folder.file("whole/cycle_02/log.txt")),
                     record = test::bytes_of(folder.file("whole/cycle_02/record.json"));
-  EXPECT_NE(log.find("first heights asked for on floor: 0.0"), std::string::npos) << log;
+  EXPECT_NE(log.find("target first heights on floor: 0.0"), std::string::npos) << log;
   EXPECT_NE(record.find("\"first_heights\": {\"floor\": [0.0"), std::string::npos) << record;
   world().barrier();
 }

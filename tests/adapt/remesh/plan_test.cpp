@@ -235,7 +235,7 @@ TEST(OwnMesh, CountsNodesAndCells) {
   }
 }
 
-/// Targets of cells follow the solution: where no leaf is marked too, but not where nothing bends.
+/// Targets of cells follow the solution: where no cell is marked too, but not where nothing bends.
 TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   MeshInput input = square_input();
   input.stretch = 4;
@@ -244,8 +244,8 @@ TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   SolvedMesh solved = solved_front(world(), input);
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
   EXPECT_EQ(plan.refined, 0);
-  ASSERT_TRUE(plan.targets);
-  EXPECT_EQ(plan.targets->stretch, 4);
+  ASSERT_TRUE(std::holds_alternative<TargetDemand>(plan.anisotropy));
+  EXPECT_EQ(std::get<TargetDemand>(plan.anisotropy).stretch, 4);
   EXPECT_TRUE(plan.changes_mesh());
   const CarriedMesh next = carry_over(world(), input, plan, solved);
   ASSERT_EQ(next.generated.result.mesh.points.size(), solved.mesh.points.size());
@@ -254,7 +254,8 @@ TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   std::ranges::fill(solved.solution.values, 2.0);
   EXPECT_FALSE(plan_adaptation(world(), input, options, solved).changes_mesh());
   input.stretch.reset();
-  EXPECT_FALSE(plan_adaptation(world(), input, options, solved_front(world(), input)).targets);
+  EXPECT_FALSE(std::holds_alternative<TargetDemand>(
+      plan_adaptation(world(), input, options, solved_front(world(), input)).anisotropy));
 }
 
 TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
@@ -380,9 +381,10 @@ TEST(Plan, TellsShapesByMeansRatherThanByTheFlowAtTheirEnd) {
   for (const double value : front)
     solved.solution.values.insert(solved.solution.values.end(), {value, value, value * value, -value});
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
-  ASSERT_TRUE(plan.metric);
-  EXPECT_EQ(plan.metric->error, "error");
-  EXPECT_EQ(plan.metric->variables, (std::vector<std::string>{"q", "lone_at_end"}));
+  ASSERT_TRUE(std::holds_alternative<MetricDemand>(plan.anisotropy));
+  const auto& metric = std::get<MetricDemand>(plan.anisotropy);
+  EXPECT_EQ(metric.error, "error");
+  EXPECT_EQ(metric.variables, (std::vector<std::string>{"q", "lone_at_end"}));
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ def check_what_is_told(runs):
             ("wall_moved", [*start, *near, "--set", "boundary.airfoil.spacing=0.06"], True,
              ["its cells are kept", "boundary.airfoil.spacing was 0.05, is now 0.06"]),
             ("set_kept", [*start, *near, *coarser], True, ["its cells are kept", "(mesh, spacing, layers)"]),
-            ("set_anew", [*start, *coarser], False, ["is meshed anew", "(mesh, spacing, layers)"])):
+            ("set_anew", [*start, *coarser], False, ["was remeshed", "(mesh, spacing, layers)"])):
         said = runs.adapt(name, *words)
         require(said["cycles"][0]["morphed"] == morphed, f"{name}: {said}")
         require(any(all(piece in warning for piece in pieces) for warning in said["warnings"]), f"{name}: it was to be said: {said['warnings']}")
@@ -130,7 +130,7 @@ def check_what_is_told(runs):
     case.write_text("".join(part for part in tables_of(CASE) if not part.startswith("[design]")))
     words = [runs.quadloop, "adapt", case, "-o", runs.folder / "undesigned", "--json", *start, *near, *COARSE]
     said = json.loads(run(words))
-    require(any("is meshed anew, as its outline, " in warning and "design.morph_to" in warning for warning in said["warnings"]),
+    require(any("was remeshed, because the geometry " in warning and "design.morph_to" in warning for warning in said["warnings"]),
             f"it was to be said: {said['warnings']}")
     without_marks = re.sub(r"^(indicator|threshold) = .*\n", "", case.read_text(), flags=re.MULTILINE)
     case.write_text(without_marks.replace("variable = ", "norm = 2\nvariable = "))
@@ -144,7 +144,7 @@ def check_meshed_anew(runs):
     said = runs.adapt("anew", *words, "--cycles", 1)
     zero, one = said["cycles"]
     require(not zero["morphed"] and "morphed" not in one, f"no mesh has the quality 1: {said}")
-    require(any("near.geom: is meshed anew" in warning and "design.morph_to" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
+    require(any("near.geom: was remeshed" in warning and "design.morph_to" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
     require(cells_of(runs.mesh("anew/cycle_00")) != cells_of(runs.mesh("first/cycle_01")), "its cells are the old ones")
     check_what_is_told(runs)
     shutil.copytree(runs.folder / "anew", runs.folder / "resumed")

@@ -39,7 +39,7 @@ def check_ranks_and_resume(program, folder):
     by_marks = folder / "marks.toml"
     by_marks.write_text("\n".join(line for line in GOALS.read_text().replace("../", f"{CASES.parent}/").splitlines() if not line.startswith("norm")))
     run([program, "-q", "adapt", by_marks, "-o", folder / "marks", "--cycles", "1", *marks])
-    require(records(folder / "marks")[0]["refined"] > 0, "no leaf is marked by the error field")
+    require(records(folder / "marks")[0]["refined"] > 0, "no cell is marked by the error field")
 
 
 def solved(program, mesh, out, *assignments):
