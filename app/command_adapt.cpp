@@ -109,8 +109,7 @@ std::string line_of(const CycleRecord& record) {
   for (const auto& stage : record.seconds) seconds += stage.second;
   line += fmt::format("  {:.1f} s", seconds);
   for (const auto& [boundary, least, largest] : record.first_heights)
-    line +=
-        fmt::format("\n          target first heights on {}: {:.4g} to {:.4g}", boundary, least, largest);
+    line += fmt::format("\n          target first heights on {}: {:.4g} to {:.4g}", boundary, least, largest);
   return line;
 }
 
@@ -132,8 +131,7 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
 
 /// A line where the run ended before its last cycle; else empty.
 std::string why_ended(const LoopEnd& end) {
-  if (end.settled)
-    return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
+  if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
   return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
                      end.left->plan.reason_for_standing);

@@ -185,7 +185,8 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
   comm.together([&] {
     if (comm.is_root()) whole = read_mesh(mesh);
   });
-  SolvedMesh solved = spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
+  SolvedMesh solved =
+      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {

@@ -63,7 +63,8 @@ SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
     whole = read_mesh(path);
     if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
   });
-  SolvedMesh solved = spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, paths.tree()));
+  SolvedMesh solved =
+      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, paths.tree()));
   solved.file = path;
   return solved;
 }

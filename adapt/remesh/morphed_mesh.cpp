@@ -152,10 +152,10 @@ CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, con
   if (wish) morphed = morph_solved(comm, input, old, *wish);
   if (morphed.carried) {
     if (has_other_settings(input, old, *wish))
-      morphed.carried->generated.result.report.warnings.push_back(
-          fmt::format("{}: {} are not those that it was made with{}; its cells are kept, and the new settings "
-                      "take effect at the next remeshing",
-                      old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
+      morphed.carried->generated.result.report.warnings.push_back(fmt::format(
+          "{}: {} are not those that it was made with{}; its cells are kept, and the new settings "
+          "take effect at the next remeshing",
+          old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
     return std::move(*morphed.carried);
   }
   AdaptationPlan plan = standing_plan(old.tree, input);

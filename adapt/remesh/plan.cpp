@@ -91,7 +91,8 @@ std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
 }
 
 constexpr const char* text_of_facets =
-    "cells at the points of a polygonal boundary are not refined below half of its segments, because the flow "
+    "cells at the points of a polygonal boundary are not refined below half of its segments, because the "
+    "flow "
     "has a peak at each point; supply more points, or set adapt.facets = true";
 
 /// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*

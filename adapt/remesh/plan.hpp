@@ -23,11 +23,11 @@ struct AdaptationPlan {
   std::int64_t refined = 0, coarsened = 0;
   /// Where the options have a norm: that of the interpolation error on the mesh that was solved on.
   std::optional<double> estimate;
-  CellValues estimates_of_cells;       ///< then also `interpolation_error` and `wanted_size` of its cells
-  MeasuredWall measured_wall;          ///< that first heights of layers are to follow; the same on every rank
-  bool new_heights = false;            ///< they differ from those of the last mesh
-  /// What anisotropic cells the next mesh is to have: none, those of a metric, on the tree of the case alone, or
-  /// quadtree cells whose nodes are moved.
+  CellValues estimates_of_cells;  ///< then also `interpolation_error` and `wanted_size` of its cells
+  MeasuredWall measured_wall;     ///< that first heights of layers are to follow; the same on every rank
+  bool new_heights = false;       ///< they differ from those of the last mesh
+  /// What anisotropic cells the next mesh is to have: none, those of a metric, on the tree of the case alone,
+  /// or quadtree cells whose nodes are moved.
   std::variant<std::monostate, MetricDemand, TargetDemand> anisotropy;
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;

@@ -11,7 +11,8 @@
 
 namespace quadloop {
 
-SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree) {
+SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
+                         TreeRecord tree) {
   const MeshOrder order = own_order(whole);  // along the curve, as the tree has the cells
   SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
   solved.solution = scatter_field(comm, solution, solved.mesh, order);

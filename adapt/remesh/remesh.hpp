@@ -10,8 +10,8 @@
 
 namespace quadloop {
 
-/// The whole mesh on the root, its cells in the order of the tree's leaves, with its solution and its tree, spread
-/// over the ranks. *Collective.*
+/// The whole mesh on the root, its cells in the order of the tree's leaves, with its solution and its tree,
+/// spread over the ranks. *Collective.*
 SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree);
 
 /// What a mesh on the way to a run's first one came to, solved roughly.

@@ -140,7 +140,8 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
     const bool fits =
         share_of(limit, estimate_mesh(geometry, options.type, domain, leaves)) <= share_that_fits;
     if (fits && demanded.for_layers())
-      return "the layers require smaller cells at their outer edge than the case has, and these are too many: "
+      return "the layers require smaller cells at their outer edge than the case has, and these are too "
+             "many: "
              "use fewer or thinner layers";
     if (fits)
       return "the refinement by adaptation is the cause: reduce adapt.max_nodes, or increase adapt.min or "
@@ -166,10 +167,11 @@ void require_within(const MeshEstimate& estimate, const Geometry& geometry, cons
   const bool by_memory = estimate.cells <= limit.cells;
   const std::string allowed = by_memory ? fmt::format("{} are free", text_of_bytes(limit.bytes))
                                         : fmt::format("--max-cells allows {:.0f}", limit.cells);
-  const std::string or_else = by_memory ? fmt::format("use more machines, or override the memory check with --max-cells {}",
-                                                      text_of_cells(rounded_up(1.2 * estimate.cells)))
-                                        : fmt::format("allow more with --max-cells {}",
-                                                      text_of_cells(rounded_up(1.2 * estimate.cells)));
+  const std::string or_else =
+      by_memory
+          ? fmt::format("use more machines, or override the memory check with --max-cells {}",
+                        text_of_cells(rounded_up(1.2 * estimate.cells)))
+          : fmt::format("allow more with --max-cells {}", text_of_cells(rounded_up(1.2 * estimate.cells)));
   throw TooManyCells(fmt::format("the mesh would have about {} cells, {} of memory, but {}; {}; or {}",
                                  text_of_cells(estimate.cells),
                                  text_of_bytes(total_bytes(estimate, limit.ranks)), allowed,

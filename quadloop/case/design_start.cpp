@@ -117,7 +117,8 @@ DesignStart read_start(const Communicator& comm, FormerMesh& former, std::option
     require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
                    former.tree.attributes, former.mesh_file, former.tree_file);
   });
-  DesignStart start{spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)), {}};
+  DesignStart start{spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)),
+                    {}};
   start.solved.file = former.mesh_file;
   require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)

@@ -189,9 +189,10 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
       return matches(outflow.pattern, rule.pattern);
     });
     if (rule.condition == "outflow" && !has_pressure)
-      warnings.push_back(rule.where +
-                         " is a subsonic outflow without back pressure, where gas leaves as into a vacuum; set "
-                         "pressure = 1 for the static pressure of the free stream");
+      warnings.push_back(
+          rule.where +
+          " is a subsonic outflow without back pressure, where gas leaves as into a vacuum; set "
+          "pressure = 1 for the static pressure of the free stream");
   }
   return warnings;
 }

@@ -28,12 +28,12 @@ std::optional<std::array<NodeId, 3>> other_cell(const std::vector<std::array<Nod
 std::optional<std::array<NodeId, 4>> other_cell(const std::vector<std::array<NodeId, 4>>& found,
                                                 const std::vector<std::array<NodeId, 4>>& wanted);
 
-/// How a solution at so many nodes differs from one on `mesh`, in words for a message; empty where it does not.
-/// `points` are those of its nodes, or none where they are not known.
+/// How a solution at so many nodes differs from one on `mesh`, in words for a message; empty where it does
+/// not. `points` are those of its nodes, or none where they are not known.
 std::string node_difference(std::int64_t nodes, const std::vector<Point>& points, const Mesh& mesh);
 
-/// The same of a solution on the mesh `found`: its nodes, each within the tolerance above, and its cells in any
-/// order.
+/// The same of a solution on the mesh `found`: its nodes, each within the tolerance above, and its cells in
+/// any order.
 std::string difference(const Mesh& found, const Mesh& whole);
 
 }  // namespace quadloop

@@ -27,7 +27,8 @@ TEST(Record, ItsCaseComesBack) {
   EXPECT_EQ(read->case_digest, record.case_digest);
   EXPECT_EQ(read->geometry_digest, record.geometry_digest);
   ASSERT_EQ(read->settings.size(), record.settings.size());
-  for (std::size_t i = 0; i < record.settings.size(); ++i) EXPECT_EQ(read->settings[i].first, record.settings[i].first);
+  for (std::size_t i = 0; i < record.settings.size(); ++i)
+    EXPECT_EQ(read->settings[i].first, record.settings[i].first);
   EXPECT_TRUE(changed_settings(read->settings, record.settings).empty());
   EXPECT_TRUE(recorded_case(json_text({}))->settings.empty());
 }
@@ -102,8 +103,10 @@ TEST(Record, ItIsReadHoweverItIsWritten) {
 
 TEST(CaseSettings, ValuesAreComparedNotTheirTexts) {
   const CaseSettings before{{"spacing.max", "1000000.0"}, {"solver.command", R"(["a","b"])"}};
-  EXPECT_TRUE(changed_settings(before, {{"spacing.max", "1e+06"}, {"solver.command", R"(["a", "b"])"}}).empty());
-  EXPECT_EQ(changed_settings(before, {{"spacing.max", "1e+07"}, {"solver.command", R"(["a","b"])"}}).size(), 1U);
+  EXPECT_TRUE(
+      changed_settings(before, {{"spacing.max", "1e+06"}, {"solver.command", R"(["a", "b"])"}}).empty());
+  EXPECT_EQ(changed_settings(before, {{"spacing.max", "1e+07"}, {"solver.command", R"(["a","b"])"}}).size(),
+            1U);
 }
 
 TEST(CaseSettings, ChangesAreToldByKey) {
