@@ -99,7 +99,7 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
 
 std::string why_anew(const MorphWish& wish, const std::string& refusal) {
   return fmt::format(
-      "{}: is meshed anew, as its cells cannot follow with a quality of {:g} (design.morph_to): {}",
+      "{}: was remeshed, because its cells cannot follow with a quality of {:g} (design.morph_to): {}",
       wish.file, wish.least_quality, refusal);
 }
 

@@ -199,7 +199,7 @@ class Morph(ProgramTest):
         self.refused(1, ["in.mesh", "without a solution"], *morph, "in.mesh")
         self.write("far.geom", lens(0.5))
         self.with_gradient((self.folder / "in.mesh").read_bytes())
-        self.refused(1, ["far.geom", "smoothing"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "body.geom", "--nodal-gradient", "adjoint.mesh",
+        self.refused(1, ["far.geom", "had to be smoothed"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "body.geom", "--nodal-gradient", "adjoint.mesh",
                      "--outline-gradient", "gradient.csv")
         self.assertFalse((self.folder / "gradient.csv").exists())
 
@@ -242,7 +242,7 @@ class Morph(ProgramTest):
         self.write("other.geom", lens().replace("body", "wing"))
         self.refused(1, ["other.geom", "'wing'"], "morph", "in.mesh", "--geometry", "other.geom", "-o", "out.mesh")
         self.write("far.geom", lens(camber=3.5))
-        self.refused(1, ["in.mesh", "far.geom", "near (", "% of the way"], "morph", "in.mesh", "--geometry", "far.geom", "-o", "out.mesh")
+        self.refused(1, ["in.mesh", "far.geom", "near (", "% of the movement"], "morph", "in.mesh", "--geometry", "far.geom", "-o", "out.mesh")
         self.refused(1, ["far.geom: the mesh's node (", "is not on boundary 'body'"], "morph", "in.mesh", "--geometry", "far.geom", "--from", "far.geom", "-o", "out.mesh")
         self.assertFalse((self.folder / "out.mesh").exists())
 
