@@ -135,7 +135,7 @@ def check_what_is_told(runs):
     without_marks = re.sub(r"^(indicator|threshold) = .*\n", "", case.read_text(), flags=re.MULTILINE)
     case.write_text(without_marks.replace("variable = ", "norm = 2\nvariable = "))
     said = json.loads(run([*words[:4], runs.folder / "metric", *words[5:], "--set", 'mesh.type="metric"']))
-    require(any("without stretched cells" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
+    require(any("without anisotropic cells" in warning for warning in said["warnings"]), f"it was to be said: {said['warnings']}")
 
 
 def check_meshed_anew(runs):
