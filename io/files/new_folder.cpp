@@ -47,7 +47,8 @@ NewFolder NewFolder::at(const std::string& path, const std::vector<std::string>&
   if (::mkdir(path.c_str(), open_to_all) != 0) {
     const int reason = errno;
     folder.keep();
-    refuse_output(path, reason);
+    if (reason != EEXIST || !fs::is_directory(path)) refuse_output(path, reason);
+    refuse_others(path, files);  // another run made it in the meantime
   }
   return folder;
 }
