@@ -176,12 +176,12 @@ std::string refusal_of(const DemandedSplits& demanded) {
 
 TEST(BuildMesh, BlamesAdaptationWhereTheCaseAloneWouldFit) {
   const std::string text = refusal_of(DemandedSplits(world(), deep_split()));
-  EXPECT_NE(text.find("lower adapt.max_nodes"), std::string::npos) << text;
+  EXPECT_NE(text.find("reduce adapt.max_nodes"), std::string::npos) << text;
 }
 
 TEST(BuildMesh, BlamesLayersWhereTheyHaveAskedForSmallerLeaves) {
   const std::string text = refusal_of(DemandedSplits(world(), deep_split(), DemandedSplits{}));
-  EXPECT_NE(text.find("ask for fewer layers, or thinner ones"), std::string::npos) << text;
+  EXPECT_NE(text.find("use fewer or thinner layers"), std::string::npos) << text;
   EXPECT_EQ(text.find("adapt"), std::string::npos) << text;
 }
 
