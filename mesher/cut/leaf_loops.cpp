@@ -158,6 +158,27 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p
   return times;
 }
 
+/// How often the loop goes round the start of the edge that leaves its node `corner` towards the point, which
+/// is not on its edges.
+int times_round_start(const CutLeaf& leaf, std::span<const std::int32_t> loop, std::int32_t corner,
+                      Point towards) {
+  const std::size_t k = std::ranges::find(loop, corner) - loop.begin();
+  const std::int32_t before = loop[(k + loop.size() - 1) % loop.size()], after = loop[(k + 1) % loop.size()];
+  const bool left = clockwise_before(at(leaf, corner), at(leaf, before), towards, at(leaf, after));
+  if (winding_of(leaf, loop) > 0) return left ? 1 : 0;
+  return left ? 0 : -1;
+}
+
+/// How often one loop goes round another one that it does not cross. Where loops touch, all nodes of a loop
+/// can be nodes of the other one.
+int times_round(const CutLeaf& leaf, std::span<const std::int32_t> around,
+                std::span<const std::int32_t> loop) {
+  const auto apart = std::ranges::find_if(
+      loop, [&](std::int32_t n) { return std::ranges::find(around, n) == around.end(); });
+  if (apart != loop.end()) return times_round(leaf, around, at(leaf, *apart));
+  return times_round_start(leaf, around, loop[0], at(leaf, loop[1]));
+}
+
 /// Every hole lies in one outline, every outline in none or in a hole: the loops around a loop add up to 0
 /// for an outline, to 1 for a hole.
 bool nesting_is_sound(const CutLeaf& leaf) {
@@ -172,16 +193,9 @@ bool nesting_is_sound(const CutLeaf& leaf) {
   for (std::int32_t i = 0; i < count; ++i) {
     const auto loop = leaf.loop(i);
     int around = 0;
-    const auto coincides = [&](std::int32_t j) {
-      if (i == j) return false;
-      const auto other = leaf.loop(j);
-      const auto apart = std::ranges::find_if(
-          loop, [&](std::int32_t n) { return std::ranges::find(other, n) == other.end(); });
-      if (apart == loop.end()) return true;
-      around += times_round(leaf, other, at(leaf, *apart));
-      return false;
-    };
-    if (boxes.any_meeting(box_of_loop(i), coincides)) return false;
+    boxes.for_each_meeting(box_of_loop(i), [&](std::int32_t j) {
+      if (i != j) around += times_round(leaf, leaf.loop(j), loop);
+    });
     if (around != (winding_of(leaf, loop) > 0 ? 0 : 1)) return false;
   }
   return true;

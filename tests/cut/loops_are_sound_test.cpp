@@ -70,6 +70,20 @@ TEST(LoopsAreSound, OutlinesAndHolesLieInTurnInEachOther) {
   EXPECT_FALSE(sound(squares, {outer, {12, 15, 14, 13}})) << "a hole at the same height";
 }
 
+TEST(LoopsAreSound, ALoopOfWhichEveryNodeIsANodeOfAnother) {
+  const std::vector<Point> bulging{{0, 0}, {12, 0}, {12, 12}, {0, 12}, {6, 9},
+                                   {9, 8}, {8, 4},  {6, 2},   {4, 4},  {3, 8}};
+  const Loop box{0, 1, 2, 3}, hole{4, 5, 6, 7, 8, 9};
+  EXPECT_TRUE(sound(bulging, {box, hole, {4, 8, 6}})) << "a pocket between bodies that touch";
+  EXPECT_FALSE(sound(bulging, {box, hole, {4, 6, 8}})) << "a hole in a hole";
+  EXPECT_FALSE(sound(bulging, {box, {4, 9, 8, 7, 6, 5}, {4, 8, 6}})) << "outlines in an outline";
+  const std::vector<Point> star{{0, 0}, {12, 0}, {12, 12}, {0, 12}, {6, 11},
+                                {7, 6}, {11, 2}, {6, 4},   {1, 2},  {5, 6}};
+  EXPECT_TRUE(sound(star, {{4, 8, 6}, hole})) << "a body that touches the outline with its tips";
+  EXPECT_FALSE(sound(star, {box, {4, 8, 6}, hole})) << "the same within an outline";
+  EXPECT_FALSE(sound(star, {{4, 6, 8}, {4, 9, 8, 7, 6, 5}})) << "an outline in a hole in nothing";
+}
+
 TEST(LoopsAreSound, ALoopAtANodeOfAnother) {
   const std::vector<Point> places{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 2}, {2, 1}, {-1, -2}, {-2, -1}};
   EXPECT_TRUE(sound(places, {{0, 1, 2, 3}, {0, 4, 5}})) << "a hole that hangs inside";

@@ -368,12 +368,15 @@ Outline as_outline(const Geometry& g) {
   return outline;
 }
 
-/// Of a loop's segments on fronts, or on those of strips alone, the one nearest to p.
+/// The segment nearest to p among the fronts of a loop, or only among those of strips. Of all loops if `loop`
+/// is -1: a point between the outer boundary and its front lies in no loop.
 std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, bool strips_alone) {
   const Geometry& g = front.outer;
-  std::int32_t nearest = g.loop_start(loop);
+  const std::int32_t begin = loop < 0 ? 0 : g.loop_start(loop),
+                     end = loop < 0 ? g.size() : g.loop_start(loop + 1);
+  std::int32_t nearest = begin;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t s = g.loop_start(loop); s < g.loop_start(loop + 1); ++s) {
+  for (std::int32_t s = begin; s < end; ++s) {
     if (strips_alone ? g.boundary_of(s) != front.strip_boundary() : !front.is_front(s)) continue;
     const double distance = place_on_segment(p, g.point(s), g.point(g.next(s))).squared_distance;
     if (distance >= least) continue;
