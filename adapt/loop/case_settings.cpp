@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "mesher/generate/digests.hpp"
+#include "generate/digests.hpp"
 
 namespace quadloop {
 

@@ -6,7 +6,7 @@
 
 #include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/loop.hpp"
-#include "mesher/mesh/parts/partition.hpp"
+#include "mesher/partition/partition.hpp"
 
 namespace quadloop {
 

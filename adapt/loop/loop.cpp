@@ -4,9 +4,9 @@
 
 #include <utility>
 
+#include "generate/digests.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/face_figures.hpp"
 #include "mesher/mesh/check/layer_figures.hpp"
 #include "mesher/mesh/check/quality.hpp"

@@ -7,11 +7,11 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "adapt/solvers/cycle_paths.hpp"
+#include "generate/digests.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/digests.hpp"
 
 namespace quadloop {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "adapt/solvers/openfoam_template.hpp"
+#include "generate/digests.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/digests.hpp"
 
 namespace quadloop {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "adapt/metric/metric_figures.hpp"
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
 namespace quadloop {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
-#include "mesher/generate/outside_layers.hpp"
+#include "generate/outside_layers.hpp"
 
 namespace quadloop {
 

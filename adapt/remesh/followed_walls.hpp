@@ -5,7 +5,7 @@
 
 #include "adapt/remesh/demands/adapt_options.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 
 namespace quadloop {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/build/islands.hpp"
-#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 

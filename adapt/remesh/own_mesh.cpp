@@ -7,8 +7,8 @@
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
+#include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 

@@ -11,7 +11,7 @@
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
 #include "adapt/targets/gather_at_fronts.hpp"
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
 namespace quadloop {

@@ -6,8 +6,8 @@
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "adapt/remesh/smoothed_mesh.hpp"
+#include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"

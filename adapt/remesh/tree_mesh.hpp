@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
 namespace quadloop {

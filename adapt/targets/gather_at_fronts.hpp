@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
 namespace quadloop {

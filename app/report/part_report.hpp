@@ -5,7 +5,7 @@
 
 #include "app/report/figures.hpp"
 #include "app/report/summary.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

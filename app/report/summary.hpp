@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/report/figures.hpp"
+#include "generate/generate.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/generate/generate.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
 namespace quadloop {

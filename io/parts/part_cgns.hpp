@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/files/output_file.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

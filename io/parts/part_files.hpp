@@ -5,7 +5,7 @@
 
 #include "io/files/output_file.hpp"
 #include "io/parts/part_index.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

@@ -8,7 +8,7 @@
 #include "io/model/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/suffix.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/files/output_file.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

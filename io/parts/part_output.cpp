@@ -3,8 +3,8 @@
 #include <optional>
 #include <span>
 
-#include "mesher/mesh/parts/partition.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/partition/partition.hpp"
 
 namespace quadloop {
 

@@ -6,7 +6,7 @@
 
 #include "io/model/loaded_mesh.hpp"
 #include "io/parts/part_files.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

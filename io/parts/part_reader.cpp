@@ -12,7 +12,7 @@
 #include "io/parts/part_links.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/mesh/parts/join_parts.hpp"
+#include "mesher/partition/join_parts.hpp"
 
 namespace quadloop {
 

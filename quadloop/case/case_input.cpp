@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "adapt/remesh/demands/restart.hpp"
+#include "generate/digests.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/build/short_edges.hpp"
-#include "mesher/generate/digests.hpp"
 #include "quadloop/case/layer_settings.hpp"
 
 namespace quadloop {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "generate/outside_layers.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/outside_layers.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/fuzz/fuzz.hpp"

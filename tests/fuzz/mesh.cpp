@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "generate/generate.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/generate/generate.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/layers_from.hpp"

@@ -1,5 +1,5 @@
 // Meshing and smoothing in one, and the numbers that tell meshes and cases apart.
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/digests.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "generate/generate.hpp"
 #include "mesher/build/outline_losses.hpp"
-#include "mesher/generate/generate.hpp"
 #include "mesher/layers/layer_report.hpp"
 #include "tests/support/world.hpp"
 

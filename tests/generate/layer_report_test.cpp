@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {

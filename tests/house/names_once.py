@@ -10,7 +10,7 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-TOPS = ["adapt", "app", "flow", "io", "mesher", "quadloop", "smoother"]
+TOPS = ["adapt", "app", "flow", "generate", "io", "mesher", "quadloop", "smoother"]
 OPENED = re.compile(r"namespace ?([\w:]*) \{")
 CLOSED = re.compile(r"\}  // namespace")
 CLASS = re.compile(r"(?:struct|class|enum|enum class|union) (\w+)(?: final)?(?: : [^;]*| *)\{")

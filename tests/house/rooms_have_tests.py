@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-TOPS = ["adapt", "app", "flow", "io", "mesher", "quadloop", "smoother"]
+TOPS = ["adapt", "app", "flow", "generate", "io", "mesher", "quadloop", "smoother"]
 OTHER_KINDS = ["property"]  # folders of tests that mirror none
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
 

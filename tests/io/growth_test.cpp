@@ -10,7 +10,7 @@
 
 #include "io/files/interruption.hpp"
 #include "io/mesh_file.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 

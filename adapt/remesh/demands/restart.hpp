@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "adapt/sensor/thresholds.hpp"
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 

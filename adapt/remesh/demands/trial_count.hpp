@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "adapt/remesh/demands/restart.hpp"
-#include "mesher/generate/mesh_trial.hpp"
+#include "generate/mesh_trial.hpp"
 
 namespace quadloop {
 

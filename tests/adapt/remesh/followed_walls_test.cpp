@@ -8,8 +8,8 @@
 
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
+#include "generate/mesh_trial.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/generate/mesh_trial.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "tests/support/world.hpp"
 

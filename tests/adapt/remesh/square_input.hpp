@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 
 namespace quadloop::test {
 

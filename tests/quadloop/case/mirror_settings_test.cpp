@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "mesher/generate/digests.hpp"
+#include "generate/digests.hpp"
 #include "quadloop/case/settings.hpp"
 #include "tests/io/input/temporary_file.hpp"
 

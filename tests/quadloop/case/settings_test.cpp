@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesher/generate/digests.hpp"
+#include "generate/digests.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {

@@ -1,4 +1,4 @@
-#include "mesher/generate/outside_layers.hpp"
+#include "generate/outside_layers.hpp"
 
 #include <fmt/format.h>
 

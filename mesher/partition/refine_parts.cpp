@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/refine_parts.hpp"
+#include "mesher/partition/refine_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/mesh/parts/part_sides.hpp"
-#include "mesher/mesh/parts/refine_sides.hpp"
+#include "mesher/partition/part_sides.hpp"
+#include "mesher/partition/refine_sides.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/partition.hpp"
+#include "mesher/partition/partition.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,8 +9,8 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
-#include "mesher/mesh/parts/hilbert.hpp"
-#include "mesher/mesh/parts/refine_parts.hpp"
+#include "mesher/partition/hilbert.hpp"
+#include "mesher/partition/refine_parts.hpp"
 
 namespace quadloop {
 

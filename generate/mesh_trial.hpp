@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "mesher/generate/outside_layers.hpp"
+#include "generate/outside_layers.hpp"
 #include "mesher/layers/count_layers.hpp"
 
 namespace quadloop {

@@ -8,7 +8,7 @@
 
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 namespace quadloop {
 

@@ -1,4 +1,4 @@
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "generate/digests.hpp"
+#include "generate/outside_layers.hpp"
+#include "generate/refine_front.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/lattice_rank.hpp"
-#include "mesher/generate/digests.hpp"
-#include "mesher/generate/outside_layers.hpp"
-#include "mesher/generate/refine_front.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "mesher/mesh/check/require_sound.hpp"

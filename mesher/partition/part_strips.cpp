@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/part_strips.hpp"
+#include "mesher/partition/part_strips.hpp"
 
 #include <algorithm>
 #include <utility>

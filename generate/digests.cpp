@@ -1,4 +1,4 @@
-#include "mesher/generate/digests.hpp"
+#include "generate/digests.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

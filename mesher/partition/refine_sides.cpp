@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/refine_sides.hpp"
+#include "mesher/partition/refine_sides.hpp"
 
 #include <algorithm>
 #include <cmath>

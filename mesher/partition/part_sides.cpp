@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/part_sides.hpp"
+#include "mesher/partition/part_sides.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/geometry/measured_wall.hpp"
 #include "mesher/layers/front/layer_front.hpp"
 

@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/join_parts.hpp"
+#include "mesher/partition/join_parts.hpp"
 
 #include <algorithm>
 #include <span>

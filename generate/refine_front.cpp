@@ -1,4 +1,4 @@
-#include "mesher/generate/refine_front.hpp"
+#include "generate/refine_front.hpp"
 
 #include <fmt/format.h>
 

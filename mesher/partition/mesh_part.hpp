@@ -10,7 +10,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/part_names.hpp"
-#include "mesher/mesh/parts/partition.hpp"
+#include "mesher/partition/partition.hpp"
 
 namespace quadloop {
 

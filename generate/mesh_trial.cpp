@@ -1,4 +1,4 @@
-#include "mesher/generate/mesh_trial.hpp"
+#include "generate/mesh_trial.hpp"
 
 #include "mesher/build/count_nodes.hpp"
 #include "mesher/build/mesh_estimate.hpp"

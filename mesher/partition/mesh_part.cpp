@@ -1,4 +1,4 @@
-#include "mesher/mesh/parts/mesh_part.hpp"
+#include "mesher/partition/mesh_part.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/node_exchange.hpp"
-#include "mesher/mesh/parts/part_sides.hpp"
-#include "mesher/mesh/parts/part_strips.hpp"
+#include "mesher/partition/part_sides.hpp"
+#include "mesher/partition/part_strips.hpp"
 
 namespace quadloop {
 

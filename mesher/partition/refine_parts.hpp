@@ -4,7 +4,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
-#include "mesher/mesh/parts/partition.hpp"
+#include "mesher/partition/partition.hpp"
 
 namespace quadloop {
 
