@@ -28,6 +28,7 @@ from run_adapt_refusals import SOLVER  # noqa: E402
 QUADLOOP, MPIRUN, DISK = (str(Path(program).resolve()) for program in sys.argv[1:4])
 SEEDS = int(sys.argv[4]) if len(sys.argv) > 4 else 1
 SECONDS = 120  # until a run counts as one that hangs
+LOOK_EVERY = 30  # seconds between two looks at whether its ranks live
 
 INPUTS = {
     "box.geom": "2\nbox\n4\n0 0\n4 0\n4 4\n0 4\nhole\n4\n1.5 1.5\n1.5 2.5\n2.5 2.5\n2.5 1.5\n",
@@ -148,13 +149,21 @@ class Trial:
 
     def ended(self, process):
         """(exit status, stderr)."""
-        try:
-            said = process.communicate(timeout=SECONDS)
-            return process.returncode, said[1]
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            process.communicate()
-            return None, "it hangs"
+        for _ in range(SECONDS // LOOK_EVERY):
+            try:
+                said = process.communicate(timeout=LOOK_EVERY)[1]
+                return process.returncode, said
+            except subprocess.TimeoutExpired:
+                if self.fault.ranks > 1 and not ranks_of(process.pid):
+                    return self.without_launcher(process)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        return None, "it hangs"
+
+    def without_launcher(self, process):
+        """All ranks have ended, but mpirun has not: Open MPI 4.1.4 with PMIx 4.2.2 can wait for a lock of its own in PMIx_server_finalize()."""
+        os.killpg(process.pid, signal.SIGKILL)
+        return -signal.SIGKILL, process.communicate()[1]
 
     def run_under_fault(self, seconds):
         """`seconds`: how long a run without a fault takes."""
@@ -183,12 +192,13 @@ class Trial:
 
 
 def ranks_of(launcher):
-    """The processes of the program in the session of a launcher."""
+    """The living processes of the program in the session of a launcher."""
     found = []
     for stat in Path("/proc").glob("[0-9]*/stat"):
         with contextlib.suppress(OSError):
             name, _, fields = stat.read_text().partition("(")[2].rpartition(")")
-            if name == "quadloop" and int(fields.split()[3]) == launcher:
+            state, _, _, session = fields.split()[:4]
+            if name == "quadloop" and state != "Z" and int(session) == launcher:
                 found.append(int(stat.parent.name))
     return sorted(found)
 
