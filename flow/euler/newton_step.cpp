@@ -3,14 +3,16 @@
 #include <algorithm>
 
 #include "flow/euler/implicit/state_update.hpp"
+#include "flow/euler/steady_parameters.hpp"
 
 namespace quadloop::euler {
 
 namespace {
 
-/// Slow flow round a blunt body needs some 100 directions: with 40 its circulation creeps to where it ends.
-constexpr NewtonSystem::Effort effort{.tolerance = 0.1, .directions = 100, .sweeps = 30};
-constexpr int most_halvings = 5;
+constexpr SteadyParameters::Newton newton_parameters = steady_parameters.newton;
+constexpr NewtonSystem::Effort effort{.tolerance = newton_parameters.tolerance,
+                                      .directions = newton_parameters.directions,
+                                      .sweeps = newton_parameters.sweeps};
 
 }  // namespace
 
@@ -28,7 +30,7 @@ NewtonStep::Taken NewtonStep::take(const std::vector<Flux>& fluxes, double cfl,
   system_.assemble(start_, cfl, shares, run_.residual.shocks());
   const double size = newton_.norm(residual_), left_over = solve();
   double share = 1;
-  for (int attempt = 0; attempt < most_halvings; ++attempt, share *= 0.5) {
+  for (int attempt = 0; attempt < newton_parameters.halvings; ++attempt, share *= 0.5) {
     if (advance(share) < size) return {share, left_over};
   }
   run_.states = start_;

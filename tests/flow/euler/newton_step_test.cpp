@@ -1,4 +1,4 @@
-// Newton steps near a steady flow, and when they are tried.
+// Newton steps near a steady flow.
 #include "flow/euler/newton_step.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "flow/euler/implicit/state_update.hpp"
-#include "flow/euler/newton_pilot.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
@@ -46,34 +45,6 @@ TEST(NewtonStep, FallsFasterTheNearerTheEnd) {
     EXPECT_LT(now, 0.2 * before) << step;
     before = now;
   }
-}
-
-TEST(NewtonPilot, RestsLongerAfterEachFailure) {
-  NewtonPilot pilot;
-  EXPECT_FALSE(pilot.tries(0.01));  // plain steps still do
-  pilot.call();
-  EXPECT_FALSE(pilot.tries(0.1));  // shocks still move
-  std::vector<int> rests;
-  for (int failure = 0; failure < 4; ++failure) {
-    int rest = 0;
-    while (!pilot.tries(0.01)) ++rest;
-    rests.push_back(rest);
-    pilot.learn(0.25, 0.1);
-  }
-  EXPECT_EQ(rests, (std::vector<int>{0, 5, 10, 20}));
-}
-
-TEST(NewtonPilot, GoesFasterWhereStepsAreWholeAndSystemsSolved) {
-  NewtonPilot pilot;
-  EXPECT_EQ(pilot.cfl(100), 100);
-  pilot.learn(1, 0.1);
-  EXPECT_EQ(pilot.cfl(100), 300);
-  pilot.learn(0.5, 0.1);
-  EXPECT_EQ(pilot.cfl(100), 300);
-  pilot.learn(1, 0.6);
-  EXPECT_EQ(pilot.cfl(100), 150);
-  for (int step = 0; step < 9; ++step) pilot.learn(0, 0.1);
-  EXPECT_EQ(pilot.cfl(100), 10);
 }
 
 TEST(StateUpdate, KeepsDensityAndPressureFromVanishing) {

@@ -32,21 +32,17 @@ TEST(StepShares, StayWhereSwingsDieOutFast) {
 }
 
 TEST(StallWatch, TellsASlowFallFromAFastOne) {
-  StallWatch fast, slow, early, waves;
-  double quick = 0.04, lame = 0.04, far = 0.04;
-  bool fast_stalls = false, slow_stalls = false, early_stalls = false, waves_stall = false;
+  StallWatch falling, standing;
+  double residual = 0.04;
   for (int step = 0; step < 100; ++step) {
-    fast_stalls |= fast.stalls(quick *= 0.9);
-    slow_stalls |= slow.stalls(lame *= 0.95);
-    if (step < 45) waves_stall |= waves.stalls(far *= 0.95);  // to 4e-3: waves in the far field, say
-    early_stalls |= early.stalls(0.5);
+    falling.add(residual *= 0.95);
+    standing.add(0.5);
   }
-  EXPECT_FALSE(fast_stalls);
-  EXPECT_TRUE(slow_stalls);
-  EXPECT_FALSE(waves_stall);
-  EXPECT_FALSE(early_stalls);  // shocks still move
-  EXPECT_FALSE(slow.is_slow());
-  EXPECT_TRUE(early.is_slow());
+  EXPECT_FALSE(falling.is({14, 0.5}));
+  EXPECT_TRUE(falling.is({13, 0.5}));
+  EXPECT_FALSE(standing.is({100, 0.5})) << "there is no flow so many steps ago";
+  EXPECT_FALSE(falling.is_slow());
+  EXPECT_TRUE(standing.is_slow());
 }
 
 TEST(SwingWatch, TellsASwingFromATransient) {
@@ -65,13 +61,11 @@ TEST(SwingWatch, TellsASwingFromATransient) {
   EXPECT_FALSE(still_swings);
 }
 
-TEST(RiseWatch, WaitsForARiseThatLasts) {
-  RiseWatch watch;
-  for (int step = 0; step < 100; ++step) EXPECT_FALSE(watch.rises(step % 10 == 0 ? 1e-6 : 1e-4, 1e-6));
-  int steps = 0;
-  while (!watch.rises(1e-4, 1e-6)) ++steps;
-  EXPECT_LT(steps, 25);
-  for (int step = 0; step < 100; ++step) EXPECT_FALSE(watch.rises(1, 0.09));  // the start's own transient
+TEST(Patience, EndsAfterStepsOnEnd) {
+  Patience patience(3);
+  for (const bool is_so : {true, true, false, true, true}) EXPECT_FALSE(patience.ends(is_so));
+  EXPECT_TRUE(patience.ends(true));
+  EXPECT_FALSE(patience.ends(true)) << "told once, then counted anew";
 }
 
 TEST(CflLimit, GrowsBackToLessThanBefore) {
@@ -108,14 +102,6 @@ TEST(Shortfall, SaysWhatHelps) {
   result.last_residual = 0.1;
   EXPECT_TRUE(says("fell to 1.00e-04 at step 120 and then rose to 1.00e-01; the flow at step 120 is kept"));
   EXPECT_FALSE(says("raise solver.iterations"));
-}
-
-TEST(StandstillWatch, TellsOfFourEqualResidualsInARow) {
-  StandstillWatch watch;
-  for (const double residual : {0.5, 0.25, 0.25, 0.25, 0.125, 0.25, 0.25, 0.25})
-    EXPECT_FALSE(watch.stands(residual));
-  EXPECT_TRUE(watch.stands(0.25));
-  EXPECT_FALSE(watch.stands(0.25)) << "told once, then counted anew";
 }
 
 }  // namespace
