@@ -71,7 +71,7 @@ void refuse(const EulerOptions& options) {
         "goal");
 }
 
-void estimate(const Mesh& mesh, const FlowRun& run, EulerResult& result) {
+void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {
   std::vector<std::string> boundaries;
   for (const BoundaryEdges& boundary : mesh.boundaries) boundaries.push_back(boundary.name);
   const LinearResidual linear(run);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/model/goal.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 
 namespace quadloop::euler {
 

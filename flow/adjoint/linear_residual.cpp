@@ -65,7 +65,7 @@ State stepped(const State& state, const Gradient& gradient, Point way) {
 
 }  // namespace
 
-LinearResidual::LinearResidual(const FlowRun& run) : run_{run} {
+LinearResidual::LinearResidual(FlowRun& run) : run_{run} {
   run.residual.evaluate(run.states);
   if (const Limiter* const limiter = run.residual.limiter()) {
     std::vector<Gradient> gradients(run.mesh.nodes());

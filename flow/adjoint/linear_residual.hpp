@@ -5,8 +5,8 @@
 
 #include "flow/adjoint/limiter_derivative.hpp"
 #include "flow/adjoint/shock_derivative.hpp"
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/model/flux_jacobian.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 
 namespace quadloop::euler {
 
@@ -17,7 +17,7 @@ class LinearResidual {
  public:
   /// At the run's states, where the residual is evaluated once more. What the run refers to must outlive it.
   /// *Collective.*
-  explicit LinearResidual(const FlowRun& run);
+  explicit LinearResidual(FlowRun& run);
 
   /// How the owned nodes' net fluxes answer to changes of the states, an entry for each node; those of copies
   /// are brought up to date first. *Collective.*
@@ -61,7 +61,7 @@ class LinearResidual {
   void transpose_shocks(const std::vector<Flux>& weights, std::vector<State>& sums) const;
   void transpose_faces(const std::vector<Flux>& weights, std::vector<State>& sums) const;
 
-  FlowRun run_;
+  const FlowRun& run_;
   std::optional<LimiterDerivative> limiter_;
   std::vector<EdgePart> edges_;
   std::vector<SkewPart> skew_;

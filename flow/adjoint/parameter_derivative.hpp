@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "flow/euler/flow_run.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 
 namespace quadloop::euler {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/in_time/runge_kutta.hpp"
+#include "flow/euler/march.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
@@ -42,17 +42,16 @@ struct Course {
   double steps(const EulerOptions& options) const { return end(options) / step.value_or(explicit_step); }
 };
 
-Course course_of(const FlowRun& run) {
+Course course_of(FlowRun& run) {
   run.mesh.exchange().update(run.states);
-  const TimeRun in_time{run.comm, run.mesh, run.model, run.residual, run.states};
-  Course course{flow_through_time(run), RungeKutta(in_time, run.options.cfl).longest_step(),
+  Course course{flow_through_time(run), RungeKutta(run, run.options.cfl).longest_step(),
                 run.options.time_step};
   if (!course.step && course.explicit_step * most_explicit_steps < course.flow_through)
     course.step = course.flow_through / implicit_steps;
   return course;
 }
 
-TimePlan plan_of(const FlowRun& run) {
+TimePlan plan_of(FlowRun& run) {
   const Course course = course_of(run);
   TimePlan plan;
   plan.end = course.end(run.options);
@@ -73,7 +72,7 @@ std::string early_end(int steps, double time, const TimePlan& plan) {
 
 }  // namespace
 
-void require_few_steps(const FlowRun& run) {
+void require_few_steps(FlowRun& run) {
   const EulerOptions& options = run.options;
   const Course course = course_of(run);
   const double steps = course.steps(options);
@@ -89,7 +88,7 @@ void require_few_steps(const FlowRun& run) {
                                course.flow_through / implicit_steps));
 }
 
-void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average) {
+void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average) {
   const EulerResult steady = result;
   const std::vector<State> steady_states = run.states;
   std::string failure;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
+#include "flow/euler/march.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::euler {
@@ -15,7 +15,7 @@ constexpr int explicit_history = 10;  ///< such steps are many and small
 
 class TimeMarch {
  public:
-  TimeMarch(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average)
+  TimeMarch(FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average)
       : run_{run},
         plan_{plan},
         result_{result},
@@ -23,8 +23,7 @@ class TimeMarch {
         first_step_{result.iterations},
         reference_{plan.reference},
         far_field_(run.comm, run.mesh, run.model),
-        scheme_{time_scheme({run.comm, run.mesh, run.model, run.residual, run.states}, plan.step,
-                            run.options.cfl)} {}
+        scheme_{time_scheme(run, plan.step, run.options.cfl)} {}
 
   void march() {
     double before = 0;  // how long the step to this flow took, as far as it counts for the means
@@ -106,7 +105,7 @@ class TimeMarch {
     result_.unsteady = flow;
   }
 
-  FlowRun run_;
+  FlowRun& run_;
   TimePlan plan_;
   EulerResult& result_;
   TimeAverage& average_;
@@ -119,7 +118,7 @@ class TimeMarch {
 
 }  // namespace
 
-void march_in_time(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average) {
+void march_in_time(FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average) {
   TimeMarch(run, plan, result, average).march();
 }
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/implicit/state_update.hpp"
+#include "flow/euler/march.hpp"
 #include "flow/euler/mirrored_states.hpp"
 #include "flow/euler/newton_step.hpp"
 #include "flow/euler/steady_control.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 class SteadyMarch {
  public:
-  explicit SteadyMarch(const FlowRun& run)
+  explicit SteadyMarch(FlowRun& run)
       : run_{run},
         control_(run.is_carried, run.options.unsteady == EulerOptions::Unsteady::carry_on),
         system_(run.comm, run.mesh, run.model),
@@ -188,7 +188,7 @@ class SteadyMarch {
                               result_.iterations));
   }
 
-  FlowRun run_;
+  FlowRun& run_;
   SteadyControl control_;
   ImplicitSystem system_;
   std::vector<Change> change_;
@@ -205,6 +205,6 @@ class SteadyMarch {
 
 }  // namespace
 
-EulerResult march_to_steady(const FlowRun& run) { return SteadyMarch(run).march(); }
+EulerResult march_to_steady(FlowRun& run) { return SteadyMarch(run).march(); }
 
 }  // namespace quadloop::euler

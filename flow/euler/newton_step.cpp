@@ -16,7 +16,7 @@ constexpr NewtonSystem::Effort effort{.tolerance = newton_parameters.tolerance,
 
 }  // namespace
 
-NewtonStep::NewtonStep(const FlowRun& run, ImplicitSystem& system)
+NewtonStep::NewtonStep(FlowRun& run, ImplicitSystem& system)
     : run_{run},
       system_{system},
       newton_(run.comm, run.mesh, run.model, run.residual, system),

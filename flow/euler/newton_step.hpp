@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/newton_system.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 
 namespace quadloop::euler {
 
@@ -12,7 +12,7 @@ namespace quadloop::euler {
 class NewtonStep {
  public:
   /// Both must outlive it. *Collective.*
-  NewtonStep(const FlowRun& run, ImplicitSystem& system);
+  NewtonStep(FlowRun& run, ImplicitSystem& system);
 
   struct Taken {
     double share;      ///< of the change: the largest that made the residual smaller, 0 where none did
@@ -26,7 +26,7 @@ class NewtonStep {
   double solve();
   double advance(double share);
 
-  FlowRun run_;
+  FlowRun& run_;
   ImplicitSystem& system_;
   NewtonSystem newton_;
   NodeRows residual_, change_;

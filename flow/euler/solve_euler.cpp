@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/forces.hpp"
+#include "flow/euler/march.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
@@ -93,7 +93,7 @@ void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
 }
 
 /// The flow that a run is to leave: its states, or what it came to over time. *Collective.*
-void keep_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const TimeAverage& average,
+void keep_flow(FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const TimeAverage& average,
                EulerResult& result) {
   if (average.empty()) {
     if (run.model.is_viscous()) run.residual.evaluate(run.states);  // the flow kept may not be the last one
@@ -108,7 +108,7 @@ void keep_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
   result.unsteady->cd.mean = result.cd;
 }
 
-EulerResult march_to_end_time(const FlowRun& run, TimeAverage& average) {
+EulerResult march_to_end_time(FlowRun& run, TimeAverage& average) {
   const EulerOptions& options = run.options;
   if (options.time_step && options.end_time / *options.time_step > most_steps_in_time)
     throw InputError(fmt::format(
@@ -122,13 +122,13 @@ EulerResult march_to_end_time(const FlowRun& run, TimeAverage& average) {
   return result;
 }
 
-EulerResult march_as_steady(const FlowRun& run) {
+EulerResult march_as_steady(FlowRun& run) {
   const progress::Stage stage("solving", run.options.iterations, "steps");
   return march_to_steady(run);
 }
 
 /// From the run's states to the end of what the options ask. *Collective.*
-EulerResult march(const FlowRun& run, const Field& start, TimeAverage& average) {
+EulerResult march(FlowRun& run, const Field& start, TimeAverage& average) {
   const EulerOptions& options = run.options;
   if (options.time == EulerOptions::Time::accurate) return march_to_end_time(run, average);
   if (options.unsteady == EulerOptions::Unsteady::stop) return march_as_steady(run);
@@ -153,9 +153,9 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   const FlowModel model = flow_model(comm, mesh, options);
   const DualMesh dual(comm, mesh);
   std::vector<State> states = start_states(comm, mesh, dual, model, options, start);
-  Residual residual(dual, model, options);
-  residual.no_slip().hold(states);
-  const FlowRun run{comm, options, dual, model, residual, states, start.width() > 0};
+  FlowRun run{
+      comm, options, dual, model, Residual(dual, model, options), std::move(states), start.width() > 0};
+  run.residual.no_slip().hold(run.states);
   TimeAverage average;
   EulerResult result = march(run, start, average);
   keep_flow(run, mesh.boundaries, average, result);

@@ -55,7 +55,7 @@ struct FlowRun;
 
 /// Called on every rank with the run as it ends, before it is told: the flow that is kept, and what is found
 /// of it. May add to that. *Collective.*
-using AtEnd = std::function<void(const Mesh& mesh, const euler::FlowRun& run, EulerResult& result)>;
+using AtEnd = std::function<void(const Mesh& mesh, euler::FlowRun& run, EulerResult& result)>;
 
 /// Solves the two-dimensional Euler equations, or with a viscosity those of laminar flow, on a mesh of
 /// triangles and quadrilaterals. The flow starts from `start`, which has a row for each owned node; without

@@ -21,7 +21,7 @@ std::array<double, 4> row_of(const Conserved& w) { return {w.mass, w.x_momentum,
 
 }  // namespace
 
-BackwardDifference::BackwardDifference(const TimeRun& run, double step)
+BackwardDifference::BackwardDifference(FlowRun& run, double step)
     : run_{run},
       step_{step},
       system_(run.comm, run.mesh, run.model),

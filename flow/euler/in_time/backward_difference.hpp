@@ -14,7 +14,7 @@ namespace quadloop::euler {
 /// as beside strong shocks that move over several cells, is taken in halves.
 class BackwardDifference : public TimeScheme {
  public:
-  BackwardDifference(const TimeRun& run, double step);
+  BackwardDifference(FlowRun& run, double step);
 
   double longest_step() override { return step_; }
   bool advance(double step, const std::vector<Flux>& fluxes) override;
@@ -37,7 +37,7 @@ class BackwardDifference : public TimeScheme {
   double go_on(double ratio, double rate, double size);
   double newton(double rate, double size, double enough);
 
-  TimeRun run_;
+  FlowRun& run_;
   double step_, last_step_ = 0;  ///< wanted; of the step before, 0 where there is none
   ImplicitSystem system_;
   NewtonSystem newton_;

@@ -22,7 +22,7 @@ struct Stage {
 };
 constexpr std::array<Stage, 3> stages{{{0, 1}, {0.75, 0.25}, {1.0 / 3, 2.0 / 3}}};
 
-void advance_stage(const TimeRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
+void advance_stage(FlowRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
                    const std::vector<Flux>& fluxes) {
   const auto areas = run.mesh.areas();
   const Gas& gas = run.model.gas;
@@ -41,7 +41,7 @@ void advance_stage(const TimeRun& run, const Stage& stage, double step, const st
 
 }  // namespace
 
-RungeKutta::RungeKutta(const TimeRun& run, double cfl)
+RungeKutta::RungeKutta(FlowRun& run, double cfl)
     : run_{run},
       cfl_{std::min(cfl, largest_explicit_cfl)},
       wave_sums_(run.mesh.nodes()),

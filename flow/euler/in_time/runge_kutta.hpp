@@ -12,7 +12,7 @@ namespace quadloop::euler {
 class RungeKutta : public TimeScheme {
  public:
   /// Of a larger `cfl` 0.8 is used.
-  RungeKutta(const TimeRun& run, double cfl);
+  RungeKutta(FlowRun& run, double cfl);
 
   double longest_step() override;
   bool advance(double step, const std::vector<Flux>& fluxes) override;
@@ -23,7 +23,7 @@ class RungeKutta : public TimeScheme {
   /// *Collective.*
   bool is_everywhere(bool (*holds)(const State&)) const;
 
-  TimeRun run_;
+  FlowRun& run_;
   double cfl_;
   std::vector<double> wave_sums_;
   std::vector<Conserved> start_;

@@ -5,7 +5,7 @@
 
 namespace quadloop::euler {
 
-std::unique_ptr<TimeScheme> time_scheme(const TimeRun& run, std::optional<double> step, double cfl) {
+std::unique_ptr<TimeScheme> time_scheme(FlowRun& run, std::optional<double> step, double cfl) {
   if (step) return std::make_unique<BackwardDifference>(run, *step);
   return std::make_unique<RungeKutta>(run, cfl);
 }

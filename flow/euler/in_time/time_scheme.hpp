@@ -6,19 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "flow/euler/scheme/residual.hpp"
-#include "mesher/base/parallel/communicator.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 
 namespace quadloop::euler {
-
-/// A flow that moves on in time: what all schemes work on.
-struct TimeRun {
-  const Communicator& comm;
-  const DualMesh& mesh;
-  const FlowModel& model;
-  Residual& residual;
-  std::vector<State>& states;  ///< of each node; schemes change the owned ones
-};
 
 inline bool is_finite(const State& state) {
   return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });
@@ -45,6 +35,6 @@ class TimeScheme {
 };
 
 /// Implicit steps of this size, or explicit ones of this CFL number. *Collective.*
-std::unique_ptr<TimeScheme> time_scheme(const TimeRun& run, std::optional<double> step, double cfl);
+std::unique_ptr<TimeScheme> time_scheme(FlowRun& run, std::optional<double> step, double cfl);
 
 }  // namespace quadloop::euler

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "flow/adjoint/goal_functional.hpp"
-#include "flow/euler/flow_run.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -17,9 +17,12 @@ struct AdjointRun {
         dual{comm, mesh},
         options{std::move(with)},
         model{euler::flow_model(comm, mesh, options)},
-        residual{dual, model, options},
-        states(dual.nodes(), model.free_stream),
-        run{comm, options, dual, model, residual, states} {
+        run{comm,
+            options,
+            dual,
+            model,
+            euler::Residual(dual, model, options),
+            std::vector<euler::State>(dual.nodes(), model.free_stream)} {
     for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
     for (std::size_t node = 0; node < dual.nodes(); ++node) {
       const std::int64_t number = dual.global(static_cast<std::int32_t>(node)).value();
@@ -42,9 +45,9 @@ struct AdjointRun {
   euler::DualMesh dual;
   EulerOptions options;
   euler::FlowModel model;
-  euler::Residual residual;
-  std::vector<euler::State> states;
   euler::FlowRun run;
+  euler::Residual& residual = run.residual;
+  std::vector<euler::State>& states = run.states;
 };
 
 }  // namespace quadloop::test

@@ -60,7 +60,7 @@ double worst_difference(AdjointRun& made, const std::vector<State>& direction, d
   return made.run.comm.maximum(worst) / made.run.comm.maximum(largest);
 }
 
-void expect_transposed(const AdjointRun& made) {
+void expect_transposed(AdjointRun& made) {
   const LinearResidual linear(made.run);
   std::vector<State> w = made.made_up(11), transposed;
   std::vector<Flux> v = made.made_up(12), product;
@@ -227,8 +227,8 @@ TEST(PlaceDerivative, OfGoalsIsThatOfMovedMeshes) {
 TEST(LinearResidual, HasTheSameBitsOnAnyNumberOfRanks) {
   const Mesh whole = test::irregular_grid(9, {1, 1}, 0.2);
   const Communicator self(MPI_COMM_SELF);
-  const AdjointRun part(world(), whole, options_at(0.8)), all(self, whole, options_at(0.8));
-  const auto products = [](const AdjointRun& made) {
+  AdjointRun part(world(), whole, options_at(0.8)), all(self, whole, options_at(0.8));
+  const auto products = [](AdjointRun& made) {
     const LinearResidual linear(made.run);
     std::vector<State> w = made.made_up(11), transposed;
     std::vector<Flux> v = made.made_up(12), product;

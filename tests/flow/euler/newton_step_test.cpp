@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "flow/euler/implicit/state_update.hpp"
+#include "flow/euler/march.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
@@ -31,17 +32,16 @@ TEST(NewtonStep, FallsFasterTheNearerTheEnd) {
   std::vector<State> states(dual.nodes(), model.free_stream);
   for (std::size_t node = 0; node < dual.areas().size(); ++node)
     std::copy_n(near.flow.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
-  Residual residual(dual, model, options);
-  const FlowRun run{world(), options, dual, model, residual, states};
+  FlowRun run{world(), options, dual, model, Residual(dual, model, options), std::move(states)};
   ImplicitSystem system(world(), dual, model);
   NewtonStep newton(run, system);
   const std::vector<double> shares(dual.owned_nodes(), 1.0);
-  double before = mass_residual(run, residual.evaluate(states));
+  double before = mass_residual(run, run.residual.evaluate(run.states));
   for (int step = 0; step < 4; ++step) {
-    const NewtonStep::Taken taken = newton.take(residual.evaluate(states), 1e6, shares);
+    const NewtonStep::Taken taken = newton.take(run.residual.evaluate(run.states), 1e6, shares);
     EXPECT_EQ(taken.share, 1);
     EXPECT_LT(taken.left_over, 0.11);
-    const double now = mass_residual(run, residual.evaluate(states));
+    const double now = mass_residual(run, run.residual.evaluate(run.states));
     EXPECT_LT(now, 0.2 * before) << step;
     before = now;
   }

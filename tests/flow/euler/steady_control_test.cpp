@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "flow/euler/steady_parameters.hpp"
+
 namespace quadloop::euler {
 namespace {
 
@@ -78,7 +80,7 @@ TEST(SteadyControl, FreezesALiveLimiterAtWhichANewtonStepFailed) {
     March march;
     EXPECT_EQ(march.at(residual, Limiter::live).next, Next::newton_step);
     const bool freezes = march.control.learn({0, residual, Limiter::live, false}, 0, 0.1);
-    EXPECT_EQ(freezes, residual < 3e-3);
+    EXPECT_EQ(freezes, residual < steady_parameters.freezing.settled);
     EXPECT_EQ(march.at(0.9 * residual, Limiter::frozen).next, freezes ? Next::newton_step : Next::plain_step);
   }
 }

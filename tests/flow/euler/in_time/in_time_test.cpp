@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "flow/euler/flow_run.hpp"
 #include "flow/euler/implicit/newton_system.hpp"
 #include "flow/euler/in_time/backward_difference.hpp"
 #include "flow/euler/in_time/runge_kutta.hpp"
 #include "flow/euler/in_time/time_average.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
+#include "flow/euler/march.hpp"
 #include "flow/euler/shortfall.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
@@ -46,13 +46,16 @@ struct VortexRun {
         dual{world(), mesh},
         options{vortex_options()},
         model{flow_model(world(), mesh, options)},
-        residual{dual, model, options},
-        states(dual.nodes(), model.free_stream) {
+        flow{world(),
+             options,
+             dual,
+             model,
+             Residual(dual, model, options),
+             std::vector<State>(dual.nodes(), model.free_stream)} {
     const Vortex vortex{model.gas, model.free_stream, {4.6, 4.7}, 1};
     for (std::int32_t node = 0; node < dual.owned_nodes(); ++node)
       states[node] = vortex.state(dual.point(node), 0);
   }
-  TimeRun in_time() { return {world(), dual, model, residual, states}; }
   /// To the end in steps of these sizes, again and again.
   std::vector<State> go(TimeScheme& scheme, const std::vector<double>& steps) {
     double time = 0;
@@ -69,13 +72,14 @@ struct VortexRun {
   DualMesh dual;
   EulerOptions options;
   FlowModel model;
-  Residual residual;
-  std::vector<State> states;
+  FlowRun flow;
+  Residual& residual = flow.residual;
+  std::vector<State>& states = flow.states;
 };
 
 std::vector<State> by_backward_difference(const std::vector<double>& steps) {
   VortexRun run;
-  BackwardDifference scheme(run.in_time(), steps[0]);
+  BackwardDifference scheme(run.flow, steps[0]);
   std::vector<State> states = run.go(scheme, steps);
   EXPECT_EQ(scheme.unsolved(), 0);
   return states;
@@ -83,7 +87,7 @@ std::vector<State> by_backward_difference(const std::vector<double>& steps) {
 
 std::vector<State> by_runge_kutta(double step) {
   VortexRun run;
-  RungeKutta scheme(run.in_time(), 0.8);
+  RungeKutta scheme(run.flow, 0.8);
   EXPECT_LT(step, scheme.longest_step());
   return run.go(scheme, {step});
 }
@@ -126,7 +130,7 @@ TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
   for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
     if (run.dual.point(node).x > 5) run.states[node] = {0.05, 0, 0, 0.02};
   }
-  RungeKutta scheme(run.in_time(), 0.8);
+  RungeKutta scheme(run.flow, 0.8);
   const double step = 8 * scheme.longest_step();
   scheme.advance(step, run.residual.evaluate(run.states));
   for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
@@ -143,7 +147,7 @@ void expect_states_of_first_failure(std::int32_t cells) {
     if (run.dual.point(node).x > 5) run.states[node] = {0.05, 40, 0, 1e-5};
   }
   const std::vector<State> start = run.states;
-  RungeKutta scheme(run.in_time(), 0.8);
+  RungeKutta scheme(run.flow, 0.8);
   EXPECT_FALSE(scheme.advance(1e5 * scheme.longest_step(), run.residual.evaluate(run.states)));
   std::int64_t without_gas = 0, not_finite = 0;
   for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
@@ -165,18 +169,18 @@ TEST(BackwardDifference, CountsAStepOnceHoweverManyOfItsPartsWereNotSolved) {
     if (run.dual.point(node).x > 5) run.states[node] = {1, 8, 0, 0.01};
     if (run.dual.point(node).x < 3) run.states[node] = {0.01, -8, 0, 0.001};
   }
-  BackwardDifference scheme(run.in_time(), 1e3);
+  BackwardDifference scheme(run.flow, 1e3);
   scheme.advance(1e3, run.residual.evaluate(run.states));
   EXPECT_EQ(scheme.unsolved(), 1);
 }
 
 TEST(TimeScheme, IsImplicitWhereAStepIsGiven) {
   VortexRun run;
-  EXPECT_TRUE(time_scheme(run.in_time(), 0.5, 20)->is_implicit());
-  EXPECT_EQ(time_scheme(run.in_time(), 0.5, 20)->longest_step(), 0.5);
-  const auto explicit_one = time_scheme(run.in_time(), {}, 20);
+  EXPECT_TRUE(time_scheme(run.flow, 0.5, 20)->is_implicit());
+  EXPECT_EQ(time_scheme(run.flow, 0.5, 20)->longest_step(), 0.5);
+  const auto explicit_one = time_scheme(run.flow, {}, 20);
   EXPECT_FALSE(explicit_one->is_implicit());
-  EXPECT_EQ(explicit_one->longest_step(), time_scheme(run.in_time(), {}, 0.8)->longest_step());
+  EXPECT_EQ(explicit_one->longest_step(), time_scheme(run.flow, {}, 0.8)->longest_step());
 }
 
 TEST(TimeAverage, WeighsByDuration) {

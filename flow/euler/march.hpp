@@ -4,30 +4,17 @@
 #include <vector>
 
 #include "flow/euler/in_time/time_average.hpp"
-#include "flow/euler/model/flow_model.hpp"
-#include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/euler/scheme/residual.hpp"
+#include "flow/euler/scheme/flow_run.hpp"
 #include "flow/euler/solve_euler.hpp"
 
 namespace quadloop::euler {
-
-/// What both ways of marching work on.
-struct FlowRun {
-  const Communicator& comm;
-  const EulerOptions& options;
-  const DualMesh& mesh;
-  const FlowModel& model;
-  Residual& residual;
-  std::vector<State>& states;  ///< of each node
-  bool is_carried = false;     ///< the states are those of a flow that was given
-};
 
 /// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 
 /// Gives the far field the vortex of the lift that the states have, where the options ask for it.
 /// *Collective.*
-void surround(const FlowRun& run, FarField& far_field);
+void surround(FlowRun& run, FarField& far_field);
 
 /// How steps are counted and kept in the history.
 struct Telling {
@@ -44,7 +31,7 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
 
 /// Implicit steps with local time steps until the tolerance is met or the iterations are used up.
 /// *Collective.*
-EulerResult march_to_steady(const FlowRun& run);
+EulerResult march_to_steady(FlowRun& run);
 
 /// How far a flow is to go in time.
 struct TimePlan {
@@ -57,21 +44,21 @@ struct TimePlan {
 
 /// Steps of one size to the end time. Continues `result`, whose time is that of the states; the flow between
 /// `plan.average_from` and the end joins `average`. *Collective.*
-void march_in_time(const FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average);
+void march_in_time(FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average);
 
 /// Refuses what would take more steps in time than anybody waits for: throws InputError with their number and
 /// a step that will do. *Collective.*
-void require_few_steps(const FlowRun& run);
+void require_few_steps(FlowRun& run);
 
 /// A flow that has no steady state, or a start that was carried on before, goes on in time as the options
 /// ask, unless it becomes steady. Where it fails in time, states and result stay as they are, but for
 /// EulerResult::failed_in_time. *Collective.*
-void carry_on(const FlowRun& run, EulerResult& result, TimeAverage& average);
+void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average);
 
 /// The free stream in every node, at rest where it sticks to walls.
 std::vector<State> undisturbed(const FlowRun& run);
 
 /// The mass residual of the undisturbed free stream. *Collective.*
-double free_stream_residual(const FlowRun& run);
+double free_stream_residual(FlowRun& run);
 
 }  // namespace quadloop::euler

@@ -1,5 +1,5 @@
 // What marching works with: residuals, the place named in a failure, forces of known pressures.
-#include "flow/euler/flow_run.hpp"
+#include "flow/euler/march.hpp"
 
 #include <gtest/gtest.h>
 
@@ -31,9 +31,12 @@ struct RingRun {
         dual{comm, mesh},
         options{options_at(alpha)},
         model{flow_model(comm, mesh, options)},
-        residual{dual, model, options},
-        states(dual.nodes(), model.free_stream),
-        run{comm, options, dual, model, residual, states} {}
+        run{comm,
+            options,
+            dual,
+            model,
+            Residual(dual, model, options),
+            std::vector<State>(dual.nodes(), model.free_stream)} {}
   static EulerOptions options_at(double alpha) {
     EulerOptions options;
     options.mach = 0.5;
@@ -54,9 +57,8 @@ struct RingRun {
   DualMesh dual;
   EulerOptions options;
   FlowModel model;
-  Residual residual;
-  std::vector<State> states;
   FlowRun run;
+  std::vector<State>& states = run.states;
 };
 
 /// Of the polygon whose corners are the body's nodes.

@@ -1,4 +1,4 @@
-#include "flow/euler/flow_run.hpp"
+#include "flow/euler/march.hpp"
 
 #include <fmt/format.h>
 
@@ -40,12 +40,12 @@ std::vector<State> undisturbed(const FlowRun& run) {
   return uniform;
 }
 
-double free_stream_residual(const FlowRun& run) {
+double free_stream_residual(FlowRun& run) {
   std::vector<State> uniform = undisturbed(run);
   return mass_residual(run, run.residual.evaluate(uniform));
 }
 
-void surround(const FlowRun& run, FarField& far_field) {
+void surround(FlowRun& run, FarField& far_field) {
   if (run.options.far_field != EulerOptions::FarField::vortex) return;
   run.mesh.exchange().update(run.states);
   const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
