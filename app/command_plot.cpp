@@ -13,6 +13,7 @@
 #include "flow/euler/model/euler_options.hpp"
 #include "flow/quantities/flow_quantities.hpp"
 #include "flow/quantities/history.hpp"
+#include "flow/quantities/run_constants.hpp"
 #include "flow/quantities/wall_table.hpp"
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
@@ -136,7 +137,6 @@ PlotTask task_of(const PlotArguments& arguments) {
 
 /// Mach number, pressure coefficient: where the file has none, they are made of its flow.
 void add_quantity(LoadedMesh& loaded, const std::string& field) {
-  constexpr std::size_t of_solve = 7, mach_number = 2;  // of the constants that quadloop leaves
   if (!loaded.solution || std::ranges::find(quantity_names(), field) == quantity_names().end()) return;
   Field& solution = *loaded.solution;
   if (std::ranges::find(solution.names, field) != solution.names.end()) return;
@@ -145,8 +145,9 @@ void add_quantity(LoadedMesh& loaded, const std::string& field) {
   }
   FreeStream stream;
   if (field == pressure_coefficient_name) {
-    if (solution.constants.size() != of_solve) return;
-    stream.speed = solution.constants[mach_number];
+    const std::optional<RunConstants> run = RunConstants::of(solution.constants);
+    if (!run) return;
+    stream.speed = run->mach;
   }
   solution = with_quantities(solution, {field}, stream);
 }

@@ -5,18 +5,20 @@
 #include <utility>
 
 #include "flow/euler/shortfall.hpp"
+#include "flow/quantities/run_constants.hpp"
 
 namespace quadloop {
 
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options) {
   Field flow = result.flow;
-  flow.constants = {static_cast<double>(result.iterations),
-                    result.time,
-                    options.mach,
-                    options.alpha,
-                    result.cl,
-                    result.cd,
-                    result.residual};
+  const RunConstants constants{.steps = static_cast<double>(result.iterations),
+                               .time = result.time,
+                               .mach = options.mach,
+                               .alpha = options.alpha,
+                               .cl = result.cl,
+                               .cd = result.cd,
+                               .residual = result.residual};
+  flow.constants = constants.values();
   return flow;
 }
 

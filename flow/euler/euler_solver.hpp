@@ -5,8 +5,7 @@
 
 namespace quadloop {
 
-/// The flow with what a mesh file keeps of the run beside it: steps, time, Mach number, angle of attack, CL,
-/// CD, residual, as constants in this order.
+/// The flow with RunConstants.
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
 
 /// What its coefficients are relative to.

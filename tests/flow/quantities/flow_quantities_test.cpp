@@ -9,6 +9,7 @@
 #include "flow/quantities/boundary_forces.hpp"
 #include "flow/quantities/free_stream.hpp"
 #include "flow/quantities/history.hpp"
+#include "flow/quantities/run_constants.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/flow/quantities/dense_stream.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -122,6 +123,16 @@ TEST(BoundaryForces, HaveTheSameBitsHoweverTheMeshIsSpread) {
 TEST(History, IsATableWithATimeWhereOneCounts) {
   EXPECT_EQ(history_table({{1, 0.5, 0.25, 2}}), "step,residual,cl,cd\n1,0.5,0.25,2\n");
   EXPECT_EQ(history_table({{1, 0.5, 0, 0, 0.125}}), "step,residual,cl,cd,time\n1,0.5,0,0,0.125\n");
+}
+
+TEST(RunConstants, ComeBackFromTheOrderThatFilesHave) {
+  const std::optional<RunConstants> run = RunConstants::of({200, 0.5, 0.8, 1.25, 0.36, 0.024, 1e-9});
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->steps, 200);
+  EXPECT_EQ(run->mach, 0.8);
+  EXPECT_EQ(run->residual, 1e-9);
+  EXPECT_EQ(RunConstants::of(run->values())->values(), run->values());
+  EXPECT_FALSE(RunConstants::of({200, 0.5, 0.8})) << "of another solver";
 }
 
 }  // namespace
