@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -46,14 +47,17 @@ std::string digest_of_start(const std::string& start) { return start.substr(0, s
 CycleFolders::CycleFolders(const Communicator& comm, std::string folder)
     : comm_{comm}, folder_{std::move(folder)} {}
 
+CycleFolders::~CycleFolders() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
 std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
 
 void CycleFolders::lock() {
-  const int raw = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (raw < 0) refuse_output(folder_, errno);
-  lock_ = Descriptor(raw);
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) refuse_output(folder_, errno);
   // Some file systems of networks have no such locks; a run without one is better than none.
-  if (::flock(lock_.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw InputError(
       folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
 }

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "flow/command/descriptor.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop {
@@ -13,6 +12,9 @@ namespace quadloop {
 class CycleFolders {
  public:
   CycleFolders(const Communicator& comm, std::string folder);
+  ~CycleFolders();
+  CycleFolders(const CycleFolders&) = delete;
+  CycleFolders& operator=(const CycleFolders&) = delete;
 
   /// Makes the folder where there is none, and says how many whole cycles it holds, from cycle 0 on; what is
   /// left of one that is not whole goes. From here to the end of this object, or of the process, no other run
@@ -40,7 +42,7 @@ class CycleFolders {
 
   const Communicator& comm_;
   std::string folder_;
-  Descriptor lock_;  ///< on the root
+  int lock_ = -1;  ///< a descriptor, on the root
 };
 
 }  // namespace quadloop

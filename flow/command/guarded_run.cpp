@@ -1,24 +1,35 @@
 #include "flow/command/guarded_run.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sched.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
-#include <optional>
+#include <cstdlib>
 
-#include "flow/command/descriptor.hpp"
 #include "flow/command/environment.hpp"
-#include "flow/command/guard.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr double longest_timeout = 1e9;  // seconds; its nanoseconds fit into 64 bits
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr auto grace = 2s;         // from SIGTERM to SIGKILL
+constexpr auto patience = 5s;      // with processes that even SIGKILL does not end (a file system that hangs)
+constexpr int between_looks = 10;  // milliseconds
+constexpr double longest_wait = 1e6;  // seconds; its milliseconds fit into an int
+constexpr int link_number = 3;        // after the three standard descriptors
 
 /// The array of pointers that exec wants; it lives as long as the strings.
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
@@ -29,77 +40,181 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   return pointers;
 }
 
-/// mpirun binds each rank to a core; a solver that inherited that would have all its threads, and the ranks
-/// of its own mpirun, on one. It may run where mpirun may. Nothing where this process was started in another
-/// way.
-std::optional<cpu_set_t> processors_of_launcher() {
-  cpu_set_t processors;
-  CPU_ZERO(&processors);
-  if (!started_by_mpirun() || ::sched_getaffinity(::getppid(), sizeof processors, &processors) != 0)
-    return {};
-  return processors;
-}
+/// The process between quadloop and the program, which it has forked. `link` is closed at its other end when
+/// quadloop is gone.
+class Guard {
+ public:
+  Guard(const Launch& launch, int link)
+      : launch_{launch},
+        arguments_{pointers_to(launch.arguments)},
+        environment_{pointers_to(launch.environment)},
+        link_{link} {}
 
-/// False at the end of the pipe.
-bool read_report(const Descriptor& pipe, GuardReport& report) {
-  for (;;) {
-    const ssize_t length = ::read(pipe.number(), &report, sizeof report);
-    if (length >= 0 || errno != EINTR)
-      return length == static_cast<ssize_t>(sizeof report);  // so short a write comes whole
+  [[noreturn]] void live() {
+    hold_signals();
+    ::setsid();
+    ::prctl(PR_SET_NAME, "solver-guard");  // so that killall quadloop leaves it time for its work
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);
+    arrange_descriptors();
+    follow_launcher();
+    const pid_t guard_id = ::getpid();
+    solver_ = ::_Fork();
+    if (solver_ == 0) become_solver(guard_id);
+    if (solver_ < 0) give_up();
+    ::setpgid(solver_, solver_);
+    const bool by_itself = wait();
+    end_tree();
+    if (!by_itself)
+      tell({Ending::Kind::timed_out, 0});
+    else if (WIFSIGNALED(status_))
+      tell({Ending::Kind::signal, WTERMSIG(status_)});
+    else
+      tell({Ending::Kind::status, WEXITSTATUS(status_)});
+    ::_exit(0);
   }
-}
 
-Ending ending_of(int wait_status) {
-  if (WIFSIGNALED(wait_status)) return {Ending::Kind::signal, WTERMSIG(wait_status)};
-  return {Ending::Kind::status, WEXITSTATUS(wait_status)};
-}
+ private:
+  static void tell(const Ending& ending) { ::send(link_number, &ending, sizeof ending, MSG_NOSIGNAL); }
 
-/// Sleeps until the guard says how the run ended, or is gone.
-Ending awaited_ending(const Descriptor& reports) {
-  pid_t solver = 0;
-  std::optional<int> reason;
-  for (GuardReport report; read_report(reports, report);) {
-    switch (report.kind) {
-      case GuardReport::Kind::started: solver = report.value; break;
-      case GuardReport::Kind::not_started: reason = report.value; break;
-      case GuardReport::Kind::timed_out: return {Ending::Kind::timed_out, 0};
-      case GuardReport::Kind::ended:
-        return reason ? Ending{Ending::Kind::not_started, *reason} : ending_of(report.value);
+  [[noreturn]] static void give_up() {
+    tell({Ending::Kind::not_started, errno});
+    ::_exit(127);
+  }
+
+  /// Those of a terminal and a launcher are meant for quadloop. The program finds them as when a user starts
+  /// it.
+  static void hold_signals() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::sigprocmask(SIG_BLOCK, &all, nullptr);
+    struct sigaction standard = {};
+    standard.sa_handler = SIG_DFL;
+    for (int number = 1; number < NSIG; ++number) ::sigaction(number, &standard, nullptr);
+  }
+
+  /// 0 to 2 as the program gets them, the link, nothing else: MPI's own would look as if quadloop were still
+  /// alive.
+  void arrange_descriptors() const {
+    const int link = ::fcntl(link_, F_DUPFD_CLOEXEC, 10);
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    const int log = ::open(launch_.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0666);
+    const int fault = errno;
+    ::dup2(log, STDOUT_FILENO);
+    ::dup2(log, STDERR_FILENO);
+    ::dup3(link, link_number, O_CLOEXEC);
+    ::close_range(link_number + 1, ~0U, 0);
+    errno = fault;
+    if (log < 0 || ::chdir(launch_.folder.c_str()) != 0) give_up();
+  }
+
+  /// mpirun binds each rank to a core; a program that inherited that would have all its threads, and the
+  /// ranks of its own mpirun, on one. It may run where mpirun may.
+  void follow_launcher() const {
+    cpu_set_t processors;
+    if (launcher_ > 0 && ::sched_getaffinity(launcher_, sizeof processors, &processors) == 0)
+      ::sched_setaffinity(0, sizeof processors, &processors);
+  }
+
+  [[noreturn]] void become_solver(pid_t guard_id) {
+    ::setpgid(0, 0);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != guard_id) ::_exit(127);  // it died before it was asked for
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    ::execve(launch_.program.c_str(), arguments_.data(), environment_.data());
+    give_up();
+  }
+
+  /// Until the program ends; false where its time is over before, or quadloop is gone.
+  bool wait() {
+    const auto deadline = Clock::now() + std::chrono::duration<double>(launch_.timeout);
+    sigset_t children;
+    ::sigemptyset(&children);
+    ::sigaddset(&children, SIGCHLD);
+    const int ends = ::signalfd(-1, &children, SFD_CLOEXEC);
+    std::array<pollfd, 2> events{{{ends, POLLIN, 0}, {link_number, POLLIN, 0}}};
+    while (true) {
+      reap();
+      const std::chrono::duration<double> left = deadline - Clock::now();
+      if (ended_ || events[1].revents != 0 || left.count() <= 0) return ended_;
+      ::poll(events.data(), events.size(), static_cast<int>(1e3 * std::min(left.count(), longest_wait)) + 1);
+      signalfd_siginfo end;
+      if (events[0].revents != 0 && ::read(ends, &end, sizeof end) < 0) return false;
     }
   }
-  if (reason) return {Ending::Kind::not_started, *reason};
-  if (solver > 0) ::kill(-solver, SIGKILL);
-  return {Ending::Kind::guard_lost, 0};
-}
+
+  /// Takes note of the children that have ended. False where none is left.
+  bool reap() {
+    while (true) {
+      int status = 0;
+      const pid_t child = ::waitpid(-1, &status, WNOHANG);
+      if (child <= 0) return child == 0;
+      if (child != solver_) continue;
+      ended_ = true;
+      status_ = status;
+    }
+  }
+
+  /// SIGTERM goes once to each process: an mpirun that gets a second one leaves without ending its ranks. The
+  /// program's group is sent to while the program lives, because only so long the group's number is surely
+  /// its own. Each SIGKILL makes orphans our children, for the next turn.
+  void end_tree() {
+    if (!reap()) return;
+    if (ended_)
+      signal_children(SIGTERM);
+    else
+      ::kill(-solver_, SIGTERM);
+    for (const auto end = Clock::now() + grace; Clock::now() < end; ::poll(nullptr, 0, between_looks)) {
+      if (!reap()) return;
+    }
+    for (const auto end = Clock::now() + patience; Clock::now() < end && reap();
+         ::poll(nullptr, 0, between_looks)) {
+      if (!ended_) ::kill(-solver_, SIGKILL);
+      signal_children(SIGKILL);
+    }
+  }
+
+  /// As many as the first page of the kernel's list holds.
+  static void signal_children(int signal_number) {
+    std::array<char, 4096> list{};
+    const int file = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+    const ssize_t length = ::read(file, list.data(), list.size() - 1);
+    ::close(file);
+    char* next = list.data();
+    for (long child; length > 0 && (child = std::strtol(next, &next, 10)) > 0;)
+      ::kill(static_cast<pid_t>(child), signal_number);
+  }
+
+  const Launch& launch_;
+  std::vector<char*> arguments_, environment_;
+  int link_;
+  pid_t launcher_ = started_by_mpirun() ? ::getppid() : 0;
+  pid_t solver_ = 0;
+  bool ended_ = false;
+  int status_ = 0;
+};
 
 }  // namespace
 
 Ending run_to_its_end(const Launch& launch) {
-  const std::vector<char*> arguments = pointers_to(launch.arguments),
-                           environment = pointers_to(launch.environment);
-  const Descriptor folder = open_descriptor(launch.folder, O_RDONLY | O_DIRECTORY);
-  const Descriptor input = open_descriptor("/dev/null", O_RDONLY);
-  const Descriptor log = open_descriptor(launch.log, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND);
-  const std::optional<cpu_set_t> processors = processors_of_launcher();
-  Pipe leash = make_pipe(), reports = make_pipe();
-  const GuardedProgram program{
-      .path = launch.program.c_str(),
-      .arguments = arguments.data(),
-      .environment = environment.data(),
-      .folder = folder.number(),
-      .input = input.number(),
-      .log = log.number(),
-      .processors = processors ? &*processors : nullptr,
-      .timeout = static_cast<std::int64_t>(std::min(launch.timeout, longest_timeout) * 1e9)};
-  const pid_t guard_id =
-      ::_Fork();  // without the handlers that libraries set for fork(): the child calls none of them
-  if (guard_id == 0) guard(program, leash.reading.number(), reports.writing.number());
-  if (guard_id < 0) return {Ending::Kind::not_started, errno};
-  reports.writing.close();
-  const Ending ending = awaited_ending(reports.reading);
-  while (::waitpid(guard_id, nullptr, 0) < 0 && errno == EINTR) {
+  std::array<int, 2> link{};
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, link.data()) != 0)
+    return {Ending::Kind::not_started, errno};
+  Guard guard(launch, link[1]);
+  const pid_t guard_id = ::_Fork();  // without the handlers that libraries set for fork()
+  if (guard_id == 0) guard.live();
+  const int fault = errno;
+  ::close(link[1]);
+  Ending ending;
+  ssize_t length = 0;
+  while (guard_id > 0 && (length = ::recv(link[0], &ending, sizeof ending, 0)) < 0 && errno == EINTR) {
   }
-  return ending;
+  while (guard_id > 0 && ::waitpid(guard_id, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  ::close(link[0]);
+  if (guard_id < 0) return {Ending::Kind::not_started, fault};
+  return length == sizeof ending ? ending : Ending{};
 }
 
 }  // namespace quadloop

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
+#include <string_view>
 
 namespace quadloop {
 
@@ -19,8 +21,7 @@ bool says_something(const std::string& line) {
 
 bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
 
-}  // namespace
-
+/// The last 64 KiB; empty where the file cannot be read.
 std::string end_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) return {};
@@ -32,10 +33,17 @@ std::string end_of_file(const std::string& path) {
   return bytes;
 }
 
-std::string fit_for_message(std::string line, std::size_t length) {
-  const std::string blanks = " \t";
+std::string trimmed(std::string line) {
+  constexpr const char* blanks = " \t\r";
   line.erase(line.find_last_not_of(blanks) + 1);
   line.erase(0, line.find_first_not_of(blanks));
+  return line;
+}
+
+/// A line without blanks at its ends, cut to `length` bytes between characters, tabs as blanks and other
+/// control characters as '?'.
+std::string fit_for_message(std::string line, std::size_t length) {
+  line = trimmed(std::move(line));
   if (line.size() > length) {
     std::size_t end = length;
     while (end > 0 && inside_character(line[end])) --end;
@@ -51,6 +59,16 @@ std::string fit_for_message(std::string line, std::size_t length) {
   return line;
 }
 
+/// Of a message of OpenFOAM's: its place in the source, or the next message.
+bool ends_message(const std::string& line) {
+  for (const char* const head : {"From ", "in file ", "FOAM exiting", "FOAM aborting", "-->"}) {
+    if (line.starts_with(head)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::string last_line(const std::string& path, std::size_t length) {
   const std::string bytes = end_of_file(path);
   for (std::size_t end = bytes.size(); end > 0;) {
@@ -61,6 +79,27 @@ std::string last_line(const std::string& path, std::size_t length) {
     end = before == std::string::npos ? 0 : before;
   }
   return {};
+}
+
+std::string foam_error(const std::string& path, std::size_t length) {
+  constexpr std::string_view head = "--> FOAM FATAL";
+  std::istringstream lines(end_of_file(path));
+  std::string message, of_rank, line;
+  while (std::getline(lines, line)) {
+    if (message.empty()) {
+      const std::size_t at = line.find(head);
+      if (at == std::string::npos) continue;
+      of_rank = trimmed(line.substr(0, at));  // "[2]", where there are several
+      message = trimmed(line.substr(at + 4));
+      continue;
+    }
+    std::string words = trimmed(line);
+    if (!words.starts_with(of_rank)) continue;
+    words = trimmed(words.substr(of_rank.size()));
+    if (ends_message(words)) break;
+    if (!words.empty()) message += " " + words;
+  }
+  return fit_for_message(message, length);
 }
 
 }  // namespace quadloop

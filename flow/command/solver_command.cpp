@@ -13,7 +13,6 @@
 #include <tuple>
 
 #include "flow/command/environment.hpp"
-#include "flow/command/foam_error.hpp"
 #include "flow/command/guarded_run.hpp"
 #include "flow/command/log_tail.hpp"
 #include "flow/command/program.hpp"
@@ -69,7 +68,9 @@ struct stat begin_run(const SolverFiles& files) {
                      "; give the solution a name of its own");
   remove_old_file(files.solution);
   remove_old_file(solver_log(files));
-  std::ofstream(solver_log(files)).flush();
+  if (!std::ofstream(solver_log(files)))
+    throw OutputError(solver_log(files) + ": cannot be opened: " + std::strerror(errno) +
+                      "; the solver needs it");
   return state_of(solver_log(files));
 }
 

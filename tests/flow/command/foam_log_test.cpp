@@ -1,5 +1,5 @@
 // The cause of an end of OpenFOAM's, of a log's end.
-#include "flow/command/foam_error.hpp"
+#include "flow/command/log_tail.hpp"
 
 #include <gtest/gtest.h>
 
