@@ -9,7 +9,6 @@
 #include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
-#include "adapt/remesh/tree_mesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/extent_report.hpp"
@@ -22,8 +21,8 @@
 #include "io/solution_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "quadloop/case/case_input.hpp"
 
 namespace quadloop {
@@ -31,7 +30,7 @@ namespace quadloop {
 namespace {
 
 struct RemeshArguments {
-  std::string case_path, prefix, tree, solution, geometry;
+  std::string case_path, prefix, tree, mesh, solution, geometry;
   std::vector<std::string> assignments;
   std::optional<double> max_cells;
 };
@@ -46,77 +45,69 @@ std::vector<std::string> files_beside(const std::string& tree) {
   return files;
 }
 
-/// The one that is there, for a solution without cells.
-std::string mesh_beside(const std::string& tree) {
-  const std::vector<std::string> files = files_beside(tree);
-  std::error_code no_such_file;
-  for (const std::string& file : files) {
-    if (std::filesystem::exists(file, no_such_file)) return file;
+MeshCounts counts_of(const Mesh& whole) {
+  return {std::ssize(whole.points), std::ssize(whole.triangles), std::ssize(whole.quads), 0};
+}
+
+/// That of --mesh, which is taken for the tree's mesh, with its nodes moved, if it has its counts and sound
+/// cells.
+LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  LoadedMesh named = read_mesh(arguments.mesh);
+  require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
+  for (const MeshFault& fault : validate(named.mesh)) {
+    if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
+        fault.rule != MeshRule::coincident)
+      continue;
+    throw InputError(
+        fmt::format("{}: is no mesh of this tree: {} at ({}, {}); give the mesh that was solved on",
+                    arguments.mesh, fault.what, fault.place.x, fault.place.y));
   }
-  throw InputError(tree +
-                   ": its mesh is not beside it, but the solution's file has no cells; put it there as " +
-                   files.front());
+  return named;
 }
 
-/// The solution's own mesh where its file has one, else the one beside the tree; of the tree's size. On the
-/// calling rank alone.
-LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  LoadedSolution solution = read_solution(arguments.solution);
-  LoadedMesh whole = solution.mesh ? std::move(*solution.mesh) : read_mesh(mesh_beside(arguments.tree));
-  if (!solution.mesh) require_same_mesh(solution, whole.mesh);
-  const auto count = [](const auto& rows) { return std::ssize(rows); };
-  require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0}, tree,
-                 arguments.solution, arguments.tree);
-  whole.solution = std::move(solution.solution);
-  return whole;
-}
-
-/// The cases that the tree may have been made from: this one, and where --geometry names another outline the
-/// one with its own. Where that cannot be read it is no matter. On every rank.
-std::vector<MeshInput> former_inputs(const RemeshArguments& arguments, const TreeRecord& tree,
-                                     const CaseInput& input) {
-  std::vector<MeshInput> inputs{*input.mesh};
-  if (arguments.geometry.empty()) return inputs;
-  try {
-    Warnings of_other_outline;
-    inputs.push_back(
-        *load_case({arguments.case_path, arguments.assignments, {}, tree.attributes}, of_other_outline).mesh);
-  } catch (const InputError& fault) {
-    log::detail(std::string("the case's own outline is not at hand: ") + fault.what());
-  }
-  return inputs;
-}
-
-/// The first of the files that holds the tree's mesh. On the root alone.
-std::optional<Mesh> mesh_in_files(const TreeAttributes& tree, const std::vector<std::string>& files) {
+/// The mesh that was solved on, where the solution's file has another or none: that of --mesh, else the first
+/// one beside the tree that is the tree's to the last bit.
+LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  if (!arguments.mesh.empty()) return named_mesh(arguments, tree);
+  const std::vector<std::string> files = files_beside(arguments.tree);
   for (const std::string& file : files) {
     if (!std::filesystem::exists(file)) continue;
     try {
       LoadedMesh loaded = read_mesh(file);
-      if (is_mesh_of_tree(loaded.mesh, tree)) return std::move(loaded.mesh);
+      if (is_mesh_of_tree(loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
     }
   }
-  return {};
+  throw InputError(fmt::format(
+      "{}: cannot be compared with the mesh of {}, which is not beside it as {}; put it there, or name the "
+      "mesh that was solved on with --mesh",
+      arguments.solution, arguments.tree, files.front()));
 }
 
-/// Compares the mesh that the solution came with to the tree's own, and settles on one of them. Returns
-/// warnings. *Collective.*
-Warnings settle(const Communicator& comm, const RemeshArguments& arguments, const TreeRecord& tree,
-                const CaseInput& input, LoadedMesh& whole) {
-  const std::vector<MeshInput> inputs = former_inputs(arguments, tree, input);
-  const auto find = [&] { return mesh_in_files(tree.attributes, files_beside(arguments.tree)); };
-  const TreeMesh own = mesh_of_tree(comm, tree, whole.mesh, find, inputs);
-  comm.together([&] {
-    if (comm.is_root()) settle_mesh(own, whole.mesh, arguments.solution);
-  });
-  if (own.known) return {};
-  return {
-      fmt::format("{}: its nodes cannot be compared with those of the tree's own mesh, as case or outline "
-                  "have changed since; keep that mesh "
-                  "beside the tree, as {}",
-                  arguments.solution, files_beside(arguments.tree).front())};
+/// The mesh that the solution counts on, with it. Its nodes are the tree's: to the last bit, else within 1e-6
+/// of a local edge of those of mesh_of_tree(), which take their place. On the calling rank alone.
+LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  LoadedSolution solution = read_solution(arguments.solution);
+  if (solution.mesh) require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
+  LoadedMesh whole;
+  if (solution.mesh && is_mesh_of_tree(solution.mesh->mesh, tree)) {
+    whole = std::move(*solution.mesh);
+  } else {
+    whole = mesh_of_tree(arguments, tree);
+    try {
+      require_same_mesh(solution, whole.mesh);
+    } catch (const InputError& fault) {
+      if (!arguments.mesh.empty()) throw;
+      throw InputError(std::string(fault.what()) + ", or name the mesh that was solved on with --mesh");
+    }
+    if (solution.mesh) {
+      solution.mesh->mesh = std::move(whole.mesh);
+      whole = std::move(*solution.mesh);
+    }
+  }
+  whole.solution = std::move(solution.solution);
+  return whole;
 }
 
 Figures transfer_figures(const CarriedMesh& carried) {
@@ -184,10 +175,8 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
   return problem;
 }
 
-/// The mesh that the solution counts on, spread over the ranks, and doubts about it. *Collective.*
-SolvedMesh compare(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem,
-                   Warnings& doubts) {
-  doubts = settle(comm, arguments, problem.tree, problem.input, problem.whole);
+/// Spread over the ranks. *Collective.*
+SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
   const LoadedMesh whole = std::exchange(problem.whole, {});
   SolvedMesh solved =
       spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
@@ -256,7 +245,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   Warnings& warnings = context.record.noted;
   RemeshProblem problem = load(comm, arguments, warnings);
   times.begin("compare");
-  const SolvedMesh solved = compare(comm, arguments, problem, warnings);
+  const SolvedMesh solved = spread(comm, arguments, problem);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
   std::optional<CarriedMesh> carried = morph(comm, arguments, problem, solved, warnings);
@@ -293,6 +282,12 @@ void add_remesh_command(CommandLine& line, CommandContext& context) {
                   "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
       .value_name("TREE.h5 REQUIRED");
   command.add_option("--solution", arguments->solution, solution_help()).required().value_name("IN");
+  command
+      .add_option(
+          "--mesh", arguments->mesh,
+          "the mesh that was solved on, where it is neither beside the tree nor the tree's own, as after "
+          "quadloop smooth")
+      .value_name("MESH");
   command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
       .value_name("NEW.geom");
   command

@@ -10,6 +10,7 @@
 #include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop {
@@ -50,6 +51,13 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
       "{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
       shown, tree, of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles,
       of_tree.quads));
+}
+
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree) {
+  const auto count = [](const auto& rows) { return std::ssize(rows); };
+  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
+                      count(whole.quads) == tree.quads;
+  return counts && digest_of_owned(whole) == tree.coordinate_digest && validate(whole).empty();
 }
 
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,

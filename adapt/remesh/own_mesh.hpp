@@ -11,6 +11,9 @@ namespace quadloop {
 void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, const std::string& shown,
                     const std::string& tree);
 
+/// Whether a whole mesh is the one that the tree was saved with, to the last bit.
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree);
+
 /// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: as many nodes
 /// and cells, and all nodes where they lay, as a morphed mesh has them, or each leaf's cells within two leaf
 /// sizes of it, which snapping, flips and smoothing keep, but for cells in layers, which belong to leaves on

@@ -70,11 +70,6 @@ NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh) {
   return elsewhere;
 }
 
-bool same_cells_in_any_order(const Mesh& one, const Mesh& other) {
-  return one.triangles.size() == other.triangles.size() && one.quads.size() == other.quads.size() &&
-         !other_cell(one.triangles, other.triangles) && !other_cell(one.quads, other.quads);
-}
-
 std::optional<std::array<NodeId, 3>> other_cell(const Cells<3>& found, const Cells<3>& wanted) {
   return first_other(found, wanted);
 }

@@ -18,9 +18,6 @@ inline constexpr double same_place_tolerance = 1e-6;
 /// cell edge at it. As many points as nodes.
 NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
 
-/// Whether two whole meshes have the same cells, in whatever order, by their nodes.
-bool same_cells_in_any_order(const Mesh& one, const Mesh& other);
-
 /// The nodes of the first cell that only `found` has, in ascending order; none where both lists, of the same
 /// length, have the same cells.
 std::optional<std::array<NodeId, 3>> other_cell(const std::vector<std::array<NodeId, 3>>& found,
