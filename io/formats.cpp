@@ -14,7 +14,6 @@
 #include "io/files/reading/file_kind.hpp"
 #include "io/fluent/fluent_file.hpp"
 #include "io/foam/foam_file.hpp"
-#include "io/foam/foam_plane_file.hpp"
 #include "io/medit/medit_file.hpp"
 #include "io/msh/msh_file.hpp"
 #include "io/native/binary_file.hpp"

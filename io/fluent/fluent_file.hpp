@@ -17,9 +17,6 @@ namespace quadloop {
 /// cell. *Collective.* Throws OutputError on all ranks.
 void write_fluent(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// The same for a 3D mesh alone.
-void write_fluent_solid(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
-
 /// Names of zones: letters, digits and "_-.+".
 std::vector<std::string> fluent_zone_names(const std::vector<std::string>& names);
 

@@ -1,82 +1,112 @@
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include "io/foam/foam_file.hpp"
-#include "io/foam/foam_parts.hpp"
-#include "io/foam/foam_plane_file.hpp"
-#include "io/stream/extruded_faces.hpp"
+#include "io/stream/stream_blocks.hpp"
+#include "io/stream/stream_faces.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
 namespace {
+
+/// The files of a polyMesh: the five that each has, and of several blocks the zones of cells.
+std::vector<std::string> foam_files(const StreamBlocks& blocks) {
+  std::vector<std::string> files{"points", "faces", "owner", "neighbour", "boundary"};
+  if (blocks.several()) files.emplace_back("cellZones");
+  return files;
+}
+
+std::string foam_head(const std::string& type, const std::string& object, const std::string& note = {}) {
+  std::string head =
+      "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " + type + ";\n";
+  if (!note.empty()) head += "    note        \"" + note + "\";\n";
+  return head + "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
+}
+
+/// The type of a patch for Boundary::condition.
+std::string foam_patch_type(const std::string& condition) {
+  if (is_wall(condition)) return "wall";
+  return condition == "symmetry" ? condition : "patch";
+}
+
+/// A face takes room for one number more than it has nodes.
+template <class Node, std::size_t width>
+void put_foam_face(TextRows& text, const std::array<Node, width>& nodes) {
+  text.put(width, '(');
+  for (std::size_t i = 0; i < width; ++i) text.put(nodes[i], i + 1 < width ? ' ' : ')');
+  text.mark('\n');
+}
 
 class FoamWriter {
  public:
   FoamWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
       : comm_{outputs.communicator()},
         stream_{stream},
-        mesh_{*stream.extruded()},
+        faces_{stream, StreamFaces::CellNumbers::as_streamed, path},
         blocks_{stream},
-        staged_{outputs.stage_folder(path, foam_files(blocks_))},
-        faces_{comm_, mesh_} {
-    all_faces_ = faces_.internal();
-    for (const StreamedPatch& patch : stream_.patches()) all_faces_ += patch.faces();
-  }
+        staged_{outputs.stage_folder(path, foam_files(blocks_))} {}
 
   void write() {
-    write_foam_points(stream_, staged_[0]);
+    write_points();
     write_faces();
     write_owner();
     write_neighbour();
     write_boundary();
-    if (blocks_.several()) write_foam_zones(stream_, blocks_, staged_[5]);
+    if (blocks_.several()) write_zones();
   }
 
  private:
+  void write_points() {
+    TextOutput file(comm_, staged_[0]);
+    file.write(foam_head("vectorField", "points") + std::to_string(stream_.counts().nodes) + "\n(\n");
+    file.write_rows(stream_.point_rows(), 4, [&](TextRows& text, std::int64_t i) {
+      const Point3 p = stream_.point(i);
+      text.mark('(');
+      text.put(p.x, ' ');
+      text.put(p.y, ' ');
+      text.put(p.z, ')');
+      text.mark('\n');
+    });
+    finish(file);
+  }
+
   void write_faces() {
     TextOutput file(comm_, staged_[1]);
-    file.write(foam_head("faceList", "faces") + std::to_string(all_faces_) + "\n(\n");
+    file.write(foam_head("faceList", "faces") + std::to_string(faces_.all()) + "\n(\n");
     faces_.write_internal(file, 5, [](TextRows& text, const auto& nodes, std::int64_t, std::int64_t) {
       put_foam_face(text, nodes);
     });
-    write_patch_faces(file);
-    file.write(")\n");
-    file.close();
-  }
-
-  void write_patch_faces(TextOutput& file) const {
-    file.write_boundaries(
-        *stream_.boundaries(), 5 * mesh_.layers(), [](std::size_t) { return std::string(); },
-        [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-          for (std::int64_t layer = 0; layer < mesh_.layers(); ++layer)
-            put_foam_face(text, mesh_.side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer));
+    faces_.write_patches(
+        file, 5, no_head, [](TextRows& text, std::size_t, const auto& nodes, std::int64_t, std::int64_t) {
+          put_foam_face(text, nodes);
         });
-    for (const bool front : {false, true})
-      faces_.write_end(file, 5, front,
-                       [](TextRows& text, const auto& nodes, std::int64_t) { put_foam_face(text, nodes); });
+    finish(file);
   }
 
   std::string counts_note() const {
-    return foam_counts_note(stream_.counts(), all_faces_, faces_.internal());
+    return "nPoints:" + std::to_string(stream_.counts().nodes) +
+           "  nCells:" + std::to_string(stream_.counts().cells()) +
+           "  nFaces:" + std::to_string(faces_.all()) +
+           "  nInternalFaces:" + std::to_string(faces_.internal());
   }
 
   /// Of the face's cells that with the lower number.
   void write_owner() {
     TextOutput file(comm_, staged_[2]);
-    file.write(foam_head("labelList", "owner", counts_note()) + std::to_string(all_faces_) + "\n(\n");
+    file.write(foam_head("labelList", "owner", counts_note()) + std::to_string(faces_.all()) + "\n(\n");
     faces_.write_internal(file, 1, [](TextRows& text, const auto&, std::int64_t owner, std::int64_t) {
       text.put(owner, '\n');
     });
-    file.write_boundaries(
-        faces_.owners_along_sides(), mesh_.layers(), [](std::size_t) { return std::string(); },
-        [&](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
-          for (std::int64_t layer = 0; layer < mesh_.layers(); ++layer)
-            text.put(edge[0] * mesh_.layers() + layer, '\n');
+    faces_.write_patches(
+        file, 1, no_head, [](TextRows& text, std::size_t, const auto&, std::int64_t owner, std::int64_t) {
+          text.put(owner, '\n');
         });
-    for (const bool front : {false, true})
-      faces_.write_end(file, 1, front,
-                       [](TextRows& text, const auto&, std::int64_t owner) { text.put(owner, '\n'); });
-    file.write(")\n");
-    file.close();
+    finish(file);
   }
 
   void write_neighbour() {
@@ -86,26 +116,78 @@ class FoamWriter {
     faces_.write_internal(file, 1, [](TextRows& text, const auto&, std::int64_t, std::int64_t neighbour) {
       text.put(neighbour, '\n');
     });
+    finish(file);
+  }
+
+  /// The patches, whose faces follow the internal ones.
+  void write_boundary() {
+    const std::vector<StreamedPatch>& patches = stream_.patches();
+    const std::vector<std::string> names = foam_patch_names(stream_.patch_names());
+    TextOutput file(comm_, staged_[4]);
+    std::string text = foam_head("polyBoundaryMesh", "boundary") + std::to_string(names.size()) + "\n(\n";
+    std::int64_t start = faces_.internal();
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      text += "    " + names[n] + "\n    {\n        type            " + type_of(n) +
+              ";\n        nFaces          " + std::to_string(patches[n].faces()) +
+              ";\n        startFace       " + std::to_string(start) + ";\n    }\n";
+      start += patches[n].faces();
+    }
+    file.write(text);
+    finish(file);
+  }
+
+  std::string type_of(std::size_t patch) const {
+    if (const FileMesh* held = stream_.held(); held != nullptr && held->boundaries[patch].is_empty)
+      return "empty";
+    if (stream_.held() == nullptr && patch >= stream_.side_patches())
+      return stream_.layers() == 1 ? "empty" : "symmetryPlane";
+    return foam_patch_type(stream_.patches()[patch].condition);
+  }
+
+  /// The file `cellZones`: a zone for each block.
+  void write_zones() {
+    TextOutput file(comm_, staged_[5]);
+    const std::vector<std::string> names = foam_patch_names(blocks_.names());
+    file.write(foam_head("regIOobject", "cellZones") + std::to_string(names.size()) + "\n(\n");
+    for (std::int32_t block = 0; block < blocks_.count(); ++block) {
+      std::int64_t cells = 0, before = 0;
+      for_each_kind([&]<CellKind kind>() { cells += comm_.sum(blocks_.rows<kind>(block).size()); });
+      file.write(names[block] + "\n{\n    type cellZone;\n    cellLabels      List<label>\n" +
+                 std::to_string(cells) + "\n(\n");
+      for_each_kind([&]<CellKind kind>() {
+        const BlockRows rows = blocks_.rows<kind>(block);
+        const std::int64_t first = before + comm_.exclusive_sum(stream_.cell_rows<kind>());
+        file.write_rows(rows.size(), 1,
+                        [&](TextRows& text, std::int64_t i) { text.put(first + rows[i], '\n'); });
+        before += stream_.counts().of(kind);
+      });
+      file.write(")\n;\n}\n");
+    }
+    finish(file);
+  }
+
+  static void finish(TextOutput& file) {
     file.write(")\n");
     file.close();
   }
-
-  void write_boundary() {
-    std::vector<std::string> types;
-    for (const StreamedPatch& patch : stream_.patches()) types.push_back(foam_patch_type(patch.condition));
-    for (std::size_t end = stream_.side_patches(); end < types.size(); ++end)
-      types[end] = mesh_.layers() == 1 ? "empty" : "symmetryPlane";
-    write_foam_boundary(comm_, staged_[4], stream_.patches(), types, faces_.internal());
-  }
+  static std::string no_head(std::size_t) { return {}; }
 
   const Communicator& comm_;
   const MeshStream& stream_;
-  const ExtrudedMesh& mesh_;
+  StreamFaces faces_;
   const StreamBlocks blocks_;
   std::vector<StagedFile> staged_;
-  ExtrudedFaces faces_;
-  std::int64_t all_faces_ = 0;
 };
+
+/// Without the boundary edges that have cells on both sides. *Collective.*
+Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
+  Mesh result = mesh;
+  const std::vector<std::int64_t> right = cells_right_of_boundaries(comm, mesh);
+  auto at = right.begin();
+  for (BoundaryEdges& boundary : result.boundaries)
+    std::erase_if(boundary.edges, [&](const auto&) { return *at++ != EdgeCells::none; });
+  return result;
+}
 
 }  // namespace
 
@@ -114,9 +196,11 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
 }
 
 void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
-  if (mesh.is_plane()) return write_foam_plane(outputs, mesh, path);
-  if (mesh.held() != nullptr) return write_foam_held(outputs, mesh, path);
-  FoamWriter(outputs, mesh, path).write();
+  if (!mesh.is_plane()) return FoamWriter(outputs, mesh, path).write();
+  const Mesh plane = without_interfaces(outputs.communicator(), mesh.extruded()->plane);
+  ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
+  layer.blocks = mesh.extruded()->blocks;
+  FoamWriter(outputs, MeshStream(outputs.communicator(), layer), path).write();
 }
 
 }  // namespace quadloop

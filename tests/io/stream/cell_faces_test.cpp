@@ -1,17 +1,18 @@
 // Each face once, with the cells on its two sides: those that an extruded mesh streams on several ranks are
-// those that are found in the same mesh, held; also where a file numbers cells in another way.
+// those that are found in the same mesh, held; also where a file numbers cells by block. Which plane meshes are taken.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <tuple>
 
 #include "io/mesh_file.hpp"
-#include "io/stream/extruded_faces.hpp"
 #include "io/stream/held_faces.hpp"
-#include "mesher/mesh/cells/cell_owners.hpp"
+#include "io/stream/stream_faces.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
 #include "tests/io/write_alone.hpp"
@@ -28,7 +29,7 @@ using Face = std::tuple<std::int64_t, std::int64_t, std::vector<std::int64_t>>;
 /// Of this rank's part of the sample, in three layers.
 ExtrudedMesh extruded_sample(const Mesh& part) { return extruded(part, {0, 0.5, 1, 3}, ExtrusionAxis::z); }
 
-std::vector<Face> written(const ExtrudedFaces& faces, const std::string& path) {
+std::vector<Face> written(const StreamFaces& faces, const std::string& path) {
   OutputSet outputs(world());
   TextOutput file(outputs, path);
   faces.write_internal(file, 6,
@@ -52,6 +53,21 @@ std::vector<Face> written(const ExtrudedFaces& faces, const std::string& path) {
   return found;
 }
 
+/// The cells at all faces of patches, on rank 0.
+std::vector<std::int64_t> owners_at_patches(const StreamFaces& faces, const std::string& path) {
+  OutputSet outputs(world());
+  TextOutput file(outputs, path);
+  faces.write_patches(
+      file, 1, [](std::size_t) { return std::string(); },
+      [](TextRows& text, std::size_t, const auto&, std::int64_t owner, std::int64_t) {
+        text.put(owner, '\n');
+      });
+  file.close();
+  outputs.commit();
+  std::ifstream text(path);
+  return {std::istream_iterator<std::int64_t>(text), {}};
+}
+
 /// The inner faces of the whole mesh, held.
 std::vector<Face> held(const std::string& path) {
   const Mesh whole = test::sample_mesh(3);
@@ -73,12 +89,20 @@ std::vector<Face> held(const std::string& path) {
   return found;
 }
 
+/// Blocks of this rank's cells: quads are in the first, triangles in the second.
+PlaneBlocks quads_before_triangles(const Mesh& part) {
+  return {{"quads", "triangles"},
+          std::vector<std::int32_t>(part.triangles.size(), 1),
+          std::vector<std::int32_t>(part.quads.size(), 0)};
+}
+
 TEST(CellFaces, OfAnExtrudedMeshAreThoseOfTheHeldOne) {
   const test::TemporaryFolder folder;
   const Mesh whole = test::sample_mesh(3);
   const Mesh part = scatter_mesh(world(), whole, own_order(whole));
   const ExtrudedMesh mesh = extruded_sample(part);
-  const ExtrudedFaces faces(world(), mesh);
+  const MeshStream stream(world(), mesh);
+  const StreamFaces faces(stream, StreamFaces::CellNumbers::by_block, "m");
   const std::vector<Face> found = written(faces, folder.file("faces"));
   if (!world().is_root()) return;
   const std::vector<Face> wanted = held(folder.file("a.vtu"));
@@ -87,34 +111,54 @@ TEST(CellFaces, OfAnExtrudedMeshAreThoseOfTheHeldOne) {
   EXPECT_EQ(found, wanted);
 }
 
-TEST(CellFaces, HaveTheNumbersOfAFileThatNumbersCellsInAnotherWay) {
+TEST(CellFaces, HaveTheNumbersOfAFileThatNumbersCellsByBlock) {
   const test::TemporaryFolder folder;
   const Mesh whole = test::sample_mesh(3);
   const Mesh part = scatter_mesh(world(), whole, own_order(whole));
-  const ExtrudedMesh mesh = extruded_sample(part);
-  constexpr std::int64_t last = 8;  // six triangles, three quads
-  const CellOwners owners(world(), part);
-  std::vector<std::int64_t> numbers;
-  for (std::int64_t cell = 0; cell < std::ssize(part.triangles) + std::ssize(part.quads); ++cell)
-    numbers.push_back(last - owners.number(cell));
-  const ExtrudedFaces faces(world(), mesh, numbers);
+  const PlaneBlocks blocks = quads_before_triangles(part);
+  ExtrudedMesh mesh = extruded_sample(part);
+  mesh.blocks = &blocks;
+  const MeshStream stream(world(), mesh);
+  const StreamFaces faces(stream, StreamFaces::CellNumbers::by_block, "m");
   const std::vector<Face> found = written(faces, folder.file("faces"));
-  std::vector<std::int64_t> beside;
-  faces.sides_with_owners().run([](std::size_t) {},
-                                [&](std::span<const BoundaryStream::Edge> edges) {
-                                  for (const BoundaryStream::Edge& edge : edges) beside.push_back(edge[1]);
-                                });
+  const std::vector<std::int64_t> beside = owners_at_patches(faces, folder.file("owners"));
   if (!world().is_root()) return;
   std::vector<Face> wanted = held(folder.file("a.vtu"));
-  const auto turned = [](std::int64_t cell) { return 3 * (last - cell / 3) + cell % 3; };
+  // On three layers six triangles, which the stream numbers 0 to 17, and three quads, 18 to 26.
+  const auto by_block = [](std::int64_t cell) { return cell < 18 ? cell + 9 : cell - 18; };
   for (auto& [owner, neighbour, nodes] : wanted) {
-    owner = turned(owner);
-    neighbour = turned(neighbour);
+    owner = by_block(owner);
+    neighbour = by_block(neighbour);
   }
   EXPECT_EQ(found, wanted);
-  ASSERT_FALSE(beside.empty());
-  for (const std::int64_t cell : beside) EXPECT_TRUE(cell >= 0 && cell <= last);
-  EXPECT_EQ(beside.front(), 2);  // below lie the quads, in another way 2, 1 and 0
+  ASSERT_EQ(std::ssize(beside), faces.all() - faces.internal());
+  for (const std::int64_t cell : beside) EXPECT_TRUE(cell >= 0 && cell < 27);
+  EXPECT_EQ(beside.front(), 0);  // below lie the quads
+}
+
+bool is_taken(const Mesh& mesh, bool has_blocks = false) {
+  const Communicator alone(MPI_COMM_SELF);
+  const MeshStream stream(alone, mesh, nullptr,
+                          has_blocks ? std::optional(quads_before_triangles(mesh)) : std::nullopt);
+  try {
+    const StreamFaces faces(stream, StreamFaces::CellNumbers::as_streamed, "m");
+    return true;
+  } catch (const OutputError&) {
+    return false;
+  }
+}
+
+TEST(CellFaces, AreRefusedUnlessEachEdgeHasItsCellsOrBoundary) {
+  const Mesh mesh = test::sample_mesh(3);
+  EXPECT_TRUE(is_taken(mesh));
+  Mesh open = mesh, stray = mesh, between = mesh;
+  open.boundaries[0].edges.pop_back();
+  EXPECT_FALSE(is_taken(open));
+  std::swap(stray.boundaries[0].edges[0][0], stray.boundaries[0].edges[0][1]);
+  EXPECT_FALSE(is_taken(stray));
+  between.boundaries.push_back({"between", "interface", {{mesh.quads[0][2], mesh.quads[0][3]}}});
+  EXPECT_FALSE(is_taken(between));
+  EXPECT_TRUE(is_taken(between, true));
 }
 
 }  // namespace
