@@ -9,7 +9,6 @@
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
-#include "io/cgns/cgns_solid_file.hpp"
 #include "io/files/output_path.hpp"
 #include "io/files/reading/file_kind.hpp"
 #include "io/fluent/fluent_file.hpp"

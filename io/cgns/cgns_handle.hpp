@@ -3,6 +3,8 @@
 // Inside io/ only: the one header that names the CGNS library, for the sources that talk to it.
 #include <cgnslib.h>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -41,6 +43,20 @@ class CgnsFile {
       if (hdf5_.reason() != 0) refuse_output(shown_, hdf5_.reason());
     }
     throw Failure(shown_ + ": the CGNS library refuses: " + cg_get_error());
+  }
+  /// The text of the last descriptor of this name below the node that was gone to, if it has one.
+  std::optional<std::string> descriptor_here(const std::string& name) const {
+    int descriptors = 0;
+    check(cg_ndescriptors(&descriptors));
+    std::optional<std::string> result;
+    for (int d = 1; d <= descriptors; ++d) {
+      std::array<char, 33> label{};
+      char* text = nullptr;
+      check(cg_descriptor_read(d, label.data(), &text));
+      if (label.data() == name) result = text;
+      cg_free(text);
+    }
+    return result;
   }
   /// What was buffered may fail only here; the destructor can say nothing.
   void close() {

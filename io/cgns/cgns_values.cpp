@@ -15,19 +15,10 @@ using Name = std::array<char, 33>;
 /// As its descriptor keeps it, or else as the standard has it.
 std::string own_name(const CgnsZone& from, int solution, int field, const std::string& name) {
   const auto& file = from.file;
-  int descriptors = 0;
   file.check(cg_goto(file.id(), from.base, "Zone_t", from.zone, "FlowSolution_t", solution, "DataArray_t",
                      field, "end"));
-  file.check(cg_ndescriptors(&descriptors));
-  std::string result = variable_name_of_cgns(name);
-  for (int d = 1; d <= descriptors; ++d) {
-    Name label{};
-    char* text = nullptr;
-    file.check(cg_descriptor_read(d, label.data(), &text));
-    if (std::string(label.data()) == full_name_descriptor && text[0] != '\0') result = text;
-    cg_free(text);
-  }
-  return result;
+  const std::string kept = file.descriptor_here(full_name_descriptor).value_or("");
+  return kept.empty() ? variable_name_of_cgns(name) : kept;
 }
 
 /// One variable after the other, `rows` values of each.

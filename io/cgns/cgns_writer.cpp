@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 
+#include "io/cgns/cgns_elements.hpp"
 #include "io/cgns/cgns_file.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
@@ -70,18 +71,10 @@ class CgnsWriter {
   }
 
   template <CellKind kind>
-  static constexpr ElementType_t type_of_cells = kind == CellKind::triangle      ? TRI_3
-                                                 : kind == CellKind::quad        ? QUAD_4
-                                                 : kind == CellKind::tetrahedron ? TETRA_4
-                                                 : kind == CellKind::pyramid     ? PYRA_5
-                                                 : kind == CellKind::prism       ? PENTA_6
-                                                                                 : HEXA_8;
-
-  template <CellKind kind>
   void write_cells() {
     const std::int64_t all = stream_.counts().of(kind);
     if (all == 0) return;
-    const ElementType_t type = type_of_cells<kind>;
+    const ElementType_t type = cgns_type_of<kind>;
     stream_.on_root([&] { sink_->begin_section(cg_ElementTypeName(type), type, all); });
     stream_.rows(
         stream_.cell_rows<kind>(), [&](std::int64_t i) { return as<cgsize_t>(stream_.cell<kind>(i), 1); },

@@ -115,12 +115,6 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
   std::erase(mesh.periodic_nodes, -1);
 }
 
-std::int32_t block_of(const LoadedMesh& loaded, std::int32_t cell) {
-  const std::size_t at = cell;
-  const std::size_t triangles = loaded.triangle_to_block.size();
-  return at < triangles ? loaded.triangle_to_block[at] : loaded.quad_to_block[at - triangles];
-}
-
 [[noreturn]] void refuse_edge(const Mesh& mesh, const FileBoundary& boundary, std::size_t number,
                               const TextScanner& scan) {
   const Face& edge = boundary.faces[number];
@@ -142,11 +136,11 @@ void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded
       const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
       if (left < 0 && right < 0) refuse_edge(loaded.mesh, boundary, i, scan);
       const bool between = left >= 0 && right >= 0;
-      if (between && block_of(loaded, left) == block_of(loaded, right)) {
+      if (between && block_of_cell(loaded, left) == block_of_cell(loaded, right)) {
         inner.edges.push_back({from, to});
         continue;
       }
-      if (left < 0 || (between && block_of(loaded, right) < block_of(loaded, left))) std::swap(from, to);
+      if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left))) std::swap(from, to);
       outer.edges.push_back({from, to});
     }
     if (!outer.edges.empty()) loaded.mesh.boundaries.push_back(std::move(outer));
@@ -248,15 +242,17 @@ void drop_unused_nodes(FileMesh& mesh, const std::string& path) {
   mesh.warnings.push_back(fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
 }
 
-void unite_nodes(FileMesh& mesh) {
+void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes) {
   std::vector<Point3>& points = mesh.points;
   std::vector<std::int32_t> order(points.size()), first_of(points.size()), new_id(points.size());
   std::iota(order.begin(), order.end(), 0);
   const auto place = [&](std::int32_t i) { return std::tuple(points[i].x, points[i].y, points[i].z); };
   std::ranges::stable_sort(order, {}, place);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool again = k > 0 && place(order[k]) == place(order[k - 1]);
-    first_of[order[k]] = again ? first_of[order[k - 1]] : order[k];
+  const auto zone_of = [&](std::size_t node) { return std::ranges::upper_bound(first_nodes, node); };
+  for (std::size_t k = 0, first = 0; k < order.size(); ++k) {
+    if (place(order[k]) != place(order[first])) first = k;
+    const bool same_zone = !first_nodes.empty() && zone_of(order[k]) == zone_of(order[first]);
+    first_of[order[k]] = order[same_zone ? k : first];
   }
   Field none;
   Field& solution = mesh.solution ? *mesh.solution : none;
@@ -320,6 +316,16 @@ LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
   return loaded;
 }
 
+LoadedMesh loaded_mesh_of(FileMesh file) {
+  LoadedMesh loaded = cells_and_points(file);
+  for (const FileBoundary& boundary : file.boundaries) {
+    loaded.mesh.boundaries.push_back({boundary.name, boundary.condition, {}, boundary.layers});
+    for (const Face& edge : boundary.faces)
+      loaded.mesh.boundaries.back().edges.push_back({NodeId{edge[0]}, NodeId{edge[1]}});
+  }
+  return loaded;
+}
+
 FileMesh file_mesh_of(const LoadedMesh& loaded) {
   FileMesh file;
   file.dimension = 2;
@@ -341,6 +347,7 @@ FileMesh file_mesh_of(const LoadedMesh& loaded) {
     for (const auto& [from, to] : boundary.edges)
       own.faces.push_back({from.value(), to.value(), FileBoundary::no_node, FileBoundary::no_node});
   }
+  for (const NodeId node : loaded.periodic_nodes) file.periodic_nodes.push_back(node.value());
   file.solution = loaded.solution;
   file.strips = loaded.mesh.strips;
   file.warnings = loaded.warnings;

@@ -29,6 +29,12 @@ inline bool has_named_blocks(const LoadedMesh& loaded) {
   return loaded.blocks > 1 || (!loaded.block_names.empty() && loaded.block_names[0] != "domain");
 }
 
+/// The block of a cell; quads are counted after triangles.
+inline std::int32_t block_of_cell(const LoadedMesh& loaded, std::int32_t cell) {
+  const std::int32_t triangles = static_cast<std::int32_t>(loaded.triangle_to_block.size());
+  return cell < triangles ? loaded.triangle_to_block[cell] : loaded.quad_to_block[cell - triangles];
+}
+
 /// The cells of one block, which follow each other.
 template <class Cell>
 std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,

@@ -14,6 +14,9 @@ using MeshOfFile = std::variant<LoadedMesh, FileMesh>;
 /// A plane mesh in the form that readers fill.
 FileMesh file_mesh_of(const LoadedMesh& loaded);
 
+/// The way back: nothing is corrected (plane_mesh() does that).
+LoadedMesh loaded_mesh_of(FileMesh file);
+
 /// The plane mesh, also of a 3D mesh that is one cell thick (plane_of_solid()); throws InputError, with
 /// `path`, where the file holds another 3D mesh.
 LoadedMesh plane_of(MeshOfFile mesh, const std::string& path);

@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "io/cgns/cgns_bars.hpp"
+#include "io/cgns/cgns_faces.hpp"
 #include "io/cgns/cgns_exponents.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
@@ -88,35 +88,35 @@ TEST(CgnsNames, ConditionsComeBack) {
   EXPECT_EQ(condition_of_cgns(-3), "none");
 }
 
-using Edge = CgnsBars::Edge;
-constexpr Edge edge(std::int32_t number) { return {NodeId{number}, NodeId{number + 1}}; }
+using Face = CgnsFaces::Face;
+constexpr Face edge(std::int32_t number) { return {number, number + 1, FileBoundary::no_node, FileBoundary::no_node}; }
 
-TEST(CgnsBars, AreTakenOnceEach) {
-  CgnsBars bars;
-  bars.begin_section("one");
-  bars.add(7, edge(7));
-  bars.add(5, edge(5));
-  bars.begin_section("empty");
-  bars.begin_section("two");
-  bars.add(5, edge(50));  // a number that stands twice
-  bars.add(9, edge(9));
-  bars.sort();
-  EXPECT_EQ(bars.size(), 4U);
-  EXPECT_EQ(bars.take(5), edge(5));
-  EXPECT_EQ(bars.take(5), edge(50));
-  EXPECT_EQ(bars.take(5), std::nullopt);
-  EXPECT_EQ(bars.take(6), std::nullopt);
-  EXPECT_EQ(bars.take(10), std::nullopt);
-  std::vector<std::pair<std::string, Edge>> left;
-  bars.for_each_left([&](const std::string& section, const Edge& e) { left.emplace_back(section, e); });
-  EXPECT_EQ(left, (std::vector<std::pair<std::string, Edge>>{{"one", edge(7)}, {"two", edge(9)}}));
+TEST(CgnsFaces, AreTakenOnceEach) {
+  CgnsFaces faces;
+  faces.begin_section("one");
+  faces.add(7, edge(7));
+  faces.add(5, edge(5));
+  faces.begin_section("empty");
+  faces.begin_section("two");
+  faces.add(5, edge(50));  // a number that stands twice
+  faces.add(9, edge(9));
+  faces.sort();
+  EXPECT_EQ(faces.size(), 4U);
+  EXPECT_EQ(faces.take(5), edge(5));
+  EXPECT_EQ(faces.take(5), edge(50));
+  EXPECT_EQ(faces.take(5), std::nullopt);
+  EXPECT_EQ(faces.take(6), std::nullopt);
+  EXPECT_EQ(faces.take(10), std::nullopt);
+  std::vector<std::pair<std::string, Face>> left;
+  faces.for_each_left([&](const std::string& section, const Face& e) { left.emplace_back(section, e); });
+  EXPECT_EQ(left, (std::vector<std::pair<std::string, Face>>{{"one", edge(7)}, {"two", edge(9)}}));
 }
 
-TEST(CgnsBars, MayBeNone) {
-  CgnsBars bars;
-  bars.sort();
-  EXPECT_EQ(bars.take(1), std::nullopt);
-  bars.for_each_left([](const std::string&, const Edge&) { FAIL(); });
+TEST(CgnsFaces, MayBeNone) {
+  CgnsFaces faces;
+  faces.sort();
+  EXPECT_EQ(faces.take(1), std::nullopt);
+  faces.for_each_left([](const std::string&, const Face&) { FAIL(); });
 }
 
 }  // namespace

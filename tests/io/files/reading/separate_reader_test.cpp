@@ -18,6 +18,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "io/files/reading/value_pipe.hpp"
 #include "io/files/staging_folder.hpp"
+#include "io/model/mesh_of_file.hpp"
 #include "io/model/pass_mesh.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -64,13 +65,15 @@ TEST(ValuePipe, BringsValuesOfAnyShape) {
 TEST(ValuePipe, BringsAMeshWithItsSolution) {
   LoadedMesh loaded;
   loaded.mesh = test::sample_mesh(5);
+  loaded.mesh.strips = {{"wake", {}, true, 1, {GlobalNodeId{2}}}};
   loaded.blocks = 2;
   loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 1);
   loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
   loaded.block_names = {"a", ""};
+  loaded.periodic_nodes = {NodeId{3}};
   loaded.solution = test::sample_solution(loaded.mesh);
   loaded.warnings = {"w"};
-  const LoadedMesh found = passed(loaded);
+  const LoadedMesh found = loaded_mesh_of(passed(file_mesh_of(loaded)));
   EXPECT_EQ(found.mesh.points, loaded.mesh.points);
   EXPECT_EQ(found.mesh.owned_nodes, loaded.mesh.owned_nodes);
   EXPECT_EQ(found.mesh.triangles, loaded.mesh.triangles);
@@ -79,10 +82,14 @@ TEST(ValuePipe, BringsAMeshWithItsSolution) {
   EXPECT_EQ(found.mesh.boundaries[1].name, loaded.mesh.boundaries[1].name);
   EXPECT_EQ(found.mesh.boundaries[1].condition, loaded.mesh.boundaries[1].condition);
   EXPECT_EQ(found.mesh.boundaries[1].edges, loaded.mesh.boundaries[1].edges);
+  ASSERT_EQ(found.mesh.strips.size(), 1U);
+  EXPECT_EQ(found.mesh.strips[0].name, "wake");
+  EXPECT_EQ(found.mesh.strips[0].nodes, loaded.mesh.strips[0].nodes);
   EXPECT_EQ(found.blocks, 2);
   EXPECT_EQ(found.triangle_to_block, loaded.triangle_to_block);
   EXPECT_EQ(found.quad_to_block, loaded.quad_to_block);
   EXPECT_EQ(found.block_names, loaded.block_names);
+  EXPECT_EQ(found.periodic_nodes, loaded.periodic_nodes);
   EXPECT_EQ(found.solution->names, loaded.solution->names);
   EXPECT_EQ(found.solution->values, loaded.solution->values);
   EXPECT_EQ(found.solution->constants, loaded.solution->constants);
