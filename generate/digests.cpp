@@ -45,7 +45,8 @@ class WordDigest {
     }
   }
   void add(const LayerLine& line) {
-    const auto& [names, path, length, spacing, layers, where, at] = line;
+    const auto& [names, path, length, spacing, layers, where, at, across] =
+        line;  // across follows from mirror
     const std::string from = fmt::format("{}", fmt::join(names, "\n"));
     add(from.size());
     for (const unsigned char byte : from) add(std::uint64_t{byte});

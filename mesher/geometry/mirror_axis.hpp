@@ -12,6 +12,11 @@ constexpr Point image_of(MirrorAxis axis, Point p) {
   return axis == MirrorAxis::x ? Point{p.x, 0.0 - p.y} : Point{0.0 - p.x, p.y};
 }
 
+/// The nearest point of the axis.
+constexpr Point foot_on(MirrorAxis axis, Point p) {
+  return axis == MirrorAxis::x ? Point{p.x, 0} : Point{0, p.y};
+}
+
 /// The coordinate that changes its sign.
 constexpr double height_over(MirrorAxis axis, Point p) { return axis == MirrorAxis::x ? p.y : p.x; }
 

@@ -238,8 +238,11 @@ void StripBuilder::add_cells(std::size_t s) {
     const FrontEdge& edge = strip.front()[strip.anchor(k + 1)];
     if (edge.rank != comm_.rank()) continue;
     for (std::size_t row = 0; row < strip.rows(); ++row) {
-      grown_->add_cell(edge.leaf, std::array{node(s, {false, k, row}), node(s, {false, k + 1, row}),
-                                             node(s, {false, k + 1, row + 1}), node(s, {false, k, row + 1})});
+      const std::size_t outer = row < strip.rows() / 2 ? 0 : 2;
+      grown_->add_cell(edge.leaf,
+                       std::array{node(s, {false, k, row}), node(s, {false, k + 1, row}),
+                                  node(s, {false, k + 1, row + 1}), node(s, {false, k, row + 1})},
+                       outer);
     }
   }
   add_base(s);

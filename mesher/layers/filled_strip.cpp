@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "mesher/base/error.hpp"
 #include "mesher/layers/zipper.hpp"
+#include "mesher/mesh/mirror_images.hpp"
 
 namespace quadloop {
 
@@ -25,6 +27,7 @@ FilledStrip::FilledStrip(const LayerStrip& strip, std::vector<FrontEdge> front)
   zip(true);
   zip(false);
   close_ends();
+  if (strip_.across) reflect();
   anchor_columns();
 }
 
@@ -61,6 +64,11 @@ void FilledStrip::cut_at_ends() {
   end_left_ = facing(left, right, last, true);
   end_right_ = facing(right, left, last, false);
   if (strip_.root) return;
+  if (strip_.across) {
+    begin_left_ = on_axis(left, 0);
+    begin_right_ = on_axis(right, nodes_.size());
+    return;
+  }
   begin_right_ = facing(number_of(2), nodes_.size() - 1, 0, false);
   begin_left_ = facing(nodes_.size() - 1, number_of(2), 0, true);
 }
@@ -71,8 +79,8 @@ std::vector<FilledStrip::Corner> FilledStrip::inner_side(bool left) const {
     return left ? middle() + from_middle : middle() - from_middle;
   };
   std::vector<Corner> side;
-  for (std::size_t r = 0; !strip_.root && r < middle(); ++r) side.push_back({false, 0, row(r)});
-  for (std::size_t k = 0; k < columns(); ++k) side.push_back({false, k, row(middle())});
+  for (std::size_t r = 0; begins_free() && r < middle(); ++r) side.push_back({false, 0, row(r)});
+  for (std::size_t k = first_column(); k < columns(); ++k) side.push_back({false, k, row(middle())});
   for (std::size_t r = middle(); r > 0; --r) side.push_back({false, columns() - 1, row(r - 1)});
   return side;
 }
@@ -81,9 +89,9 @@ std::vector<FilledStrip::Corner> FilledStrip::inner_side(bool left) const {
 std::vector<FilledStrip::Corner> FilledStrip::outer_side(bool left) const {
   std::vector<Corner> side;
   if (left) {
-    for (std::size_t k = begin_left_; !strip_.root && k + 1 < nodes_.size(); ++k)
+    for (std::size_t k = begin_left_; begins_free() && k + 1 < nodes_.size(); ++k)
       side.push_back({true, k, 0});
-    for (std::size_t k = 0; k <= end_left_; ++k) side.push_back({true, k, 0});
+    for (std::size_t k = strip_.across ? begin_left_ : 0; k <= end_left_; ++k) side.push_back({true, k, 0});
   } else {
     for (std::size_t k = strip_.root ? nodes_.size() - 1 : begin_right_; k >= end_right_; --k)
       side.push_back({true, k, 0});
@@ -112,9 +120,36 @@ void FilledStrip::close_ends() {
   for (std::size_t k = end_left_; k < end_right_; ++k)
     add_triangle(static_cast<std::int32_t>(k), {false, columns() - 1, middle()}, {true, k + 1, 0},
                  {true, k, 0});
-  if (strip_.root) return;
+  if (!begins_free()) return;
   for (std::size_t k = begin_right_; k < begin_left_; ++k)
     add_triangle(static_cast<std::int32_t>(k), {false, 0, middle()}, {true, k + 1, 0}, {true, k, 0});
+}
+
+/// The front's node on the axis, of those from one to before another.
+std::size_t FilledStrip::on_axis(std::size_t from, std::size_t to) const {
+  for (std::size_t k = from; k != to; from < to ? ++k : --k) {
+    if (side_of(*strip_.across, nodes_[k]) == 0) return k;
+  }
+  refuse_without_image(*strip_.across, "node", nodes_[from]);
+}
+
+/// The images of all triangles as well.
+void FilledStrip::reflect() {
+  std::map<Point, std::size_t> node_at;
+  for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) node_at.emplace(nodes_[k], k);
+  const auto image_of_node = [&](std::size_t k) {
+    const auto found = node_at.find(image_of(*strip_.across, nodes_[k]));
+    if (found == node_at.end()) refuse_without_image(*strip_.across, "node", nodes_[k]);
+    return found->second;
+  };
+  const auto image = [&](const Corner& c) {
+    return c.on_front ? Corner{true, image_of_node(c.column), 0}
+                      : Corner{false, columns() - 1 - c.column, c.row};
+  };
+  const std::vector<Triangle> built = triangles_;
+  for (const auto& [edge, corners] : built)
+    add_triangle(static_cast<std::int32_t>(image_of_node(edge + 1)), image(corners[0]), image(corners[2]),
+                 image(corners[1]));
 }
 
 /// Each column with the first triangle on the left that has its last node.

@@ -62,6 +62,10 @@ class FilledStrip {
 
  private:
   std::size_t middle() const { return rows() / 2; }
+  /// Before it all is reflected.
+  std::size_t first_column() const { return strip_.across ? columns() / 2 : 0; }
+  /// Whether its beginning is closed as its end is.
+  bool begins_free() const { return !strip_.root && !strip_.across; }
   Point at(const Corner& c) const { return c.on_front ? nodes_[c.column] : strip_.columns[c.column][c.row]; }
 
   /// The front's nodes beside the right and the left, cut where they face the line's ends.
@@ -76,13 +80,16 @@ class FilledStrip {
   void add_triangle(std::int32_t edge, const Corner& a, const Corner& b, const Corner& c) {
     triangles_.push_back({edge, {a, b, c}});
   }
+  std::size_t on_axis(std::size_t from, std::size_t to) const;
+  void reflect();
   void anchor_columns();
 
   const LayerStrip& strip_;
   std::vector<FrontEdge> front_;
   std::vector<Point> nodes_;  ///< of the front, one more than edges
   /// Of the front's nodes the last one on the left and the first one on the right, at the end; of a free line
-  /// the last one on the right and the first one on the left, at the beginning.
+  /// the last one on the right and the first one on the left, at the beginning; of one across an axis those
+  /// on the axis.
   std::size_t end_left_ = 0, end_right_ = 0, begin_right_ = 0, begin_left_ = 0;
   std::vector<Triangle> triangles_;
   std::vector<std::int32_t> anchor_;

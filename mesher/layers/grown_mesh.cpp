@@ -47,7 +47,7 @@ bool GrownMesh::diagonals_rank_alike(std::span<const GrownNode> corners) const {
   return ends(0, 2) == ends(1, 3);
 }
 
-void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners) {
+void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners, std::size_t outer) {
   const std::size_t n = corners.size();
   for (std::size_t k = 0; k < n; ++k) {
     use(corners[k]);
@@ -62,7 +62,7 @@ void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners) 
     return;
   }
   const bool takes_first =
-      first != second ? first < second : divide_(corners[2].point) > divide_(corners[3].point);
+      first != second ? first < second : divide_(corners[outer].point) > divide_(corners[outer + 1].point);
   add_triangle(leaf, corners[0], corners[1], corners[takes_first ? 2 : 3]);
   add_triangle(leaf, corners[takes_first ? 0 : 1], corners[2], corners[3]);
 }

@@ -40,8 +40,9 @@ class GrownMesh {
 
   /// What the refusal of a bad cell begins with, and what it advises, of those added from now on.
   void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }
-  /// Of three corners or four, counter-clockwise.
-  void add_cell(std::int32_t leaf, std::span<const GrownNode> corners);
+  /// Of three corners or four, counter-clockwise. Where its diagonals are equally long, that of the higher
+  /// ranked of corners `outer` and `outer + 1` divides it: those away from the wall, alike in mirror images.
+  void add_cell(std::int32_t leaf, std::span<const GrownNode> corners, std::size_t outer = 2);
   void add_edge(std::size_t boundary, std::int32_t leaf, const GrownNode& from, const GrownNode& to);
   /// Boundaries without any call of this or the one before have no edges in the end.
   void keep_edge(std::size_t boundary, std::int32_t leaf, const std::array<NodeId, 2>& edge);

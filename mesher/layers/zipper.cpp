@@ -9,9 +9,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Infinite unless a, b, c turn left.
-double cost_of(Point a, Point b, Point c) {
-  const double area = cross(b - a, c - a);
+/// Infinite unless a, b, c turn left, or right; of mirror images the same to the last bit.
+double cost_of(Point a, Point b, Point c, bool left) {
+  const double area = left ? cross(b - a, c - a) : cross(c - a, b - a);
   if (!(area > 0)) return infinite;
   return (dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c)) / area;
 }
@@ -51,7 +51,7 @@ class Zipper {
   bool begins(std::size_t i, std::size_t j) const { return j == 0 && (i == 0 || (closed_ && i == 1)); }
   double& at(std::size_t i, std::size_t j) { return cost_[i * second_.size() + j]; }
 
-  double turned(Point a, Point b, Point c) const { return left_ ? cost_of(a, b, c) : cost_of(a, c, b); }
+  double turned(Point a, Point b, Point c) const { return cost_of(a, b, c, left_); }
   /// The least cost of the strip up to points i and j whose last triangle is on an edge of the first line.
   double by_first(std::size_t i, std::size_t j) {
     if (i == 0) return infinite;

@@ -23,13 +23,7 @@ std::array<std::uint64_t, 2> key_of(Point p) {
 void refuse_lacking(const Communicator& comm, MirrorAxis axis, const char* what, Point lacking) {
   Point first{nowhere, nowhere};
   for (const Point p : comm.all_gather(lacking)) first = std::min(first, p);
-  if (first.x == nowhere) return;
-  throw InputError(
-      fmt::format("mesh.mirror: the {0} at ({1}, {2}) has no mirror image in the {3}-axis: a [[source]] "
-                  "or mesh.root is not symmetric, or the outline passes a corner of the "
-                  "lattice at two equal distances; make them so, change mesh.snap a little, or take the key "
-                  "out",
-                  what, first.x, first.y, name_of(axis)));
+  if (first.x != nowhere) refuse_without_image(axis, what, first);
 }
 
 /// Sorted, so that it does not depend on where a cell begins, nor on its orientation.
@@ -62,6 +56,14 @@ std::vector<Partner> find_cell_images(const Communicator& comm, const Mesh& mesh
 }
 
 }  // namespace
+
+void refuse_without_image(MirrorAxis axis, const char* what, Point place) {
+  throw InputError(
+      fmt::format("mesh.mirror: the {} at ({}, {}) has no mirror image about the {}-axis: a [[source]] or "
+                  "mesh.root is not symmetric, or the geometry passes a grid vertex at two equal distances; "
+                  "make them symmetric, change mesh.snap slightly, or remove mesh.mirror",
+                  what, place.x, place.y, name_of(axis)));
+}
 
 NodeImages node_images(const Communicator& comm, std::int64_t first_node, std::span<const Point> owned,
                        MirrorAxis axis) {

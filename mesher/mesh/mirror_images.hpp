@@ -11,6 +11,9 @@
 
 namespace quadloop {
 
+/// Throws the InputError for a node or cell, `what`, without a mirror image.
+[[noreturn]] void refuse_without_image(MirrorAxis axis, const char* what, Point place);
+
 using NodeImages = IdVector<NodeId, GlobalNodeId>;
 
 /// The mirror image of each of this rank's owned nodes, by its number over all ranks: the node that lies at

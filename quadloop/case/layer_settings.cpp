@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string_view>
 
 #include "io/text/text_scanner.hpp"
@@ -184,23 +185,45 @@ Warnings LayerSettings::unused(const SolverSettings& solver) const {
   return {flow_->where + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
 }
 
-void require_mirrored_lines(const std::vector<LayerLine>& lines, MirrorAxis axis) {
+namespace {
+
+/// Whether a path has points on both sides of an axis, or on it.
+bool reaches(MirrorAxis axis, const std::vector<Point>& path) {
+  const auto [lowest, highest] = std::ranges::minmax(path, {}, [axis](Point p) { return side_of(axis, p); });
+  return side_of(axis, lowest) <= 0 && side_of(axis, highest) >= 0;
+}
+
+}  // namespace
+
+void require_lines_beside(const std::vector<LayerLine>& lines, MirrorAxis axis) {
   for (const LayerLine& line : lines) {
+    if (line.from.empty() && reaches(axis, line.path))
+      throw InputError(fmt::format(
+          "{}: this [[layer_line]] reaches the {}-axis, where mesh.half ends the domain; let it end "
+          "before the axis, or remove mesh.half: a symmetric mesh may have lines on the axis and "
+          "across it",
+          line.where, name_of(axis)));
+  }
+}
+
+void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis) {
+  for (LayerLine& line : lines) {
     const std::vector<Point> image = image_of(axis, line.path);
     const auto is_image = [&](const LayerLine& other) {
       return other.path == image && other.spacing == line.spacing && other.layers == line.layers;
     };
     if (std::ranges::any_of(lines, is_image)) continue;
+    if (line.from.empty() && std::ranges::equal(image, line.path | std::views::reverse)) {
+      line.across = axis;
+      continue;
+    }
     const char* const what = line.from.empty() ? "layer_line" : "wake";
-    const auto [lowest, highest] =
-        std::ranges::minmax(line.path, {}, [axis](Point p) { return side_of(axis, p); });
-    if (side_of(axis, lowest) != side_of(axis, highest))
+    if (reaches(axis, line.path))
       throw InputError(
-          fmt::format("{}: this [[{}]] comes from one side of the {}-axis to the other or to the axis "
-                      "itself, where mesh.mirror wants mirror "
-                      "images; let it lie on the axis, or end on its side before it, and beyond it the same "
-                      "[[{}]] mirrored",
-                      line.where, what, name_of(axis), what));
+          fmt::format("{}: this [[{}]] reaches the {}-axis but is not symmetric about it, as mesh.mirror "
+                      "requires; place it on the axis, make its path symmetric ([[layer_line]] only), or end "
+                      "it before the axis and add its mirror image",
+                      line.where, what, name_of(axis)));
     throw InputError(
         fmt::format("{}: this [[{}]] has no mirror image in the {}-axis, as mesh.mirror wants; add one that "
                     "is alike but for its "

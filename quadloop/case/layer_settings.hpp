@@ -49,9 +49,12 @@ class LayerSettings {
 };
 
 /// Throws InputError, naming the line and what it lacks, unless the mirror image of each line's path is that
-/// of a line which is asked for alike, point by point: columns are made from its first point on. A path on
-/// the axis is its own image.
-void require_mirrored_lines(const std::vector<LayerLine>& lines, MirrorAxis axis);
+/// of a line with the same settings, point by point: columns are made from its first point on. A path on the
+/// axis is its own image; so is that of a free line across the axis, read backwards, which is noted in it.
+void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis);
+
+/// Throws InputError, naming the line, where a free line reaches the axis along which a half is cut off.
+void require_lines_beside(const std::vector<LayerLine>& lines, MirrorAxis axis);
 
 /// Throws InputError, naming the boundary, where its first layer is so thin beside the coordinates that
 /// doubles do not tell its nodes apart.

@@ -309,6 +309,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   settings.lines = layer_settings.read_lines(root);
   read_mesh_table(root, settings);
   if (settings.mesh.mirror) require_mirrored_lines(settings.lines, *settings.mesh.mirror);
+  if (settings.half) require_lines_beside(settings.lines, settings.half->axis);
   read_smooth_table(root, settings);
   settings.adapt = read_adapt_table(root);
   require_norm_of_metric(root, settings);

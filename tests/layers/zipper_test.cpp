@@ -59,16 +59,25 @@ TEST(Zipper, EachEdgeHasOneTriangleInOrder) {
   EXPECT_EQ(on_second, 9);
 }
 
-TEST(Zipper, IsMirroredOnTheOtherSide) {
-  const Line first{{0, 0}, {1, 0.1}, {2.2, 0}, {3, 0}}, second{{0.2, 1}, {0.8, 1.2}, {1.7, 1}, {3.1, 0.9}};
+void expect_mirrored(const Line& first, const Line& second) {
   Line below;
   for (const Point p : second) below.push_back({p.x, -p.y});
   Line axis;
   for (const Point p : first) axis.push_back({p.x, -p.y});
   const auto above = zipper(first, second, true), mirror = zipper(axis, below, false);
   ASSERT_EQ(above.size(), mirror.size());
-  for (std::size_t i = 0; i < above.size(); ++i) EXPECT_EQ(above[i].on_first, mirror[i].on_first);
+  ASSERT_EQ(above.size(), first.size() + second.size() - 2);
+  for (std::size_t i = 0; i < above.size(); ++i) EXPECT_EQ(above[i].on_first, mirror[i].on_first) << i;
   EXPECT_NEAR(filled(axis, below, false), filled(first, second, true), 1e-12);
+}
+
+TEST(Zipper, IsMirroredOnTheOtherSide) {
+  expect_mirrored({{0, 0}, {1, 0.1}, {2.2, 0}, {3, 0}}, {{0.2, 1}, {0.8, 1.2}, {1.7, 1}, {3.1, 0.9}});
+}
+
+TEST(Zipper, IsMirroredToTheLastBitWhereDiagonalsAreEquallyLong) {
+  for (int parts = 3; parts < 60; ++parts)
+    expect_mirrored(evenly({0.1, 0}, {0.7, 0}, parts), evenly({0.1, 0.07}, {0.7, 0.07}, parts));
 }
 
 TEST(Zipper, MayBeginAtOnePoint) {

@@ -102,7 +102,7 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
   };
   for (Chain& chain : chains) {
     for (Point& p : chain.points) {
-      if (is_on_axis(p)) move(p, axis == MirrorAxis::x ? Point{p.x, 0} : Point{0, p.y});
+      if (is_on_axis(p)) move(p, foot_on(axis, p));
     }
   }
   const PointsAbove above = points_above(chains, axis, 1, tolerance),
@@ -188,12 +188,11 @@ namespace {
 /// next part goes on.
 std::vector<Chain> parts_above(const Geometry& geometry, MirrorAxis axis) {
   std::vector<Chain> parts;
-  const auto on_axis = [&](Point p) { return axis == MirrorAxis::x ? Point{p.x, 0} : Point{0, p.y}; };
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     Point from = geometry.point(s), to = geometry.point(geometry.next(s));
     if (side_of(axis, from) <= 0 && side_of(axis, to) <= 0) continue;
-    if (side_of(axis, from) < 0) from = on_axis(from);  // its own image: at a right angle to the axis
-    if (side_of(axis, to) < 0) to = on_axis(to);
+    if (side_of(axis, from) < 0) from = foot_on(axis, from);  // its own image: at a right angle to the axis
+    if (side_of(axis, to) < 0) to = foot_on(axis, to);
     const std::string& name = geometry.boundary(geometry.boundary_of(s)).name;
     const bool goes_on = !parts.empty() && parts.back().name == name && parts.back().points.back() == from &&
                          geometry.previous(s) == s - 1;

@@ -229,6 +229,7 @@ std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<
     } else {
       placed.path = line.path;
       placed.layers = *line.layers;
+      placed.across = line.across;
     }
     all.push_back(std::move(placed));
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/mirror_axis.hpp"
 
 namespace quadloop {
 
@@ -21,6 +22,8 @@ struct LayerLine {
   std::optional<LayerSpec> layers;  ///< of a free line
   std::string where = {};           ///< its place in the case file, "case.toml:12", for messages alone
   std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
+  /// Of a free line whose path, read backwards, is its own mirror image in an axis: its layers are, too.
+  std::optional<MirrorAxis> across = {};
 
   friend bool operator==(const LayerLine& a, const LayerLine& b) {
     const auto made_of = [](const LayerLine& l) {
@@ -42,6 +45,7 @@ struct PlacedLine {
   LayerSpec layers;
   std::string name = {};   ///< "wake" or "layer_line"; of several "wake_1", "wake_2" ...
   std::string place = {};  ///< what a message about it begins with: "case.toml:12: ", or nothing
+  std::optional<MirrorAxis> across = {};  ///< as the line's
 };
 
 /// Finds the edges at which wakes begin. An edge is a vertex of its boundaries at which the wall turns away

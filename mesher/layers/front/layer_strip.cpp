@@ -135,6 +135,7 @@ class Strip {
     add_end();
     add_side(false);
     if (!strip_.root) add_beginning();
+    if (line_.across) reflect(*line_.across);
     return std::move(strip_);
   }
 
@@ -179,12 +180,15 @@ class Strip {
     return layers;
   }
 
+  /// Of a line across an axis as many on either side, and one on the axis.
   void place_columns() {
+    const double end = line_.across ? 0.5 * path_.length() : path_.length();
     reached_ = {0};
-    while (reached_.back() < path_.length())
-      reached_.push_back(reached_.back() + width_wanted(reached_.back()));
-    const double excess = reached_.back() / path_.length();
+    while (reached_.back() < end) reached_.push_back(reached_.back() + width_wanted(reached_.back()));
+    const double excess = reached_.back() / end;
     for (double& s : reached_) s /= excess;
+    if (!line_.across) return;
+    for (std::size_t k = last(); k > 0; --k) reached_.push_back(path_.length() - reached_[k - 1]);
   }
   double width_at(std::size_t k) const {
     return k == last() ? reached_[k] - reached_[k - 1] : reached_[k + 1] - reached_[k];
@@ -349,6 +353,24 @@ class Strip {
     add_front(outside(k, left_first) + beyond, leaf_over_end_row * row);
     strip_.corners[corner + 1] = strip_.front.size();
     add_front(outside(k, !left_first) + beyond, leaf_over_column * width_at(k));
+  }
+
+  /// The first half becomes the image of the second one.
+  void reflect(MirrorAxis axis) {
+    strip_.across = axis;
+    const std::size_t middle = last() / 2, points = strip_.front.size();
+    for (std::size_t k = 0; k < middle; ++k) {
+      strip_.columns[k].clear();
+      for (const Point p : strip_.columns[last() - k]) strip_.columns[k].push_back(image_of(axis, p));
+    }
+    for (Point& p : strip_.columns[middle]) p = foot_on(axis, p);
+    const std::size_t left = middle, right = points - 3 - middle;  // of the front, on the axis
+    for (const std::size_t i : {left, right}) strip_.front[i] = foot_on(axis, strip_.front[i]);
+    for (std::size_t i = left + 1; i <= right; ++i) {
+      const std::size_t image = (last() + points - i) % points;
+      strip_.front[image] = image_of(axis, strip_.front[i]);
+      strip_.spacing[image] = strip_.spacing[i - 1];
+    }
   }
 
   const PlacedLine& line_;

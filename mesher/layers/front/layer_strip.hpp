@@ -42,6 +42,9 @@ struct LayerStrip {
                                 ///< more in front of a root's strip: before the first point
   /// Of `front`: the corners at the end, left and right, and at the beginning of a free line, right and left.
   std::array<std::size_t, 4> corners{};
+  /// Set: each column is the mirror image in this axis of that as far from the other end of the line, to the
+  /// last bit, and the one in the middle lies on the axis. So is the front.
+  std::optional<MirrorAxis> across = {};
 };
 
 /// How many cells a line's strip has at least, and how many columns: known without building it.

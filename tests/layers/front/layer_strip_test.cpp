@@ -157,6 +157,28 @@ double area_round(const std::vector<Point>& points) {
   return area;
 }
 
+TEST(LayerStrip, ALineAcrossAnAxisIsItsOwnImageToTheLastBit) {
+  PlacedLine line = straight(0, 0.1);
+  line.path = {{2.3, -1.1}, {2.1, -0.3}, {2.1, 0.3}, {2.3, 1.1}};
+  line.across = MirrorAxis::x;
+  const LayerStrip strip = layer_strip(line, {});
+  expect_positive(strip);
+  const std::size_t last = strip.columns.size() - 1, points = strip.front.size();
+  ASSERT_EQ(last % 2, 0U);
+  ASSERT_EQ(points, 2 * (last + 1) + 4);
+  for (std::size_t k = 0; k <= last; ++k) {
+    for (std::size_t r = 0; r < strip.columns[k].size(); ++r)
+      EXPECT_EQ(strip.columns[k][r], image_of(MirrorAxis::x, strip.columns[last - k][r])) << k << " " << r;
+  }
+  for (const Point p : strip.columns[last / 2]) EXPECT_EQ(p.y, 0);
+  for (std::size_t i = 0; i < points; ++i) {
+    const std::size_t image = (last + points - i) % points;
+    EXPECT_EQ(strip.front[i], image_of(MirrorAxis::x, strip.front[image])) << i;
+    EXPECT_EQ(strip.spacing[i], strip.spacing[(image + points - 1) % points]) << i;
+  }
+  EXPECT_EQ(std::ranges::count(strip.front, 0.0, &Point::y), 2);
+}
+
 TEST(LayerStrip, TheFrontGoesRoundItWithTheDomainToItsLeft) {
   const LayerStrip free = layer_strip(straight(4, 0.1), {});
   EXPECT_LT(area_round(free.front), -4 * 2 * layers_thickness(line_layers));

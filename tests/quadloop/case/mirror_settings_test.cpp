@@ -58,10 +58,18 @@ TEST_F(MirrorTest, WantsLinesMirroredWhereTheMeshIs) {
   EXPECT_NE(refused(mirror + above).find("path = [[1, -0.5], [2, -1]]"), std::string::npos);
   for (const std::string& other : {line("[[2, -1], [1, -0.5]]"), line("[[1, -0.5], [2, -1]]", "0.2")})
     EXPECT_TRUE(refused(mirror + above + other).starts_with(lacks)) << other;
-  for (const char* across : {"[[1, -0.5], [1, 0.5]]", "[[1, 0], [2, 1]]"})
-    EXPECT_NE(refused(mirror + line(across)).find("case.toml:5: this [[layer_line]] comes from one side"),
+  for (const char* across : {"[[1, -0.5], [1, 0.4]]", "[[1, -0.5], [2, 0.5]]", "[[1, 0], [2, 1]]"})
+    EXPECT_NE(refused(mirror + line(across)).find("case.toml:5: this [[layer_line]] reaches the x-axis but"),
               std::string::npos)
         << across;
+  for (const char* reaching : {"[[1, 0], [2, 0]]", "[[1, -1], [1, 1]]", "[[1, 0], [1, 1]]"})
+    EXPECT_NE(refused(mirror + "half = \"axis\"\n" + line(reaching))
+                  .find("case.toml:6: this [[layer_line]] reaches"),
+              std::string::npos)
+        << reaching;
+  const Settings across = read(mirror + line("[[1, -0.5], [2, 0], [1, 0.5]]"));
+  EXPECT_EQ(across.lines.at(0).across, MirrorAxis::x);
+  EXPECT_FALSE(read(line("[[1, -0.5], [2, 0], [1, 0.5]]")).lines.at(0).across);
 }
 
 TEST_F(MirrorTest, OfAHalfNoMirrorIsLeft) {
