@@ -10,7 +10,7 @@ namespace quadloop {
 BinaryUnit::BinaryUnit(const Communicator& comm, const Mesh& mesh) {
   const auto [low, high] = box_over_ranks(comm, mesh.points);
   const double half =
-      std::max(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2);  // halves, as a whole extent may overflow
+      std::max(high.x / 2 - low.x / 2, high.y / 2 - low.y / 2);  // halves: the whole extent may overflow
   if (!(half > 0) || !std::isfinite(half)) return;
   const int exponent = std::ilogb(half);
   if (std::abs(exponent) > largest_ordinary) exponent_ = exponent;

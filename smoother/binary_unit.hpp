@@ -8,9 +8,9 @@
 
 namespace quadloop {
 
-/// A unit of length, a power of two, in which products of four lengths of a mesh neither vanish nor overflow:
-/// 1 for all ordinary meshes, else near the mesh's extent. Into it and out of it no bit of a coordinate
-/// changes, but for those below 1e-300 of the extent.
+/// A power of two used as the unit of length, so that products of four lengths of the mesh neither underflow
+/// nor overflow. It is 1 for ordinary meshes, else near the mesh's extent. Conversion in both directions is
+/// exact, except for coordinates below 1e-300 of the extent.
 class BinaryUnit {
  public:
   /// *Collective.*
@@ -22,7 +22,7 @@ class BinaryUnit {
   Geometry into(const Geometry& geometry) const;
 
  private:
-  static constexpr int largest_ordinary = 200;  ///< exponents of extents, up to about 1e60 and down to 1e-60
+  static constexpr int largest_ordinary = 200;  ///< largest |exponent| of an ordinary extent: 1e-60 to 1e60
   int exponent_ = 0;
 };
 

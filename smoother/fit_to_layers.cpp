@@ -14,14 +14,15 @@ namespace quadloop {
 namespace {
 
 constexpr double least_height_ratio = 0.75,
-                 largest_height_ratio = 2;  // heights of cells, over that of the last layer, that are left
-constexpr double steepest = 1.3;            // ratio of neighbouring widths that is left
-constexpr double low_aim = 0.9, high_aim = 1.7;      // heights aimed at lie between these
-constexpr double height_of_equilateral = 0.8660254;  // over its width
-constexpr double weight = 0.04;                      // of a cell's misfit, against the costs of shapes
+                 largest_height_ratio =
+                     2;  // cells are left alone between these ratios of their height to the last layer's
+constexpr double steepest = 1.3;                 // ratio of neighbouring widths that is left alone
+constexpr double low_aim = 0.9, high_aim = 1.7;  // limits of the target height, in heights of the last layer
+constexpr double height_of_equilateral = 0.8660254;  // height over width
+constexpr double weight = 0.04;                      // of the height misfit, relative to the shape costs
 constexpr double worthwhile = 1 - 1e-3;
-constexpr double defect_at_28 = 0.2683281572999748;     // square root of the largest cost of a corner
-constexpr std::array<double, 2> fit_steps{0.12, 0.04};  // of the node's mean edge
+constexpr double defect_at_28 = 0.2683281572999748;  // square root of the largest corner cost at 28 degrees
+constexpr std::array<double, 2> fit_steps{0.12, 0.04};  // in mean edge lengths of the node
 constexpr double diagonal = 0.70710678118654757;
 constexpr std::array<Point, Star::batch> fit_directions{{{1, 0},
                                                          {diagonal, diagonal},
@@ -33,13 +34,13 @@ constexpr std::array<Point, Star::batch> fit_directions{{{1, 0},
                                                          {diagonal, -diagonal}}};
 constexpr int fitted_rings = 1, most_sweeps = 6;
 
-/// An edge of the front as the node where it begins has it.
+/// The boundary edge that begins at a node, where it is on the outer edge of the layers.
 struct FrontEdge {
   GlobalNodeId to{-1};
-  double last_layer = 0;  ///< the height of the last layer below it; 0: no front begins there
+  double last_layer = 0;  ///< the height of the last layer below it; 0: no such edge begins here
 };
 
-/// Of each node, copies too. *Collective.*
+/// The edge that begins at each node, ghost copies included. *Collective.*
 IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, const BoundarySlide& slide,
                                         std::span<const double> heights) {
   IdVector<NodeId, FrontEdge> edges(mesh.points().size());
@@ -52,11 +53,12 @@ IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, const BoundarySlid
   return edges;
 }
 
-/// A cell with a side on the front: its nodes from that side's on, three or four.
+/// A cell with a side on the outer edge of the layers. `nodes` are its three or four nodes, starting with
+/// that side.
 struct FrontCell {
   std::array<NodeId, 4> nodes;
   bool is_quad = false;
-  double last_layer = 0;  ///< its height
+  double last_layer = 0;  ///< height of the last layer below the cell
 
   std::span<const NodeId> all() const { return std::span(nodes).first(is_quad ? 4 : 3); }
 };
@@ -111,7 +113,7 @@ class LayerFit {
   double width_of(const FrontCell& cell) const {
     return length(mesh_.point(cell.nodes[1]) - mesh_.point(cell.nodes[0]));
   }
-  /// The height of a cell, as if it were the same all along its side, with a node at p.
+  /// The height of a cell with `node` at p: its area over the width of its side.
   double height_of(const FrontCell& cell, NodeId node, Point p) const {
     const auto at = [&](std::size_t k) { return cell.nodes[k] == node ? p : mesh_.point(cell.nodes[k]); };
     const Point a = at(0), b = at(1);
@@ -121,7 +123,7 @@ class LayerFit {
     return height_of(cell, cell.nodes[0], mesh_.point(cell.nodes[0]));
   }
 
-  /// Whether the widths of the front's edges differ much at an owned node.
+  /// Whether the widths of the two edges along the layers' outer edge differ too much at an owned node.
   bool is_uneven(NodeId node) const {
     const auto [back, ahead] = fixed_[node.value()];
     if (std::min(back, ahead) > 0) return std::max(back, ahead) > steepest * std::min(back, ahead);
@@ -129,8 +131,8 @@ class LayerFit {
            slides_on_front(node);
   }
 
-  /// Nodes of cells on the front whose height is a misfit, and those at which its widths jump; right for
-  /// owned nodes.
+  /// Flags the nodes of cells whose height does not fit the last layer, and nodes where the widths jump;
+  /// valid for owned nodes.
   NodeFlags misfits() const {
     NodeFlags flags(mesh_.points().size(), 0);
     for (const FrontCell& cell : cells_) {
@@ -154,7 +156,7 @@ class LayerFit {
     return nodes;
   }
 
-  /// Those that have a node that may move off the front.
+  /// Lists the cells that have a movable node off the outer edge of the layers.
   void list_cells() {
     IdVector<NodeId, std::int32_t> place_of(mesh_.points().size(), -1);
     for (std::int32_t i = 0; const NodeId node : nodes_) place_of[node] = i++;
@@ -166,8 +168,7 @@ class LayerFit {
     }
   }
 
-  /// How far the heights of a node's cells are from what is aimed at, with it at p. The star must be valid
-  /// there.
+  /// The misfit of the heights of a node's cells with the node at p. The star must be valid there.
   double misfit(std::size_t i, Point p) const {
     double sum = 0;
     for (const FrontCell& cell : cells_of_[i]) {
@@ -218,10 +219,10 @@ class LayerFit {
   const BoundarySlide& slide_;
   std::span<const double> heights_;
   std::vector<FrontCell> cells_;
-  std::vector<NodeId> nodes_;  ///< that may move
+  std::vector<NodeId> nodes_;  ///< nodes that may move
   std::vector<std::vector<FrontCell>> cells_of_;
   std::vector<Point> fixed_;
-  Star star_;  ///< of the node that is visited
+  Star star_;  ///< star of the visited node
 };
 
 }  // namespace

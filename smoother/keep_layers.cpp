@@ -20,10 +20,11 @@ bool is_stretched(const Mesh& mesh, const Nodes& nodes) {
   return longest > stretched_like_layers * shortest;
 }
 
-/// A file of an earlier version does not tell of strips.
+/// Files of earlier versions do not name strips.
 bool may_have_unnamed_strips(const Mesh& mesh) { return has_layers(mesh) && mesh.strips.empty(); }
 
-/// The triangles that join a strip to the cells outside are none that flips would make.
+/// Whether a triangle touches a strip; flips would not restore the triangles that join a strip to the cells
+/// outside.
 bool touches_strip(const LayerPlaces& places, const std::array<NodeId, 3>& nodes) {
   return std::ranges::any_of(nodes, [&](NodeId node) { return places[node].strip >= 0; });
 }

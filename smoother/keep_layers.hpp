@@ -9,18 +9,18 @@
 
 namespace quadloop {
 
-/// A cell whose longest edge is so many times as long as its shortest is taken for one of layers behind an
-/// edge, in a mesh with layers on walls that names no strips, as files of earlier versions do not.
+/// A cell whose longest edge is at least this many times its shortest edge is taken for a layer cell, in a
+/// mesh with layers on walls but without named strips (a file of an earlier version).
 inline constexpr double stretched_like_layers = 5;
 
-/// Makes the smoother leave layers as they are: their nodes, those of the front too, are pinned, and flips
-/// keep their edges; so with cells that are stretched like them, where strips are not named. Nothing in a
-/// mesh without layers. `options` are for this mesh, all but that in place. *Collective.*
+/// Makes the smoother keep the layers: pins their nodes, those on the outer edge included, and excludes their
+/// edges from flips. Where strips are not named, cells as stretched as layer cells are kept too. Does nothing
+/// for a mesh without layers. `options` must otherwise be complete for this mesh. *Collective.*
 void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& options);
 
-/// A block for each of this rank's triangles, such that flips, which keep edges between two blocks, keep
-/// those of layers: a negative one of its own for a triangle in layers or beside a strip, else what `given`
-/// says, or 0 where it is empty. *Collective.*
+/// Returns a block for each of this rank's triangles, so that flips keep the edges of layers (edges between
+/// two blocks are not flipped). A triangle in layers or beside a strip has a negative block of its own; any
+/// other has its block in `given`, or 0 if `given` is empty. *Collective.*
 std::vector<std::int32_t> blocks_for_flips(const Communicator& comm, const Mesh& mesh,
                                            const LayerPlaces& places, const std::vector<std::int32_t>& given);
 

@@ -22,15 +22,17 @@ namespace quadloop {
 
 namespace {
 
-constexpr int free_rings = 3;  ///< of nodes round those of cells above the threshold that may come to move
-constexpr double cost_rounding = 1e-12;  ///< relative: by so much a cost seen from another corner may differ
-constexpr int pinned_rings = 2;  ///< round triangles that flips have made too bad; so many more each time
+constexpr int free_rings = 3;  ///< nodes within this many rings of a cell above the threshold may move
+constexpr double cost_rounding = 1e-12;  ///< relative difference of a cost seen from different corners
+constexpr int pinned_rings =
+    2;  ///< rings around triangles that flips made too bad; increased by this each time
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
-/// Cells that cost more count for more than even edges along boundaries: those of some 15 degrees in the
-/// first round, in the next ones those that are a little worse than `SmoothOptions::bad`.
+/// Above this cost the shape of a cell has priority over even edges along boundaries: an angle of about 15
+/// degrees in the first round; in later rounds a factor of `SmoothOptions::bad`.
 constexpr double even_at_first = 0.3, even_later = 1.1;
-constexpr std::int64_t few = 100;  ///< so many times fewer moves than in the busiest sweep end a round
+constexpr std::int64_t few =
+    100;  ///< a sweep with this many times fewer moves than the busiest one ends a round
 
 template <class AnyMesh, std::size_t width>
 std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -39,19 +41,19 @@ std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId
   return points;
 }
 
-/// Most cells are whole leaves, whose cost is 0 to the last bit.
+/// Fast path: most cells are squares, whose cost is exactly 0.
 bool is_square(const std::array<Point, 4>& p) {
   return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x &&
          p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;
 }
 bool is_square(const std::array<Point, 3>&) { return false; }
 
-/// The shape that a cell should have, by its number in the halo mesh.
+/// Whether the target of a cell, given by its number in the halo mesh, is the ideal shape.
 bool is_ideal(const std::vector<CellTarget>& targets, std::size_t number) {
   return targets.empty() || targets[number].ideal();
 }
 
-/// The cost of a cell by its number in the halo mesh; 0 where it surely is below the limit.
+/// The cost of a cell given by its number in the halo mesh; 0 if it is certainly below the limit.
 template <std::size_t width>
 double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
                const std::vector<CellTarget>& targets, std::size_t number, const CostLimit& limit) {
@@ -62,7 +64,7 @@ double cost_of(const HaloMesh& mesh, const std::array<NodeId, width>& nodes,
   return cell_cost(corners, ideal_targets<width>());
 }
 
-/// Tells which cells cost more than a threshold.
+/// Decides which cells cost more than a threshold.
 class BadCellTest {
  public:
   BadCellTest(const HaloMesh& mesh, const std::vector<CellTarget>& targets, double threshold)
@@ -96,12 +98,12 @@ struct WorstCell {
   }
 };
 
-/// What has to be known before the first sweep.
+/// Data collected before the first sweep.
 struct Survey {
   bool tangled;        ///< whether there are inverted cells
-  NodeFlags bad;       ///< nodes of cells above the threshold; right for owned nodes
-  NodeFlags near;      ///< the same, and some rings round those: they may come to move
-  NodeFlags parallel;  ///< nodes of parallelograms; right for owned nodes
+  NodeFlags bad;       ///< nodes of cells above the threshold; valid for owned nodes
+  NodeFlags near;      ///< those nodes and some rings around them, which may move
+  NodeFlags parallel;  ///< nodes of parallelograms; valid for owned nodes
 };
 
 WorstCell over_ranks(const Communicator& comm, const WorstCell& worst) {
@@ -117,10 +119,10 @@ void flag_nodes_of_parallelograms(const HaloMesh& mesh, NodeFlags& parallel) {
   });
 }
 
-/// Of the worst cell and of cells above a threshold.
+/// The worst cell and the nodes of cells above a threshold.
 struct BadCells {
   WorstCell worst;
-  NodeFlags nodes;  ///< of those above the threshold; right for owned nodes
+  NodeFlags nodes;  ///< nodes of cells above the threshold; valid for owned nodes
 };
 
 /// *Collective.*
@@ -135,14 +137,14 @@ BadCells find_bad_cells(const Communicator& comm, const HaloMesh& mesh,
     if (is_bad) flag_all(nodes, bad.nodes);
     if (!is_bad && bad.worst.cost >= threshold) return;
     const double cost = cost_of(mesh, nodes, targets, cell, bad.worst.limit);
-    bad.worst.include(cost, mesh.owns(nodes[0]));  // other ranks may have the cell, too
+    bad.worst.include(cost, mesh.owns(nodes[0]));  // other ranks may also have the cell
   });
   bad.worst = over_ranks(comm, bad.worst);
   return bad;
 }
 
-/// Flags the nodes of cells that cost more than `bad`; only those with a node flagged in `among` are looked
-/// at. Right for owned nodes.
+/// Flags the nodes of cells that cost more than `bad`, considering only cells with a node flagged in `among`.
+/// Valid for owned nodes.
 NodeFlags nodes_of_bad_cells(const HaloMesh& mesh, const std::vector<CellTarget>& targets,
                              const NodeFlags& among, double bad) {
   NodeFlags flags(mesh.points().size(), 0);
@@ -159,14 +161,13 @@ void flag_those_of(const NodeFlags& some, NodeFlags& flags) {
   for (const NodeId node : flags.ids()) flags[node] |= some[node];
 }
 
-/// Flags the bad nodes and those in so many rings round them, beside the ones that are flagged already.
-/// *Collective.*
+/// Flags additionally the bad nodes and the nodes in this many rings around them. *Collective.*
 void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) {
   grow(mesh, bad, rings);
   flag_those_of(bad, yielding);
 }
 
-/// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
+/// The nodes flagged `near` that may move: those of no parallelogram, and those flagged in `yielding`.
 std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
                                const NodeFlags& yielding) {
   std::vector<NodeId> free;
@@ -177,7 +178,7 @@ std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, con
   return free;
 }
 
-/// The worst cell now. *Collective.*
+/// The worst cell of the present mesh. *Collective.*
 WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::vector<CellTarget>& targets) {
   WorstCell worst;
   std::size_t number = 0;
@@ -187,7 +188,7 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
   return over_ranks(comm, worst);
 }
 
-/// Puts the nodes where they are now; flags those that have moved.
+/// Copies the present node positions to `to`; flags the nodes that have moved.
 NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
   NodeFlags moved(to.points.size(), 0);
   for (const NodeId node : moved.ids()) {
@@ -197,14 +198,14 @@ NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
   return moved;
 }
 
-/// Whether a triangle is inverted or flat, exactly: some that count as flat when they are smoothed are none.
+/// Whether a triangle is inverted or flat by the exact test; some that count as flat in smoothing are not.
 bool any_turns_right(const Mesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
     return orientation(mesh.point(t[0]), mesh.point(t[1]), mesh.point(t[2])) <= 0;
   });
 }
 
-/// The worst of a mesh of triangles, each of which one rank has. *Collective.*
+/// The worst triangle of a mesh in which each triangle is on one rank. *Collective.*
 WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   WorstCell worst;
   for (const auto& nodes : mesh.triangles) {
@@ -214,8 +215,8 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
   return over_ranks(comm, worst);
 }
 
-/// Sweeps until next to nothing moves any more, or as many as are asked for. Those after the open ones are
-/// measured by the busiest of themselves: where few nodes are left, few moves count. *Collective.*
+/// Sweeps until almost no node moves, at most `sweeps` times. Sweeps after the open ones are compared with
+/// the busiest of these later ones, as fewer nodes move there. *Collective.*
 void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   progress::Stage stage("smoothing", sweeps, "sweeps");
   std::int64_t moves = 1, busiest = 0;
@@ -228,14 +229,14 @@ void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
   }
 }
 
-/// Up to which cost of their stars slides keep edges along boundaries even. Targets have lengths of their
-/// own.
+/// The star cost up to which slides keep boundary edges even. 0 with targets, which define their own lengths.
 double even_up_to(int round, const SmoothOptions& options, bool any_targets) {
   if (any_targets) return 0;
   return round == 0 ? even_at_first : even_later * options.bad;
 }
 
-/// Has the nodes that slide visited again among the bad ones: they may have been held back.
+/// Marks the sliding nodes among the bad ones for another visit: the limit on edge ratios may have held them
+/// back.
 void look_again_at_slides(const HaloMesh& mesh, const BoundarySlide& slide, const NodeFlags& bad,
                           NodeFlags& stale) {
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
@@ -243,8 +244,8 @@ void look_again_at_slides(const HaloMesh& mesh, const BoundarySlide& slide, cons
   }
 }
 
-/// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches,
-/// then those in rings round it, until no cell is bad or no more nodes yield. *Collective.*
+/// Rounds of sweeps. In the first, nodes of parallelograms stay; in later ones those of bad cells may move,
+/// then those in rings around them, until no cell is bad or no further nodes are freed. *Collective.*
 void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
@@ -272,7 +273,8 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   }
 }
 
-/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. *Collective.*
+/// Spreads the nodes on the outer edge of the layers evenly and fits the adjacent cells to the layers.
+/// *Collective.*
 void fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
                std::span<const double> heights) {
   if (!comm.any(!heights.empty())) return;
@@ -280,8 +282,8 @@ void fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& sl
   fit_to_layers(comm, halo, slide, heights);
 }
 
-/// Moves level lines, after which fewer nodes are bad. Returns flags of those near edges that may not be
-/// Delaunay for that, or none. *Collective.*
+/// Moves level lines, which reduces the number of bad nodes. Returns flags of nodes near edges that may have
+/// become non-Delaunay; may be empty. *Collective.*
 NodeFlags move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads,
                            const SmoothOptions& options, NodeFlags& bad) {
   halo.exchange().update(bad);
@@ -300,12 +302,12 @@ Survey survey(const HaloMesh& halo, const BadCells& bad, bool any_targets) {
   return surveyed;
 }
 
-/// What moves have made of a mesh.
+/// The result of moving the nodes of a mesh.
 struct Moved {
   WorstCell before;
-  WorstCell after;         ///< not looked for where flips follow
+  WorstCell after;         ///< not computed if flips follow
   bool any_moved = false;  ///< on any rank
-  NodeFlags moved;         ///< of the mesh's points: those near which edges may not be Delaunay any more
+  NodeFlags moved;         ///< nodes near which edges may have become non-Delaunay
 };
 
 /// Moves the nodes, without flips. *Collective.*
@@ -313,7 +315,7 @@ Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
   HaloMesh halo(comm, mesh);
-  const bool any_targets = comm.any(!options.targets.empty());  // a rank without cells has none
+  const bool any_targets = comm.any(!options.targets.empty());  // a rank without cells has no targets
   const std::vector<CellTarget> targets =
       any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
   const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
@@ -332,7 +334,7 @@ Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
           std::move(moved)};
 }
 
-/// Sweeps, then flips; what the flips make of the worst cell is seen in the report. *Collective.*
+/// Sweeps, then flips. The report contains the worst cost after flips. *Collective.*
 SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   SmoothReport report;
   auto [before, after, any_moved, moved] = move_nodes(comm, mesh, options, report);
@@ -349,8 +351,8 @@ SmoothReport smooth_once(const Communicator& comm, Mesh& mesh, const SmoothOptio
   return report;
 }
 
-/// Flags owned nodes: those of triangles that cost more than `limit`, and some rings round them in the mesh
-/// as it was before flips. *Collective.*
+/// Flags owned nodes: those of triangles that cost more than `limit`, and `rings` rings around them in the
+/// mesh before flips. *Collective.*
 NodeFlags nodes_near_worse(const Communicator& comm, const Mesh& flipped, const Mesh& before, double limit,
                            int rings) {
   std::vector<GlobalNodeId> of_worse;
@@ -366,9 +368,9 @@ NodeFlags nodes_near_worse(const Communicator& comm, const Mesh& flipped, const 
   return near;
 }
 
-/// A flip to Delaunay raises the smallest angle but may raise the largest cost. Where that gets worse than it
-/// was, the nodes near the worse triangles are left where they were and the rest is smoothed again; in the
-/// end the whole mesh is left as it was. *Collective.*
+/// Flips to Delaunay raise the smallest angle but may raise the largest cost. If that exceeds its original
+/// value, the nodes near the worse triangles are pinned and the mesh is smoothed again; as a last resort the
+/// mesh is left unchanged. *Collective.*
 SmoothReport smooth_delaunay(const Communicator& comm, Mesh& mesh, const SmoothOptions& options) {
   QUADLOOP_REQUIRE(!comm.any(!options.targets.empty()), "flips would leave cells without targets");
   QUADLOOP_REQUIRE(options.keep_slots || !comm.any(!options.triangle_to_block.empty()),

@@ -9,8 +9,8 @@ namespace quadloop {
 
 namespace {
 
-/// A name that no boundary of mesh and outline has, the same on every rank: the outline says nothing of it,
-/// so nodes slide where it is straight.
+/// A name that no boundary of mesh or geometry has, the same on all ranks. As the geometry lacks it, nodes
+/// slide along the straight mesh boundary.
 std::string name_of_axis(const Mesh& mesh, const Geometry* geometry) {
   std::string name = "mirror axis";
   const auto has_name = [&](const auto& boundary) { return boundary.name == name; };

@@ -6,10 +6,10 @@
 
 namespace quadloop {
 
-/// Smooths a mesh that is its own mirror image in the axis `options.mirror` and keeps it so, to the last bit:
-/// `smooth_half` smooths one side of the axis, along which nodes slide, and the other becomes the image of
-/// that. The report is the half's, but for `standing`. Throws InputError, naming the place, where a node has
-/// no image, or, of a Delaunay mesh, a cell. *Collective.*
+/// Smooths a mesh that is mirror-symmetric in the axis `options.mirror` and keeps it exactly symmetric:
+/// `smooth_half` smooths one side, whose nodes slide along the axis, and the other side becomes its image.
+/// The report is that of the half, except for `standing`. Throws InputError with coordinates if a node or, in
+/// a Delaunay mesh, a cell has no mirror image. *Collective.*
 SmoothReport smooth_mirrored(
     const Communicator& comm, Mesh& mesh, const SmoothOptions& options,
     const std::function<SmoothReport(Mesh& half, const SmoothOptions& options)>& smooth_half);

@@ -28,20 +28,20 @@ double ideal_cost(const std::array<Point, width>& corners) {
   return cell_cost(corners, ideal_targets<width>());
 }
 
-/// Copies are moved, too. *Collective.*
+/// Updates ghost copies of the nodes and of the flags. *Collective.*
 void share(HaloMesh& mesh, NodeFlags& moved) {
   mesh.exchange().update(mesh.points());
   mesh.exchange().update(moved);
 }
 
-/// What becomes of lines that have been moved.
+/// The result of moving lines.
 struct Lines {
-  NodeFlags moved;     ///< nodes whose cells are to be looked at
-  NodeFlags doubtful;  ///< those of triangles with edges that may not be Delaunay
+  NodeFlags moved;     ///< nodes whose cells have to be checked
+  NodeFlags doubtful;  ///< nodes of triangles with edges that may not be Delaunay
 };
 
-/// Flags the moved nodes of a triangle that is neither acute nor one of a halved square: edges opposite the
-/// angles of others are Delaunay.
+/// Flags the moved nodes of a triangle that is neither acute nor half a square. In other triangles the edges
+/// opposite the angles are Delaunay.
 void doubt(const std::array<NodeId, 3>& nodes, const std::array<Point, 3>& p, const NodeFlags& moved,
            NodeFlags& doubtful) {
   for (unsigned blunt = blunt_corners(p[0], p[1], p[2]); blunt != 0; blunt &= blunt - 1) {
@@ -52,9 +52,8 @@ void doubt(const std::array<NodeId, 3>& nodes, const std::array<Point, 3>& p, co
 }
 void doubt(const std::array<NodeId, 4>&, const std::array<Point, 4>&, const NodeFlags&, NodeFlags&) {}
 
-/// Looks at the cells with a node that is flagged as moved. Puts owned nodes of those that have become too
-/// bad back, which are then the ones that are flagged. Returns whether there are any over all ranks.
-/// *Collective.*
+/// Checks the cells with a node flagged as moved. Moves the owned nodes of cells that have become too bad
+/// back; only these stay flagged. Returns whether there are any on any rank. *Collective.*
 bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, Point>& before, double limit,
                Lines& lines) {
   std::vector<NodeId> back;
@@ -80,7 +79,7 @@ bool take_back(const Communicator& comm, HaloMesh& mesh, const IdVector<NodeId, 
   return comm.any(!back.empty());
 }
 
-/// Returns the doubtful nodes, or none at all where nothing has moved. *Collective.*
+/// Returns the nodes at possibly non-Delaunay edges; empty if nothing has moved. *Collective.*
 template <class Finder>
 NodeFlags move_lines(const Communicator& comm, HaloMesh& mesh, const Finder& finder, const NodeFlags& pinned,
                      double limit) {

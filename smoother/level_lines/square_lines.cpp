@@ -6,13 +6,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr double step_into_squares = 0.25;  ///< of the smaller square's edge
-/// Of that edge: coordinates that went through a file are on the lattice nearly.
+constexpr double step_into_squares = 0.25;  ///< in edges of the smaller square
+/// Relative to that edge: coordinates read from a file are on the lattice up to rounding.
 constexpr double rounding = 1e-6;
-/// A flag beside those of the quadrants: the node's cells are not those of a level line.
+/// A flag besides those of the quadrants: the node is on no level line.
 constexpr unsigned unfit = 1U << 8;
 
-/// From the node into the smaller squares, where they lie in two quadrants side by side.
+/// The direction from the node into the smaller squares, if these lie in two adjacent quadrants.
 Point into_squares(unsigned quadrants) {
   switch (quadrants) {
     case 0b0011: return {0, 1};
@@ -25,8 +25,8 @@ Point into_squares(unsigned quadrants) {
 
 bool near(double a, double b) { return std::abs(a - b) <= rounding; }
 
-/// The quadrant in which a square lies with `opposite` its far corner from p, if it is a square with its
-/// sides along the axes, and its edge.
+/// The quadrant and edge length of a square with sides along the axes and corners p and `opposite`; `unfit`
+/// if the cell is no such square.
 struct SquareCorner {
   unsigned quadrant = unfit;
   double edge = 0;
@@ -74,8 +74,8 @@ void SquareLines::look_at_squares(const std::array<NodeId, 4>& nodes) {
   }
 }
 
-/// The node's triangles reach the points that the division of a larger square has on and behind the line,
-/// and no others.
+/// Checks that the node's triangles reach only points on and behind the line that the division of a larger
+/// square has.
 void SquareLines::look_at_triangles(const std::array<NodeId, 3>& nodes) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (!mesh_.owns(nodes[k])) continue;

@@ -6,14 +6,13 @@
 
 namespace quadloop {
 
-/// Finds the nodes of lines where squares of two sizes meet, among those that this rank owns: nodes whose
-/// cells are two equal squares on one side of the line and the triangles of a division at hanging nodes on
-/// the other.
+/// Finds the owned nodes on lines where squares of two sizes meet: the cells of such a node are two equal
+/// squares on one side of the line and triangles of a division at hanging nodes on the other.
 class SquareLines {
  public:
   explicit SquareLines(const HaloMesh& mesh);
 
-  /// Calls `visit(node, move)` for owned nodes that are to move.
+  /// Calls `visit(node, move)` for each owned node to be moved.
   template <class Visit>
   void for_each_move(const Visit& visit) const {
     for (const NodeId node : round_.ids()) {
@@ -22,10 +21,10 @@ class SquareLines {
   }
 
  private:
-  /// What lies round a node: bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
+  /// The cells around a node. Bit k of `quadrants` stands for a square in quadrant k (0: right and up, then
   /// counter-clockwise).
   struct Surroundings {
-    double edge = 0;  ///< of the squares
+    double edge = 0;  ///< edge length of the squares
     unsigned quadrants = 0;
     unsigned line_ends = 0;  ///< bit 0, 1: triangles reach the node's neighbour on the line, on either side
   };

@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// Finds the nodes near lines where halved squares of two sizes meet, by the triangles around each, in a mesh
-/// of triangles.
+/// Finds, in a mesh of triangles, the nodes near lines where halved squares of two sizes meet. A node is
+/// recognised by the triangles around it.
 class TriangleLines {
  public:
-  /// Looks at owned nodes that are flagged `near`. Both must outlive it.
+  /// Examines owned nodes that are flagged `near`. Both arguments must outlive it.
   TriangleLines(const HaloMesh& mesh, const NodeFlags& near);
 
-  /// Calls `visit(node, move)` for owned nodes that are to move.
+  /// Calls `visit(node, move)` for each owned node to be moved.
   template <class Visit>
   void for_each_move(const Visit& visit) const {
     for_each_flagged(near_, [&](NodeId node) {
@@ -24,8 +24,8 @@ class TriangleLines {
 
  private:
   struct Surroundings {
-    std::uint64_t sum = 0;  ///< of numbers that stand for the shapes of the triangles around the node
-    double edge = 0;        ///< of the smaller squares; nothing where all are of one size
+    std::uint64_t sum = 0;  ///< sum of the numbers of the shapes of the triangles around the node
+    double edge = 0;        ///< edge length of the smaller squares; 0 where all squares have one size
   };
   void look_at(const std::array<NodeId, 3>& nodes);
   Point move_of(NodeId node) const;

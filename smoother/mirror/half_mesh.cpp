@@ -24,7 +24,7 @@ HalfMesh::HalfMesh(const Communicator& comm, const Mesh& whole, MirrorAxis axis,
   take_boundaries(axis_name);
 }
 
-/// Nodes on the axis are among the half's.
+/// Takes the nodes of the half, those on the axis included.
 void HalfMesh::take_nodes() {
   IdVector<NodeId, GlobalNodeId> number(whole_.points.size());
   std::int64_t owned = 0;
@@ -158,14 +158,14 @@ HalfMesh::NodesOfHalf HalfMesh::nodes_of_half() const {
 
 namespace {
 
-/// A triangle for a slot of the whole, by its nodes there.
+/// A triangle and its slot in the whole mesh, with node numbers of the whole.
 struct PlacedTriangle {
   std::int64_t slot;
   std::array<GlobalNodeId, 3> nodes;
   std::array<Point, 3> points;
 };
 
-/// The triangles in their slots, in the order in which they come; those without any keep what stands there.
+/// Stores the triangles in their slots, in the order given. Slots without a triangle keep their content.
 void put_in_slots(const std::vector<PlacedTriangle>& placed, const std::vector<std::int32_t>& standing,
                   const std::vector<char>& stays, Mesh& whole) {
   std::vector<std::int64_t> next(standing.size() + 1, 0);

@@ -10,34 +10,34 @@
 
 namespace quadloop {
 
-/// Of a mesh that is its own mirror image the cells on the side where heights over the axis are above 0, as a
-/// mesh of its own, and the way back: what became of the half is reflected. The half's nodes, triangles and
-/// quadrilaterals keep their order, on their ranks. Edges along the axis are a boundary of the half.
+/// The half of a mirror-symmetric mesh: its cells on the side where the signed distance from the axis is
+/// positive, as a mesh of its own. Changes of the half are reflected to the whole mesh. Nodes, triangles and
+/// quadrilaterals of the half keep their order and rank. Edges along the axis are a boundary of the half.
 class HalfMesh {
  public:
-  /// `axis_name` is that of the boundary along the axis. `flips`: the half's triangles may come to be others;
-  /// then each triangle must have its image. `whole` must outlive it and stay as it is until reflect().
-  /// Throws InputError as find_node_images() does. *Collective.*
+  /// `axis_name` names the boundary along the axis. `flips`: the half's triangles may be replaced by others;
+  /// then each triangle of the whole must have a mirror image. `whole` must outlive it and stay unchanged
+  /// until reflect(). Throws InputError as find_node_images() does. *Collective.*
   HalfMesh(const Communicator& comm, const Mesh& whole, MirrorAxis axis, const std::string& axis_name,
            bool flips);
 
   Mesh& mesh() { return half_; }
 
-  /// Flags for the half's owned nodes: where the node or its image is flagged (none need be), and nodes of
-  /// cells across the axis. *Collective.*
+  /// Flags owned nodes of the half: nodes that are flagged or have a flagged image, and nodes of cells across
+  /// the axis. `of_whole` may be empty. *Collective.*
   NodeFlags pinned(const NodeFlags& of_whole) const;
 
-  /// Of a value for each triangle of the whole those for the half's; none of none.
+  /// Selects from one value per triangle of the whole those of the half's triangles; empty for empty input.
   template <class T>
   std::vector<T> of_triangles(const std::vector<T>& values) const;
-  /// The same of one for each triangle, then for each quadrilateral.
+  /// Same for one value per cell, triangles first, then quadrilaterals.
   template <class T>
   std::vector<T> of_cells(const std::vector<T>& values) const;
 
-  /// Brings nodes, and with `flips` triangles, of `whole`, which is still as it was, to what they are in the
-  /// half; on the other side to the image of that. `standing` says how many triangles stand in the slot of
-  /// each of the half's; none: one in each. Returns the same for the whole mesh, empty without flips.
-  /// *Collective.*
+  /// Copies the half's node positions, and with `flips` its triangles, to the unchanged `whole`, and their
+  /// images to the other side. `standing`: number of triangles stored in the slot of each of the half's
+  /// original triangles; empty means one each. Returns the same counts for the whole mesh, empty without
+  /// flips. *Collective.*
   std::vector<std::int32_t> reflect(const std::vector<std::int32_t>& standing, Mesh& whole) const;
 
  private:
@@ -52,7 +52,7 @@ class HalfMesh {
   void reflect_positions(Mesh& whole) const;
   std::vector<std::int32_t> reflect_triangles(const std::vector<std::int32_t>& standing, Mesh& whole) const;
 
-  /// Of each of the half's nodes, copies too, its number in the whole, and its image's.
+  /// Global numbers in the whole mesh of each node of the half, ghost copies included, and of its image.
   struct NodesOfHalf {
     IdVector<NodeId, GlobalNodeId> own, image;
   };
@@ -65,11 +65,11 @@ class HalfMesh {
   NodeImages images_;
   std::vector<Partner> triangle_images_;
   Mesh half_;
-  IdVector<NodeId, NodeId> in_half_;    ///< of each node of the whole; none for those on the other side
-  std::vector<NodeId> owned_in_whole_;  ///< of each owned node of the half
-  std::vector<std::int32_t> triangles_, quads_;  ///< of the half, by their index in the whole
+  IdVector<NodeId, NodeId> in_half_;    ///< for each node of the whole; none for nodes on the other side
+  std::vector<NodeId> owned_in_whole_;  ///< for each owned node of the half
+  std::vector<std::int32_t> triangles_, quads_;  ///< indices in the whole of the half's cells
   std::vector<GlobalNodeId> across_;             ///< nodes of this rank's cells across the axis
-  std::vector<char> stays_;                      ///< a flag for each triangle of the whole: across the axis
+  std::vector<char> stays_;  ///< a flag for each triangle of the whole that crosses the axis
 };
 
 template <class T>

@@ -4,8 +4,8 @@
 
 namespace quadloop {
 
-/// How a node's best place is looked for. perturb: Newton's steps, and the thesis's along normals, edges and
-/// axes. nlopt: a library's minimiser.
+/// The search for a node's best position. perturb: Newton steps, and the steps along normals, edges and axes
+/// of the thesis. nlopt: a minimiser of the NLopt library.
 enum class Method { perturb, nlopt };
 
 inline constexpr WordTable<Method, 2> method_words{{{"perturb", Method::perturb}, {"nlopt", Method::nlopt}}};

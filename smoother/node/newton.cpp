@@ -7,26 +7,25 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_newton_moves = 3;  ///< in one visit
+constexpr int most_newton_moves = 3;  ///< per visit
 constexpr double newton_reach =
-    0.08;  ///< of the node's mean edge: the longest step; longer ones end in worse cells
-constexpr double least_gain = 1e-4;    ///< of what is lowered: what Acceptance asks for of the cost
-constexpr double further_gain = 0.05;  ///< what a further move in one visit has to promise
-constexpr double flattest = 1e-3;      ///< of the curvatures' ratio, below which a step is the gradient's
-constexpr double cotangent_of_32 =
-    1.600334529041051;  ///< stars with smaller angles are worth a longer search
-/// Shares of a step that is refused, along it and to its left; tried together.
+    0.08;  ///< longest step in mean edge lengths of the node; longer ones give worse cells
+constexpr double least_gain = 1e-4;    ///< relative gain of the objective that Acceptance requires
+constexpr double further_gain = 0.05;  ///< predicted gain required for a further move in one visit
+constexpr double flattest = 1e-3;      ///< ratio of curvatures below which a gradient step is taken
+constexpr double cotangent_of_32 = 1.600334529041051;  ///< stars with smaller angles justify a longer search
+/// Trial points for a refused step, as fractions along the step and to its left; evaluated together.
 constexpr std::array<Point, Star::batch> ways{
     {{0.6, 0}, {0.3, 0}, {0.1, 0}, {0.03, 0}, {0.3, 0.25}, {0.3, -0.25}, {0.05, 0.14}, {0.05, -0.14}}};
 
 struct NewtonMove {
   Point by;
-  double gain = 0;  ///< as a share of the sum of cubes, by the quadratic model
+  double gain = 0;  ///< relative decrease of the sum of cubes predicted by the quadratic model
 };
 
-/// To the minimum of the quadratic model of the third root of the sum of cubes, which is nearer to quadratic
-/// than the sum: its second derivatives are, but for a factor, those of the sum less 2/3 of the gradient's
-/// square over the sum. Against the gradient where the model has no minimum.
+/// Steps to the minimum of a quadratic model of the cube root of the sum of cubes, which is closer to
+/// quadratic than the sum itself. Up to a factor its second derivatives are those of the sum minus 2/3 of the
+/// squared gradient over the sum. Steps against the gradient where the model has no minimum.
 NewtonMove newton_step(const StarModel& m) {
   const Point g = m.gradient;
   const double longest = newton_reach * std::sqrt(m.reference), share = 2 / (3 * m.cubes);
@@ -41,7 +40,7 @@ NewtonMove newton_step(const StarModel& m) {
   return {by, (-dot(g, by) - 0.5 * std::max(bend, 0.0)) / m.cubes};
 }
 
-/// The best accepted place on the way and beside it, short of its end.
+/// The best accepted point along and beside the step, before its end.
 std::optional<Point> short_of(const Star& star, Point p, Point by, const Acceptance& acceptance) {
   Star::Batch x, y;
   for (int k = 0; k < Star::batch; ++k) {

@@ -4,11 +4,11 @@
 
 namespace quadloop {
 
-/// Newton's steps towards the least 3-norm of the corners' defects, for as long as they promise more than a
-/// move is worth, each taken where Acceptance takes it; where the first one is refused, the best of eight
-/// places on the way and beside it, and in stars with sharp angles perturbations. The norm is the third, not
-/// the fourth, whose power Objective::power is: that leaves more cells good. Perturbations alone for the
-/// thesis's objective, which has kinks.
+/// Takes Newton steps towards the minimum of the 3-norm of the corners' defects, while the predicted gain
+/// justifies a move. Each step must pass Acceptance. If the first step is refused, it tries eight points
+/// along and beside the step, and, in stars with sharp angles, perturbations. The 3-norm leaves more good
+/// cells than the 4-norm, whose power is Objective::power. For the thesis's objective, which is not smooth,
+/// only perturbations are used.
 class Newton : public NodeSolver {
  public:
   std::optional<Point> improve(const Star& star, Point p, Objective objective) override;

@@ -9,13 +9,14 @@ namespace quadloop {
 
 namespace {
 
-/// Rowan's subplex, measured against eleven others of the library (docs/notes/smoothing-studies.md): none
-/// gives better cells, and it is the fastest.
+/// Rowan's subplex: the fastest of twelve NLopt algorithms compared, and none gives better cells
+/// (docs/notes/smoothing-studies.md).
 constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;
-constexpr double tolerance = 1e-3;    ///< relative, of the cost
-constexpr double search_reach = 0.5;  ///< of the node's mean edge, both ways along each axis
+constexpr double tolerance = 1e-3;  ///< relative, of the cost
+constexpr double search_reach =
+    0.5;  ///< in mean edge lengths of the node, in both directions along each axis
 
 struct Problem {
   const Star* star = nullptr;
@@ -24,13 +25,13 @@ struct Problem {
   Point centre;
 };
 
-/// In units of the mean edge from where the node is now; with the slope where the algorithm asks for it.
+/// The cost, and the gradient if requested, at x: the offset from the present position in mean edge lengths.
 double cost_of(unsigned, const double* x, double* slope, void* data) {
   const Problem& problem = *static_cast<const Problem*>(data);
   const Point p = problem.centre + problem.edge * Point{x[0], x[1]};
   const StarCost<1> cost = problem.star->cost(p, problem.objective);
-  if (!cost.valid[0]) {  // a wall as high as any cost (see Objective), with the slope back to where the node
-                         // was
+  if (!cost.valid[0]) {  // a barrier as high as any cost (see Objective), with its gradient away from the
+                         // node's present position
     const double barrier = size32(problem.star->corners());
     if (slope != nullptr) {
       slope[0] = x[0];
@@ -77,7 +78,7 @@ std::optional<Point> NloptSolver::improve(const Star& star, Point p, Objective o
   try {
     impl_->optimiser.optimize(x, value);
   } catch (const std::runtime_error&) {
-    // the library stopped for rounding: what it has so far is judged like anything else
+    // the library stopped because of rounding: the best point so far is checked like any other
   }
   const Acceptance acceptance(star.cost(p, objective));
   for (int halving = 0; halving < 4; ++halving) {

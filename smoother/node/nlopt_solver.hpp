@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-/// Minimises the cost of the node with NLopt; what it finds is taken if it is acceptable.
+/// Minimises the node's cost with NLopt; the result is used if Acceptance passes it.
 class NloptSolver : public NodeSolver {
  public:
   NloptSolver();

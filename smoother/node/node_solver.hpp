@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// The cost of a star as it is, which a new place must better: the largest corner cost and the smallest angle
-/// no worse, the cost of the node lower.
+/// The present cost of a star and the rule for accepting a new position: the largest corner cost and the
+/// smallest angle must not get worse, and the node's cost must fall.
 class Acceptance {
  public:
   Acceptance(const StarCost<1>& now) : now_{now} {}
@@ -20,8 +20,8 @@ class Acceptance {
            cost.largest_cotangent[place] <= now_.largest_cotangent[0] &&
            cost.objective[place] < worthwhile * now_.objective[0];
   }
-  /// The accepted place of the lowest cost among the first `count`; -1 if there is none. Of equal ones the
-  /// first.
+  /// Index of the accepted position with the lowest cost among the first `count`, the first of equal ones; -1
+  /// if there is none.
   template <int places>
   int best(const StarCost<places>& cost, int count) const {
     int best = -1;
@@ -32,15 +32,16 @@ class Acceptance {
   }
 
  private:
-  static constexpr double worthwhile = 1 - 1e-4;  ///< a smaller gain is not worth the neighbours' new visits
+  static constexpr double worthwhile =
+      1 - 1e-4;  ///< a smaller gain does not justify new visits to the neighbours
   StarCost<1> now_;
 };
 
-/// Finds a better place for a node whose star is valid.
+/// Searches a better position for a node whose star is valid.
 class NodeSolver {
  public:
   virtual ~NodeSolver() = default;
-  /// A place that Acceptance takes, or none. A function of its arguments alone.
+  /// A position that passes Acceptance, or none. Depends on its arguments only.
   virtual std::optional<Point> improve(const Star& star, Point p, Objective objective) = 0;
 };
 

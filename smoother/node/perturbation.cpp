@@ -8,15 +8,15 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::array<double, 4> steps{0.16, 0.08, 0.04, 0.01};  ///< of the node's mean edge
-constexpr int most_moves = 3;                                   ///< in one visit
+constexpr std::array<double, 4> steps{0.16, 0.08, 0.04, 0.01};  ///< in mean edge lengths of the node
+constexpr int most_moves = 3;                                   ///< per visit
 
 Point unit(Point v) {
   const double norm = length(v);
   return norm > 0 ? (1 / norm) * v : v;
 }
 
-/// Whether a corner is that of a cell at p, of which each cell has one.
+/// Whether this is the corner of a cell at p; each cell has one.
 bool is_own(const StarCorner& c) { return c.angle == CellAngle::all || c.angle == CellAngle::at_p; }
 
 enum class Direction { normals, edges, axes };
@@ -34,7 +34,7 @@ void find_directions(const Star& star, Point p, Direction kind, std::vector<Poin
   }
 }
 
-/// The best accepted step of a length, if any.
+/// The best accepted step of this length, if any.
 std::optional<Point> best_step(const Star& star, Point p, Objective objective, const Acceptance& acceptance,
                                const std::vector<Point>& directions, double step) {
   std::optional<Point> best;

@@ -15,7 +15,8 @@ namespace quadloop {
 
 namespace {
 
-/// The half plane n . p + c >= t of an opposite edge, n of length 1: t is how far p lies to its left.
+/// The half plane n . p + c >= t of an opposite edge, with |n| = 1; t is the distance of p to the left of the
+/// edge.
 struct HalfPlane {
   Point n;
   double c = 0;
@@ -34,7 +35,7 @@ std::vector<HalfPlane> half_planes(const Star& star) {
   return planes;
 }
 
-/// Where three half planes have the same depth, if anywhere.
+/// The point of equal depth in three half planes, if it exists.
 std::optional<Point> equally_deep(const HalfPlane& a, const HalfPlane& b, const HalfPlane& c) {
   const Point u = a.n - b.n, v = a.n - c.n;
   const double determinant = cross(u, v), du = b.c - a.c, dv = c.c - a.c;
@@ -54,16 +55,15 @@ Point mean_of_neighbours(const Star& star) {
   return (1.0 / size32(star.corners())) * sum;
 }
 
-/// The place of largest least depth: a linear program in three unknowns, solved from above by its dual
-/// simplex method. Three half planes at a time hold the place; of all others the one that it lies least deep
-/// in takes the place of one of them, and the depth falls, until none is left that it lies less deep in. Each
-/// step looks at each half plane once; there are a few steps, and never more than a few times the half
-/// planes.
+/// Finds the point of largest minimum depth: a linear program in three unknowns, solved by the dual simplex
+/// method. Three half planes are the basis. The half plane with the least depth at the basis point enters and
+/// replaces one of them, so that the depth falls, until no half plane has a smaller depth. A step costs one
+/// pass over the half planes; the number of steps is small and bounded by a few times their number.
 class DeepestPlace {
  public:
   explicit DeepestPlace(std::vector<HalfPlane> planes) : planes_{std::move(planes)} {}
 
-  /// At least as deep as any of the guesses, wherever rounding ends the search.
+  /// Returns a point at least as deep as any of the guesses, even if rounding ends the search early.
   Point find(std::initializer_list<Point> guesses) {
     for (const Point guess : guesses) consider(guess);
     Basis basis = far_away();
@@ -88,7 +88,7 @@ class DeepestPlace {
     double depth = 0;
   };
 
-  /// Three half planes round everything, so deep that all others are met before.
+  /// Three half planes that enclose all others, so deep that any other enters first.
   Basis far_away() const {
     double reach = 0;
     for (const HalfPlane& plane : planes_) reach = std::max(reach, std::abs(plane.c));
@@ -96,7 +96,7 @@ class DeepestPlace {
     return {HalfPlane{{1, 0}, c}, HalfPlane{{-0.5, s}, c}, HalfPlane{{-0.5, -s}, c}};
   }
 
-  /// Of the four half planes the three whose place lies deepest in all four; the basis becomes these.
+  /// Of the four half planes, selects as the new basis the three whose point is deepest in all four.
   std::optional<Held> exchange(Basis& basis, const HalfPlane& entering) const {
     std::optional<Held> deepest;
     Basis chosen = basis;
@@ -131,7 +131,7 @@ class DeepestPlace {
 }  // namespace
 
 Point deepest_point(const Star& star, Point p) {
-  Star from_p;  // in coordinates from p, so that far from the origin nothing is lost
+  Star from_p;  // relative to p, to keep precision far from the origin
   for (StarCorner c : star.corners()) {
     c.q = c.q - p;
     c.r = c.r - p;

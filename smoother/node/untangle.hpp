@@ -7,15 +7,15 @@
 
 namespace quadloop {
 
-/// Whether a star with inverted corners is better with its node elsewhere: no sound corner is lost, and the
-/// sum of -J over the inverted ones falls. Of two such places the better one is that of the smaller sum or,
-/// by the thesis's objective, of the smaller cost by Eq. 3.4.
+/// Decides whether moving the node improves a star with inverted corners: no valid corner may become
+/// inverted, and the sum of -J over the inverted ones must fall. Of two accepted positions the one with the
+/// smaller sum is better or, with the thesis's objective, the one with the smaller cost by Eq. 3.4.
 class UntanglingRule {
  public:
   UntanglingRule(const Star& star, Point p, Objective objective);
   bool accepts(Point to) const;
   bool prefers(Point a, Point b) const;
-  /// What falls: the sum of -J, then the number of inverted corners.
+  /// The measure to be reduced: the sum of -J, then the number of inverted corners.
   struct Tangle {
     double inversion = 0;
     std::ptrdiff_t inverted = 0;
@@ -31,16 +31,15 @@ class UntanglingRule {
   Tangle now_;
 };
 
-/// A better place for a node whose star has inverted corners, the best of some by UntanglingRule; none if no
-/// candidate is.
+/// The best of several candidate positions by UntanglingRule, for a node whose star has inverted corners;
+/// none if no candidate is accepted.
 std::optional<Point> untangle(const Star& star, Point p, Objective objective);
 
-/// The place where the smallest distance from the lines through the opposite edges, to their left, is
-/// largest: inside all corners if any place is (Freitag and Plassmann 2000). The star must go all round its
-/// node.
+/// The position with the largest minimum distance to the left of the lines through the opposite edges. It is
+/// inside all corners if any position is (Freitag and Plassmann 2000). The star must surround its node.
 Point deepest_point(const Star& star, Point p);
 
-/// The acceptable ones among a batch of places, the best first: by Acceptance where the star is valid at p,
+/// Indices of the acceptable positions of a batch, the best first: by Acceptance if the star is valid at p,
 /// else by UntanglingRule.
 std::vector<int> ranked_places(const Star& star, Point p, Objective objective, const Star::Batch& x,
                                const Star::Batch& y);

@@ -8,7 +8,7 @@ CornerTarget corner_target(Point w1, Point w2) {
 }
 
 CornerTarget seen_from_next(const CornerTarget& t) {
-  // From q the edges are e1 = r - q and e2 = p - q; the old ones are q - p = -e2 and r - p = e1 - e2.
+  // From q the edges are e1 = r - q and e2 = p - q; those from p are q - p = -e2 and r - p = e1 - e2.
   return {t.g22, -(t.g12 + t.g22), t.g11 + 2 * t.g12 + t.g22};
 }
 

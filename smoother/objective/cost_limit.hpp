@@ -7,13 +7,13 @@
 
 namespace quadloop {
 
-/// Tells of most cells, by products alone, whether they cost less than a limit or more (Eq. 3.2 with the
-/// ideal targets).
+/// Decides for most cells, without divisions and roots, whether their cost is below or above a limit (Eq. 3.2
+/// with ideal targets).
 class CostLimit {
  public:
   explicit CostLimit(double limit) : share_{std::max(1 - std::sqrt(limit), 0.0)} {}
 
-  /// Never where cell_cost is the limit or more; may be false of a cell that costs a little less.
+  /// True only if cell_cost is below the limit; may be false for a cell slightly below it.
   template <std::size_t width>
   bool surely_kept_by(const std::array<Point, width>& cell) const {
     for (std::size_t k = 0; k < corners<width>; ++k) {
@@ -21,7 +21,7 @@ class CostLimit {
     }
     return true;
   }
-  /// Never where cell_cost is the limit, under 1, or less; may be false of a cell that costs a little more.
+  /// True only if cell_cost is above the limit, which is under 1; may be false for a cell slightly above it.
   template <std::size_t width>
   bool surely_missed_by(const std::array<Point, width>& cell) const {
     for (std::size_t k = 0; k < corners<width>; ++k) {
@@ -31,10 +31,11 @@ class CostLimit {
   }
 
  private:
-  static constexpr double margin = 1e-9;  ///< far above what rounding makes of J over the weighted edges
+  static constexpr double margin = 1e-9;  ///< far above the rounding error of J over the weighted edges
   template <std::size_t width>
-  static constexpr std::size_t corners = width == 3 ? 1 : width;  ///< those of a triangle cost the same
-  /// Whether J of the k-th corner is above that share of the weighted edges.
+  static constexpr std::size_t corners =
+      width == 3 ? 1 : width;  ///< the corners of a triangle have the same cost
+  /// Whether J of the k-th corner exceeds the fraction `share` of the weighted edges.
   template <std::size_t width>
   static bool is_above(double share, const std::array<Point, width>& cell, std::size_t k) {
     constexpr auto targets = ideal_targets<width>();

@@ -4,9 +4,9 @@
 
 namespace quadloop {
 
-/// How the corners' costs become the cost of their node. thesis: Eq. 3.4, see nodal_cost. power: the sum of
-/// the squared costs, where no corner is inverted; the sum of -J counts where some are. In a valid star no
-/// objective may exceed the number of corners: that is how high NloptSolver's wall round such places stands.
+/// How the cost of a node follows from its corners' costs. thesis: Eq. 3.4, see nodal_cost. power: the sum of
+/// the squared costs if no corner is inverted, else the sum of -J. In a valid star an objective must not
+/// exceed the number of corners, the height of the barrier in NloptSolver.
 enum class Objective { thesis, power };
 
 inline constexpr WordTable<Objective, 2> objective_words{

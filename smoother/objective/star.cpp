@@ -61,7 +61,7 @@ struct CostSlope {
   Point gradient;
 };
 
-/// The cost of a corner that is not inverted, and how it changes with p.
+/// The cost of a valid corner and its derivative with respect to p.
 CostSlope cost_slope(const StarCorner& c, Point p) {
   const CornerForm f = corner_form(p, c.q, c.r);
   const Point u = c.q - p, v = c.r - p;
@@ -151,7 +151,7 @@ double Star::inversion(Point p, double reference) const {
   double sum = 0;
   for (const StarCorner& c : corners_) {
     const double jacobian = cross(c.q - p, c.r - p);
-    if (jacobian < 0) sum -= jacobian / reference;  // so that 0 / 0 of a star that is one point adds nothing
+    if (jacobian < 0) sum -= jacobian / reference;  // the condition avoids 0 / 0 for a star that is one point
   }
   return sum;
 }

@@ -12,11 +12,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double flattest_squared = flattest_sine * flattest_sine;
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // no vector passes between functions: what has one is inlined
-/// Into functions that are compiled for wider vectors than the rest of the program.
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed to inlined functions only
+/// Inlined into functions that are compiled for wider vectors than the rest of the program.
 #define QUADLOOP_INLINED [[gnu::always_inline]] inline
 
-/// `width` doubles.
+/// A vector of `width` doubles.
 template <int width>
 struct Vector {
   using Type [[gnu::vector_size(8 * width)]] = double;
@@ -50,7 +50,7 @@ QUADLOOP_INLINED Some smaller(const Some& a, const Some& b) {
   return b < a ? b : a;
 }
 
-/// A number of each of the corners from the `begin`-th on, the last one's where there are no more.
+/// One number of each corner from the `begin`-th on, padded with the last corner's.
 template <int width, class Number>
 QUADLOOP_INLINED Values<width> column(std::span<const StarCorner> corners, std::size_t begin,
                                       const Number& number) {
@@ -63,14 +63,14 @@ QUADLOOP_INLINED Values<width> column(std::span<const StarCorner> corners, std::
   (std::make_index_sequence<width>());
 }
 
-/// What each of some corners adds.
+/// The terms of some corners.
 template <int width>
 struct Terms {
   std::array<double, width> squares, cubes, gradient_x, gradient_y, xx, xy, yy, edges, defects, cotangents,
       soundness;
 };
 
-/// The largest cotangent of the triangles' angles that count, times J.
+/// The largest cotangent of the counted angles of the triangles, times J.
 template <int width>
 QUADLOOP_INLINED Values<width> counted_dots(std::span<const StarCorner> corners, std::size_t begin,
                                             const Values<width>& at_p, const Values<width>& at_q,
@@ -87,8 +87,9 @@ QUADLOOP_INLINED Values<width> counted_dots(std::span<const StarCorner> corners,
                       at_r + unless(CellAngle::at_r));
 }
 
-/// A corner's inverse condition number is r = J / F, J linear in p and F quadratic, with the same curvature
-/// 2 s every way; so F grad grad r = -(grad r grad F + grad F grad r) - 2 s r. It adds (1 - r)^3.
+/// A corner's inverse condition number is r = J / F, where J is linear in p and F is quadratic with curvature
+/// 2 s in all directions, so F grad grad r = -(grad r grad F + grad F grad r) - 2 s r. The corner adds (1 -
+/// r)^3.
 template <int width>
 QUADLOOP_INLINED void find_terms(std::span<const StarCorner> corners, std::size_t begin, Point p,
                                  Terms<width>& terms) {
@@ -149,7 +150,7 @@ QUADLOOP_INLINED StarDerivatives find_derivatives(std::span<const StarCorner> co
   return sums;
 }
 
-/// The largest cotangent of a triangle's angles that count, times J.
+/// The largest cotangent of the counted angles of a triangle, times J.
 template <class Some>
 QUADLOOP_INLINED Some counted_dot(CellAngle angle, const Some& uu, const Some& uv, const Some& vv) {
   switch (angle) {
@@ -161,7 +162,7 @@ QUADLOOP_INLINED Some counted_dot(CellAngle angle, const Some& uu, const Some& u
   return larger<Some>(larger<Some>(uv, uu - uv), vv - uv);
 }
 
-/// At `width` of the places, from the `begin`-th on.
+/// The sums at `width` positions from the `begin`-th on.
 template <int width, int places>
 QUADLOOP_INLINED void find_sums(std::span<const StarCorner> corners, const double* x, const double* y,
                                 std::size_t begin, StarSums<places>& sums) {
@@ -197,7 +198,8 @@ QUADLOOP_INLINED StarSums<StarKernels::batch> find_sums_of_batch(std::span<const
   return sums;
 }
 
-/// Defines kernels of this name for vectors of `width` doubles; what follows says of which processors.
+/// Defines kernels with this name for vectors of `width` doubles; the last arguments are the target
+/// attributes.
 #define QUADLOOP_KERNELS(name, width, ...)                                                                   \
   __VA_ARGS__ StarDerivatives name##_derivatives(std::span<const StarCorner> corners, Point p) {             \
     return find_derivatives<width>(corners, p);                                                              \

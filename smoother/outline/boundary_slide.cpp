@@ -11,16 +11,19 @@ namespace quadloop {
 
 namespace {
 
-/// Shares of the way to the neighbour on that side.
+/// Fractions of the distance to the neighbour on that side.
 constexpr std::array<double, 4> shares{0.3, 0.12, 0.04, 0.01};
 constexpr double straight_sine = 1e-10;
-/// Of the shorter chord: so far the outline may stray from the chords, as it may in cutting.
+/// Allowed deviation of the geometry from a chord, as a fraction of the shorter chord; the same as in
+/// cutting.
 constexpr double stray_share = 0.15;
-/// Neighbouring edges that differ more show in the flow: a node-centred solver's pressure has kinks there.
+/// Larger ratios of neighbouring edges show in the flow: kinks in the pressure of a node-centred solver.
 constexpr double most_uneven = 1.5;
-/// Of the difference of both ways, a visit; and of their sum, what is no more worth a step.
+/// Step per visit, as a fraction of the length difference; and the difference, as a fraction of the sum, that
+/// ends the steps.
 constexpr double step_to_middle = 0.125, even_enough = 1e-3;
-/// A chord that stands for a part of the outline longer than so many times itself is left alone.
+/// A chord is not examined if the part of the geometry that it represents is more than this many times as
+/// long.
 constexpr double longest_way = 20;
 
 }  // namespace
@@ -85,13 +88,13 @@ bool BoundarySlide::is_tight(const Places& places) const {
 
 namespace {
 
-/// The boundary edges at a node that this rank owns.
+/// The boundary edges at an owned node.
 struct EdgesAt {
-  HaloEdge in, out;  ///< one that leads to it, one that leaves it
+  HaloEdge in, out;  ///< the incoming and the outgoing edge
   int ins = 0, outs = 0;
 
   bool is_through() const { return ins == 1 && outs == 1 && in.boundary == out.boundary; }
-  /// The boundary comes back there: its place on the outline is only one of two.
+  /// The boundary passes the node more than once, so that its place on the geometry is ambiguous.
   bool is_pinched() const { return ins + outs > 2; }
 };
 
@@ -133,7 +136,7 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
   return dot(in, out) > 0 && std::abs(cross(in, out)) <= straight_sine * length(in) * length(out);
 }
 
-/// The chords' ends may be kept vertices, whose places are those of any other point.
+/// A rail's neighbours may be kept vertices; they are located like any other point.
 BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
   Places places{place_of(rail.before, rail.boundary), place_of(rail.node, rail.boundary),
                 place_of(rail.after, rail.boundary)};
@@ -149,7 +152,7 @@ OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
   return last.place;
 }
 
-/// The place of a point where the node is, or is to be; `near`: the segments near it.
+/// Stores the place of a point where the node is or will be; `near`: the segments near it.
 void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary,
                              const OutlinePath::Segments& near) const {
   nodes_[slot_[node]].located = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
@@ -189,7 +192,7 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const 
   return true;
 }
 
-/// `places` are used where the rail is on the outline.
+/// `places` are used if the boundary is on the geometry.
 BoundarySlide::Steps BoundarySlide::steps_along(const Rail& rail, const Places& places) const {
   const bool outlined = is_outlined(rail.boundary);
   const Point before = point(rail.before), p = point(rail.node), after = point(rail.after);
@@ -235,7 +238,7 @@ std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objec
   return std::nullopt;
 }
 
-/// In steps, as what is fetched in one says where the next one is to look.
+/// Prefetches in stages: each stage needs the data fetched by the previous one.
 void BoundarySlide::fetch_ahead(std::span<const NodeId> nodes, std::span<const std::int32_t> order,
                                 std::size_t k) const {
   constexpr std::size_t farthest = 24, far = 18, near = 12, nearest = 6;
@@ -264,8 +267,8 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const 
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
   if (!places.valid()) return false;
-  // From the middle of one edge to that of the other: a neighbour at an end of the flagged segments lies on
-  // one that is not.
+  // Tests from the middle of one edge to the middle of the other: a neighbour at an end of the flagged
+  // segments may be located on an unflagged one.
   const double back = outline_->way(places.before, places.at), ahead = outline_->way(places.at, places.after);
   const auto between = outline_->segments_between(outline_->moved(places.at, -back / 2),
                                                   outline_->moved(places.at, ahead / 2));

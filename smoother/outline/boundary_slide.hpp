@@ -15,10 +15,10 @@ namespace quadloop {
 /// Whether a node may move, and how.
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 
-/// Moves boundary nodes along the true outline, or, where that has no boundary of the name, along a straight
-/// boundary of the mesh. A node never passes its neighbours, never makes the outline stray farther from the
-/// chords at it (unless by less than cutting allows itself too), and never brings a chord across another part
-/// of the outline.
+/// Moves boundary nodes along the geometry or, where the geometry has no boundary of the name, along a
+/// straight mesh boundary. A node never passes its neighbours, never increases the deviation of the geometry
+/// from its two chords (beyond the tolerance of cutting), and never makes a chord cross another part of the
+/// geometry.
 class BoundarySlide {
  public:
   /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it.
@@ -29,32 +29,31 @@ class BoundarySlide {
   /// Of an owned node.
   NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
 
-  /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
-  /// untangles. Where no corner of the star costs more than `even_up_to`, the longer edge along the boundary
-  /// becomes at most 1.5 times as long as the shorter one, or no more times than it was.
+  /// A better position for a sliding node, or none: by Acceptance if the star is valid, else by untangling.
+  /// Where no corner of the star costs more than `even_up_to`, the ratio of the two boundary edges stays at
+  /// most 1.5, or at most its present value.
   std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to) const;
 
-  /// Asks the processor for what improve() will need of the nodes a little after `nodes[order[k]]`.
+  /// Prefetches what improve() needs for the nodes shortly after `nodes[order[k]]`.
   void fetch_ahead(std::span<const NodeId> nodes, std::span<const std::int32_t> order, std::size_t k) const;
 
-  /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
-  /// height.
+  /// Whether a sliding node and the boundary up to both its neighbours lie on segments with a height.
   bool lies_on(NodeId node, std::span<const double> heights) const;
 
-  /// The height of the segment in the middle of a boundary edge; 0 where that is none of the outline.
+  /// The height of the segment at the middle of a boundary edge; 0 if it is on no segment.
   double height_at(const HaloEdge& edge, std::span<const double> heights) const;
 
-  /// The longer one of the edges at a sliding node over the shorter one.
+  /// The ratio of the longer to the shorter boundary edge at a sliding node.
   double unevenness(NodeId node) const { return unevenness(rail_of(node), point(node)); }
 
-  /// Of each node that stays where it is the lengths of the edges with a height there, that which leads to it
-  /// and that which leaves it; 0 where there is none, and for nodes that slide. *Collective.*
+  /// For each fixed node the lengths of its incoming and outgoing boundary edges with a height; 0 where there
+  /// is none, and for sliding nodes. *Collective.*
   std::vector<Point> widths_at_fixed(std::span<const double> heights) const;
 
-  /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
-  /// angle may fall under 28 degrees, or under the smallest one now. Beside a node that stays it is a place
-  /// nearer to the one that makes an even step to the width beyond that node, if that is smaller; `fixed` as
-  /// widths_at_fixed has it.
+  /// A position nearer to the midpoint of a sliding node's neighbours along the geometry, or none. No angle
+  /// falls below 28 degrees, or below the present smallest angle. Beside a fixed node the position aims at an
+  /// even transition to the width beyond that node, if that width is smaller; `fixed` is the result of
+  /// widths_at_fixed.
   std::optional<Point> towards_middle(NodeId node, const Star& star, std::span<const Point> fixed) const;
 
  private:
@@ -63,12 +62,12 @@ class BoundarySlide {
     NodeId node, before, after;
     std::int32_t boundary = -1;
   };
-  /// The places of a rail's nodes on the outline, now.
+  /// The present positions of a rail's nodes on the geometry.
   struct Places {
     OutlinePlace before, at, after;
     bool valid() const { return before.valid() && at.valid() && after.valid(); }
   };
-  /// Where a node may slide to, and how far that is along its boundary.
+  /// Trial positions of a node, with their distances along the boundary.
   struct Steps {
     std::array<double, Star::batch> by;
     Star::Batch x, y;
@@ -95,23 +94,23 @@ class BoundarySlide {
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
-  std::vector<char> outlined_;  ///< a flag for each boundary: the outline has it
+  std::vector<char> outlined_;  ///< a flag for each boundary that the geometry has
   IdVector<NodeId, NodeFreedom> freedom_;
-  /// Where a node was on the outline when it was asked for last: the place is a function of the point.
+  /// The last located point of a node and its place on the geometry, which depends on the point only.
   struct Located {
     Point point;
     OutlinePlace place;
     std::int32_t boundary = -1;
   };
-  struct alignas(64) BoundaryNode {  // one line of a cache, as visits wait for little else
+  struct alignas(64) BoundaryNode {  // one cache line, as memory access dominates a visit
     Rail rail;                       ///< set where the node slides
     Located located;
   };
-  IdVector<NodeId, std::int32_t> slot_;      ///< of each node at a boundary edge, in the following; else -1
-  mutable std::vector<BoundaryNode> nodes_;  ///< ascending, as they are visited
-  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
-  /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
-  /// another. Ascending.
+  IdVector<NodeId, std::int32_t> slot_;      ///< index in nodes_ of each node at a boundary edge, else -1
+  mutable std::vector<BoundaryNode> nodes_;  ///< ascending by node, the order of the visits
+  /// Segments that a chord of another part of the geometry crosses, and the segments that such a chord
+  /// represents. Nodes on these are fixed, because chords that avoid the geometry could still cross each
+  /// other. Ascending.
   std::vector<std::int32_t> tight_segments_;
 };
 

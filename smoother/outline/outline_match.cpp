@@ -12,15 +12,15 @@ namespace quadloop {
 
 namespace {
 
-constexpr double largest_share = 0.1;  ///< of an edge: what lies farther off is another outline, not rounding
-                                       ///< or another polyline of the same curve
+constexpr double largest_share = 0.1;  ///< of an edge: larger distances mean a different geometry, not
+                                       ///< rounding or another polyline of the same curve
 constexpr std::size_t most_named = 5;
 constexpr const char* cure =
     "; give the outline as it was meshed: write it with `quadloop mesh --geometry-out`";
 
 using Names = std::vector<std::string>;
 
-/// The first few.
+/// Lists the first few names.
 std::string listed(const Names& names) {
   std::string text;
   for (std::size_t i = 0; i < std::min(most_named, names.size()); ++i)
@@ -45,13 +45,13 @@ Names names_of(const Boundaries& boundaries) {
   throw InputError(message.str());
 }
 
-/// How the nodes of one boundary lie.
+/// Distances of the nodes of one boundary from the geometry.
 struct NodesOff {
   std::int64_t count = 0;
   double farthest = 0;
 };
 
-/// A tenth of the shorter edge at a node is what counts, as it is looked at from both.
+/// A node is checked from both its edges, so the shorter one decides.
 NodesOff nodes_off(const OutlinePath& outline, const Mesh& mesh, const BoundaryEdges& boundary,
                    const std::string& path) {
   NodesOff off;

@@ -11,8 +11,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t usually_near = 16;  ///< no more segments than this
-constexpr int short_walk = 8;             ///< in segments: what lies farther off is searched
+constexpr std::size_t usually_near = 16;  ///< usual number of near segments
+constexpr int short_walk = 8;             ///< in segments; farther places are found by search
 
 Box widened(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
 
@@ -75,7 +75,7 @@ void OutlinePath::find_segments_near(Box box, Segments& near) const {
   segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { near.push_back(s); });
 }
 
-/// The nearest segment of that boundary, the lowest of several; none where it is farther than `within`.
+/// The nearest segment of that boundary, the lowest index of equal ones; none if farther than `within`.
 OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within,
                                           std::span<const std::int32_t> near) const {
   Nearest found{-1, within};
@@ -135,8 +135,8 @@ OutlinePath::Part OutlinePath::part_of(const Chord& chord) const {
   return part;
 }
 
-/// Whether a segment is of the part that the chord stands for, or touches the chord's ends there. Most that
-/// are asked for hold an end.
+/// Whether a segment belongs to the part that the chord represents, or touches the chord's ends there. Fast
+/// path: most queried segments contain an end.
 bool OutlinePath::belongs(std::int32_t segment, const Chord& chord) const {
   if (segment == chord.from.segment || segment == chord.to.segment) return true;
   const Part part = part_of(chord);

@@ -12,71 +12,70 @@
 
 namespace quadloop {
 
-/// A place on the outline: the length walked along a loop from its first vertex, the loop, and the segment
-/// that holds it. OutlinePath makes them.
+/// A place on the geometry: loop, arc length from the loop's first vertex, and segment. OutlinePath creates
+/// them.
 struct OutlinePlace {
   double arc = 0;
   std::int32_t loop = -1;
   std::int32_t segment = -1;
-  bool kept = false;  ///< it was found at a vertex that a mesh must keep
+  bool kept = false;  ///< located at a vertex that a mesh must keep
   bool valid() const { return loop >= 0; }
 };
 
-/// The outline as curves to slide along.
+/// The geometry as curves along which nodes slide.
 class OutlinePath {
  public:
   /// `geometry` must outlive it.
   explicit OutlinePath(const Geometry& geometry);
 
   using Segments = std::vector<std::int32_t>;
-  /// The segments that may lie as near to a box as `on_outline` of the outline's extent: all that questions
-  /// within it have to look at.
+  /// The segments that may be within `on_outline` of a box; sufficient for all queries inside the box.
   Segments segments_near(Box box) const;
-  /// The same in a list that is at hand.
+  /// Same, into an existing list.
   void find_segments_near(Box box, Segments& near) const;
 
-  /// The place of a point that lies on the boundary of this name, to `on_outline` of the outline's extent; an
-  /// invalid one where it does not. `near`: the segments near a box that holds the point.
+  /// The place of a point on the boundary of this name, within `on_outline`; invalid if the point is not on
+  /// it. `near`: the segments near a box that contains the point.
   OutlinePlace locate(Point p, const std::string& boundary, std::span<const std::int32_t> near) const;
   OutlinePlace locate(Point p, const std::string& boundary) const {
     return locate(p, boundary, segments_near({p, p}));
   }
   static constexpr double on_outline = 1e-9;
 
-  /// Whether the outline has a boundary of this name.
+  /// Whether the geometry has a boundary of this name.
   bool has(const std::string& boundary) const;
-  /// How far a point lies from the boundary of this name; infinitely where that is more than `within`.
+  /// The distance of a point from the boundary of this name; infinite if above `within`.
   double distance(Point p, const std::string& boundary, double within) const;
-  /// The length that `on_outline` stands for.
+  /// `on_outline` as a length: `on_outline` times the extent of the geometry.
   double tolerance() const { return tolerance_; }
 
-  /// The length of a loop, and of the way along it from its first vertex to another one.
+  /// The length of a loop; the arc length of a vertex from the loop's first one.
   double loop_length(std::int32_t loop) const { return length_[loop]; }
   double arc_of(std::int32_t vertex) const { return arc_[vertex]; }
 
-  /// The place at an arc, which may lie beyond the loop's ends by less than its length.
+  /// The place at an arc length, which may be outside the loop's range by less than the loop length.
   OutlinePlace place_at(std::int32_t loop, double arc) const;
-  /// The place so far ahead of another, or behind it; quick for short steps.
+  /// The place at the distance `step` from another one (negative: backwards); fast for short steps.
   OutlinePlace moved(const OutlinePlace& from, double step) const;
   Point point_at(const OutlinePlace& place) const { return line_of(place.segment).point_at(place.arc); }
-  /// Asks the processor for what a place's segment holds.
+  /// Prefetches the segment of a place.
   void fetch(const OutlinePlace& place) const {
     __builtin_prefetch(&arc_[place.segment]);
     __builtin_prefetch(&geometry_.points()[place.segment]);
   }
-  /// point_at(moved(from, step)) of each step, quick for those that stay on the segment.
+  /// point_at(moved(from, step)) for each step; fast for steps within the segment.
   void points_at(const OutlinePlace& from, std::span<const double> steps, std::span<Point> points) const;
 
-  /// The way from one place to another of the same loop, walked with the domain to the left.
+  /// The arc length from one place to another of the same loop, with the domain to the left.
   double way(const OutlinePlace& from, const OutlinePlace& to) const {
     return within(from.loop, to.arc - from.arc);
   }
 
-  /// How far the outline strays from the chord a-b between two places, at most; infinitely where more than a
-  /// few vertices lie between.
+  /// The largest deviation of the geometry from the chord a-b between two places; infinite if more than
+  /// `most_vertices` vertices lie between.
   double deviation(const OutlinePlace& from, Point a, const OutlinePlace& to, Point b) const;
 
-  /// A chord of the outline that a mesh's boundary edge is, with the way it stands for.
+  /// A chord of the geometry (a boundary edge of the mesh) and the part of the geometry that it represents.
   struct Chord {
     OutlinePlace from, to;
     Point a, b;
@@ -86,27 +85,28 @@ class OutlinePath {
     box.include(apex);
     return box;
   }
-  /// The segments outside the chord's own part of the outline that it has a point in common with; `near`: the
-  /// segments near a box that holds the chord.
+  /// The segments outside the chord's own part of the geometry that touch or cross it; `near`: the segments
+  /// near a box that contains the chord.
   Segments met_elsewhere(const Chord& chord, std::span<const std::int32_t> near) const;
   Segments met_elsewhere(const Chord& chord) const {
     return met_elsewhere(chord, segments_near(box_of(chord.a, chord.b)));
   }
-  /// Whether a vertex outside that part lies in the triangle that the chord makes with a point, or on its
-  /// edges; `near`: the segments near a box that holds the triangle.
+  /// Whether the triangle of the chord and a point contains a vertex outside that part, edges included;
+  /// `near`: the segments near a box that contains the triangle.
   bool sweeps_over(const Chord& chord, Point apex, std::span<const std::int32_t> near) const;
   bool sweeps_over(const Chord& chord, Point apex) const {
     return sweeps_over(chord, apex, segments_near(box_round(chord, apex)));
   }
 
-  /// The segments from one place to another of the same loop, in order; none where there are more than a few.
+  /// The segments from one place to another of the same loop, in order; empty if there are more than
+  /// `most_vertices`.
   Segments segments_between(const OutlinePlace& from, const OutlinePlace& to) const;
-  /// Calls `visit(segment)` for the same; returns false, after a few, where there are more.
+  /// Calls `visit(segment)` for the same segments; returns false, after `most_vertices`, if there are more.
   template <class Visit>
   bool walk(const OutlinePlace& from, const OutlinePlace& to, const Visit& visit) const;
 
  private:
-  static constexpr std::size_t most_vertices = 1000;  ///< that one chord may stand for
+  static constexpr std::size_t most_vertices = 1000;  ///< of a part that one chord may represent
   struct Nearest {
     std::int32_t segment = -1;
     double distance = 0;
@@ -117,7 +117,7 @@ class OutlinePath {
     return box_of(geometry_.point(s), geometry_.point(geometry_.next(s)));
   }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
-  /// A segment, and the arcs that it holds: from `begin` on, short of `end`.
+  /// A segment and its range of arc lengths: `begin` included, `end` excluded.
   struct Line {
     Point a, b;
     double begin, end;
@@ -137,10 +137,10 @@ class OutlinePath {
     if (arc < 0) arc += whole;
     return arc >= whole ? arc - whole : arc;
   }
-  /// The part of the outline that a chord stands for.
+  /// The part of the geometry that a chord represents.
   struct Part {
     std::int32_t before = -1, after = -1;  ///< segments that touch its ends, if any
-    double way = 0;                        ///< its length
+    double way = 0;                        ///< its arc length
   };
   Part part_of(const Chord& chord) const;
   bool belongs(std::int32_t segment, const Chord& chord) const;
@@ -157,7 +157,7 @@ class OutlinePath {
 
 template <class Visit>
 bool OutlinePath::walk(const OutlinePlace& from, const OutlinePlace& to, const Visit& visit) const {
-  // On the way over the loop's first vertex, perhaps back to the segment where it begins.
+  // True if the part passes the loop's first vertex, possibly returning to its first segment.
   const bool goes_round = to.arc < from.arc;
   std::int32_t s = from.segment;
   for (std::size_t walked = 0; walked < most_vertices; ++walked, s = geometry_.next(s)) {

@@ -11,24 +11,23 @@
 
 namespace quadloop {
 
-/// Sweeps over the nodes that may move, colour by colour; a node is visited where something in its star has
-/// moved since it was visited last.
+/// Sweeps over the movable nodes, colour by colour. A node is visited if something in its star has moved
+/// since its last visit.
 class ColouredSweeps {
  public:
-  /// `stale` has a flag for each node, of those that this rank owns for what is to be visited though nothing
-  /// near it moves, and is kept true for what may come after. Mesh, stars and flags must outlive it.
-  /// *Collective.*
+  /// `stale`: a flag for each node. On entry it marks the owned nodes to be visited even if nothing near them
+  /// moves; it is kept up to date for later sweeps. Mesh, stars and flags must outlive it. *Collective.*
   ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, NodeFlags& stale);
 
-  /// Whether the i-th node or one that it shares a cell with has moved since it was last visited.
+  /// Whether the i-th node or a node that shares a cell with it has moved since its last visit.
   bool is_stale(std::size_t i) const { return stale_[stars_.nodes()[i]] != 0; }
-  /// The nodes that have moved, or share a cell with one that has, other ranks' too, since this was asked
-  /// last; ascending.
+  /// The nodes that have moved, or share a cell with one that has (on any rank), since the last call;
+  /// ascending.
   std::vector<std::int32_t> take_changed();
 
-  /// Asks `place(i)` for a new place, or none, of each node for which `is_active(i)`: of those among `stars`
-  /// that are stale, and of those that become so before their colour's turn. Returns the number of nodes
-  /// moved on this rank. `fetch_ahead(order, k)` comes before `place(order[k])`, as
+  /// Calls `place(i)`, which returns a new position or none, for each node with `is_active(i)`: the stale
+  /// ones among `stars`, and those that become stale before their colour's turn. Returns the number of nodes
+  /// moved on this rank. `fetch_ahead(order, k)` is called before `place(order[k])`, like
   /// NodeStars::fetch_corners_ahead. *Collective.*
   template <class IsActive, class Place, class FetchAhead = NothingToFetch>
   std::int64_t sweep(std::span<const std::int32_t> stars, const IsActive& is_active, const Place& place,
@@ -72,12 +71,12 @@ class ColouredSweeps {
   const NodeStars& stars_;
   NodeFlags& stale_;
   Colouring colouring_;
-  std::vector<std::vector<std::int32_t>> by_colour_;  ///< those to be visited
-  std::int8_t colour_ = 0;                            ///< whose nodes are visited
-  NodeFlags changed_;                                 ///< what take_changed() will give
-  std::vector<std::int32_t> woken_;                   ///< those of later colours that have become stale
-  NodeFlags moved_;                                   ///< this rank's nodes that have moved in this colour
-  std::vector<NodeId> own_moves_;                     ///< the same
+  std::vector<std::vector<std::int32_t>> by_colour_;  ///< nodes to be visited, for each colour
+  std::int8_t colour_ = 0;                            ///< colour being visited
+  NodeFlags changed_;                                 ///< nodes that take_changed() will return
+  std::vector<std::int32_t> woken_;                   ///< nodes of later colours that have become stale
+  NodeFlags moved_;                ///< flags of this rank's nodes that have moved in this colour
+  std::vector<NodeId> own_moves_;  ///< list of these nodes
 };
 
 }  // namespace quadloop

@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// Colours for the nodes that may move; neighbours are those that share a cell. *Collective.*
+/// Colours of the movable nodes; nodes that share a cell have different colours. *Collective.*
 inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, const NodeStars& stars) {
   constexpr int block_bits = 6;
   return colour_nodes(

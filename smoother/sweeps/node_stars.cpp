@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// Corners that a node of a cell hangs on.
+/// Number of corners whose shape depends on one node of the cell.
 template <std::size_t width>
 constexpr std::size_t corners_of_cell = width == 3 ? 1 : 3;
 
@@ -20,8 +20,8 @@ constexpr std::int32_t ideal_begin = width == 3 ? 0 : 3;
 
 }  // namespace
 
-/// Targets as the nodes of a cell see its corners. A triangle: for each node its own corner. A quad: for each
-/// node its own corner, then that of the next node, then that of the previous one.
+/// Targets of a cell's corners as its nodes see them. Triangle: each node's own corner. Quadrilateral: for
+/// each node its own corner, that of the next node, then that of the previous one.
 template <std::size_t width>
 std::vector<NodeStars::SeenTarget> NodeStars::seen_targets(
     const std::array<CornerTarget, width>& of_corners) {
@@ -66,7 +66,7 @@ void NodeStars::number_stars() {
   for (std::int32_t i = 0; const NodeId node : nodes_) star_of_[node] = i++;
 }
 
-/// Shifted by one: a star's start stands in the place of the next one's until its corners are added.
+/// Starts are shifted by one entry until the corners are added.
 NodeStars::Touched NodeStars::find_starts() {
   Touched touched;
   touched.cells.reserve(mesh_.cell_count());
@@ -96,7 +96,7 @@ NodeStars::Touched NodeStars::find_starts() {
   return touched;
 }
 
-/// Copies are few and lie at the borders of ranks.
+/// Ghost nodes are few and lie at partition borders.
 void NodeStars::list_stars_round_copies(const std::vector<std::int32_t>& near_copies) {
   copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
   const auto for_each_pair = [&](const auto& visit) {
@@ -145,7 +145,8 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
 
 bool NodeStars::costs_more(std::size_t i, double limit) const {
   const Point p = mesh_.point(nodes_[i]);
-  const double least = 1 - std::sqrt(limit);  // of 1 / condition number; above 0, so J must be, too
+  const double least =
+      1 - std::sqrt(limit);  // lower limit of 1 / condition number; positive, so J must be positive too
   for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k) {
     const CornerForm form = corner_form(p, mesh_.point(corners_[k].q), mesh_.point(corners_[k].r));
     if (!(form.jacobian > least * weighted_edges(form, seen(k).target))) return true;

@@ -9,33 +9,33 @@
 
 namespace quadloop {
 
-/// The stars of those owned nodes that may move.
+/// The stars of the owned nodes that may move.
 class NodeStars {
  public:
-  /// `free_nodes` ascend. `targets` has an entry for each cell of the halo mesh, or none at all.
+  /// `free_nodes` ascend. `targets` has an entry for each cell of the halo mesh, or is empty.
   NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes, const std::vector<CellTarget>& targets);
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
   std::size_t size() const { return nodes_.size(); }
-  /// 0, 1, ...: each of them.
+  /// The indices of all stars: 0, 1, ...
   std::vector<std::int32_t> all() const;
-  /// Which of the free nodes this is; -1 for all others.
+  /// Index of a node among the free nodes; -1 if it is not free.
   std::int32_t star_of(NodeId node) const { return star_of_[node]; }
 
-  /// The star of the i-th free node, with the nodes where they are now.
+  /// The star of the i-th free node at the present node positions.
   void gather(std::size_t i, Star& star) const;
-  /// Asks the processor for what for_each_neighbour() will need of the stars a little after `order[k]`.
+  /// Prefetches what for_each_neighbour() needs for the stars shortly after `order[k]`.
   void fetch_corners_ahead(std::span<const std::int32_t> order, std::size_t k) const;
-  /// The same for what gather() will need beside.
+  /// Same for what gather() needs in addition.
   void fetch_points_ahead(std::span<const std::int32_t> order, std::size_t k) const;
-  /// Whether a corner in the star of the i-th free node costs more than `limit`, below 1 (Eq. 3.2).
+  /// Whether a corner in the star of the i-th free node costs more than `limit` < 1 (Eq. 3.2).
   bool costs_more(std::size_t i, double limit) const;
 
-  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, whose cells are one fan;
-  /// for some more than once.
+  /// Calls `visit(node)` for the nodes that share a cell with the i-th free node, for some more than once.
+  /// The node's cells form one fan.
   template <class Visit>
   void for_each_neighbour(std::size_t i, const Visit& visit) const {
-    std::int64_t open = 0;  // the first neighbour of a fan of triangles less the last one
+    std::int64_t open = 0;  // difference of the first and the last neighbour of a fan of triangles; 0: closed
     for (const Corner& c : corners_of(i)) {
       visit(c.q);
       open += std::int64_t{c.q.value()} - c.r.value();
@@ -43,8 +43,8 @@ class NodeStars {
     if (open == 0 && seen_of_.empty()) return;  // each neighbour is the first one of some triangle
     for (const Corner& c : corners_of(i)) visit(c.r);
   }
-  /// Calls `visit(i)` for the free nodes that share a cell with another rank's node; for each as often as
-  /// for_each_neighbour(i) comes to the node.
+  /// Calls `visit(i)` for the free nodes that share a cell with a ghost node, as often as
+  /// for_each_neighbour(i) visits that node.
   template <class Visit>
   void for_each_star_round(NodeId copy, const Visit& visit) const;
 
@@ -52,7 +52,7 @@ class NodeStars {
   struct Corner {
     NodeId q, r;
   };
-  /// What a corner should be, as a node of its cell sees it.
+  /// The target of a corner as seen from a node of its cell.
   struct SeenTarget {
     CornerTarget target;
     CellAngle angle = CellAngle::all;
@@ -60,13 +60,12 @@ class NodeStars {
   std::span<const Corner> corners_of(std::size_t i) const {
     return std::span(corners_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
   }
-  /// What the k-th of all corners should be.
+  /// The target of the k-th of all corners.
   const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
   void number_stars();
   struct Touched {
-    std::vector<char> cells;  ///< a flag for each: it has a free node
-    std::vector<std::int32_t>
-        near_copies;  ///< the stars that share a cell with another rank's node, ascending
+    std::vector<char> cells;                ///< a flag for each cell that has a free node
+    std::vector<std::int32_t> near_copies;  ///< stars that share a cell with a ghost node, ascending
   };
   Touched find_starts();
   template <std::size_t width>
@@ -83,9 +82,9 @@ class NodeStars {
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<SeenTarget> seen_;
-  std::vector<std::int32_t> seen_of_;     ///< of each corner in seen_; none where all are the first
-  std::vector<std::size_t> copy_starts_;  ///< of each copy in copy_stars_
-  std::vector<std::int32_t> copy_stars_;  ///< those that have the copy among their neighbours
+  std::vector<std::int32_t> seen_of_;     ///< index in seen_ for each corner; empty if all are the first
+  std::vector<std::size_t> copy_starts_;  ///< start in copy_stars_ for each ghost node
+  std::vector<std::int32_t> copy_stars_;  ///< stars that have the ghost node among their neighbours
 };
 
 template <class Visit>

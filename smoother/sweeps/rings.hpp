@@ -4,8 +4,8 @@
 
 namespace quadloop {
 
-/// Flags the nodes of cells that have a flagged one, so many times; `flags` count for owned nodes alone and
-/// are right for all. *Collective.*
+/// Flags the nodes of cells with a flagged node, `rings` times. On entry flags are read at owned nodes only;
+/// on return they are valid at all nodes. *Collective.*
 inline void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     mesh.exchange().update(flags);

@@ -36,8 +36,8 @@ std::int64_t Sweeper::sweep() {
   return visit(update_bad());
 }
 
-/// Flags the nodes of cells above the threshold, of other ranks too. Returns the stars among which those are
-/// that are stale and near a bad node: either they have changed, or the node was good before.
+/// Flags the nodes of cells above the threshold, ghost copies included. Returns a superset of the stars that
+/// are stale and near a bad node: those that have changed, and those whose node has become bad.
 std::vector<std::int32_t> Sweeper::update_bad() {
   const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
   const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
@@ -59,10 +59,10 @@ std::vector<std::int32_t> Sweeper::update_bad() {
   return waiting;
 }
 
-/// The stars whose flags are to be looked at. One that was visited and round which all has stayed since keeps
-/// its flag, even where something moved in the sweep before it was visited; after the open sweeps it loses
-/// that. Where there are quadrilaterals all do then: lines that have moved may have made some bad unnoticed,
-/// and a bad one is not seen from the node across its bad corner.
+/// The stars whose flags have to be recomputed. A star that was visited and has not changed since keeps its
+/// flag, even if something moved in the same sweep before the visit. After the open sweeps its flag is
+/// recomputed. With quadrilaterals all flags are: moved lines may have made a cell bad unnoticed, and a node
+/// does not see the opposite corner of a quadrilateral.
 std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t>& changed) {
   const bool are_over = done_ == open_sweeps + 1;
   if (are_over && any_quads_) return stars_.all();
@@ -72,7 +72,7 @@ std::vector<std::int32_t> Sweeper::doubtful_among(const std::vector<std::int32_t
   return doubtful;
 }
 
-/// Those of the nodes themselves and of nodes that share a cell with one, ascending.
+/// The stars of these nodes and of nodes that share a cell with one, ascending.
 std::vector<std::int32_t> Sweeper::stars_near(const std::vector<NodeId>& turned_bad) const {
   std::vector<std::int32_t> near;
   const auto add = [&](std::int32_t star) {

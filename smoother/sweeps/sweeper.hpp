@@ -9,25 +9,25 @@
 
 namespace quadloop {
 
-/// Visits the nodes sweep by sweep, colour by colour: those of cells above a threshold and their neighbours,
-/// where something near has moved since they were visited.
+/// Visits nodes sweep by sweep, colour by colour: the nodes of cells above a threshold and their neighbours,
+/// if something near has moved since their last visit.
 class Sweeper {
  public:
-  /// After so many sweeps, which have most of the gain, nodes are left out near which no cell is above the
+  /// After this many sweeps, which give most of the gain, nodes are skipped if no near cell is above the
   /// threshold any more.
   static constexpr int open_sweeps = 2;
 
-  /// How nodes are visited, and which.
+  /// Which nodes are visited, and how.
   struct Rule {
     Method method;
     Objective objective;
     double threshold;
-    bool tangled;           ///< whether there may be stars with inverted corners; visits make no new ones
-    bool angles = true;     ///< whether a move may not make the smallest angle smaller
-    double even_up_to = 0;  ///< the largest corner cost of a star in which edges along boundaries stay even
+    bool tangled;           ///< there may be stars with inverted corners; visits create none
+    bool angles = true;     ///< a move must not reduce the smallest angle
+    double even_up_to = 0;  ///< largest corner cost of a star in which edges along boundaries stay even
   };
-  /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
-  /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
+  /// `stars`: those of the movable nodes; `bad` flags the nodes of cells above the threshold; `stale` as in
+  /// ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
   Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
           const Rule& rule, const NodeFlags& bad, NodeFlags& stale);
 
@@ -50,10 +50,10 @@ class Sweeper {
   std::unique_ptr<NodeSolver> solver_;
   bool any_quads_;  ///< on any rank
   ColouredSweeps sweeps_;
-  NodeFlags bad_;                          ///< free nodes of cells above the threshold, other ranks' too
-  std::vector<std::int32_t> passed_over_;  ///< stars whose flags may be out of date
+  NodeFlags bad_;                          ///< free nodes of cells above the threshold, ghost copies included
+  std::vector<std::int32_t> passed_over_;  ///< skipped stars, whose flags may be out of date
   Star star_;
-  int done_ = 0;  ///< sweeps, the one under way too
+  int done_ = 0;  ///< number of sweeps, the present one included
 };
 
 }  // namespace quadloop
