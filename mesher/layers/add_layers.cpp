@@ -18,15 +18,15 @@ namespace quadloop {
 
 namespace {
 
-/// A node of the front in a fan. All ranks know all of them.
+/// A node of the layer front in a fan, known to all ranks.
 struct Ray {
-  std::int32_t fan = 0;  ///< its first station
+  std::int32_t fan = 0;  ///< first station of the fan
   FrontPlace place;
-  GlobalNodeId before;  ///< the node's number without layers
+  GlobalNodeId before;  ///< the node's number before layers are added
   GrownNode front;
 };
 
-/// The stations of fans.
+/// The fans by their stations.
 class Fans {
  public:
   explicit Fans(const WallLine& line) : first_of_(line.size(), WallLine::none) {
@@ -38,7 +38,7 @@ class Fans {
       first_of_[i] = goes_on && before < i ? first_of_[before] : i;
     }
   }
-  /// The first station of the fan to which the place belongs, or none.
+  /// The first station of the fan that contains the place, or none.
   std::int32_t fan_of(const WallLine& line, const FrontPlace& place) const {
     const bool beyond = !place.at_station() && line.width(place.station) > 0;
     return beyond ? WallLine::none : first_of_[place.station];
@@ -64,7 +64,7 @@ class LayerBuilder {
     gather_rays();
     make_rows();
     grown_.emplace(comm, nodes_below(), divide, mesh, leaves);
-    gather_rays();  // with their new numbers
+    gather_rays();  // again, with their new numbers
     make_columns();
   }
 
@@ -104,7 +104,7 @@ class LayerBuilder {
   }
   const FanRows& rows_of(std::int32_t fan) const { return fan_rows_.at(fan); }
 
-  /// The lowest ring that belongs to the column itself.
+  /// The lowest ring whose node the column owns.
   int lowest_ring(NodeId node) const {
     const std::int32_t fan = fan_of(place_[node]);
     return fan == WallLine::none ? 0 : lowest_ring(fan, number_in_fan(fan, mesh_.global(node)));
@@ -113,7 +113,7 @@ class LayerBuilder {
     return ray == 0 ? 0 : rows_of(fan).lowest_ring(ray);
   }
 
-  /// All nodes of a column, by ring, of which those from `lowest` on belong to it.
+  /// All nodes of a column, by ring; it owns those from `lowest` on.
   std::vector<GrownNode> column(const FrontPlace& place, const GrownNode& front, int lowest) const {
     std::vector<GrownNode> nodes;
     for (const Point p : layer_column(front_, place, front.point)) {
@@ -167,7 +167,7 @@ void LayerBuilder::make_rows() {
   }
 }
 
-/// How many nodes each own node has in its column.
+/// Number of nodes that each owned node adds in its column.
 std::vector<std::int32_t> LayerBuilder::nodes_below() const {
   std::vector<std::int32_t> below;
   for (const NodeId node : ids_below(NodeId{mesh_.owned_nodes}))
@@ -175,7 +175,7 @@ std::vector<std::int32_t> LayerBuilder::nodes_below() const {
   return below;
 }
 
-/// In a fan a column stands on the edge, which its first column owns.
+/// In a fan all columns begin at the node on the corner, which the first column owns.
 void LayerBuilder::make_columns() {
   columns_.resize(mesh_.points.size());
   for (const NodeId node : columns_.ids()) {
@@ -211,17 +211,17 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
   if (line_.next(place_[to].station) == WallLine::none && ends(to)) add_ends(to, false, leaf);
 }
 
-/// The cells between two columns.
+/// Adds the cells between two columns.
 void LayerBuilder::add_strip(NodeId from, NodeId to, std::int32_t leaf) {
   const std::vector<GrownNode>&a = columns_[from], &b = columns_[to];
   for (std::size_t ring = 1; ring < a.size(); ++ring)
     grown_->add_cell(leaf, std::array{a[ring - 1], b[ring - 1], b[ring], a[ring]});
 }
 
-/// The cells of a fan that begin at the sector after a ray.
+/// Adds the cells of a fan that begin at the sector after a ray.
 void LayerBuilder::add_sector(NodeId from, std::int32_t fan, std::int32_t leaf) {
   const auto rays = rays_of(fan);
-  std::map<std::int32_t, std::vector<GrownNode>> columns;  // of the few rays that bound cells here
+  std::map<std::int32_t, std::vector<GrownNode>> columns;  // the few rays that bound cells here
   const auto node_at = [&](const FanRows::Corner& corner) {
     if (corner.ring == 0) return edge_of(fan);
     const auto [at, is_new] = columns.try_emplace(corner.ray);
@@ -236,7 +236,7 @@ void LayerBuilder::add_sector(NodeId from, std::int32_t fan, std::int32_t leaf) 
   }
 }
 
-/// The edges of the boundary on which the last column of a run lies.
+/// Adds the edges of the boundary on which the last column of a run lies.
 void LayerBuilder::add_ends(NodeId node, bool first, std::int32_t leaf) {
   const Geometry& g = line_.geometry();
   const std::int32_t s = line_[place_[node].station].segment;

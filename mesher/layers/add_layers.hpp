@@ -11,12 +11,12 @@
 
 namespace quadloop {
 
-/// Fills the strip between the walls and the front with columns of layers, one on each node of the front. A
-/// column's nodes follow its front node in the numbering, from the wall on; its cells are those of the leaf
-/// which the front edge before it belongs to, and stand behind the leaf's own; `leaves` count them.
-/// `edge_leaves` are as MeshResult has them, before and after. With a rank of nodes given, quadrilaterals are
-/// divided by their shorter diagonals, of equal ones by that through the front node of the higher rank.
-/// Throws InputError, naming the place, for a cell that is not positive. *Collective.*
+/// Fills the strip between the walls and the layer front with columns of layer cells, one column per node of
+/// the front. A column's nodes follow its front node in the numbering, from the wall outwards. Its cells
+/// belong to the leaf of the front edge before it and follow the leaf's own cells; `leaves` count them.
+/// `edge_leaves` is as in MeshResult, before and after. If `divide` is set, quadrilaterals are divided by
+/// their shorter diagonal, or, if both are equal, by the one through the front node of the higher rank in
+/// that order. Throws InputError with coordinates for a cell without positive area. *Collective.*
 void add_layers(const Communicator& comm, const LayerFront& front,
                 std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                 std::vector<LeafRecord>& leaves);

@@ -64,9 +64,9 @@ class StripBuilder {
   Mesh& mesh_;
   NodeOwners owners_;
   std::vector<FilledStrip> strips_;
-  std::multimap<GlobalNodeId, Column> behind_;     ///< by the number before
-  std::map<GlobalNodeId, GrownNode> grown_nodes_;  ///< of fronts and of walls' columns at roots, by the
-                                                   ///< number before
+  std::multimap<GlobalNodeId, Column> behind_;     ///< by the number before strips are added
+  std::map<GlobalNodeId, GrownNode> grown_nodes_;  ///< nodes of fronts and of wall columns at wake roots, by
+                                                   ///< the number before strips are added
   std::vector<std::vector<GlobalNodeId>> first_of_column_;
   std::optional<GrownMesh> grown_;
 };
@@ -96,7 +96,7 @@ void StripBuilder::find_fronts() {
   });
 }
 
-/// One after another, as far as there are any or the first one comes again.
+/// The edges of a strip's front in order, until there is no next one or the first one recurs.
 std::vector<FrontEdge> StripBuilder::front_of(const LayerStrip& strip,
                                               const std::map<GlobalNodeId, FrontEdge>& by_first,
                                               const std::map<Point, const FrontEdge*>& by_place) {
@@ -125,7 +125,7 @@ std::vector<std::int32_t> StripBuilder::nodes_behind() {
   return added;
 }
 
-/// Of the fronts' nodes to all ranks, and by them those of the columns behind.
+/// Sends the new numbers of the fronts' nodes to all ranks; those of the columns' nodes follow from them.
 void StripBuilder::exchange_numbers() {
   struct Renumbered {
     GlobalNodeId before;
@@ -175,7 +175,7 @@ GrownNode StripBuilder::node(std::size_t s, const FilledStrip::Corner& c) const 
   return grown_nodes_.at(wall_node(strip, left, left ? left_ring : layers - row));
 }
 
-/// On a line of a base's layers, the last of which is the first column's middle.
+/// A node on a line of the base's layers; the last line is the middle of the first column.
 GrownNode StripBuilder::base_node(std::size_t s, std::size_t line, std::size_t place) const {
   const FilledStrip& strip = strips_[s];
   const std::size_t lines = strip.strip().base_lines.size(), foot = strip.strip().layers;
@@ -188,15 +188,15 @@ GrownNode StripBuilder::base_node(std::size_t s, std::size_t line, std::size_t p
   return {GlobalNodeId{first_of_column_[s][0].value() + static_cast<std::int64_t>(before)}, points[place]};
 }
 
-/// The number before of a node in the wall's column on one side of a wake: they stand behind that on the
-/// front, from the wall on; at a sharp edge the left one alone has the wall's node.
+/// The old number of a node in the wall column on one side of a wake. These nodes are numbered after their
+/// front node, from the wall outwards. At a sharp edge only the left column owns the wall node.
 GlobalNodeId StripBuilder::wall_node(const FilledStrip& strip, bool left, std::int32_t ring) {
   const GlobalNodeId top = left ? strip.front().front().nodes[0] : strip.front().back().nodes[1];
   if (ring == strip.strip().layers) return top;
   return GlobalNodeId{top.value() + (left || strip.strip().core > 0 ? 1 + ring : ring)};
 }
 
-/// As the mesh keeps it.
+/// The layers of a strip in the form stored in the mesh.
 StripLayers StripBuilder::layers_of(std::size_t s) const {
   const FilledStrip& filled = strips_[s];
   const LayerStrip& strip = filled.strip();
@@ -211,7 +211,7 @@ StripLayers StripBuilder::layers_of(std::size_t s) const {
   return layers;
 }
 
-/// The layers on the base of a blunt edge, and its edges.
+/// Adds the layers on the base of a blunt edge, and the boundary edges of the base.
 void StripBuilder::add_base(std::size_t s) {
   const FilledStrip& strip = strips_[s];
   const FrontEdge& edge = strip.front()[strip.anchor(0)];

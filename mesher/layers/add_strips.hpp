@@ -6,11 +6,11 @@
 
 namespace quadloop {
 
-/// Fills the strips of wakes and free lines: columns across them, and triangles between their last rows and
-/// the nodes on their fronts. Comes after add_layers, whose columns wakes go on from; nodes and cells stand
-/// behind nodes on the front, and with the leaves of its edges. The mesh loses the strips' boundary and gets
-/// their layers by name (Mesh::strips). Throws InputError, naming the place, for a cell that is not positive.
-/// *Collective.*
+/// Fills the strips of wakes and free lines: columns across the line, and triangles between their last rows
+/// and the nodes on the strip's front. Call after add_layers: wakes continue the columns made there. New
+/// nodes are numbered after nodes on the front; new cells belong to the leaves of the front's edges. Removes
+/// the strips' boundary from the mesh and adds their layers by name (Mesh::strips). Throws InputError with
+/// coordinates for a cell without positive area. *Collective.*
 void add_strips(const Communicator& comm, const LayerFront& front,
                 const std::vector<std::vector<std::int32_t>>& edge_leaves, const DivideBy& divide, Mesh& mesh,
                 std::vector<LeafRecord>& leaves);

@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// All of a strip but the wall's columns from which a wake goes on.
+/// All nodes of a strip except the wall columns at which a wake begins.
 std::int64_t nodes_of(const LayerStrip& strip) {
   const std::int64_t across = 2 * strip.layers + strip.core + 1, columns = std::ssize(strip.columns);
   if (!strip.root) return columns * across;
@@ -16,7 +16,8 @@ std::int64_t nodes_of(const LayerStrip& strip) {
   return (columns - 1) * across + std::max(0, strip.core - 1) + of_base;
 }
 
-/// How many of a column's nodes may be another's: in a fan all, at a wake's edge that on the wall.
+/// The largest number of a column's nodes that another column may own: all in a fan, the wall node at a
+/// wake's edge.
 int most_shared(const WallLine& line, const FrontPlace& place) {
   const Station& station = line[place.station];
   const bool beyond = !place.at_station() && line.width(place.station) > 0;

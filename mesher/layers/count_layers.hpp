@@ -13,8 +13,8 @@ struct NodeBounds {
   std::int64_t least = 0, most = 0;
 };
 
-/// How many nodes add_layers() and add_strips() would add to a mesh of the front's outer outline. At least:
-/// if all columns of a fan merged at once; at most: if none did. *Collective.*
+/// Bounds of the number of nodes that add_layers() and add_strips() would add to a mesh of the front's outer
+/// geometry. `least`: all columns of a fan merge at once; `most`: none merge. *Collective.*
 NodeBounds layer_nodes(const Communicator& comm, const LayerFront& front, const Mesh& outer);
 
 }  // namespace quadloop

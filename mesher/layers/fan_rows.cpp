@@ -8,18 +8,18 @@ namespace quadloop {
 namespace {
 
 constexpr double cosine_of_sharp = 0.93;  // 21.6 degrees
-constexpr double cosine_of_wide = 0.6;    // 53 degrees: where rows grow by a fifth, cells get flat beyond
+constexpr double cosine_of_wide = 0.6;    // 53 degrees; wider cells get flat where rows grow by a fifth
 constexpr int rows_between_merges = 3;
 
-/// Rays that go, as two sectors become one, from both ends, so that a mirror image merges the same; or three
-/// in the middle.
+/// The rays that end where two sectors merge into one (or three in the middle). Pairs are formed from both
+/// ends, so that a mirror image merges alike.
 class Merging {
  public:
   Merging(std::span<const Point> directions, const std::vector<std::int32_t>& rays)
       : directions_{directions}, rays_{rays}, goes_(rays.size(), 0) {
     const std::int32_t sectors = size32(rays) - 1, half = sectors / 2;
     const bool odd = sectors % 2 == 1, three = odd && half > 0 && merge(half, half + 1);
-    const std::int32_t beside = three ? half - 1 : half;  // sectors of either half that are left
+    const std::int32_t beside = three ? half - 1 : half;  // number of sectors left in either half
     const bool one_is_left = !pair_up(0, 1, beside), another = !pair_up(sectors, -1, beside);
     if (!odd && half > 0 && one_is_left && another) merge(half, half);
   }
@@ -28,13 +28,13 @@ class Merging {
   bool goes(std::size_t i) const { return goes_[i] != 0; }
 
  private:
-  /// So many sectors from one end on; whether the last of them is in a pair.
+  /// Merges pairs among this number of sectors from one end on; returns whether the last sector is in a pair.
   bool pair_up(std::int32_t end, std::int32_t step, std::int32_t sectors) {
     bool paired = false;
     for (std::int32_t i = 1; i < sectors; ++i) paired = !paired && merge(end + i * step, end + i * step);
     return paired;
   }
-  /// The sectors beside these rays become one if one of them is sharp and all are not too wide.
+  /// Merges the sectors beside these rays if one of them is sharp and none becomes too wide.
   bool merge(std::int32_t first, std::int32_t last) {
     bool sharp = false;
     for (std::int32_t i = first; i <= last + 1; ++i) sharp |= dot(at(i - 1), at(i)) > cosine_of_sharp;
@@ -88,8 +88,8 @@ std::vector<FanRows::Cell> FanRows::cells_after(std::int32_t ray) const {
     if (ring == 1) {
       cells.push_back({{ray, 0}, {next, 1}, {ray, 1}});
     } else if (begins && ends) {
-      continue;         // the middle one of three that become one
-    } else if (ends) {  // the next ray stops here: the sectors beside it become one below
+      continue;         // the middle one of three sectors that merge
+    } else if (ends) {  // the next ray ends here: the sectors beside it are merged below
       cells.push_back({{ray, ring - 1}, {next, ring}, {ray, ring}});
       if (stops(at[2]))
         cells.push_back({{ray, ring - 1}, {at[3], ring - 1}, {at[2], ring}, {next, ring}});

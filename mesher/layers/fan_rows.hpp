@@ -9,26 +9,26 @@
 
 namespace quadloop {
 
-/// The cells between the columns of a fan, row by row. Towards the edge neighbouring columns merge, so that
-/// sectors do not get too sharp.
+/// The cells between the columns of a fan, row by row. Neighbouring columns merge towards the sharp corner,
+/// so that sectors do not get too sharp.
 class FanRows {
  public:
-  /// Of a fan with rays in these directions (of length 1), and so many rows from the edge to the front.
+  /// A fan with rays in these unit directions and this number of rows from the corner to the front.
   FanRows(std::span<const Point> rays, int rows);
 
-  /// The lowest ring that a ray reaches down to: 0 is the edge itself, which all share, `rows` the front. No
-  /// less than 1.
+  /// The lowest ring that a ray reaches, at least 1. Ring 0 is the corner, shared by all rays; ring `rows` is
+  /// the front.
   int lowest_ring(std::int32_t ray) const { return lowest_[ray]; }
 
-  /// A cell's corner: a ray, and the ring on it.
+  /// A corner of a cell: a ray and a ring on it.
   struct Corner {
     std::int32_t ray = 0;
     int ring = 0;
   };
-  /// Counter-clockwise where the rays turn clockwise, as those of a wall with the domain to its left; of
-  /// three corners or four.
+  /// Three or four corners, counter-clockwise if the rays turn clockwise (a wall with the domain to its
+  /// left).
   using Cell = std::vector<Corner>;
-  /// The cells that begin at the sector after a ray, from the edge on.
+  /// The cells that begin at the sector after a ray, from the corner outwards.
   std::vector<Cell> cells_after(std::int32_t ray) const;
 
  private:

@@ -47,7 +47,7 @@ std::size_t FilledStrip::number_of(std::size_t corner) const {
   return found - nodes_.begin();
 }
 
-/// The last node on one side of the line, of those between two corners that face an end.
+/// The last node on one side of the line, among the nodes between two corners that face an end.
 std::size_t FilledStrip::facing(std::size_t from, std::size_t to, std::size_t column, bool left) const {
   const std::vector<Point>& across = strip_.columns[column];
   const Point middle_of = across[middle()], axis = across.back() - across.front();
@@ -73,7 +73,7 @@ void FilledStrip::cut_at_ends() {
   begin_left_ = facing(nodes_.size() - 1, number_of(2), 0, true);
 }
 
-/// The strip's own outline on one side, from the beginning to the middle of the end.
+/// The boundary of the strip's rows on one side, from the beginning to the middle of the end.
 std::vector<FilledStrip::Corner> FilledStrip::inner_side(bool left) const {
   const auto row = [&](std::size_t from_middle) {
     return left ? middle() + from_middle : middle() - from_middle;
@@ -115,7 +115,7 @@ void FilledStrip::zip(bool left) {
   }
 }
 
-/// Between the two sides, where the front has edges that face an end.
+/// Adds triangles between the two sides where the front has edges that face an end.
 void FilledStrip::close_ends() {
   for (std::size_t k = end_left_; k < end_right_; ++k)
     add_triangle(static_cast<std::int32_t>(k), {false, columns() - 1, middle()}, {true, k + 1, 0},

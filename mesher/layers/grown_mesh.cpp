@@ -37,7 +37,7 @@ void GrownMesh::add_triangle(std::int32_t leaf, const GrownNode& a, const GrownN
   triangles_.push_back({leaf, {a.id, b.id, c.id}});
 }
 
-/// Of four corners: the nodes at both ends of one diagonal rank as those of the other do.
+/// Whether both diagonals of a quadrilateral have equally ranked ends.
 bool GrownMesh::diagonals_rank_alike(std::span<const GrownNode> corners) const {
   const auto ends = [&](std::size_t from, std::size_t to) {
     std::array ranks{divide_(corners[from].point), divide_(corners[to].point)};
@@ -116,7 +116,7 @@ void GrownMesh::place_nodes(const std::function<void(NodeId, std::vector<Point>&
   mesh_.owned_nodes = owned_nodes_;
 }
 
-/// On this rank, in the new mesh.
+/// Local numbers in the new mesh.
 template <std::size_t width>
 std::array<NodeId, width> GrownMesh::numbered(const std::array<GlobalNodeId, width>& ids) const {
   std::array<NodeId, width> nodes;
@@ -126,7 +126,7 @@ std::array<NodeId, width> GrownMesh::numbered(const std::array<GlobalNodeId, wid
   return nodes;
 }
 
-/// Behind each leaf's own cells those that were added to it.
+/// Inserts the added cells of each leaf after the leaf's own cells.
 template <std::size_t width>
 void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
                             std::int32_t LeafRecord::*count) const {

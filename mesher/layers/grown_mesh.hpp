@@ -15,42 +15,42 @@
 
 namespace quadloop {
 
-/// A node by its number over all ranks, once the mesh has grown.
+/// A node by its global number in the grown mesh.
 struct GrownNode {
   GlobalNodeId id;
   Point point;
 };
 
-/// The order of nodes by which quadrilaterals are divided into triangles, or none.
+/// The order of nodes by which quadrilaterals are divided into triangles; empty: not divided.
 using DivideBy = std::function<TieRank(Point)>;
 
-/// A mesh on its way to have more nodes and cells. New nodes stand behind those that there are, in an order
-/// that the caller chooses; new cells belong to leaves and stand behind the leaf's own, which `leaves` count.
+/// Adds nodes and cells to a mesh. New nodes follow the existing ones in an order that the caller chooses;
+/// new cells belong to leaves and follow the leaf's own cells, which `leaves` count.
 class GrownMesh {
  public:
-  /// `added`: how many nodes come behind each of this rank's own. All must outlive it. With an order of nodes
-  /// given, quadrilaterals are divided by their shorter diagonals, of equal ones by that through the third or
-  /// fourth corner, whichever has the higher rank; not at all where the ends of both rank alike.
-  /// *Collective.*
+  /// `added`: number of nodes added after each of this rank's nodes. All arguments must outlive it. If
+  /// `divide` is set, quadrilaterals are divided by their shorter diagonal; if both are equal, by the one
+  /// through the third or fourth corner, whichever has the higher rank; not at all if the ends of both
+  /// diagonals have equal ranks. *Collective.*
   GrownMesh(const Communicator& comm, const std::vector<std::int32_t>& added, const DivideBy& divide,
             Mesh& mesh, std::vector<LeafRecord>& leaves);
 
-  /// A node that there was, by its number on this rank before.
+  /// An existing node, by its former number on this rank.
   GrownNode node(NodeId before) const { return {after_[before], mesh_.point(before)}; }
 
-  /// What the refusal of a bad cell begins with, and what it advises, of those added from now on.
+  /// Sets the beginning of the error message for bad cells, and its advice, for cells added from now on.
   void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }
   /// Of three corners or four, counter-clockwise. Where its diagonals are equally long, that of the higher
   /// ranked of corners `outer` and `outer + 1` divides it: those away from the wall, alike in mirror images.
   void add_cell(std::int32_t leaf, std::span<const GrownNode> corners, std::size_t outer = 2);
   void add_edge(std::size_t boundary, std::int32_t leaf, const GrownNode& from, const GrownNode& to);
-  /// Boundaries without any call of this or the one before have no edges in the end.
+  /// Boundaries for which neither keep_edge() nor add_edge() is called have no edges in the end.
   void keep_edge(std::size_t boundary, std::int32_t leaf, const std::array<NodeId, 2>& edge);
 
-  /// The mesh has grown; `append_behind` appends the places of the nodes behind an own node. Throws
-  /// InputError, naming the place, for a cell that is not positive. *Collective.*
+  /// Completes the mesh. `append_behind` appends the positions of the nodes added after an owned node. Throws
+  /// InputError with coordinates for a cell without positive area. *Collective.*
   void put_together(const std::function<void(NodeId, std::vector<Point>&)>& append_behind);
-  /// Of each boundary, the leaf of each of its edges in the mesh that has grown.
+  /// For each boundary the leaf of each of its edges in the grown mesh.
   std::vector<std::vector<std::int32_t>> edge_leaves() const;
 
  private:
@@ -79,7 +79,7 @@ class GrownMesh {
   const DivideBy& divide_;
   Mesh& mesh_;
   std::vector<LeafRecord>& leaves_;
-  IdVector<NodeId, GlobalNodeId> after_;  ///< the new numbers of the nodes that there were
+  IdVector<NodeId, GlobalNodeId> after_;  ///< new numbers of the existing nodes
   std::int64_t first_node_ = 0;
   std::int32_t owned_nodes_ = 0;
   std::map<GlobalNodeId, Point> copies_;

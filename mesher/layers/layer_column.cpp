@@ -6,8 +6,8 @@ namespace quadloop {
 
 namespace {
 
-/// Where the column stands: at the share of the wall that its node has of the front. The same for the wall
-/// walked the other way.
+/// The foot of a column: it divides the wall between two stations in the ratio in which its node divides the
+/// front. Independent of the direction of the wall.
 Point foot_of(const WallLine& line, const FrontPlace& place) {
   const Point a = line[place.station].wall;
   if (place.at_station()) return a;
@@ -16,8 +16,8 @@ Point foot_of(const WallLine& line, const FrontPlace& place) {
   return 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
 }
 
-/// The cosine of the angle between the column and the wall's normal, the larger angle of two; in a fan the
-/// column is normal to the wall.
+/// The cosine of the angle between the column and the wall's normal, for the larger of two angles; 1 in a
+/// fan, where columns are normal to the wall.
 double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direction) {
   const Station& station = line[place.station];
   if (station.shape == Station::Shape::fan && (place.at_station() || line.width(place.station) == 0))
@@ -26,8 +26,8 @@ double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direc
   return place.at_station() ? std::min(after, dot(direction, left_of(station.before))) : after;
 }
 
-/// Between two stations the first height changes evenly; the same for the wall walked the other way. Growth
-/// is what either lets it be, so that it is the length that decides.
+/// The layers at a place. Between two stations the first height varies linearly, independently of the
+/// direction of the wall. Growth is the larger limit of both, so that the column's length decides.
 LayerSpec spec_at(const WallLine& line, const FrontPlace& place) {
   LayerSpec spec = line.spec(place.station);
   if (place.at_station()) return spec;

@@ -18,9 +18,9 @@ namespace quadloop {
 namespace {
 
 constexpr double full = 0.985;
-constexpr double thin_share = 0.5;  // of the thickness asked for: a warning tells of layers that are thinner
+constexpr double thin_share = 0.5;  // fraction of the requested thickness below which a warning is issued
 
-/// One column, as all ranks know it.
+/// One column, known to all ranks.
 struct Column {
   BoundaryId boundary;
   GlobalNodeId node;
@@ -33,7 +33,7 @@ double share_at(const LayerFront& front, std::int32_t station) {
   return front.thickness[station] / front.line.asked(station);
 }
 
-/// Of the thickness asked for, between two stations by the way.
+/// Fraction of the requested thickness, interpolated between two stations.
 double share_at(const LayerFront& front, const FrontPlace& place) {
   const double here = share_at(front, place.station);
   if (place.at_station()) return here;
@@ -41,7 +41,7 @@ double share_at(const LayerFront& front, const FrontPlace& place) {
   return 0.5 * ((here + place.share * (next - here)) + (next + place.rest * (here - next)));
 }
 
-/// This rank's, of the front's nodes that it has an edge at; some of two edges, or of two ranks.
+/// The columns of this rank's front edges; a column may occur twice, or on two ranks.
 std::vector<Column> own_columns(const LayerFront& front, const Mesh& outer) {
   const FrontPlaces places(front);
   std::vector<Column> columns;
@@ -62,7 +62,7 @@ std::vector<Column> own_columns(const LayerFront& front, const Mesh& outer) {
   return columns;
 }
 
-/// All ranks' columns, each once, in an order that does not depend on the ranks. *Collective.*
+/// All ranks' columns, each once, in an order independent of the partition. *Collective.*
 std::vector<Column> all_columns(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
   const std::vector<Column> own = own_columns(front, outer);
   std::vector<Column> columns = comm.all_gather_values(std::span<const Column>(own));
@@ -83,17 +83,18 @@ double median_first(std::span<const Column> columns) {
   return *middle;
 }
 
-/// What the stations of one boundary tell.
+/// Statistics of the stations of one boundary.
 struct WallFigures {
-  double full_length = 0, length = 0;  ///< between stations that both have the thickness asked for; of all
-  double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< asked for
+  double full_length = 0,
+         length = 0;  ///< length of wall between stations with the requested thickness; total length
+  double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< requested first heights
 
   double share_full() const { return length > 0 ? full_length / length : 1; }
 };
 
 using FiguresOfWalls = IdVector<BoundaryId, WallFigures>;
 
-/// Of all boundaries, in one walk along the stations.
+/// Statistics of all boundaries, in one pass over the stations.
 FiguresOfWalls figures_of_walls(const LayerFront& front) {
   FiguresOfWalls walls(front.line.geometry().boundaries().size());
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
@@ -133,7 +134,7 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const Wall
   return report;
 }
 
-/// A column on one side of a strip, as its lengths tell it.
+/// A column on one side of a strip, as described by its lengths.
 struct SideColumn {
   double first = 0, growth = 0, share = 0;
   Point foot;
@@ -224,7 +225,7 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
 
 namespace {
 
-/// The smallest leaves that a boundary's layers want.
+/// The smallest leaf size that a boundary's layers need.
 struct WantedLeaf {
   double size = std::numeric_limits<double>::infinity();
   Point at;
@@ -261,7 +262,7 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
                     limited.size() - most_named, min));
 }
 
-/// Cells outside that are much larger than those of a strip's end are joined to it by thin triangles.
+/// Warns where cells outside are much larger than those at a strip's end, which gives thin triangles.
 void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::string>& warnings) {
   const auto least = std::ranges::min_element(strip.spacing);
   if (*least >= min) return;
@@ -273,7 +274,7 @@ void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::
                   strip.place, strip.name, *least, at.x, at.y, min));
 }
 
-/// A base without layers of its own has cells as high as the columns behind it are wide.
+/// Warns of a base without layers of its own: its cells are as high as the columns behind it are wide.
 void add_warning_of_base(const LayerStrip& strip, std::vector<std::string>& warnings) {
   constexpr double too_high = 1.5;
   if (strip.core == 0 || strip.base_layers() > 0) return;

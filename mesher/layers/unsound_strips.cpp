@@ -15,7 +15,7 @@ namespace {
 
 bool turns_left(Point a, Point b, Point c) { return orientation(a, b, c) > 0; }
 
-/// Of the cells between two columns, given from the wall to the front.
+/// Whether the cells between two columns, given from the wall to the front, are positive.
 bool are_positive(const std::vector<Point>& a, const std::vector<Point>& b) {
   for (std::size_t ring = 1; ring < a.size(); ++ring) {
     const Point corners[] = {a[ring - 1], b[ring - 1], b[ring], a[ring]};
@@ -26,7 +26,7 @@ bool are_positive(const std::vector<Point>& a, const std::vector<Point>& b) {
   return true;
 }
 
-/// After the first place, before the second one.
+/// The stations after the first place and before the second one.
 std::vector<std::int32_t> stations_between(const WallLine& line, const FrontPlace& first,
                                            const FrontPlace& second) {
   std::vector<std::int32_t> stations;
@@ -37,7 +37,7 @@ std::vector<std::int32_t> stations_between(const WallLine& line, const FrontPlac
   return stations;
 }
 
-/// Whether both lie in one fan, so that no wall is between their columns.
+/// Whether both places are in one fan, so that no wall is between their columns.
 bool in_one_fan(const WallLine& line, const FrontPlace& first, const FrontPlace& second) {
   for (std::int32_t i = first.station; i != second.station; i = line.next(i)) {
     if (line.width(i) > 0) return false;
@@ -45,7 +45,7 @@ bool in_one_fan(const WallLine& line, const FrontPlace& first, const FrontPlace&
   return second.at_station() || line.width(second.station) == 0;
 }
 
-/// An edge of the boundary as it will be, with the nodes of the mesh outside. All ranks know all of them.
+/// An edge of the wall in the final mesh, with its nodes in the mesh outside. Known to all ranks.
 struct Chord {
   Point from, to;
   GlobalNodeId first, second;
@@ -75,7 +75,7 @@ class Survey {
  private:
   void look_at(std::size_t b);
   bool is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places, Chord& chord);
-  /// From the wall to the node of the front, which is its last point.
+  /// The column from the wall to the front node, which is its last point.
   const std::vector<Point>& column_to(NodeId node, const FrontPlace& place) {
     std::vector<Point>& column = columns_[node];
     if (column.empty()) {
@@ -119,7 +119,7 @@ class Survey {
   const std::vector<std::vector<std::int32_t>>& edge_leaves_;
   FrontPlaces places_;
   IdVector<NodeId, std::vector<Point>> columns_;
-  std::vector<UnsoundStrip> edges_;  ///< all of this rank's, of which those marked bad are unsound
+  std::vector<UnsoundStrip> edges_;  ///< all of this rank's edges on fronts; those marked bad are unsound
   std::vector<Chord> chords_;
   std::vector<char> bad_;
 };
@@ -144,7 +144,7 @@ void Survey::look_at(std::size_t b) {
   }
 }
 
-/// Of a strip on the front; the chord becomes that of the wall.
+/// Checks a strip on the front; sets `chord` to that of the wall.
 bool Survey::is_sound(const UnsoundStrip& strip, const std::array<FrontPlace, 2>& places, Chord& chord) {
   const std::vector<Point>&a = column_to(strip.edge[0], places[0]), &b = column_to(strip.edge[1], places[1]);
   chord.from = a.front();

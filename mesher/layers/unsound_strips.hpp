@@ -10,17 +10,17 @@
 
 namespace quadloop {
 
-/// An edge of the mesh outside on which no layers can stand.
+/// An edge of the mesh outside on which no valid layers can be built.
 struct UnsoundStrip {
   std::array<NodeId, 2> edge;
-  std::int32_t leaf = 0;               ///< of the edge
-  std::vector<std::int32_t> stations;  ///< between the columns at its ends; may be none
+  std::int32_t leaf = 0;               ///< leaf of the edge
+  std::vector<std::int32_t> stations;  ///< between the columns at its ends; may be empty
 };
 
-/// Those of this rank's edges where a cell between the columns would not be positive, where the wall is
-/// farther from the chord between the columns' feet than half the chord's length, where that chord meets
-/// another one, or at a node in which two stretches of the front touch. Fans are not looked at. `edge_leaves`
-/// as MeshResult has them. *Collective.*
+/// This rank's edges where one of these holds: a cell between the columns is not positive; the wall is
+/// farther from the chord between the columns' feet than half the chord's length; that chord meets another
+/// one; two stretches of the front touch in a node of the edge. Fans are not checked. `edge_leaves` is as in
+/// MeshResult. *Collective.*
 std::vector<UnsoundStrip> unsound_strips(const Communicator& comm, const LayerFront& front, const Mesh& outer,
                                          const std::vector<std::vector<std::int32_t>>& edge_leaves);
 

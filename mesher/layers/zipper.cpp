@@ -32,7 +32,8 @@ class Zipper {
     }
   }
 
-  /// Back from the last points. Where no way has positive triangles alone, some are not.
+  /// Traces back from the last points. If no triangulation has only positive triangles, some are not
+  /// positive.
   std::vector<ZipperTriangle> found() {
     std::vector<ZipperTriangle> triangles;
     std::size_t i = first_.size() - 1, j = second_.size() - 1;
@@ -47,7 +48,8 @@ class Zipper {
   }
 
  private:
-  /// Without any triangle; polylines that begin at one point first have one with an edge of the second.
+  /// Whether there is no triangle yet; if the polylines share their first point, the first triangle has an
+  /// edge of the second.
   bool begins(std::size_t i, std::size_t j) const { return j == 0 && (i == 0 || (closed_ && i == 1)); }
   double& at(std::size_t i, std::size_t j) { return cost_[i * second_.size() + j]; }
 

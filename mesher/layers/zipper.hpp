@@ -8,17 +8,16 @@
 
 namespace quadloop {
 
-/// A triangle between two polylines that run side by side: on an edge of one of them, opposite to a point of
-/// the other.
+/// A triangle between two adjacent polylines: an edge of one and the opposite point of the other.
 struct ZipperTriangle {
-  bool on_first = false;               ///< whether the edge is one of the first polyline
-  std::int32_t first = 0, second = 0;  ///< points: where the edge begins, and the one opposite to it
+  bool on_first = false;               ///< the edge is on the first polyline
+  std::int32_t first = 0, second = 0;  ///< points: where the edge begins, and the opposite one
 };
 
-/// The triangles that fill the strip between two polylines, in their order along it, from the edge between
-/// their first points to that between their last ones: of all ways the one with the least sum of
-/// 1 / (4 sqrt(3) area / sum of squared edges). `left` says whether the second polyline lies to the left of
-/// the first. They may begin at one point. O(nm) for n and m points.
+/// Triangulates the strip between two polylines, from the edge between their first points to the edge between
+/// their last points, in that order. Minimises the sum of 1 / q with the quality q = 4 sqrt(3) area / (sum of
+/// squared edges). `left`: the second polyline is to the left of the first. They may share their first point.
+/// O(nm) for n and m points.
 std::vector<ZipperTriangle> zipper(std::span<const Point> first, std::span<const Point> second, bool left);
 
 }  // namespace quadloop

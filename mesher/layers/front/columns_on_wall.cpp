@@ -9,19 +9,19 @@ namespace quadloop {
 namespace {
 
 constexpr double least_visible = 0.2;                            // cosine of a column's tilt
-constexpr double least_ratio = 0.3, largest_ratio = 6;           // of the front's width over the wall's
-constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // the same
+constexpr double least_ratio = 0.3, largest_ratio = 6;           // width of the front over that of the wall
+constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // same ratio
 constexpr int most_averagings = 40;
 
-// A station's length takes in half a thickness of wall: so it tells of places as far from it as that, counted
-// in the thickness there, which may be less by 0.35 of the way.
+// A column's length depends on half a thickness of wall around its station. Seen from a place at this
+// distance, the distance is measured in the local thickness, which may be smaller by 0.35 of the distance.
 constexpr double known_within = 0.61;
 
 }  // namespace
 
-/// Where columns are turned they come to depend on those beside them: such stations are active. Stretches of
-/// active stations that do not touch know nothing of each other, so a change of thickness is followed as far
-/// as the stretches that it touches.
+/// Where columns are averaged they depend on their neighbours; such stations are active. Stretches of active
+/// stations that do not touch are independent, so a change of thickness affects only the stretches that it
+/// touches.
 class ColumnsOnWall::Columns {
  public:
   explicit Columns(const WallLine& line)
@@ -50,7 +50,7 @@ class ColumnsOnWall::Columns {
   }
 
  private:
-  /// The stations whose columns would be others before any is turned.
+  /// The stations whose columns change before averaging.
   std::vector<std::int32_t> changed_by(const std::vector<double>& thickness) {
     const std::vector<double> h_before = std::exchange(h_, thickness);
     const std::vector<double> leans_before = std::exchange(leans_, leans());
@@ -62,7 +62,7 @@ class ColumnsOnWall::Columns {
         changed, [&](std::int32_t i) { return known_within * std::max(h_[i], h_before[i]); }, false));
   }
 
-  /// The station, and the stretch of active ones that it touches, are begun again.
+  /// Marks the station, and the stretch of active stations that it touches, to be recomputed.
   void add_stretches(std::int32_t i) {
     if (!add_again(i)) return;
     for (std::int32_t j = line_.next(i); j != WallLine::none && active_[j] && add_again(j);)
@@ -100,7 +100,7 @@ class ColumnsOnWall::Columns {
     for (const std::int32_t i : touched_) turned_[i] = 0;
   }
 
-  /// The stations that depend on some.
+  /// The stations that depend on the given ones.
   std::vector<std::int32_t> zone_of(const std::vector<std::int32_t>& stations) {
     return with_neighbours(around(
         stations, [&](std::int32_t i) { return known_within * h_[i]; }, false));
@@ -116,7 +116,7 @@ class ColumnsOnWall::Columns {
     return all;
   }
 
-  /// What has come to be active beyond the stations that were begun again, if it touches what is so already.
+  /// Newly active stations outside the recomputed ones that touch stations which were already active.
   std::vector<std::int32_t> active_outside() {
     std::vector<std::int32_t> outside;
     bool touches = false;
@@ -134,8 +134,8 @@ class ColumnsOnWall::Columns {
     return {n.y, -n.x};
   }
 
-  /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: their feet on the front
-  /// keep half the distances of the wall.
+  /// Columns lean by tan(tilt) = slope (1 - distance / reach), reach = 2 h slope: the distances of their feet
+  /// on the front are half those on the wall.
   std::vector<double> leans() const {
     std::vector<double> onwards(h_.size()), backwards(h_.size());
     for (std::int32_t i = 0; i < line_.size(); ++i) {
@@ -165,8 +165,8 @@ class ColumnsOnWall::Columns {
   }
   bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
 
-  /// Against the normal that the column leans away from more; at a turn away from the domain the other one,
-  /// or a column there would stand out from those beside it.
+  /// Relative to the normal with the larger tilt; at a convex corner to the other normal, as a column there
+  /// would otherwise be longer than its neighbours.
   double cosine_of_tilt(std::int32_t i) const {
     const Station& station = line_[i];
     const auto [less, more] = std::minmax({dot(columns_.direction[i], left_of(station.before)),
@@ -174,15 +174,15 @@ class ColumnsOnWall::Columns {
     return cross(station.before, station.after) < 0 ? more : less;
   }
 
-  /// How far columns converge on the place after a station: 1 to 0.
+  /// Sets how strongly columns converge between a station and the next: 0 to 1.
   void set_convergence(std::int32_t i) {
     if (i != WallLine::none && has_width(i))
       convergence_[i] =
           std::clamp((spreading_ratio - ratio(i, h_)) / (spreading_ratio - convergent_ratio), 0.0, 1.0);
   }
 
-  /// L = h (1 + p (1/c - 1)): where columns converge they keep the layers' thickness over the wall, where
-  /// they spread their own length.
+  /// L = h (1 + p (1/c - 1)): where columns converge (p = 1) the layers keep their thickness normal to the
+  /// wall; where they spread (p = 0) the columns have length h.
   void set_lengths(const std::vector<std::int32_t>& stations) {
     for (const std::int32_t i : stations) {
       set_convergence(i);
@@ -197,7 +197,7 @@ class ColumnsOnWall::Columns {
     }
   }
 
-  /// Over half a thickness of wall on both sides.
+  /// The mean over half a thickness of wall on both sides.
   double mean_convergence(std::int32_t i) const {
     double on = 0, back = 0, wall_on = 0, wall_back = 0;
     const auto add = [&](std::int32_t place, double& sum, double& wall) {
@@ -211,8 +211,8 @@ class ColumnsOnWall::Columns {
     return std::min(on / wall_on, back / wall_back);
   }
 
-  /// Of the places beside the stations those where columns come too close or spread too far: the stations at
-  /// both their ends.
+  /// Stations at both ends of the places beside the given stations where columns come too close or spread too
+  /// far.
   std::vector<std::int32_t> crowded_among(const std::vector<std::int32_t>& stations) {
     std::vector<std::int32_t> found;
     begin_set();
@@ -226,7 +226,7 @@ class ColumnsOnWall::Columns {
     return found;
   }
 
-  /// The stations within reach of some, once each.
+  /// The stations within reach of the given ones, each once.
   template <class Reach>
   std::vector<std::int32_t> around(const std::vector<std::int32_t>& stations, const Reach& reach,
                                    bool free_only) {
@@ -258,12 +258,12 @@ class ColumnsOnWall::Columns {
   Point mean_of_neighbours(std::int32_t i) const {
     const std::vector<Point>& directions = columns_.direction;
     const std::int32_t a = line_.previous(i), b = line_.next(i);
-    if (line_.width(a) == 0) return directions[a];  // cannot be: a fan's stations are fixed
+    if (line_.width(a) == 0) return directions[a];  // cannot occur: a fan's stations are fixed
     if (line_.width(i) == 0) return directions[b];
     return unit((1 / line_.width(a)) * directions[a] + (1 / line_.width(i)) * directions[b]);
   }
 
-  /// Turned back towards the normal until it rises from both sides of its station.
+  /// Turns a direction towards the normal until it points away from the wall on both sides of its station.
   Point visible(std::int32_t i, Point direction) const {
     constexpr int most_turns = 32;
     const Station& station = line_[i];
@@ -278,14 +278,14 @@ class ColumnsOnWall::Columns {
 
   const WallLine& line_;
   std::vector<double> h_, leans_;
-  std::vector<double> convergence_;  ///< of the place after each station
-  std::vector<std::int64_t> seen_;   ///< the last set that each was added to
+  std::vector<double> convergence_;  ///< between each station and the next
+  std::vector<std::int64_t> seen_;   ///< the last set that each station was added to
   std::int64_t stamp_ = 0;
   std::vector<char> active_;
-  std::vector<std::int32_t> stations_;  ///< those to begin again,
-  std::vector<char> again_;             ///< marked
-  std::vector<std::int32_t> touched_;   ///< those that have got another length by turns,
-  std::vector<char> turned_;            ///< marked
+  std::vector<std::int32_t> stations_;  ///< stations to recompute
+  std::vector<char> again_;             ///< flags of stations_
+  std::vector<std::int32_t> touched_;   ///< stations whose column length changed by turning
+  std::vector<char> turned_;            ///< flags of touched_
   WallColumns columns_;
 };
 

@@ -12,9 +12,9 @@ namespace quadloop {
 namespace {
 
 constexpr double most_over_estimate = 10;
-constexpr double steepest_following = 0.6;  // of a height, over a thickness of wall
+constexpr double steepest_following = 0.6;  // of a height, per thickness of the layers along the wall
 
-/// Finds what was measured near a station.
+/// Finds the measurement near a station.
 class Measurements {
  public:
   explicit Measurements(const MeasuredWall& wall) : wall_{wall} {
@@ -23,7 +23,7 @@ class Measurements {
     tree_ = BoxTree(boxes);
   }
 
-  /// Wall units in a unit of length; below 0 where nothing is known.
+  /// Wall units per unit of length; negative where there is no measurement.
   double wall_units(const Station& station) const {
     const auto distance = [&](std::int32_t k) {
       const Point along = wall_[k].to - wall_[k].from;
@@ -52,7 +52,7 @@ double wanted_height(const LayerSpec& spec, double wall_units) {
   return std::min(std::max(height, least), layers_thickness(spec) / spec.count);
 }
 
-/// No height is more than it may have grown to from any other along the wall.
+/// Limits each height to the growth allowed from every other station along the wall.
 void limit_growth(const WallLine& line, std::span<double> heights) {
   const auto limit = [&](std::int32_t from, std::int32_t to, double width) {
     const LayerSpec& spec = line.spec(to);
@@ -60,7 +60,7 @@ void limit_growth(const WallLine& line, std::span<double> heights) {
       heights[to] =
           std::min(heights[to], heights[from] * (1 + steepest_following * width / layers_thickness(spec)));
   };
-  for (int round = 0; round < 2; ++round) {  // a closed run needs a second one
+  for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
     for (std::int32_t i = 0; i < line.size(); ++i) {
       if (const std::int32_t next = line.next(i); next != WallLine::none) limit(i, next, line.width(i));
     }

@@ -20,9 +20,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr double sine_of_sector = 0.3;  // columns of a fan are at least some 18 degrees apart
+constexpr double sine_of_sector = 0.3;  // columns of a fan are at least about 18 degrees apart
 
-/// The segments at which wakes begin.
+/// The segments of blunt edges (bases) at which wakes begin.
 std::vector<std::int32_t> bases_of(const Geometry& g, const std::vector<PlacedLine>& lines) {
   std::vector<std::int32_t> bases;
   for (const PlacedLine& line : lines) {
@@ -31,7 +31,7 @@ std::vector<std::int32_t> bases_of(const Geometry& g, const std::vector<PlacedLi
   return bases;
 }
 
-/// The points of the base that a wake begins behind; none at a sharp edge.
+/// The points of the base at which a wake begins; empty at a sharp edge.
 std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
   std::vector<Point> base;
   for (std::int32_t v = wake.edge; v != wake.base_end; v = g.next(v)) base.push_back(g.point(v));
@@ -39,7 +39,7 @@ std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
   return base;
 }
 
-/// The outline outside the layers, on its way to a Geometry.
+/// Builds the geometry outside the layers.
 class OuterOutline {
  public:
   OuterOutline(const WallLine& line, const FittingColumns& fitting, const std::vector<PlacedLine>& lines,
@@ -81,7 +81,7 @@ class OuterOutline {
   }
 
  private:
-  /// Whether there is a place after the station.
+  /// Whether a wall segment follows the station.
   bool begins(std::int32_t i) const { return line_.next(i) != WallLine::none; }
   BoundaryId strip_boundary() const { return BoundaryId{size32(g_.boundaries())}; }
   bool ends_run(std::int32_t i) const { return line_[i].shape == Station::Shape::end; }
@@ -129,9 +129,9 @@ class OuterOutline {
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   std::vector<std::int32_t> first_of_segment_;
-  std::vector<char> covered_;                            ///< vertices on which a run's last column lies
+  std::vector<char> covered_;  ///< flags of vertices on which a run's last column lies
   std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
-  std::vector<char> is_base_;                            ///< of segments: whether a wake begins behind it
+  std::vector<char> is_base_;                            ///< flags of segments: a wake begins there
   std::vector<Point> points_;
   std::vector<std::int32_t> starts_{0};
   std::vector<BoundaryId> boundary_;
@@ -152,8 +152,8 @@ void OuterOutline::cover_ends() {
   }
 }
 
-/// The stations of segment s from the first one on; where the run ends, the rest of the boundary that it ends
-/// on.
+/// Adds the stations of segment s from `first` on; where the run ends, also the rest of the boundary on which
+/// it ends.
 void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   std::int32_t i = first;
   for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i)) {
@@ -168,7 +168,7 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0);
 }
 
-/// From the column on the left of a wake round its front, up to the column on its right.
+/// Adds a wake's front, from the column on its left to the column on its right.
 void OuterOutline::add_wake(std::int32_t i) {
   const std::int32_t edge = ends_run(i) ? g_.next(line_[i].segment) : line_[i].segment;
   const PlacedLine* const at = wake_from_.at(edge);
@@ -199,7 +199,7 @@ void OuterOutline::add_front_of(const LayerStrip& strip) {
   }
 }
 
-/// Whether the segment of a boundary without layers begins at a wall, behind its last column.
+/// Whether the segment, of a boundary without layers, begins at a wall and is covered by its last column.
 bool OuterOutline::begins_below(std::int32_t s) const {
   return first_of_segment_[g_.previous(s)] != WallLine::none;
 }
@@ -210,9 +210,9 @@ double OuterOutline::last_layer(std::int32_t i) const {
   return column.reached[spec.count] - column.reached[spec.count - 1];
 }
 
-/// The widths of columns on the wall that its turns ask for between a station and the next, each turn as if
-/// spread over half of either side. (The front's own turns are no measure: they are those of columns which
-/// spread or converge.)
+/// The column width that the turning of the wall between a station and the next requires; each turn counts as
+/// spread over half of either side. (The front's own turns are not used, as they depend on how columns spread
+/// or converge.)
 double OuterOutline::spacing_of_turns(std::int32_t i) const {
   const std::int32_t s = line_[i].segment, next = g_.next(s);
   double spacing = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ double OuterOutline::spacing_of_turns(std::int32_t i) const {
   return spacing;
 }
 
-/// The width of the front over that of the wall, round the place after a station, over half a thickness.
+/// The width of the front over that of the wall around the place after a station, over half a thickness.
 double OuterOutline::spread(std::int32_t i) const {
   const double reach = fitting_.thickness[i] / 4;
   double wall = line_.width(i), front = front_width(i);
@@ -262,7 +262,7 @@ WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& plac
   return line;
 }
 
-/// Whether a closed polyline goes round a point.
+/// Whether a closed polyline encloses a point.
 bool goes_round(std::span<const Point> ring, Point p) {
   bool inside = false;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -281,7 +281,7 @@ bool is_in_domain(const Geometry& g, Point p) {
   return inside;
 }
 
-/// The strip on whose front a segment of the outer outline lies.
+/// The strip whose front contains a segment of the outer geometry.
 const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
   const Point p = front.outer.point(s);
   return *std::ranges::find_if(front.strips, [&](const LayerStrip& strip) {
@@ -289,22 +289,22 @@ const LayerStrip& strip_at(const LayerFront& front, std::int32_t s) {
   });
 }
 
-/// Where two segments that meet have a point in common, but for rounding.
+/// The common point of two crossing segments, up to rounding.
 Point common_point(Point a, Point b, Point c, Point d) {
   const double slope = cross(b - a, d - c);
   return slope == 0 ? c : a + (cross(c - a, d - c) / slope) * (b - a);
 }
 
-/// Where a strip's front meets something that it must keep away from.
+/// A place where a strip's front touches something else.
 struct Meeting {
-  std::int32_t segment = 0, other = 0;  ///< of the outer outline
+  std::int32_t segment = 0, other = 0;  ///< of the outer geometry
   Point at;
 };
 
-/// The middle of a strip's first column.
+/// The midpoint of a strip's first column.
 Point beginning_of(const LayerStrip& strip) { return strip.columns[0][strip.columns[0].size() / 2]; }
 
-/// All in the order of segments: two segments meet where one follows the other alone.
+/// All contacts in the order of segments, except those of consecutive segments.
 std::vector<Meeting> meetings_of_strips(const LayerFront& front) {
   const Geometry& g = front.outer;
   std::vector<Box> boxes;
@@ -323,7 +323,7 @@ std::vector<Meeting> meetings_of_strips(const LayerFront& front) {
   return meetings;
 }
 
-/// The strip of the first meeting, with its meeting nearest to where it begins.
+/// Reports the strip of the first contact, at its contact nearest to the strip's beginning.
 [[noreturn]] void refuse_meeting(const LayerFront& front, const std::vector<Meeting>& meetings) {
   const LayerStrip& strip = strip_at(front, meetings[0].segment);
   const Point begin = beginning_of(strip);
@@ -347,14 +347,14 @@ std::vector<Meeting> meetings_of_strips(const LayerFront& front) {
                   length(nearest.at - begin)));
 }
 
-/// The fronts of strips keep away from everything else, and from themselves.
+/// Checks that the fronts of strips touch neither anything else nor themselves.
 void require_disjoint(const LayerFront& front) {
   if (!front.has_strips()) return;
   const std::vector<Meeting> meetings = meetings_of_strips(front);
   if (!meetings.empty()) refuse_meeting(front, meetings);
 }
 
-/// The outer outline, with loops as the sweep over an outline takes them.
+/// The outer geometry as an Outline, the input of the sweep over loops.
 Outline as_outline(const Geometry& g) {
   Outline outline;
   for (const Boundary& boundary : g.boundaries()) outline.names.push_back(boundary.name);
@@ -368,8 +368,8 @@ Outline as_outline(const Geometry& g) {
   return outline;
 }
 
-/// The segment nearest to p among the fronts of a loop, or only among those of strips. Of all loops if `loop`
-/// is -1: a point between the outer boundary and its front lies in no loop.
+/// The segment nearest to p on the fronts of a loop, or on the fronts of strips only. All loops if `loop` is
+/// -1: a point between the outer boundary and its front is in no loop.
 std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, bool strips_alone) {
   const Geometry& g = front.outer;
   const std::int32_t begin = loop < 0 ? 0 : g.loop_start(loop),
@@ -386,7 +386,7 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
   return nearest;
 }
 
-/// A boundary round which the layers of a line go.
+/// Reports a boundary that is enclosed by the layers of a line.
 [[noreturn]] void refuse_body_within(const LayerFront& front, std::int32_t loop, std::int32_t parent) {
   const Geometry& g = front.line.geometry();
   const std::int32_t begin = g.loop_start(loop);
@@ -398,7 +398,7 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
                   strip.place, strip.name, g.boundary(g.boundary_of(begin)).name, p.x, p.y));
 }
 
-/// A free line outside of the domain, or within the layers that end on another loop.
+/// Reports a free line outside the domain, or within the layers of another loop.
 [[noreturn]] void refuse_line(const LayerFront& front, std::int32_t loop, std::int32_t parent) {
   const std::int32_t begin = front.outer.loop_start(loop);
   const Point p = front.outer.point(begin);
@@ -416,8 +416,8 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
                   strip.place, strip.name, whose, p.x, p.y));
 }
 
-/// Every loop of the outer outline has the domain to its left: no body and no line lies within the layers of
-/// another one. Comes after require_disjoint().
+/// Checks that every loop of the outer geometry has the domain to its left: no body and no line lies within
+/// the layers of another one. Call after require_disjoint().
 void require_room(const LayerFront& front) {
   if (!front.has_strips()) return;
   const std::vector<LoopNesting> nestings = validate(as_outline(front.outer));
@@ -430,7 +430,7 @@ void require_room(const LayerFront& front) {
   }
 }
 
-/// That of a wake whose wall's layers are as thick as they are asked for.
+/// The root of a wake if the wall's layers have their requested thickness.
 std::optional<WakeRoot> likely_root(const Geometry& g, const PlacedLine& line) {
   if (line.edge == PlacedLine::nowhere) return std::nullopt;
   const std::int32_t before = g.previous(line.edge), after = line.base_end;
@@ -475,7 +475,7 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
     if (boundary.layers)
       least = std::min(least, leaf_over_last_layer * layer_heights(*boundary.layers).back());
   }
-  constexpr double most_columns = 1e6;  // more are no mesh, and are refused as such
+  constexpr double most_columns = 1e6;  // larger numbers are rejected as unreasonable
   for (const PlacedLine& line : place_lines(geometry, lines)) {
     if (least_size(line).columns > most_columns) continue;
     const LayerStrip strip = layer_strip(line, likely_root(geometry, line));

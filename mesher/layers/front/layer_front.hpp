@@ -12,51 +12,53 @@
 
 namespace quadloop {
 
-/// The line on which the layers end and the other cells begin, with what lies between it and the wall.
+/// The layer front: the outer edge of the layers, with the columns between it and the wall.
 struct LayerFront {
   WallLine line;
-  std::vector<double> thickness;  ///< of the layers at each station, normal to the wall: as asked or less
+  std::vector<double> thickness;  ///< of the layers at each station, normal to the wall: as requested or less
   WallColumns columns;
   std::vector<Point> points;  ///< of the front, one for each station
 
-  /// The outline of the domain outside the layers: the front in the place of the wall, with the wall's
-  /// boundaries.
+  /// The boundary of the domain outside the layers: the front replaces the wall, under the wall's boundary
+  /// names.
   Geometry outer;
-  /// Of each of outer's segments: the station where it begins, or WallLine::none where it is no wall's front.
+  /// For each segment of `outer` the station at which it begins, or WallLine::none if it is not on a wall's
+  /// front.
   std::vector<std::int32_t> station_of;
-  /// The same: the height of the last layer there, or 0.
+  /// Height of the last layer at each segment of `outer`, or 0.
   std::vector<double> last_heights;
 
-  /// Layers on both sides of lines. Their fronts are outer's last boundary, if there are any.
+  /// Layers on both sides of lines. If there are any, their fronts are the last boundary of `outer`.
   std::vector<LayerStrip> strips;
   bool has_strips() const { return !strips.empty(); }
   BoundaryId strip_boundary() const { return BoundaryId{size32(outer.boundaries()) - 1}; }
-  /// Whether a segment of outer is a front, of a wall or of a strip.
+  /// Whether a segment of `outer` is on the front of a wall or of a strip.
   bool is_front(std::int32_t segment) const {
     return station_of[segment] != WallLine::none ||
            (has_strips() && outer.boundary_of(segment) == strip_boundary());
   }
 
-  /// From now on these stations must be nodes of the mesh outside.
+  /// Requires these stations to be nodes of the mesh outside.
   void keep(const std::vector<std::int32_t>& stations);
 };
 
-constexpr double leaf_over_last_layer = 2;  ///< of leaves beside the front, at most
+constexpr double leaf_over_last_layer =
+    2;  ///< largest size of leaves beside the front, in heights of the last layer
 
-/// The size of the smallest leaves that layers on walls and on both sides of lines want where they are as
-/// thick as they are asked for; infinity where there are none. Throws InputError as place_lines().
+/// Size of the smallest leaves that fit the last layers, on walls and beside lines, if all layers have their
+/// requested thickness; infinity without layers. Throws InputError as place_lines() does.
 double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLine>& lines);
 
-/// The front of all boundaries that ask for layers, and of lines with layers. Layers are thinner where walls
-/// come close to each other or turn sharply into the domain, so that no two columns meet, and each wall keeps
-/// room for cells outside; both are proved with exact signs. `curvature`: degrees that the wall may turn
-/// along one cell. With a measured wall first heights follow it (followed_layers()). A function of its
-/// arguments alone; mirror images have mirrored fronts. Throws InputError, naming the place, where no layers
-/// fit. `geometry` must outlive the result.
+/// The layer front of all boundaries and lines with layers. Layers are thinner where walls are close to each
+/// other or have sharp concave corners, so that no two columns cross and space for cells remains outside each
+/// wall; both are verified with exact predicates. `curvature`: degrees that the wall may turn along one cell.
+/// With a measured wall first heights follow it (followed_layers()). Depends on its arguments only; mirror
+/// images have mirrored fronts. Throws InputError with coordinates where no layers fit. `geometry` must
+/// outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {});
 
-/// The front's stations alone, with the layers that they ask for.
+/// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
                    const MeasuredWall& measured);
 

@@ -23,12 +23,12 @@ Point direction_of_segment(const Geometry& g, std::int32_t s) {
   return direction_of(g.point(s), g.point(g.next(s)));
 }
 
-/// As messages name it: `case.toml:12: wake_2, from = "wing",`.
+/// Prefix of messages: `case.toml:12: wake_2, from = "wing",`.
 std::string said(const PlacedLine& line, const LayerLine& asked) {
   return fmt::format("{}{}, from = \"{}\"", line.place, line.name, fmt::join(asked.from, "\", \""));
 }
 
-/// Each boundary by its name, with its segments in ascending order.
+/// The boundaries by name, with their segments in ascending order.
 struct Walls {
   explicit Walls(const Geometry& g) : segments(g.boundaries().size()) {
     for (const BoundaryId b : segments.ids()) by_name.emplace(g.boundary(b).name, b);
@@ -38,7 +38,7 @@ struct Walls {
   IdVector<BoundaryId, std::vector<std::int32_t>> segments;
 };
 
-/// The boundaries that a wake begins at.
+/// The boundaries at which a wake begins.
 class WakeWall {
  public:
   WakeWall(const Geometry& g, const Walls& walls, const LayerLine& line, const std::string& said) : g_{g} {
@@ -56,7 +56,7 @@ class WakeWall {
   }
   /// In ascending order.
   const std::vector<std::int32_t>& segments() const { return segments_; }
-  /// Whether a segment is of one of them.
+  /// Whether a segment belongs to one of them.
   bool has(std::int32_t segment) const { return has(g_.boundary_of(segment)); }
 
  private:
@@ -73,16 +73,16 @@ class WakeWall {
   std::vector<std::int32_t> segments_;
 };
 
-/// By how much the wall turns away from the domain: the cosine; 1 where it does not.
+/// The cosine of the angle by which the wall turns away from the domain; 1 if it does not.
 double cosine_of_turn(const Geometry& g, std::int32_t before, std::int32_t after) {
   const Point a = direction_of_segment(g, before), b = direction_of_segment(g, after);
   return cross(a, b) < 0 ? dot(a, b) : 1;
 }
 
-/// The first and the last vertex of an edge, blunt or sharp.
+/// First and last vertex of an edge, blunt or sharp.
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-/// The base that begins at a corner, if there is one.
+/// The base that begins at a corner, if any.
 std::optional<Edge> base_from(const Geometry& g, const WakeWall& wall, std::int32_t v, double longest) {
   constexpr double cosine_of_corner = 0.64278760968653933;  // 50 degrees
   if (cosine_of_turn(g, g.previous(v), v) > cosine_of_corner) return std::nullopt;
@@ -98,8 +98,8 @@ std::optional<Edge> base_from(const Geometry& g, const WakeWall& wall, std::int3
   }
 }
 
-/// A twentieth of the extent of the boundaries that a wake begins at: the longest base, and how far off `at`
-/// may be.
+/// A twentieth of the extent of the boundaries at which a wake begins: the largest length of a base and the
+/// largest distance of `at` from its edge.
 double reach_of_edges(const Geometry& g, const WakeWall& wall) {
   constexpr double reach_over_box = 0.05;
   double low = g.box().high.x, high = g.box().low.x, bottom = g.box().high.y, top = g.box().low.y;
@@ -110,7 +110,7 @@ double reach_of_edges(const Geometry& g, const WakeWall& wall) {
   return reach_over_box * std::max(high - low, top - bottom);
 }
 
-/// Sharp ones, then blunt ones whose corners are not sharp.
+/// Sharp edges first, then blunt ones whose corners are not sharp.
 std::vector<Edge> edges_of(const Geometry& g, const WakeWall& wall, double longest_base) {
   const auto is_sharp = [&](std::int32_t v) {
     return wall.has(g.previous(v)) && cosine_of_turn(g, g.previous(v), v) < cosine_of_sharp_edge;
@@ -130,7 +130,7 @@ Point middle_of(const Geometry& g, const Edge& edge) {
   return edge.first == edge.second ? g.point(edge.first) : 0.5 * (g.point(edge.first) + g.point(edge.second));
 }
 
-/// The first few: "(1, 0), (0, 0) and 3 more".
+/// Coordinates of the first few edges: "(1, 0), (0, 0) and 3 more".
 std::string places_of(const Geometry& g, const std::vector<Edge>& edges) {
   std::vector<std::string> places;
   for (const Edge& edge : edges) {
@@ -169,7 +169,7 @@ Edge edge_of(const Geometry& g, const WakeWall& wall, const LayerLine& line, con
                   edges.size(), places_of(g, edges)));
 }
 
-/// With its name and place alone; `number`: among `all` of its kind, from 1 on.
+/// A placed line with name and place only; `number`: its number among `all` of its kind, from 1.
 PlacedLine named(const LayerLine& line, std::ptrdiff_t number, std::ptrdiff_t all) {
   PlacedLine placed;
   placed.name = line.from.empty() ? "layer_line" : "wake";
@@ -214,7 +214,7 @@ std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<
   std::optional<Walls> walls;
   if (wakes > 0) walls.emplace(geometry);
   std::vector<PlacedLine> all;
-  std::map<std::int32_t, std::string> name_at;  // of the wake that begins at a vertex
+  std::map<std::int32_t, std::string> name_at;  // name of the wake that begins at a vertex
   std::ptrdiff_t placed_wakes = 0;
   for (const LayerLine& line : lines) {
     const bool is_wake = !line.from.empty();

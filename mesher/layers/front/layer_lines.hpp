@@ -11,14 +11,14 @@
 
 namespace quadloop {
 
-/// A line within the domain with layers on both sides, as a case asks for it: a wake, which goes on from the
-/// sharp edge of a wall and takes over its layers, or a free line with layers of its own.
+/// A line within the domain with layers on both sides, as specified in a case: a wake, which begins at the
+/// trailing edge of a wall and continues its layers, or a free line with layers of its own.
 struct LayerLine {
-  /// Of a wake: the boundary with the edge, or those that meet there; empty for a free line.
+  /// For a wake: the boundary with the edge, or the boundaries that meet there; empty for a free line.
   std::vector<std::string> from;
-  std::vector<Point> path;          ///< of a wake: where it leads after the edge, or none for straight on
+  std::vector<Point> path;          ///< of a wake: its course after the edge; empty: straight
   double length = 0;                ///< of a wake without a path
-  double spacing = 0;               ///< length wanted of the cells along it; above 0
+  double spacing = 0;               ///< requested cell length along the line, positive
   std::optional<LayerSpec> layers;  ///< of a free line
   std::string where = {};           ///< its place in the case file, "case.toml:12", for messages alone
   std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
@@ -33,14 +33,14 @@ struct LayerLine {
   }
 };
 
-/// Where it lies.
+/// The location of a layer line.
 struct PlacedLine {
   static constexpr std::int32_t nowhere = -1;
 
-  /// The vertex that a wake begins at; of a blunt edge the first one, and the last, with the base between
-  /// them.
+  /// First and last vertex of the edge at which a wake begins: equal for a sharp edge, the ends of the base
+  /// for a blunt edge.
   std::int32_t edge = nowhere, base_end = nowhere;
-  std::vector<Point> path;  ///< two points at least, the first one the edge or the middle of the base
+  std::vector<Point> path;  ///< at least two points; the first is the edge or the middle of the base
   double spacing = 0;
   LayerSpec layers;
   std::string name = {};   ///< "wake" or "layer_line"; of several "wake_1", "wake_2" ...
@@ -48,12 +48,13 @@ struct PlacedLine {
   std::optional<MirrorAxis> across = {};  ///< as the line's
 };
 
-/// Finds the edges at which wakes begin. An edge is a vertex of its boundaries at which the wall turns away
-/// from the domain by more than 120 degrees; or a base, of one boundary, between two corners of more than 50
-/// degrees and shorter than a twentieth of the boundaries' box, which together turn by more than 120. A wake
-/// begins at the only edge, or at that nearest to its `at`, which must lie within a twentieth of that box.
-/// A wake without a path goes straight on, half way between the walls that meet there. Throws InputError for
-/// a boundary that is none or has no layers, for no such edge or several, and for two wakes from one.
+/// Finds the edges at which wakes begin. An edge is a vertex where the wall turns away from the domain by
+/// more than 120 degrees, or a base: a part of one boundary, shorter than a twentieth of the boundaries'
+/// bounding box, between two corners of more than 50 degrees each that turn by more than 120 degrees
+/// together. A wake begins at the only edge, or at the edge nearest to its `at`, which must be within a
+/// twentieth of the box from it. A wake without a path is straight and bisects the walls at the edge. Throws
+/// InputError for an unknown boundary or one without layers, for no or several matching edges, and for two
+/// wakes at one edge.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
 
 }  // namespace quadloop

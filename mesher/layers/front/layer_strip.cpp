@@ -12,17 +12,17 @@ namespace quadloop {
 
 namespace {
 
-constexpr double widening = 0.1;         // of columns, over the distance from an end
-constexpr double opening = 1.15;         // of the layer at the line, from column to column
-constexpr double spreading = 0.1;        // of all layers together, over the distance from a root
-constexpr double core_spreading = 0.05;  // of either half of the rows behind a base
-constexpr double flattest = 0.7;         // height of a row over the width of its columns, at most
+constexpr double widening = 0.1;         // of columns, per distance from an end
+constexpr double opening = 1.15;         // factor per column of the first layer at the line
+constexpr double spreading = 0.1;        // of all layers together, per distance from a root
+constexpr double core_spreading = 0.05;  // of half the rows behind a base, per distance
+constexpr double flattest = 0.7;         // largest height of a row over the width of its columns
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
 constexpr double most_rows_of_triangle = 3, flattest_triangle = 0.35;
 constexpr double leaf_over_column = 1.2;
 constexpr double flattest_at_end = 0.5, leaf_over_end_row = 2, triangle_over_end_row = 1.4;
 
-/// A polyline by its arc length.
+/// A polyline parametrised by arc length.
 class Path {
  public:
   explicit Path(const std::vector<Point>& points) : points_{points}, reached_{0} {
@@ -36,7 +36,7 @@ class Path {
     const double share = (s - reached_[i - 1]) / (reached_[i] - reached_[i - 1]);
     return points_[i - 1] + share * (points_[i] - points_[i - 1]);
   }
-  /// Of the chord from so far before to so far behind.
+  /// Direction of the chord from `reach` before s to `reach` after it.
   Point direction(double s, double reach) const {
     return unit(at(std::min(s + reach, length())) - at(std::max(s - reach, 0.0)));
   }
@@ -46,7 +46,7 @@ class Path {
   std::vector<double> reached_;
 };
 
-/// The base of a blunt edge, with layers on it that begin at its two feet, as the rows behind it do.
+/// The base of a blunt edge with layers on it. The layers begin at its two feet, like the rows behind it.
 class Base {
  public:
   Base(const PlacedLine& line, const std::vector<Point>& points, int rows)
@@ -59,11 +59,11 @@ class Base {
   Base(const Base&) = delete;
   Base& operator=(const Base&) = delete;
 
-  /// Of so many layers; `half`: of all that are as thick as half of the base.
+  /// Height of this number of layers; `half`: height of all layers, half the length of the base.
   double height(int layers) const { return heights_[layers]; }
   double half() const { return heights_.back(); }
 
-  /// The line behind so many layers of all: from right to left.
+  /// The line above `layers` of `all` layers, from right to left.
   std::vector<Point> line(int layers, int all) const {
     const double stretch = (half() - heights_[layers]) / (half() - heights_[all]);
     const auto from_foot = [&](int row) { return half() - stretch * (half() - heights_[row]); };
@@ -76,11 +76,12 @@ class Base {
     right.insert(right.end(), left.rbegin(), left.rend());
     return right;
   }
-  /// The node from which the line behind so many layers goes on along the wake.
+  /// The node at which the line above this number of layers turns into the wake.
   Point corner(bool left, int layers) const { return at(left, heights_[layers], layers); }
 
  private:
-  /// So far along the base from one of its feet and so many layers off it; heights are normal to it.
+  /// The point at a distance along the base from one of its feet, above this number of layers; heights are
+  /// normal to the base.
   Point at(bool left, double from_foot, int layers) const {
     constexpr double least_cosine = 0.5, reach_over_base = 1.0 / 16;
     const Path& path = left ? path_ : turned_path_;
@@ -89,14 +90,14 @@ class Base {
     return path.at(from_foot) + (heights_[layers] / std::max(cosine, least_cosine)) * normal_;
   }
 
-  std::vector<Point> points_, turned_;  ///< from its left foot to its right one, and back
+  std::vector<Point> points_, turned_;  ///< from the left foot to the right one, and reversed
   Path path_{points_}, turned_path_{turned_};
   int rows_;
   std::vector<double> heights_;
   Point normal_;
 };
 
-/// Whether the cells between two lines, of which the first lies to the left of the second, are positive.
+/// Whether the cells between two lines are positive, where the first line is to the left of the second.
 bool is_positive(std::span<const Point> first, std::span<const Point> second) {
   for (std::size_t i = 0; i + 1 < first.size(); ++i) {
     const std::array cell{first[i], second[i], second[i + 1], first[i + 1]};
@@ -143,7 +144,7 @@ class Strip {
   int layers() const { return strip_.layers; }
   std::size_t last() const { return reached_.size() - 1; }
 
-  /// Of all layers on one side.
+  /// Thickness of all layers on one side.
   double thickness_at(double s) const {
     if (!strip_.root) return thickness_;
     const double widest = std::max(thickness_, flattest * layers() * line_.spacing);
@@ -151,14 +152,14 @@ class Strip {
   }
   double even_row(double s) const { return thickness_at(s) / layers(); }
 
-  /// As wide as is wanted, at free ends as the rows are high.
+  /// Requested width, limited at free ends by the height of the rows.
   double width_wanted(double s) const {
     const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest_at_end;
     const double at_beginning = strip_.root ? width_at_root() : at_end;
     return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on});
   }
 
-  /// Of the first columns: behind the layers of a base as much narrower as lets sizes grow from these.
+  /// Width of the first columns; behind the layers of a base smaller, so that sizes grow from these.
   double width_at_root() const {
     constexpr double over_last_layer = 3, narrowest = 0.25;
     const double wanted = strip_.root->spacing;
@@ -167,8 +168,8 @@ class Strip {
     return std::min(wanted,
                     std::max(base_->height(base_layers_) + over_last_layer * last, narrowest * wanted));
   }
-  /// On the base: at most those of the wall, as many as leave some of it to the columns behind it, and room
-  /// before the next column.
+  /// Upper limit of the layers on the base: at most those of the wall, leaving part of the base to the rows
+  /// behind it and space before the next column.
   int most_base_layers() const {
     constexpr double share_of_half = 0.6;
     const double room = std::min(strip_.root->spacing, line_.spacing);
@@ -194,7 +195,8 @@ class Strip {
     return k == last() ? reached_[k] - reached_[k - 1] : reached_[k + 1] - reached_[k];
   }
 
-  /// Of the layer at the line: from that of the wall, and from that of even rows at a free end.
+  /// Height of the layer at the line, growing from that of the wall, and from that of even rows at a free
+  /// end.
   double first_height(std::size_t k) const {
     const double even = even_row(reached_[k]);
     double from_root = line_.layers.first, from_end = even;
@@ -204,8 +206,8 @@ class Strip {
     return std::min(std::max({from_root, from_end, line_.layers.first}), even);
   }
 
-  /// Of the line: bends are rounded over the layers' thickness, so that columns on their inner side do not
-  /// meet.
+  /// Direction of the line. Bends are rounded over the layers' thickness, so that columns on their inner side
+  /// do not cross.
   Point along(std::size_t k) const {
     return path_.direction(reached_[k], std::max(width_at(k), thickness_at(reached_[k])));
   }
@@ -218,7 +220,7 @@ class Strip {
     return unit((1 - share) * unit(root_end(left) - foot(left)) + share * out);
   }
   Point root_end(bool left) const { return left ? strip_.root->left : strip_.root->right; }
-  /// Of the wall's columns at the root.
+  /// The foot of the wall's column at the root.
   Point foot(bool left) const {
     const std::vector<Point>& base = strip_.root->base;
     return base.empty() ? line_.path[0] : left ? base.front() : base.back();
@@ -237,13 +239,13 @@ class Strip {
     const std::vector<Point> core = k == 0 ? core_at_base() : core_rows(k, across.back(), left.front());
     across.insert(across.end(), core.begin(), core.end());
     across.insert(across.end(), left.begin() + (strip_.core == 0 ? 1 : 0), left.end());
-    if (k == 0 && strip_.root) {  // to the last bit
+    if (k == 0 && strip_.root) {  // exactly the wall's columns
       across.front() = strip_.root->right;
       across.back() = strip_.root->left;
     }
     return across;
   }
-  /// From the line outwards; behind a base from the rows there on.
+  /// The points of one side, from the line outwards; behind a base from its rows outwards.
   std::vector<Point> side(std::size_t k, bool left) const {
     const Point on_line = k == last() ? line_.path.back() : path_.at(reached_[k]);
     Point from = on_line;
@@ -259,13 +261,13 @@ class Strip {
       points.push_back(from + height * direction(k, left));
     return points;
   }
-  /// The rows behind a base open as the layers beside them do.
+  /// The rows behind a base thicken at the rate of the layers beside them.
   double half_core(std::size_t k) const {
     const double open = 0.5 * strip_.core * first_height(k),
                  widest = half_base_ + core_spreading * reached_[k];
     return std::max(half_base_, std::min(open, widest));
   }
-  /// Between the feet, without these: round the layers on the base.
+  /// The points between the feet, without these: around the layers on the base.
   std::vector<Point> core_at_base() const {
     if (strip_.core == 0) return {};
     std::vector<Point> rows;
@@ -276,7 +278,7 @@ class Strip {
     for (int row = base_layers_ - 1; row > 0; --row) rows.push_back(base_->corner(true, row));
     return rows;
   }
-  /// The layers on the base, fewer where their cells would not be positive.
+  /// Adds the layers on the base, fewer if their cells would not be positive.
   void lay_base() {
     for (; base_layers_ > 0; --base_layers_) {
       strip_.columns[0] = column(0);
@@ -298,14 +300,15 @@ class Strip {
     }
     return is_positive(strip_.base_lines.back(), rows(0, base_layers_));
   }
-  /// The same behind the base: as high as the layers beside them there, growing to the middle.
+  /// The points of the rows behind the base: at the sides as high as the adjacent layers, growing towards the
+  /// middle.
   std::vector<Point> core_rows(std::size_t k, Point right, Point left) const {
     if (strip_.core == 0) return {};
     LayerSpec half = line_.layers;
     half.count = strip_.core / 2;
     const double width = length(left - right);
     const std::vector<double> heights = column_heights(half, first_height(k), 0.5 * width).reached;
-    const auto at = [&](double share, bool from_left) {  // of the width
+    const auto at = [&](double share, bool from_left) {  // fraction of the width
       return from_left ? left + share * (right - left) : right + share * (left - right);
     };
     std::vector<Point> rows;
@@ -314,7 +317,7 @@ class Strip {
     return rows;
   }
 
-  /// Between the last row and the front.
+  /// Distance between the last row and the front.
   double gap(std::size_t k, bool left) const {
     const std::vector<Point>& across = strip_.columns[k];
     const double last_row =
@@ -331,7 +334,7 @@ class Strip {
     strip_.front.push_back(p);
     strip_.spacing.push_back(spacing);
   }
-  /// Onwards along the left, back along the right.
+  /// Adds one side of the front: downstream on the left, back on the right.
   void add_side(bool left) {
     const std::size_t first = strip_.root ? 1 : 0;
     const auto asked = [&](std::size_t k) { return leaf_over_column * width_at(k); };
@@ -344,7 +347,7 @@ class Strip {
   void add_end() { add_cap(last(), along(last()), true, 0); }
   void add_beginning() { add_cap(0, -1.0 * along(0), false, 2); }
 
-  /// The two corners beyond a free end.
+  /// Adds the two corners beyond a free end.
   void add_cap(std::size_t k, Point out, bool left_first, std::size_t corner) {
     const double row =
         length(strip_.columns[k].back() - strip_.columns[k].front()) / (2 * layers() + strip_.core);
@@ -378,14 +381,14 @@ class Strip {
   double thickness_, half_base_ = 0;
   std::optional<Base> base_;
   int base_layers_ = 0;
-  std::vector<double> reached_;  ///< arc length to each column
+  std::vector<double> reached_;  ///< arc length at each column
   LayerStrip strip_;
 };
 
 }  // namespace
 
 StripSize least_size(const PlacedLine& line) {
-  const double columns = std::ceil(Path(line.path).length() / line.spacing);  // none is wider
+  const double columns = std::ceil(Path(line.path).length() / line.spacing);  // columns are at most this wide
   return {columns, columns * 2 * line.layers.count};
 }
 

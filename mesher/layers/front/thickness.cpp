@@ -17,17 +17,19 @@ namespace {
 
 constexpr double share_of_end = 0.9;  // of the straight part of the boundary on which a run ends
 constexpr double shrink = 0.85, steepest = 0.35;
-constexpr double clearance = 0.75;     // of a column's length, kept free beyond its end
-constexpr double share_of_gap = 0.36;  // two walls' columns with their clearance then just miss each other
-constexpr double own_reach = 4;        // thicknesses of wall on which a column's own wall is no obstacle
+constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
+constexpr double share_of_gap =
+    0.36;  // with it the columns of two facing walls, with their clearance, just do not meet
+constexpr double own_reach =
+    4;  // length of wall, in thicknesses, within which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {
   Point from, to;
 };
 
-/// The stations, and the segments of other boundaries, from which a station's column needs to keep no
-/// distance: those near it along the outline.
+/// Stations, and segments of other boundaries, near a station along the boundary, from which its column needs
+/// no distance.
 class Vicinity {
  public:
   explicit Vicinity(const WallLine& line)
@@ -47,7 +49,7 @@ class Vicinity {
     if (line_.next(last) == WallLine::none) beyond_end(last, reach - on, true);
     if (line_.previous(first) == WallLine::none) beyond_end(first, reach - back, false);
   }
-  /// Whether the wall between the station and the next one is near.
+  /// Whether the wall between the station and the next one is in the vicinity.
   bool has_station(std::int32_t i) const { return station_[i] == stamp_; }
   bool has_segment(std::int32_t s) const { return segment_[s] == stamp_; }
 
@@ -70,14 +72,14 @@ class Vicinity {
   std::int64_t stamp_ = 0;
 };
 
-/// The segments of fronts, by the stations that they begin at. Most stay from one pass to the next: the tree
-/// is that of some passes ago, with those that have moved since in a small one beside it.
+/// Search tree of the segments of fronts, by their first stations. As most segments stay from one pass to the
+/// next, the tree is that of an earlier pass, and segments that have moved since are in a small second tree.
 class FrontTree {
  public:
-  /// `segment(place)` is the present one; `moved` are the places where it is another one than before.
+  /// `segment(place)`: the present segment; `moved`: places whose segment has changed.
   template <class SegmentAt>
   void update(const std::vector<std::int32_t>& moved, std::int32_t size, const SegmentAt& segment) {
-    constexpr std::int32_t few = 8;  // one of so many
+    constexpr std::int32_t few = 8;  // rebuild if more than one in this many moved
     has_moved_.resize(size, 0);
     for (const std::int32_t place : moved) {
       if (!std::exchange(has_moved_[place], 1)) recent_places_.push_back(place);
@@ -140,7 +142,8 @@ class Fitting {
   }
 
  private:
-  /// A run's last column lies on the boundary on which the run ends: within its first straight part.
+  /// The available length of a run's last column: the first straight part of the boundary on which the run
+  /// ends.
   double room_at(std::int32_t i) const {
     const Station& end = line_[i];
     if (end.shape != Station::Shape::end || end.at_wake) return std::numeric_limits<double>::infinity();
@@ -149,7 +152,7 @@ class Fitting {
     return share_of_end * straight * dot(end.direction, left_of(end.after));
   }
 
-  /// Notes which stations' fronts have moved: only these need to be looked at again.
+  /// Notes the stations whose fronts have moved; only these have to be checked again.
   void renew_columns() {
     columns_ = columns_on_wall_.fit(h_);
     std::vector<Point> before = std::exchange(front_, {});
@@ -166,7 +169,7 @@ class Fitting {
   Point front(std::int32_t i) const { return front_[i]; }
   bool place_exists(std::int32_t i) const { return line_.goes_on(i); }
 
-  /// Walls as the stations see them, then the segments without layers.
+  /// Collects the wall segments at the stations, then the segments without layers.
   void gather_walls() {
     const Geometry& g = line_.geometry();
     std::vector<char> layered(g.points().size());
@@ -194,13 +197,13 @@ class Fitting {
     for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
     return BoxTree(boxes);
   }
-  /// Whether a wall, by its number in walls_, is one from which the station in vicinity_ keeps no distance.
+  /// Whether a wall, given by its number in walls_, is in the vicinity and so needs no distance.
   bool is_near(std::int32_t wall) const {
     return wall < line_.size() ? vicinity_.has_station(wall) || !place_exists(wall)
                                : vicinity_.has_segment(other_segments_[wall - line_.size()]);
   }
 
-  /// From how far the next wall is along each column.
+  /// Initial guess from the distance to the next wall along each column.
   void guess() {
     limit_slopes();
     columns_ = columns_on_wall_.fit(h_);
@@ -213,7 +216,7 @@ class Fitting {
       wall_tree_.for_each_meeting(box_of(wall(i), end), [&](std::int32_t w) {
         const Segment& s = walls_[w];
         if (is_near(w) || !segments_meet(wall(i), end, s.from, s.to)) return;
-        // the mean from both ends, so that it is the same for the wall walked the other way
+        // mean from both ends, so that the result does not depend on the direction of the wall
         const Point across = s.to - s.from;
         const double share = (cross(s.from - wall(i), across) + cross(s.to - wall(i), across)) /
                              (2 * cross(end - wall(i), across));
@@ -226,7 +229,7 @@ class Fitting {
 
   /// h(s) <= h(s') + 0.35 |s - s'|.
   void limit_slopes() {
-    for (int round = 0; round < 2; ++round) {  // a closed run needs a second one
+    for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
       for (std::int32_t i = 0; i < line_.size(); ++i) {
         if (const std::int32_t j = line_.next(i); j != WallLine::none)
           h_[j] = std::min(h_[j], h_[i] + steepest * line_.width(i));
@@ -280,7 +283,7 @@ class Fitting {
     });
   }
 
-  /// Onto all stations within a thickness of wall.
+  /// Extends marks to all stations within a thickness along the wall.
   void spread_marks() {
     const std::vector<char> direct = meets_;
     for (std::int32_t i = 0; i < line_.size(); ++i) {
@@ -295,9 +298,9 @@ class Fitting {
     return std::ranges::any_of(meets_, [](char m) { return m != 0; });
   }
 
-  /// The strip between two columns has four corners that turn left, and no segment of a front meets another
-  /// one or a boundary: then no two columns meet at all, as a map of a ring that is one-to-one nearby and on
-  /// its rims is one-to-one.
+  /// Marks places where the proof fails. If each strip between two columns has four left-turning corners, and
+  /// no segment of a front meets another one or a boundary, no two columns meet: a map of a ring that is
+  /// locally one-to-one, and one-to-one on its rims, is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       if (!place_exists(i) || !front_moved(i) || is_positive(i)) continue;
@@ -307,8 +310,8 @@ class Fitting {
     mark_bodies_within();
   }
 
-  /// A loop that no column and no front meets may still lie between two columns, all of it: then a point of
-  /// it does.
+  /// Marks bodies between columns. A loop that touches no column and no front may still lie entirely between
+  /// two columns; this is the case if one of its points does.
   void mark_bodies_within() {
     const Geometry& g = line_.geometry();
     for (std::int32_t i = 0; i < line_.size(); ++i) {
@@ -323,7 +326,7 @@ class Fitting {
     }
   }
 
-  /// Whether a point lies inside the strip between a station's column and the next one.
+  /// Whether a point lies strictly between a station's column and the next one.
   bool is_between_columns(std::int32_t i, Point p) const {
     const std::int32_t j = line_.next(i);
     const Point a = wall(i), b = wall(j), c = front(j), d = front(i);
@@ -361,14 +364,14 @@ class Fitting {
   std::vector<Segment> walls_;  ///< one for each station, then those without layers
   std::vector<std::int32_t> other_segments_;
   BoxTree wall_tree_;
-  BoxTree loop_tree_;  ///< of each loop's first point
+  BoxTree loop_tree_;  ///< of the first point of each loop
   ColumnsOnWall columns_on_wall_;
   FrontTree fronts_;
   WallColumns columns_;
   std::vector<Point> front_;
 };
 
-/// Whether the front at a station lies on a segment of a boundary without layers: the run ends there.
+/// Whether the front at a station lies on a segment of a boundary without layers, on which the run ends.
 bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
   if (line_[i].shape != Station::Shape::end) return false;
   if (line_[i].at_wake) return true;
@@ -381,8 +384,8 @@ bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
   return found;
 }
 
-/// Fronts with each other, and with boundaries that have no layers; where a front ends on one they touch.
-/// Those that have not moved did not meet before.
+/// Tests fronts against each other and against boundaries without layers; a front that ends on one may touch
+/// it. Pairs that have not moved did not meet before.
 void Fitting::mark_crossing_fronts() {
   for (std::int32_t i = 0; i < line_.size(); ++i) {
     if (!place_exists(i) || !front_moved(i)) continue;
@@ -399,7 +402,7 @@ void Fitting::mark_crossing_fronts() {
   }
 }
 
-/// Those after two stations; neighbours outside their common point.
+/// Whether the front segments after two stations meet; neighbours outside their common point.
 bool Fitting::fronts_meet(std::int32_t i, std::int32_t k) const {
   const std::int32_t j = line_.next(i), l = line_.next(k);
   if (l == i) return on_segment(front(k), front(j), front(i)) || on_segment(front(j), front(k), front(i));

@@ -13,9 +13,9 @@ struct FittingColumns {
   std::vector<Point> front;
 };
 
-/// The thickest layers, none thicker than asked, whose columns keep away from other walls, from their fronts
-/// and from each other. Thickness changes by at most 0.35 of the distance along the wall. Throws InputError,
-/// naming the place, where none fit.
+/// The thickest layers, at most as thick as requested, whose columns keep a distance from other walls, from
+/// their fronts and from each other. Thickness changes by at most 0.35 of the distance along the wall. Throws
+/// InputError with coordinates where none fit.
 FittingColumns fit_thickness(const WallLine& line);
 
 }  // namespace quadloop

@@ -9,19 +9,20 @@ namespace quadloop {
 namespace {
 
 constexpr double stations_per_thickness = 8;
-constexpr double even_thicknesses = 8;  // from either end of a segment stations stand evenly
-constexpr double cosine_of_concave = 0.96592582628906831;  // a corner where it turns in by more than 15
+constexpr double even_thicknesses =
+    8;  // number of thicknesses from either end of a segment within which stations are evenly spaced
+constexpr double cosine_of_concave = 0.96592582628906831;  // a corner that turns in by more than 15 degrees
 constexpr int fan_halvings = 4;
 
-/// Half way from one normal of the wall to the next. Where the wall almost turns back their sum vanishes, but
-/// the difference of the wall's own directions tells the way.
+/// The bisector of two normals of the wall. Where the wall almost turns back their sum vanishes, and the
+/// difference of the wall's directions is used.
 Point between(Point a, Point b) {
   if (dot(a, b) > cosine_of_sharp_edge) return unit(a + b);
   const Point back{a.y - b.y, b.x - a.x};
   return unit(cross(a, b) < 0 ? back : -1.0 * back);
 }
 
-/// The directions of a fan from one normal to the other, both among them.
+/// The directions of a fan from one normal to the other, both included.
 std::vector<Point> fan_between(Point first, Point last) {
   std::vector<Point> fan{first, last};
   for (int halving = 0; halving < fan_halvings; ++halving) {
@@ -35,17 +36,17 @@ std::vector<Point> fan_between(Point first, Point last) {
   return fan;
 }
 
-/// A place between two points, computed from the nearer one.
+/// A point between two points, computed from the nearer one.
 Point lerp(Point a, Point b, int part, int parts) {
   const double share = part / static_cast<double>(parts), rest = (parts - part) / static_cast<double>(parts);
   if (2 * part == parts) return 0.5 * (a + b);
   return 2 * part < parts ? a + share * (b - a) : b + rest * (a - b);
 }
 
-/// Distances from the end of a segment to its middle, that among them, where stations stand: an eighth of the
-/// thickness apart near the end, where columns may lean, from there on wider and wider.
+/// Distances of stations from the end of a segment up to its middle (included): an eighth of the thickness
+/// apart near the end, where columns may lean, then increasing.
 std::vector<double> widening_distances(double middle, double thickness, double widest) {
-  constexpr double growth = 0.125;  // of the width, over the distance from where it begins to grow
+  constexpr double growth = 0.125;  // of the width, per distance from where it begins to grow
   const double least = thickness / stations_per_thickness, even = even_thicknesses * thickness;
   std::vector<double> distances;
   for (double reached = 0; reached < middle;) {
@@ -58,8 +59,8 @@ std::vector<double> widening_distances(double middle, double thickness, double w
   return distances;
 }
 
-/// Where stations stand inside a segment whose neighbours ask for cells of a length of `spacing`. A mirror
-/// image, or the same segment walked the other way, has the same ones to the last bit.
+/// Stations inside a segment where cells of length `spacing` are requested. A mirror image, or the reversed
+/// segment, has the same ones to the last bit.
 std::vector<Point> places_between(Point from, Point to, double thickness, double spacing) {
   constexpr double stations_per_cell = 4;
   const double whole = length(to - from);
@@ -112,7 +113,7 @@ void WallLine::add_run(const WallRun& run) {
   link(begin, run.closed);
 }
 
-/// The vertex from which segment k of the run starts.
+/// Adds the station at the vertex where segment k of the run begins.
 void WallLine::add_corner(const WallRun& run, std::size_t k) {
   const std::size_t before_k = k == 0 ? run.segments.size() - 1 : k - 1;
   const std::int32_t before = run.segments[before_k], after = run.segments[k];
@@ -142,12 +143,12 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
   station.direction = between(first, last);
   if (station.kept && turn > 0 && cosine < cosine_of_concave) {
     station.shape = Station::Shape::concave;
-    station.slope = turn / (1 + cosine);  // of the bisector: the tangent of half the turn
+    station.slope = turn / (1 + cosine);  // of the bisector: tangent of half the turn
   }
   stations_.push_back(station);
 }
 
-/// The columns at the edge, half way between the normals of the wall and of the wake.
+/// Adds the two columns at the edge, along the bisectors of the normals of wall and wake.
 void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wake) {
   const BoundaryId after = station.layers;
   station.shape = Station::Shape::fan;
@@ -162,7 +163,7 @@ void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wak
   stations_.push_back(station);
 }
 
-/// Inside segment k of the run.
+/// Adds the stations inside segment k of the run.
 void WallLine::add_between(const WallRun& run, std::size_t k) {
   const Geometry& g = *geometry_;
   const std::int32_t s = run.segments[k];
@@ -179,7 +180,7 @@ void WallLine::add_between(const WallRun& run, std::size_t k) {
   }
 }
 
-/// Where an open run begins or ends: its column lies on the boundary that is met there.
+/// Adds the station where an open run begins or ends; its column lies on the adjacent boundary.
 void WallLine::add_end(const WallRun& run, bool first) {
   const Geometry& g = *geometry_;
   const std::int32_t s = first ? run.segments.front() : run.segments.back();

@@ -10,80 +10,81 @@
 
 namespace quadloop {
 
-/// A place of the wall from which a column of layers may rise. The domain lies to the left.
+/// A station: a point of the wall where a column of layers may begin. The domain lies to the left.
 struct Station {
-  /// What the wall does there.
+  /// The shape of the wall at the station.
   enum class Shape : std::uint8_t {
-    smooth,   ///< goes on, or turns by so little (or away from the domain) that one column will do
+    smooth,   ///< straight, or a turn so small (or away from the domain) that one column suffices
     concave,  ///< a corner that turns into the domain
-    fan,      ///< one of several columns that rise from a sharp corner
-    end       ///< the run ends here, on a boundary without layers
+    fan,      ///< one of several columns at a sharp convex corner
+    end       ///< end of the run, on a boundary without layers
   };
 
   Point wall;
-  Point before, after;       ///< directions of the wall before and after it
-  std::int32_t segment = 0;  ///< of the geometry: that after it, or before it where a run ends
-  BoundaryId layers;         ///< whose layers it carries
+  Point before, after;       ///< unit directions of the wall before and after it
+  std::int32_t segment = 0;  ///< segment of the geometry after it; before it where a run ends
+  BoundaryId layers;         ///< the boundary that specifies its layers
   Shape shape = Shape::smooth;
   bool at_wake = false;     ///< a wake begins there
-  bool opens_wake = false;  ///< and lies between it and the next station
+  bool opens_wake = false;  ///< a wake lies between it and the next station
   bool kept = false;        ///< must be a node, on the wall and on the front
-  double slope = 0;  ///< of a concave corner's or an end's column, over the normal, away from the corner
-  Point direction;   ///< of its column: given in fans and at ends, elsewhere the middle of the two normals
+  double slope = 0;  ///< at a concave corner or an end: tangent of the column's angle to the normal, away
+                     ///< from the corner
+  Point direction;   ///< of its column: given in fans and at ends, elsewhere the bisector of the two normals
 
   bool fixed() const { return shape != Shape::smooth; }
 };
 
-constexpr double cosine_of_sharp_edge = -0.5;  ///< where the wall turns by more than 120 degrees
+constexpr double cosine_of_sharp_edge = -0.5;  ///< the wall turns by more than 120 degrees
 
-/// An edge that a wake begins at.
+/// An edge at which a wake begins.
 struct WakeStart {
-  std::int32_t first = 0, last = 0;  ///< vertices: one and the same at a sharp edge
-  Point direction;                   ///< of the wake, of length 1
+  std::int32_t first = 0, last = 0;  ///< vertices; equal at a sharp edge
+  Point direction;                   ///< unit direction of the wake
 };
 
-/// The walls that carry layers, as stations: on each segment an eighth of the layers' thickness apart within
-/// eight thicknesses of its ends, and farther from them wider, by an eighth of the distance and up to a
-/// quarter of the spacing wanted there. So a segment has as many more stations as the logarithm of how thin
-/// its layers are, which on it are straight. Flat: the stations of all runs one after another, a place
-/// between two stations has the number of the first one.
+/// The walls with layers, as a flat list of the stations of all runs. Within eight thicknesses of a segment's
+/// ends stations are an eighth of the layers' thickness apart. Farther away the distance grows by an eighth
+/// of the distance, up to a quarter of the requested spacing; layers are straight there, and the number of
+/// stations grows with the logarithm of the thickness only. A place between two stations has the number of
+/// the first one.
 class WallLine {
  public:
   static constexpr std::int32_t none = -1;
 
-  /// Where a wake begins there is no fan but two columns, one for each side of the wake. `geometry` must
-  /// outlive it.
+  /// Where a wake begins there are two columns, one for each side of the wake, instead of a fan. `geometry`
+  /// must outlive it.
   WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
            const std::vector<WakeStart>& wakes = {});
 
-  /// Other layers at each station, as many as there are.
+  /// Replaces the layers of each station; one entry per station.
   void follow(std::vector<LayerSpec> specs);
 
   std::int32_t size() const { return size32(stations_); }
   const Station& operator[](std::int32_t i) const { return stations_[i]; }
   std::int32_t next(std::int32_t i) const { return next_[i]; }          ///< or `none`
   std::int32_t previous(std::int32_t i) const { return previous_[i]; }  ///< or `none`
-  /// How many stations on from i the station j is, on the same line of wall; `none` where it is not.
+  /// The number of stations from i to j on the same run; `none` if j is on another run.
   std::int32_t steps(std::int32_t i, std::int32_t j) const;
-  /// Whether the layers go on to a next station.
+  /// Whether the layers continue to the next station.
   bool goes_on(std::int32_t i) const { return next_[i] != none && !stations_[i].opens_wake; }
-  /// The length of the wall to the next station; 0 within a fan, and where there is none.
+  /// The length of the wall to the next station; 0 within a fan and where there is no next station.
   double width(std::int32_t i) const { return width_[i]; }
-  /// The thickness asked for there.
+  /// The requested thickness.
   double asked(std::int32_t i) const { return asked_[i]; }
-  /// The layers asked for there: those of its boundary, or what follow() has made of them.
+  /// The requested layers: those of its boundary, or those set by follow().
   const LayerSpec& spec(std::int32_t i) const {
     return followed_.empty() ? *geometry_->boundary(stations_[i].layers).layers : followed_[i];
   }
   const Geometry& geometry() const { return *geometry_; }
-  /// Calls `visit(vertex, distance)` for the vertices of the boundary on which a run ends at station i, as
-  /// far as it is straight and that one boundary, with their distances from the wall.
+  /// Calls `visit(vertex, distance)` for the vertices of the boundary on which a run ends at station i, along
+  /// its first straight part, with their distances from the wall.
   template <class Visit>
   void walk_end(std::int32_t i, const Visit& visit) const;
 
-  /// Calls `visit(station, distance)` for the stations that follow i, or that lead to it, as far as `reach`
-  /// along the wall and once each; i itself is not among them. Distances are summed from i on, so that a
-  /// mirror image has the same ones.
+  /// Calls `visit(station, distance)` once for each station after i (walk_on) or before i (walk_back) within
+  /// `reach` along the wall; i itself is excluded. Distances are summed from i, so that a mirror image has
+  /// the same ones.
   template <class Visit>
   void walk_on(std::int32_t i, double reach, const Visit& visit) const {
     double distance = 0;
@@ -141,10 +142,10 @@ void WallLine::walk_end(std::int32_t i, const Visit& visit) const {
   }
 }
 
-/// Left of a direction: into the domain.
+/// The direction rotated by 90 degrees to the left: into the domain.
 constexpr Point left_of(Point direction) { return {-direction.y, direction.x}; }
 
-/// In the same direction, of length 1.
+/// The unit vector in the same direction.
 inline Point unit(Point p) { return (1 / length(p)) * p; }
 
 }  // namespace quadloop

@@ -8,8 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// Whether a column can lie on the segment `other` where it meets the segment `own`; both are given as they
-/// are walked, one after the other.
+/// Whether a column can lie on the adjacent segment; directions of consecutive segments in loop order.
 bool can_hold_column(Point before, Point after) {
   constexpr double cosine_of_45 = 0.70710678118654757;
   return cross(before, after) > 0 && std::abs(dot(before, after)) <= cosine_of_45;
@@ -40,7 +39,8 @@ class Runs {
   bool carries(std::int32_t s) const { return layers_[s].valid(); }
   Point direction(std::int32_t s) const { return direction_of(g_.point(s), g_.point(g_.next(s))); }
 
-  /// Onto the segments that follow and those that lead there, as far as no column can lie on them.
+  /// Extends the layers of segment s to the following and the preceding segments, as long as no column can
+  /// lie on them.
   void extend(std::int32_t s) {
     for (std::int32_t from = s, to = g_.next(s);
          !carries(to) && !bare_[to] && !can_hold_column(direction(from), direction(to));
@@ -87,7 +87,7 @@ class Runs {
   }
 
   const Geometry& g_;
-  std::vector<BoundaryId> layers_;  ///< of each segment: whose layers it carries, if any
+  std::vector<BoundaryId> layers_;  ///< for each segment the boundary that specifies its layers, if any
   std::vector<char> bare_;
 };
 
