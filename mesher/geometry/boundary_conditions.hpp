@@ -7,31 +7,32 @@
 
 namespace quadloop {
 
-/// A word that Boundary::condition may be: how case files and our own files name what happens at a boundary.
+/// A boundary condition by name, as used in case files and in the program's own files.
 struct BoundaryCondition {
   const char* word;
-  const char* cgns_type;  ///< the name of its BCType_t in CGNS (SIDS)
+  const char* cgns_type;  ///< the BCType_t in CGNS (SIDS)
 };
 
-/// All of them, in the order in which messages list them. What a solver can use of them is its own matter
-/// (`flow/euler/model/flow_model`).
+/// All names, in the order in which messages list them. The conditions that a solver supports are defined by
+/// the solver (`flow/euler/model/flow_model`).
 inline constexpr std::array<BoundaryCondition, 9> boundary_conditions{{
     {"wall", "BCWall"},
-    {"viscous_wall", "BCWallViscous"},  // these two: a wall of which more is said
+    {"viscous_wall", "BCWallViscous"},  // more specific kinds of wall, this and the next
     {"inviscid_wall", "BCWallInviscid"},
     {"farfield", "BCFarfield"},
     {"inflow", "BCInflow"},
     {"outflow", "BCOutflow"},
     {"symmetry", "BCSymmetryPlane"},
     {"interface", "UserDefined"},  // between two domains
-    {"none", "UserDefined"},       // not said
+    {"none", "UserDefined"},       // not specified
 }};
 
 inline bool is_wall(std::string_view condition) {
   return condition == "wall" || condition == "viscous_wall" || condition == "inviscid_wall";
 }
 
-/// Those that a case's key `bc` takes; `wall` says more of a wall: wall_words, each with "_wall" behind it.
+/// The values of the key `bc` in case files. The kind of wall is given by the key `wall`: wall_words, with
+/// "_wall" appended.
 inline std::vector<std::string> condition_words() {
   std::vector<std::string> words;
   for (const BoundaryCondition& condition : boundary_conditions) {

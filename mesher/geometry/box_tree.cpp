@@ -21,7 +21,7 @@ void BoxTree::build(std::int32_t begin, std::int32_t end) {
   nodes_.push_back({box, begin, end, 0});
   if (end - begin > leaf_items) {
     const std::int32_t middle = begin + (end - begin) / 2;
-    const auto halve = [&](const auto& place) {  // of equals by number, so that the halves are one and only
+    const auto halve = [&](const auto& place) {  // equal ones by number, so that the halves are unique
       std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                        [&](const Item& a, const Item& b) {
                          const double at_a = place(a.box), at_b = place(b.box);

@@ -12,9 +12,9 @@
 
 namespace quadloop {
 
-/// Numbered boxes (those of edges, or of cells) that tell which of them meet a box, and which of what they
-/// hold is nearest to a point. Every answer, and the order in which they come, depends on the boxes alone.
-/// O(log n + k) for k boxes found. Coordinates are finite.
+/// A search tree of numbered boxes (of edges or cells): finds the boxes that meet a box, and the content
+/// nearest to a point. Results and their order depend on the boxes only. O(log n + k) for k boxes found.
+/// Coordinates must be finite.
 class BoxTree {
  public:
   static constexpr std::int32_t none = -1;
@@ -23,7 +23,7 @@ class BoxTree {
   /// Boxes have the numbers 0, 1, ... O(n log n).
   explicit BoxTree(std::span<const Box> boxes)
       : BoxTree(size32(boxes), [&](std::int32_t number) { return boxes[number]; }) {}
-  /// `box_of(number)` is asked once for each.
+  /// `box_of(number)` is called once for each.
   template <class BoxOf>
   BoxTree(std::int32_t count, const BoxOf& box_of) {
     items_.reserve(count);
@@ -33,20 +33,20 @@ class BoxTree {
 
   bool empty() const { return items_.empty(); }
 
-  /// Asks `found(number)` of the boxes that meet this closed one, until it says true; whether it did.
+  /// Calls `found(number)` for boxes that meet this closed box until it returns true; returns whether it did.
   template <class Found>
   bool any_meeting(const Box& box, const Found& found) const;
 
-  /// Calls `visit(number)` for every box that meets this closed one.
+  /// Calls `visit(number)` for every box that meets this closed box.
   template <class Visit>
   void for_each_meeting(const Box& box, const Visit& visit) const;
 
-  /// The number for which `squared_distance(number)`, that of p to what the box holds, is least, the lowest
-  /// of equals; `none` in an empty tree.
+  /// The number with the smallest `squared_distance(number)` from p to the content of the box, the lowest of
+  /// equal ones; `none` in an empty tree.
   template <class SquaredDistance>
   std::int32_t nearest(Point p, const SquaredDistance& squared_distance) const;
 
-  /// As above, of the boxes themselves: 0 inside.
+  /// Same for the boxes themselves; the distance inside a box is 0.
   std::int32_t nearest_box(Point p) const;
 
  private:
@@ -54,19 +54,19 @@ class BoxTree {
     Box box;
     std::int32_t number = none;
   };
-  /// In preorder: the first child of an inner node follows it, the second one follows the first one's last
-  /// descendant.
+  /// Nodes in preorder: the first child of an inner node follows it, the second follows the last descendant
+  /// of the first.
   struct Node {
     Box box;
     std::int32_t begin = 0, end = 0;  ///< its items
-    std::int32_t after = 0;           ///< the node behind its descendants
+    std::int32_t after = 0;           ///< the node after its descendants
     bool leaf(std::int32_t self) const { return after == self + 1; }
   };
   struct Candidate {
     double squared_distance = std::numeric_limits<double>::infinity();
     std::int32_t number = none;
   };
-  /// A box's distance is rounded as the distances are: boxes this much farther are still looked into.
+  /// Allows for rounding of a box's distance: boxes farther by this factor are still searched.
   static constexpr double slack = 1 + 1e-12;
 
   static double squared_distance_to(const Box& box, Point p);

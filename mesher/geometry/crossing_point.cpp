@@ -18,7 +18,8 @@ double nearest_quotient(BigInteger numerator, BigInteger denominator, int expone
   if (sign == 0) return 0;
   numerator = abs(numerator);
   denominator = abs(denominator);
-  // The quotient then has 63 or 64 binary digits, more than a double has; the last one tells of a remainder.
+  // The quotient then has 63 or 64 binary digits, more than a double; its last digit is set if there is a
+  // remainder.
   const int shift = 63 - static_cast<int>(msb(numerator)) + static_cast<int>(msb(denominator));
   if (shift > 0) numerator <<= static_cast<unsigned>(shift);
   if (shift < 0) denominator <<= static_cast<unsigned>(-shift);

@@ -5,7 +5,7 @@
 namespace quadloop {
 
 std::vector<Facet> facets_of(const Geometry& geometry) {
-  constexpr double visible_degrees = 2 + 1e-9;  // a circle of 180 points turns by 2 but for rounding
+  constexpr double visible_degrees = 2 + 1e-9;  // a circle of 180 points turns by 2 degrees, up to rounding
   const auto length_of = [&](std::int32_t s) {
     return length(geometry.point(geometry.next(s)) - geometry.point(s));
   };

@@ -8,25 +8,25 @@
 
 namespace quadloop {
 
-/// A vertex that stands for a curve: the outline turns there and at a neighbour by more than 2 degrees, and
-/// it is no corner. A flow in cells much smaller than the segments sees a polygon.
+/// A vertex of a polygonal approximation of a curve: the geometry turns there and at a neighbour by more than
+/// 2 degrees, and the vertex is no corner. In cells much smaller than the segments the flow sees a polygon.
 struct Facet {
   std::int32_t vertex = 0;
   double turn_degrees = 0;
   double segment = 0;  ///< length of the shorter segment that meets there
 };
 
-/// In the order of vertices.
+/// The facets in the order of vertices.
 std::vector<Facet> facets_of(const Geometry& geometry);
 
-/// Where the facets of an outline are, and down to which size cells there do not resolve them.
+/// The places of facets, and the cell size below which cells resolve the polygon.
 class FacetZones {
  public:
   explicit FacetZones(const Geometry& geometry);
 
   bool empty() const { return least_.empty(); }
-  /// Half the length of the shorter segment at a facet that is no farther than that from the box along each
-  /// axis, the largest of several; 0 where there is none.
+  /// Half the length of the shorter segment at a facet that is within this distance of the box along each
+  /// axis, the largest if there are several; 0 if there is none.
   double least_size(const Box& box) const;
 
  private:

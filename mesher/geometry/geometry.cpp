@@ -12,13 +12,13 @@ namespace quadloop {
 
 namespace {
 
-/// FNV-1a over the bytes of what is added.
+/// FNV-1a hash of the added bytes.
 class Digest {
  public:
   void add(std::uint64_t word) {
     int byte = 0;
     for (; word != 0; ++byte, word >>= 8) hash_ = (hash_ ^ (word & 0xff)) * prime;
-    hash_ *= powers_of_prime[8 - byte];  // for the bytes that are 0
+    hash_ *= powers_of_prime[8 - byte];  // for the zero bytes
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
   void add(const std::string& text) {
@@ -43,7 +43,8 @@ void digest_layers(const LayerSpec& layers, Digest& digest) {
   digest.add(layers.growth_to);
   digest.add(std::uint64_t(layers.count));
   digest.add(std::uint64_t(layers.equal));
-  if (layers.y_plus > 0) digest.add(layers.y_plus);  // without it trees from before stay good
+  if (layers.y_plus > 0)
+    digest.add(layers.y_plus);  // added only if set, so that hashes of older trees remain valid
 }
 
 const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
@@ -55,7 +56,7 @@ double turn_between(Point in, Point out) {
   return std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
 }
 
-/// Compares turns with an angle: nearly all are told by products already, without an arc tangent.
+/// Compares turning angles with a limit; nearly all are decided by products, without an arc tangent.
 class TurnLimit {
  public:
   explicit TurnLimit(double degrees)
@@ -82,7 +83,7 @@ std::vector<TurnLimit> corner_limits(const std::vector<Boundary>& boundaries) {
   return limits;
 }
 
-/// The first segment of a loop before which the boundary changes, or -1 where it never does.
+/// The first segment of a loop at which the boundary changes, or -1 if it never does.
 std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
   for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
     if (geometry.boundary_of(v) != geometry.boundary_of(geometry.previous(v))) return v;
@@ -90,7 +91,7 @@ std::int32_t first_change(const Geometry& geometry, std::int32_t loop) {
   return -1;
 }
 
-/// The stretch of one boundary that begins with segment `first` and ends where another begins.
+/// The part of one boundary that begins with segment `first` and ends where another begins.
 Chain open_chain(const Geometry& geometry, std::int32_t first) {
   Chain chain{name_of(geometry, first), true, {geometry.point(first)}, {}};
   std::int32_t v = first;
@@ -136,7 +137,7 @@ void Geometry::keep_touching_points() {
   for (std::int32_t v = 0; v < size(); ++v) {
     const std::int32_t first = table.find(point(v));
     if (first == v) continue;
-    for (const std::int32_t touching : {first, v}) {  // loops touch there, in one node
+    for (const std::int32_t touching : {first, v}) {  // two loops touch there, in one node
       kept_[touching] = 1;
       flags_[touching] &= static_cast<std::uint8_t>(~is_straight);
     }
@@ -208,7 +209,7 @@ std::uint64_t Geometry::digest() const {
     digest.add(b.spacing);
     digest.add(b.corner_degrees);
     if (b.corner_spacing > 0)
-      digest.add(b.corner_spacing);  // without it trees from before there was such a thing stay good
+      digest.add(b.corner_spacing);  // added only if set, so that hashes of older trees remain valid
     if (b.layers) digest_layers(*b.layers, digest);
   }
   for (const Point p : points_) {

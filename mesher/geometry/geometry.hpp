@@ -13,44 +13,43 @@
 
 namespace quadloop {
 
-/// One polyline as a file gives it: a closed loop (the first point is not repeated) or an open chain. The
+/// A polyline as read from a file: a closed loop (the first point is not repeated) or an open chain. The
 /// domain lies to its left.
 struct Chain {
   std::string name;
   bool open = false;
   std::vector<Point> points;
   std::string source;    ///< "file:line" of its header, for messages
-  bool directed = true;  ///< whether its file means the direction: drawings, maps and airfoils have none
+  bool directed = true;  ///< whether the file defines the direction; drawings, maps and airfoil files do not
 };
 
-/// What a boundary asks of the mesh, and what a solver is told of it.
+/// A boundary: its mesh settings, and its boundary condition for solvers.
 struct Boundary {
   std::string name;
-  double spacing = 0;              ///< length wanted along it; 0: the geometry's own point spacing
-  double corner_degrees = 30;      ///< a point that turns by more is kept as a node; 180 keeps none
-  std::string condition = "none";  ///< a word of boundary_conditions
-  double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
+  double spacing = 0;          ///< requested length of edges along it; 0: the geometry's own point spacing
+  double corner_degrees = 30;  ///< a point with a larger turning angle is kept as a node; 180 keeps none
+  std::string condition = "none";  ///< one of boundary_conditions
+  double corner_spacing = 0;       ///< requested cell size at its sharp corners; 0: none
   std::optional<LayerSpec> layers = {};
 };
 
-/// What single places of an outline ask for, in the place of what their boundary does.
+/// Requirements of single places, which override those of their boundary.
 struct LocalDemands {
-  std::vector<double> spacing;       ///< of each segment; above 0
-  std::vector<char> kept;            ///< of each vertex: whether it must become a mesh node
-  std::vector<double> bend_degrees;  ///< of each vertex: by how much the outline is taken to turn there, for
-                                     ///< a rule of curvature
+  std::vector<double> spacing;       ///< of each segment; positive
+  std::vector<char> kept;            ///< flag of each vertex: must become a mesh node
+  std::vector<double> bend_degrees;  ///< of each vertex: turning angle for the curvature rule
 };
 
-/// The outline of the domain: simple closed loops that do not meet, each walked with the domain to its left,
-/// made of named boundaries. Replicated on all ranks. Vertex v is where segment v starts; it ends at next(v).
+/// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
+/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v).
 class Geometry {
  public:
-  /// `loop_starts` has one entry more than there are loops; loop l owns vertices loop_starts[l] ..
-  /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of the segment from vertex v to the next one.
+  /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
+  /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of segment v.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary);
 
-  /// The same outline, in which single places ask for something else.
+  /// The same geometry with other requirements at single places.
   Geometry with(LocalDemands demands) const;
 
   std::int32_t size() const { return size32(points_); }  ///< number of vertices, and of segments
@@ -75,38 +74,38 @@ class Geometry {
   std::span<const Point> points() const { return points_; }
   const Box& box() const { return box_; }
 
-  /// Whether the vertex must become a mesh node: it turns by more than its boundary's corner, or two
-  /// boundaries meet there.
+  /// Whether the vertex must become a mesh node: its turning angle exceeds its boundary's limit, or two
+  /// boundaries or loops meet there.
   bool kept(std::int32_t v) const { return kept_[v] != 0; }
-  /// Whether the outline runs straight on through the vertex (to straight_degrees) within one boundary: such
-  /// a point is no feature, so a mesh does not change when segments are split.
+  /// Whether the geometry is straight at the vertex (to straight_degrees) within one boundary. Such a point
+  /// is no feature, so splitting segments does not change the mesh.
   bool straight(std::int32_t v) const { return (flags_[v] & is_straight) != 0; }
   static constexpr double straight_degrees = 1e-6;
-  /// By how much the outline turns at the vertex, in degrees, 0 to 180.
+  /// Turning angle of the geometry at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
-  /// By how much a smooth outline turns at the vertex, in degrees; 0 at kept ones.
+  /// Turning angle for the curvature rule, in degrees; 0 at kept vertices.
   double bend_degrees(std::int32_t v) const {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : turn_degrees(v);
   }
-  /// The length that the segment asks of the leaves which hold it: its boundary's spacing, else its own
-  /// length. Where the outline between two kept corners is shorter than that spacing, its whole length
-  /// counts, as one cell that holds both corners is thin.
+  /// The size that the segment requests of the leaves which contain it: its boundary's spacing, else its own
+  /// length. If the geometry between two feature points is shorter than the spacing, its whole length counts,
+  /// as one cell with both points would be thin.
   double spacing_of(std::int32_t segment) const;
-  /// A stretch of the outline between two kept vertices that follow each other.
+  /// The part of the geometry between two consecutive kept vertices.
   struct Stretch {
     std::int32_t end = 0;  ///< the vertex at its end
-    double length = 0;     ///< along the outline
+    double length = 0;     ///< arc length
   };
-  /// The stretch that begins with kept vertex v, if it is shorter than `limit`; none where it is not, and
-  /// where the loop has no other kept vertex.
+  /// The stretch that begins at kept vertex v, if shorter than `limit`; none if it is longer or if the loop
+  /// has no other kept vertex.
   std::optional<Stretch> stretch_shorter_than(double limit, std::int32_t v) const;
 
-  /// The length that a sharp corner asks of the leaves which touch it: the smaller one of the boundaries that
-  /// meet there and by whose `corner_degrees` the outline turns too far to be smooth. 0 at all other
-  /// vertices, also where two boundaries merely meet.
+  /// The size that a sharp corner requests of the leaves which touch it: the smaller value of the adjacent
+  /// boundaries whose `corner_degrees` the turning angle exceeds. 0 at all other vertices, also where
+  /// boundaries meet without a corner.
   double corner_spacing_of(std::int32_t v) const;
 
-  /// A number that changes with any coordinate, name or setting of the geometry.
+  /// A hash of all coordinates, names and settings of the geometry.
   std::uint64_t digest() const;
 
  private:
@@ -118,17 +117,17 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<double> spacing_;  ///< of each segment, where some ask for another one than their boundary
-  std::vector<double> bend_;     ///< of each vertex, where LocalDemands say so
+  std::vector<double> spacing_;  ///< of each segment, if some differ from their boundary's
+  std::vector<double> bend_;     ///< of each vertex, if set by LocalDemands
   std::vector<char> kept_;
-  static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;  // of its loop; of flags_
+  static constexpr std::uint8_t is_first = 1, is_last = 2,
+                                is_straight = 4;  // flags_: first and last vertex of a loop, straight
   std::vector<std::uint8_t> flags_;
   Box box_;
 };
 
-/// The outline as polylines, loop after loop: a closed chain where one boundary goes all the way round, else
-/// an open one for each stretch of a boundary, with the shared end points in both. The domain lies to their
-/// left.
+/// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else an
+/// open chain for each part of a boundary, with shared end points in both. The domain lies to their left.
 std::vector<Chain> chains_of(const Geometry& geometry);
 
 }  // namespace quadloop

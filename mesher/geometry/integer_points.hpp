@@ -12,7 +12,7 @@
 
 namespace quadloop {
 
-/// A coordinate as mantissa * 2^exponent, the mantissa odd; 0 * 2^0.
+/// A coordinate as mantissa * 2^exponent with an odd mantissa; zero is 0 * 2^0.
 struct Binary {
   std::int64_t mantissa = 0;
   int exponent = 0;
@@ -51,7 +51,7 @@ class IntegerPoints {
     }
   }
 
-  /// That the largest coordinate takes.
+  /// Number of bits of the largest coordinate.
   int bits() const { return bits_; }
   /// The unit is 2 to this power.
   int exponent() const { return exponent_; }

@@ -7,9 +7,9 @@
 
 namespace quadloop {
 
-/// Whether a point lies in the domain of a shifted outline, by an exact count of the crossings of a ray to
-/// its left; a point on the outline itself is outside. O(log n + k) for a ray that meets k boxes of segments;
-/// the index is built at the first question.
+/// Decides whether a point lies in the domain of a shifted geometry, by an exact count of the crossings of a
+/// ray to its left; a point on the boundary is outside. O(log n + k) for a ray that meets k boxes of
+/// segments; the index is built on first use.
 class Interior {
  public:
   explicit Interior(const ShiftedOutline& outline) : outline_{&outline} {}

@@ -9,8 +9,8 @@ namespace {
 constexpr int layers_before_rise = 5;
 constexpr double rise = 1.05;
 
-/// Visits the heights over the first one, when the excess of each growth is scaled by `share`, and how fast
-/// they rise with it.
+/// Calls `visit` with each height relative to the first one, and its derivative, with the excess of each
+/// growth ratio scaled by `share`.
 template <class Visit>
 void for_relative_heights(const LayerSpec& spec, double share, const Visit& visit) {
   double height = 1, slope = 0, growth = spec.growth;
@@ -32,7 +32,7 @@ std::vector<double> relative_heights(const LayerSpec& spec, double share) {
   return heights;
 }
 
-/// All layers over the first one, and how fast that rises with the share.
+/// Total thickness relative to the first layer, and its derivative with respect to the factor.
 struct Thickness {
   double sum = 0, slope = 0;
 };
@@ -46,9 +46,9 @@ Thickness relative_thickness(const LayerSpec& spec, double share) {
   return all;
 }
 
-/// The share of the growths by which the layers are so many times as thick as the first one: Newton's method
-/// from 1 on, which comes down to it from above, as the thickness is a polynomial of the share with no
-/// negative coefficient.
+/// The factor of the growth ratios for which the total thickness is this multiple of the first layer:
+/// Newton's method from 1 downwards, which converges monotonically, as the thickness is a polynomial of the
+/// factor with no negative coefficient.
 double share_for(const LayerSpec& spec, double thickness) {
   double share = 1;
   for (;;) {
@@ -108,7 +108,7 @@ ColumnHeights column_heights(const LayerSpec& spec, double first, double length)
   const double share = share_for(spec, length / column.first);
   const std::vector<double> heights = relative_heights(spec, share);
   column.growth = 1 + share * (spec.growth - 1);
-  const double unit = length / relative_thickness(spec, share).sum;  // takes away what rounding has left over
+  const double unit = length / relative_thickness(spec, share).sum;  // removes the remaining rounding error
   double reached = 0;
   for (const double height : heights) {
     reached += unit * height;

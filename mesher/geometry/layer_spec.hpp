@@ -5,46 +5,45 @@
 
 namespace quadloop {
 
-/// The thin layers of cells that a boundary asks for. Heights are normal to it, in the geometry's unit of
+/// The boundary-layer cells requested for a boundary. Heights are normal to it, in the geometry's unit of
 /// length.
 struct LayerSpec {
-  double first = 0;     ///< height of the layer at the boundary; above 0
-  double growth = 1.2;  ///< of each layer over the one below it; at least 1
-  double growth_to =
-      1.2;        ///< what it rises to, by a twentieth a layer after the first five; at least `growth`
-  int count = 0;  ///< of layers; above 0
-  int equal = 1;  ///< so many layers have the first height
-  double y_plus =
-      0;  ///< above 0: what the first height is to be in wall units, of which `first` is an estimate
+  double first = 0;        ///< height of the first layer, positive
+  double growth = 1.2;     ///< growth ratio of consecutive layers, at least 1
+  double growth_to = 1.2;  ///< final growth ratio: it rises by 5 % per layer after the first five; at least
+                           ///< `growth`
+  int count = 0;           ///< number of layers, positive
+  int equal = 1;           ///< number of layers with the first height
+  double y_plus = 0;       ///< if positive, the target y+ of the first layer, of which `first` is an estimate
 
   friend bool operator==(const LayerSpec&, const LayerSpec&) = default;
 };
 
-/// The heights of the layers as they are asked for, from the boundary outwards.
+/// The requested heights of the layers, from the wall outwards.
 std::vector<double> layer_heights(const LayerSpec& spec);
 
-/// The thickness of all layers together.
+/// The total thickness of the layers.
 double layers_thickness(const LayerSpec& spec);
 
-/// The number of layers that reach the thickness, the last one perhaps beyond it; at most `most`.
+/// The number of layers that reach the thickness, the last one possibly exceeding it; at most `most`.
 int layers_within(const LayerSpec& spec, double thickness, int most);
 
-/// Layers of another first height, as many and as thick together: the excess of each growth over 1 is scaled
-/// by one number, found by bisection. By 1.5 at most; where that is too little they are thinner. A first
-/// height that leaves no room for the others becomes an equal share of the thickness.
+/// Layers with another first height but the same count and total thickness: the excess of each growth ratio
+/// over 1 is scaled by one factor, found by bisection. The factor is limited to 1.5; then the layers are
+/// thinner. A first height that leaves no space for the others becomes an equal share of the thickness.
 LayerSpec with_first_height(const LayerSpec& spec, double first);
 
 /// One column of layers.
 struct ColumnHeights {
   std::vector<double> reached;  ///< distance from the wall to each node, the first one 0
-  double first = 0,
-         growth = 0;  ///< of the layer at the wall, and the least of the layers above the equal ones
+  /// Height of the first layer; smallest growth ratio of the layers above those of equal height.
+  double first = 0, growth = 0;
 };
 
-/// A column of spec.count layers that is `length` long and begins with a layer of height `first`: the excess
-/// of each growth over 1 is scaled by one number in 0 to 1, found by bisection. Where `length` is less than
-/// so many equal layers, or more than the layers asked for, the first height gives way instead. No function
-/// of the C library is used, so that the bits are the same everywhere.
+/// A column of spec.count layers with total height `length` and first height `first`: the excess of each
+/// growth ratio over 1 is scaled by one factor in 0 to 1, found by Newton's method. If `length` is less than
+/// this many equal layers, or more than the requested layers, the first height is adapted instead. No C
+/// library functions are used, so that the bits are the same on all systems.
 ColumnHeights column_heights(const LayerSpec& spec, double first, double length);
 
 }  // namespace quadloop

@@ -12,9 +12,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t most_counted = 1000;  // enough for a user to know that the file is hopeless
+constexpr std::int64_t most_counted = 1000;  // a larger count gives the user no more information
 
-/// Whether the segments from `at` to a and b have more in common than that end.
+/// Whether the segments from `at` to a and to b have more than this end in common.
 bool overlap(Point at, Point a, Point b) { return on_segment(a, at, b) || on_segment(b, at, a); }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace quadloop {
 
-/// The points of all loops one after another, with who follows whom. A segment has the number of the point
-/// that it starts from.
+/// The points of all loops in one array, with successor relations. A segment has the number of its first
+/// point.
 struct FlatOutline {
   explicit FlatOutline(const Outline& outline);
 
@@ -28,7 +28,7 @@ struct FlatOutline {
   /// Whether two different segments meet where they must not: anywhere, or for neighbours outside their
   /// common point.
   bool faulty(std::int32_t s, std::int32_t t) const;
-  /// A point where two segments for which faulty() holds meet; rounded where they cross.
+  /// A common point of two segments for which faulty() holds; rounded for a crossing.
   Point meeting_point(std::int32_t s, std::int32_t t) const;
 };
 
@@ -36,10 +36,10 @@ struct FlatOutline {
 struct MeetingPairs {
   std::int32_t first = -1, second = -1;  ///< the first pair in the order of segments
   std::int64_t count = 0;
-  bool complete = true;  ///< the search was ended early, there may be more
+  bool complete = true;  ///< false if the search ended early, so that there may be more
 };
 
-/// Looks for all of them through a spatial index. Meant for outlines known to be faulty.
+/// Finds all of them with a spatial index. Meant for geometries known to be faulty.
 MeetingPairs meeting_pairs(const FlatOutline& flat);
 
 }  // namespace quadloop

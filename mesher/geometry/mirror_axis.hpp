@@ -4,10 +4,10 @@
 
 namespace quadloop {
 
-/// The axis of coordinates that a domain is mirrored in: in the x-axis y changes its sign, in the y-axis x.
+/// The coordinate axis of a mirror symmetry: reflection in the x-axis negates y, in the y-axis x.
 enum class MirrorAxis : char { x, y };
 
-/// The mirror image, to the last bit; 0 stays +0.
+/// The exact mirror image; 0 remains +0.
 constexpr Point image_of(MirrorAxis axis, Point p) {
   return axis == MirrorAxis::x ? Point{p.x, 0.0 - p.y} : Point{0.0 - p.x, p.y};
 }
@@ -20,7 +20,7 @@ constexpr Point foot_on(MirrorAxis axis, Point p) {
 /// The coordinate that changes its sign.
 constexpr double height_over(MirrorAxis axis, Point p) { return axis == MirrorAxis::x ? p.y : p.x; }
 
-/// -1, 0 on the axis, or 1: the side that is meshed and smoothed, the other one is its image.
+/// -1, 0 (on the axis) or 1, the side that is meshed and smoothed; the other side is its image.
 constexpr int side_of(MirrorAxis axis, Point p) {
   const double height = height_over(axis, p);
   return height < 0 ? -1 : height > 0 ? 1 : 0;

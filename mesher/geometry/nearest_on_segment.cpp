@@ -8,7 +8,7 @@ namespace {
 
 using Wide = long double;
 
-/// So that both directions of the segment round in the same way.
+/// Makes both directions of the segment round in the same way.
 void put_nearer_end_first(Point p, Point& a, Point& b) {
   if (dot(p - b, p - b) < dot(p - a, p - a)) std::swap(a, b);
 }

@@ -9,13 +9,12 @@
 
 namespace quadloop {
 
-/// Closed loops on their way to a Geometry: joined and free of repeated points, but not yet known to be
-/// simple, nor turned the right way. Segment s of a loop runs from points[s] to the next point; its boundary
-/// is boundary[s].
+/// Closed loops before they become a Geometry: joined and without repeated points, but not yet checked to be
+/// simple nor oriented. Segment s of a loop runs from points[s] to the next point and is on boundary[s].
 struct OutlineLoop {
   std::vector<Point> points;
   std::vector<BoundaryId> boundary;
-  std::string source;    ///< where its first chain comes from, for messages
+  std::string source;    ///< source of its first chain, for messages
   bool directed = true;  ///< whether its chains are
 };
 

@@ -22,12 +22,12 @@ struct Point {
 };
 
 constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-/// The z component of the vector product; rounded, so nothing of the topology may hang on its sign (see
+/// The z component of the vector product. It is rounded: its sign must not decide topology (see
 /// predicates.hpp).
 constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
 
-/// A closed rectangle, parallel to the axes. A default-constructed box is empty.
+/// A closed axis-parallel rectangle. A default-constructed box is empty.
 struct Box {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// 0 and -0 are equal, and so must their hashes be.
+/// 0 and -0 are equal, so their hashes must be equal.
 std::uint64_t hash_of(Point p) {
   const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number + 0.0); };
   return mixed_bits(mixed_bits(bits(p.x)) + bits(p.y));
@@ -25,7 +25,7 @@ PointTable::PointTable(std::span<const Point> points)
   }
 }
 
-/// That of an equal point, or else an empty one.
+/// The slot of an equal point, or else an empty one.
 std::size_t PointTable::slot_of(Point p) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t at = hash_of(p) & mask;

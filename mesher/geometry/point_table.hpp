@@ -14,7 +14,7 @@ class PointTable {
   /// `points` must outlive it.
   explicit PointTable(std::span<const Point> points);
 
-  /// The index of a point with the same coordinates, the first of several; -1 where there is none.
+  /// The index of a point with the same coordinates, the first of several; -1 if there is none.
   std::int32_t find(Point p) const { return slots_[slot_of(p)]; }
   /// Whether any two of the points have the same coordinates.
   bool any_twice() const { return any_twice_; }
@@ -28,7 +28,7 @@ class PointTable {
 };
 
 /// For each of `points` the index of one of the `known` points with the same coordinates, the first of
-/// several; -1 where there is none. O(n + m).
+/// several; -1 if there is none. O(n + m).
 std::vector<std::int32_t> find_equal_points(std::span<const Point> known, std::span<const Point> points);
 
 }  // namespace quadloop

@@ -38,7 +38,7 @@ int in_circle_in(const IntegerPoints& p) {
   return determinant.sign();
 }
 
-/// Leaves make many such circles, through corners of rectangles that are parallel to the axes.
+/// Fast path: four corners of an axis-parallel rectangle, frequent in quadtrees.
 bool is_rectangle(Point a, Point b, Point c, Point d) {
   const auto is = [d](Point above, Point beside, Point opposite) {
     return above.x == d.x && beside.y == d.y && opposite.x == beside.x && opposite.y == above.y;
@@ -47,14 +47,14 @@ bool is_rectangle(Point a, Point b, Point c, Point d) {
 }
 
 int exact_in_circle(Point a, Point b, Point c, Point d) {
-  const IntegerPoints points({a, b, c, d});  // with n bits the determinant takes 4 (n + 1) + 4
+  const IntegerPoints points({a, b, c, d});  // with n bits the determinant needs 4 (n + 1) + 4
   if (points.bits() <= 29) return in_circle_in<Fixed<127>>(points);
   if (points.bits() <= 126) return in_circle_in<Fixed<512>>(points);
   return in_circle_in<mp::cpp_int>(points);
 }
 
-/// 0 where rounding hides the sign. The bound is that of Shewchuk's paper (see the header) for this sum, with
-/// a part in ten more for products that underflow: with lifts below 2^100 they lose less than 2^-960.
+/// Returns 0 if rounding hides the sign. The bound is that of Shewchuk's paper (see the header) for this sum,
+/// plus a tenth for products that underflow: with lifts below 2^100 they lose less than 2^-960.
 template <class Real>
 int rounded_in_circle(Point a, Point b, Point c, Point d) {
   constexpr Real unit = std::numeric_limits<Real>::epsilon() / 2, bound = 11 * unit;
@@ -77,7 +77,7 @@ int exact_orientation(Point a, Point b, Point c) {
   const int left = sign(a.x - c.x) * sign(b.y - c.y), right = sign(a.y - c.y) * sign(b.x - c.x);
   if (left != right) return left > right ? 1 : -1;
   if (left == 0) return 0;
-  const IntegerPoints points({a, b, c, c});  // with n bits the products take 2 (n + 1)
+  const IntegerPoints points({a, b, c, c});  // with n bits the products need 2 (n + 1)
   if (points.bits() <= 62) return orientation_in<Fixed<127>>(points);
   return orientation_in<mp::cpp_int>(points);
 }

@@ -9,14 +9,15 @@
 
 namespace quadloop {
 
-/// The segments of an outline whose boxes meet a box. As an outline's neighbours lie beside each other
-/// anyway, runs of them are indexed, not each (as in an arc tree, Günther 1988): 4 bytes a segment. O(log n +
-/// k) for k segments in the runs found. The geometry must outlive it.
+/// Finds the segments of a geometry whose boxes meet a box. As neighbouring segments are close to each other,
+/// runs of segments are indexed (as in an arc tree, Günther 1988): 4 bytes per segment. O(log n + k) for k
+/// segments in the runs found. The geometry must outlive it.
 class SegmentTree {
  public:
   explicit SegmentTree(const Geometry& geometry);
 
-  /// Asks `found(segment)` of those whose boxes meet this closed one, until it says true; whether it did.
+  /// Calls `found(segment)` for segments whose boxes meet this closed box until it returns true; returns
+  /// whether it did.
   template <class Found>
   bool any_meeting(const Box& box, const Found& found) const {
     return runs_.any_meeting(box, [&](std::int32_t run) {
@@ -27,7 +28,7 @@ class SegmentTree {
     });
   }
 
-  /// Calls `visit(segment)` for every one whose box meets this closed one.
+  /// Calls `visit(segment)` for every segment whose box meets this closed box.
   template <class Visit>
   void for_each_meeting(const Box& box, const Visit& visit) const {
     any_meeting(box, [&](std::int32_t s) {
@@ -42,7 +43,7 @@ class SegmentTree {
   }
 
   const Geometry* geometry_;
-  std::vector<std::int32_t> starts_;  ///< of the runs, each of one loop; and the end
+  std::vector<std::int32_t> starts_;  ///< of the runs, each within one loop; then the end
   BoxTree runs_;
 };
 

@@ -7,25 +7,24 @@ namespace quadloop {
 
 namespace {
 
-/// The sign along one axis of the mitre at a vertex that the outline enters along `in` and leaves along `out`
+/// The sign along one axis of the mitre at a vertex with incoming direction `in` and outgoing direction `out`
 /// (signs of the components along this axis and, counter-clockwise from it, the other one), turning left
 /// (+1), right (-1) or not (0).
 ///
-/// A left normal has the component -other along this axis for the x axis and +other for the y axis: `handed`
+/// A left normal has the component -other along this axis for the x axis and +other for the y axis; `handed`
 /// is that sign.
 std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn, int handed) {
   if (in_along == 0) return static_cast<std::int8_t>(handed * in_other);
   if (out_along == 0) return static_cast<std::int8_t>(handed * out_other);
   if (in_along != out_along)
-    return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line, and turns back
+    return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line and turns back
   const int other = in_other + out_other;
   if (in_other * out_other >= 0 && other != 0) return static_cast<std::int8_t>(handed * sign(other));
   return static_cast<std::int8_t>(
-      -in_along);  // passes through a peak on the line: both answers give the same crossing
+      -in_along);  // passes through a peak on the line: both results give the same crossing
 }
 
-using Wide =
-    long double;  // 11 bits more than the result has; each operation is the same for mirrored arguments
+using Wide = long double;  // 11 more bits than the result; each operation is the same for mirrored arguments
 
 }  // namespace
 
@@ -78,7 +77,8 @@ bool ShiftedOutline::meets(std::int32_t segment, const Box& box) const {
 }
 
 double crossing_height(Point a, Point b, double x) {
-  if (a.x == x) return a.y;  // both on the line: any point of the segment will do, and the caller never asks
+  if (a.x == x)
+    return a.y;  // both on the line: any point of the segment is valid, and callers avoid this case
   if (b.x == x) return b.y;
   const double to_a = std::abs(x - a.x), to_b = std::abs(x - b.x);
   if (to_a > to_b) std::swap(a, b);  // from the nearer end

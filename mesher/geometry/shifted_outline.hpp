@@ -8,22 +8,23 @@
 
 namespace quadloop {
 
-/// The outline moved to its left, into the domain, by less than any number: what the mesher cuts with. No
-/// vertex of it lies on a lattice line, none of its segments passes through a lattice corner or runs along a
-/// lattice line, so each question has two answers instead of three and all collinear and coincident cases
-/// (thesis Fig. 3.10, 3.11) are ordinary ones. What lies on the outline itself is outside the domain; a
-/// segment along a lattice line belongs to the leaf on its domain side. The rule knows left and right but not
-/// up and down, so that mirrored and turned outlines give mirrored and turned answers.
+/// The geometry, shifted to its left (into the domain) by an infinitesimal distance, as used for cutting.
+/// None of its vertices lies on a grid line of the quadtree, and none of its segments passes through a grid
+/// vertex or runs along a grid line. So each query has two results instead of three, and collinear and
+/// coincident cases (thesis Fig. 3.10, 3.11) need no special treatment. Points on the geometry itself are
+/// outside the domain; a segment along a grid line belongs to the leaf on its domain side. The rule
+/// distinguishes left and right but not up and down, so that mirrored and rotated geometries give mirrored
+/// and rotated results.
 ///
-/// A vertex moves along the mitre of its two segments; only the sign of that vector's components is needed,
-/// and only for a vertex that lies on the line asked for.
+/// A vertex moves along the mitre of its two segments. Only the signs of that vector's components are needed,
+/// and only for a vertex on the line in question.
 class ShiftedOutline {
  public:
   explicit ShiftedOutline(const Geometry& geometry);
 
   const Geometry& geometry() const { return *geometry_; }
 
-  /// Whether the vertex lies beyond the vertical line at x (right of it), or beyond the horizontal line at y
+  /// Whether the vertex lies beyond the vertical line at x (to its right), or beyond the horizontal line at y
   /// (above it).
   bool beyond_x(std::int32_t vertex, double x) const {
     const double at = geometry_->point(vertex).x;
@@ -34,19 +35,19 @@ class ShiftedOutline {
     return at != y ? at > y : shift_[vertex].y > 0;
   }
 
-  /// Whether p lies to the left of the (infinite) line through the segment; a point on the line is right of
-  /// the shifted one.
+  /// Whether p lies to the left of the (infinite) line through the segment; a point on the line is to the
+  /// right of the shifted one.
   bool has_left(std::int32_t segment, Point p) const {
     return orientation(geometry_->point(segment), geometry_->point(geometry_->next(segment)), p) > 0;
   }
 
-  /// What the segment adds to the winding number at p, by the ray to its left: 1 where it crosses that
-  /// downwards, -1 upwards.
+  /// The segment's contribution to the winding number at p, by the ray to its left: 1 for a downward
+  /// crossing, -1 for an upward one.
   int winding_at(std::int32_t segment, Point p) const;
-  /// What it adds to the winding number on the way along a lattice line from one point to another.
+  /// The change of the winding number from one point of a grid line to another, caused by the segment.
   int winding_between(std::int32_t segment, Point from, Point to) const;
 
-  /// Whether the segment meets the inside of the box, whose sides are lattice lines.
+  /// Whether the segment meets the interior of the box, whose sides are grid lines.
   bool meets(std::int32_t segment, const Box& box) const;
 
  private:
@@ -59,8 +60,8 @@ class ShiftedOutline {
   std::vector<Shift> shift_;
 };
 
-/// Where the segment from a to b, which crosses the vertical line at x, does so; the y coordinate, rounded
-/// once. The same for the segment from b to a, and mirrored for mirrored arguments.
+/// The y coordinate, rounded once, where the segment a-b crosses the vertical line at x. The same for b-a,
+/// and mirrored for mirrored arguments.
 double crossing_height(Point a, Point b, double x);
 
 }  // namespace quadloop

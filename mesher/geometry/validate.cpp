@@ -20,10 +20,10 @@ namespace quadloop {
 
 namespace {
 
-/// Sweeps a line over the plane from left to right (points ordered by x, then y: it leans a little, so that
-/// no segment is parallel to it) and keeps the segments that it crosses in their order along it (Shamos and
-/// Hoey 1976). If two segments meet, two neighbours in that order do. The segment below a loop's first point
-/// says what the loop lies in.
+/// Sweeps a line over the plane from left to right (points ordered by x, then y, so that no segment is
+/// parallel to the line) and keeps the segments that it crosses in their order along it (Shamos and Hoey
+/// 1976). If two segments meet, two neighbours in that order do. The segment below a loop's first point
+/// determines the loop's nesting.
 class Sweep {
  public:
   explicit Sweep(const FlatOutline& flat)
@@ -33,7 +33,7 @@ class Sweep {
         below_(flat.loop_count(), none),
         begun_(flat.loop_count()) {}
 
-  /// Whether no two segments meet. Stops at the first sign that some do.
+  /// Whether no two segments meet. Stops at the first indication that some do.
   bool run() {
     const std::vector<Event> starts = local_starts();
     auto start = starts.begin();
@@ -51,13 +51,13 @@ class Sweep {
     return !met_;
   }
 
-  /// After a run that found nothing: how each loop lies among the others.
+  /// After a run without contacts: the nesting of each loop.
   std::vector<LoopNesting> nestings() const;
 
  private:
   static constexpr std::int32_t none = -1;
 
-  /// A segment in the order along the line. At its end the one that continues it takes its place.
+  /// A segment in the order along the line. At its end the following one takes its place.
   struct Crossed {
     mutable std::int32_t segment;
   };
@@ -67,15 +67,15 @@ class Sweep {
   };
   using Status = std::set<Crossed, Below>;
 
-  /// The line comes to a point.
+  /// The line reaches a point.
   struct Event {
     Point place;
     std::int32_t point;
     friend bool operator>(const Event& a, const Event& b) { return a.place > b.place; }
   };
 
-  /// The points with both neighbours to their right, from left to right. To all others the line is led by a
-  /// segment that it crosses: so no more need to be sorted than it crosses at a time.
+  /// The points with both neighbours to their right, from left to right. All other points are reached along a
+  /// segment that the line crosses, so that no more events are queued than segments are crossed at a time.
   std::vector<Event> local_starts() const {
     std::vector<Event> starts;
     const auto size = size32(flat_.points);
@@ -90,13 +90,13 @@ class Sweep {
   Point left(std::int32_t s) const { return std::min(flat_.point(s), flat_.point(flat_.next(s))); }
   Point right(std::int32_t s) const { return std::max(flat_.point(s), flat_.point(flat_.next(s))); }
 
-  /// Of two segments that the line crosses at once. Where they turn out to touch, notes it.
+  /// Order of two segments that the line crosses at the same time. Notes whether they touch.
   bool is_below(std::int32_t s, std::int32_t t) {
     if (s == t) return false;
     const Point s_left = left(s), t_left = left(t);
     if (s_left < t_left) return side(s, s_left, t_left) > 0;
     if (t_left < s_left) return side(t, t_left, s_left) < 0;
-    return side(s, s_left, right(t)) > 0;  // neighbours that begin at one point
+    return side(s, s_left, right(t)) > 0;  // neighbours with the same first point
   }
   int side(std::int32_t s, Point s_left, Point p) {
     const int turn = orientation(s_left, right(s), p);
@@ -104,7 +104,7 @@ class Sweep {
     return turn;
   }
 
-  /// How many segments end at a point.
+  /// Number of segments that end at a point.
   int ends_at(std::int32_t v) const {
     return (flat_.point(flat_.previous(v)) < flat_.point(v) ? 1 : 0) +
            (flat_.point(flat_.next(v)) < flat_.point(v) ? 1 : 0);
@@ -114,8 +114,8 @@ class Sweep {
     return is_below(before, v) ? before : v;
   }
 
-  /// The points at one place, most often one: first all that ends there is taken out, and nothing enters
-  /// before. Loops that begin there are noted from below.
+  /// Handles the points at one place, usually one: removes all ending segments before adding new ones. For
+  /// loops that begin there the segment below is noted.
   void visit(std::vector<std::int32_t>& points) {
     std::ranges::stable_sort(points, std::greater<>(), [&](std::int32_t v) { return ends_at(v); });
     for (const std::int32_t v : points) pass(v);
@@ -145,7 +145,8 @@ class Sweep {
 
   void enter(std::int32_t s) { place(s, status_.insert({s}).first); }
 
-  /// Neighbours were found not to meet `ended`: so the segment that goes on from its end is between them too.
+  /// The neighbours were tested against `ended`, so the segment that continues from its end lies between them
+  /// too.
   void carry_on(std::int32_t ended, std::int32_t s) {
     const auto at = status_at_[ended];
     at->segment = s;
@@ -159,7 +160,7 @@ class Sweep {
     expect_end(s);
   }
 
-  /// Where two segments end, the one that is walked rightwards announces it.
+  /// Queues the end of a segment; where two segments end, the one directed to the right does this.
   void expect_end(std::int32_t s) {
     const std::int32_t next = flat_.next(s);
     if (flat_.point(s) < flat_.point(next)) {
@@ -176,7 +177,7 @@ class Sweep {
 
   void check(std::int32_t s, std::int32_t t) { met_ = met_ || flat_.faulty(s, t); }
 
-  /// At the first point of a loop, where both of its segments were just entered.
+  /// Notes the segment below the first point of a loop, whose two segments have just been added.
   void note_below(std::int32_t v) {
     begun_[flat_.loop(v)] = 1;
     first_points_.push_back(v);
@@ -187,9 +188,9 @@ class Sweep {
   const FlatOutline& flat_;
   Status status_;
   std::vector<Status::iterator> status_at_;
-  std::priority_queue<Event, std::vector<Event>, std::greater<>> coming_;  ///< the leftmost first
-  std::vector<std::int32_t> below_;         ///< by loop: the segment below its first point
-  std::vector<char> begun_;                 ///< by loop
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> coming_;  ///< events, the leftmost first
+  std::vector<std::int32_t> below_;         ///< for each loop the segment below its first point
+  std::vector<char> begun_;                 ///< for each loop
   std::vector<std::int32_t> first_points_;  ///< of the loops, from left to right
   bool met_ = false;
 };
@@ -203,7 +204,7 @@ std::vector<LoopNesting> Sweep::nestings() const {
     const std::int32_t below = below_[flat_.loop(v)];
     if (below == none) continue;
     const LoopNesting& other =
-        nestings[flat_.loop(below)];  // begun before: its first point lies further left
+        nestings[flat_.loop(below)];  // that loop was handled before, as its first point is further left
     const bool rightwards = flat_.point(below) < flat_.point(flat_.next(below));
     const bool within = rightwards == other.counter_clockwise;
     loop.depth = other.depth + (within ? 1 : 0);
@@ -221,14 +222,14 @@ std::string boundary_text(const Outline& outline, const FlatOutline& flat, std::
                      b.y);
 }
 
-/// Directions from a place, counter-clockwise from straight down.
+/// Order of directions from a place, counter-clockwise from straight down.
 bool turns_before(Point from, Point a, Point b) {
   const bool a_right = from < a, b_right = from < b;
   return a_right != b_right ? a_right : orientation(from, a, b) > 0;
 }
 
-/// Whether the outline crosses itself in two of its points at one place: going round it, neighbours of the
-/// two take turns.
+/// Whether the geometry crosses itself at two of its points at one place: the neighbours of the two alternate
+/// around the place.
 bool cross_at_points(const FlatOutline& flat, std::int32_t v, std::int32_t w) {
   const Point from = flat.point(v);
   Point low = flat.point(flat.previous(v)), high = flat.point(flat.next(v));
@@ -237,7 +238,7 @@ bool cross_at_points(const FlatOutline& flat, std::int32_t v, std::int32_t w) {
   return is_between(flat.point(flat.previous(w))) != is_between(flat.point(flat.next(w)));
 }
 
-/// Two points of different loops at one place in which they cross; -1 where there are none.
+/// Two points of different loops at one place in which the loops cross; -1 if there are none.
 std::pair<std::int32_t, std::int32_t> crossing_points_of(const FlatOutline& flat) {
   std::vector<std::int32_t> order(flat.points.size());
   std::iota(order.begin(), order.end(), 0);

@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-/// Walks the loop the other way round, from the same first point.
+/// Reverses the loop, keeping its first point.
 void turn_round(OutlineLoop& loop) {
   std::reverse(loop.points.begin() + 1, loop.points.end());
   std::reverse(loop.boundary.begin(), loop.boundary.end());
@@ -53,9 +53,9 @@ const std::string& name_of(const Outline& outline, std::size_t loop) {
   return outline.names[outline.loops[loop].boundary.front().value()];
 }
 
-/// Several regions are meant so (a lake on an island), or come from a loop with wrong coordinates.
+/// Several regions may be intended (a lake on an island) or result from a loop with wrong coordinates.
 void warn_of_regions(const Outline& outline, const std::vector<LoopNesting>& nestings, Warnings& warnings) {
-  std::vector<std::size_t> enclosing;  // a region each
+  std::vector<std::size_t> enclosing;  // one per region
   for (std::size_t l = 0; l < nestings.size(); ++l) {
     if (nestings[l].depth % 2 == 0) enclosing.push_back(l);
   }
@@ -66,7 +66,8 @@ void warn_of_regions(const Outline& outline, const std::vector<LoopNesting>& nes
       enclosing.size(), name_of(outline, enclosing[1]), second.points.front().x, second.points.front().y));
 }
 
-/// A loop within a loop within the far field encloses a domain of its own, besides that of the far field.
+/// Rejects a loop within a loop within the far field, which encloses a domain separate from that of the far
+/// field.
 void require_far_field_only(const Outline& outline, const std::vector<LoopNesting>& nestings,
                             const std::string& far_field) {
   const auto inner = std::ranges::find(nestings, 2, &LoopNesting::depth);
@@ -91,7 +92,7 @@ void require_outer_boundary(const Outline& outline, const std::vector<LoopNestin
   }
 }
 
-/// Drops those of which a union has left nothing; their rules have matched.
+/// Drops boundaries of which a union has left nothing; their rules count as matched.
 std::vector<Boundary> boundaries_of(Outline& outline, const AssembleOptions& options) {
   std::vector<Boundary> all =
       boundaries_by_rules(outline.names, options.rules, options.default_corner_degrees);
@@ -124,7 +125,7 @@ Geometry to_geometry(Outline outline, const AssembleOptions& options) {
     points.insert(points.end(), loop.points.begin(), loop.points.end());
     segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
     loop_starts.push_back(size32(points));
-    loop = {};  // a long one is not held twice
+    loop = {};  // frees a long loop at once
   }
   return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts),
                   std::move(segment_boundary));
@@ -132,7 +133,7 @@ Geometry to_geometry(Outline outline, const AssembleOptions& options) {
 
 constexpr const char* union_remedy = ", or set geometry.overlap = \"union\" to join islands that overlap";
 
-/// Areas of a geometry much smaller than this leave the range of double precision.
+/// Areas of a much smaller geometry exceed the range of double precision.
 void require_extent(const Geometry& g) {
   constexpr double smallest_extent = 1e-100;
   if (std::max(g.box().width(), g.box().height()) >= smallest_extent) return;

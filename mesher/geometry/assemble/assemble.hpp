@@ -8,29 +8,28 @@
 
 namespace quadloop {
 
-/// What the user is told though the work goes on, one line each.
+/// Warnings for the user, one line each.
 using Warnings = std::vector<std::string>;
 
 struct AssembleOptions {
   std::vector<BoundaryRule> rules;
-  double default_corner_degrees = 30;  ///< of boundaries without a rule of their own
-  double join = 1e-9;          ///< ends of chains no farther apart than this share of the extent are joined
-  bool unite_islands = false;  ///< those that overlap or touch: united_islands()
-  /// From a mesh, say: then nobody is told of loops that were turned, nor of several domains.
+  double default_corner_degrees = 30;  ///< for boundaries without a rule of their own
+  double join = 1e-9;  ///< tolerance, as a fraction of the extent, within which ends of chains are joined
+  bool unite_islands = false;  ///< unite islands that overlap or touch: united_islands()
+  /// The chains come from a mesh, for example: no warnings about reversed loops or several domains.
   bool domain_is_known = false;
-  /// The setting that added a boundary around all others, empty where none did. Then no other boundary may
-  /// enclose a domain.
+  /// The setting that added a boundary around all others, empty if there is none. With it no other boundary
+  /// may enclose a domain.
   std::string far_field;
-  /// Boundaries of bodies, such as airfoils: the flow is around them, so each needs an outer boundary.
+  /// Boundaries of bodies, such as airfoils; each needs an outer boundary, as the flow is around them.
   std::vector<std::string> bodies;
 };
 
-/// Makes the outline of the domain from polylines: open chains are joined end to end (end points
-/// bit-identical, after join_rounded_ends, in either direction) into loops; chains of one name are one
-/// boundary; consecutive points that coincide are dropped; loops are turned so that the domain, which lies
-/// inside loops of even nesting depth and outside those of odd depth, is to their left. Boundaries and loops
-/// keep the order in which they are first seen. Throws InputError, naming boundary and coordinates, where the
-/// chains are not the outline of a domain.
+/// Builds the geometry of the domain from polylines. Joins open chains end to end into loops (ends must be
+/// bit-identical after join_rounded_ends; either direction). Chains of one name form one boundary. Drops
+/// consecutive points that coincide. Reverses loops so that the domain is to their left; the domain is inside
+/// loops of even nesting depth and outside loops of odd depth. Boundaries and loops keep the order of the
+/// input. Throws InputError with boundary and coordinates if the chains do not bound a domain.
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings);
 
 }  // namespace quadloop

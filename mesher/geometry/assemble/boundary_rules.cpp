@@ -38,7 +38,7 @@ bool matches(std::string_view pattern, std::string_view name) {
       ++p;
       ++n;
     } else if (star != std::string_view::npos) {
-      p = star + 1;  // the last * takes one character more
+      p = star + 1;  // the last * matches one more character
       n = ++resume;
     } else {
       return false;

@@ -37,14 +37,14 @@ void require_finite(const Chain& chain) {
   }
 }
 
-/// What was dropped of one boundary.
+/// The dropped points of one boundary.
 struct Dropped {
   std::string name;
   std::int64_t count = 0;
   Point first;
 };
 
-/// Returns where the first dropped point was.
+/// Returns the place of the first dropped point.
 std::optional<Point> drop_repeated(Chain& chain, std::int64_t& count) {
   const auto before = chain.points.size();
   const auto repeated = std::adjacent_find(chain.points.begin(), chain.points.end());
@@ -59,7 +59,7 @@ std::optional<Point> drop_repeated(Chain& chain, std::int64_t& count) {
   return first;
 }
 
-/// One end of an open chain: the first point of chain number end / 2 where end is even, else the last.
+/// The ends of open chains, numbered 2 * chain for the first point and 2 * chain + 1 for the last.
 class ChainEnds {
  public:
   explicit ChainEnds(const std::vector<Chain>& chains) : chains_{chains} {
@@ -75,8 +75,8 @@ class ChainEnds {
     return end % 2 == 0 ? points.front() : points.back();
   }
 
-  /// Every point where chains end must hold two ends. The first that does not, in the order of input, is
-  /// refused.
+  /// Checks that every point where chains end has exactly two ends; rejects the first other point in the
+  /// order of input.
   void require_closed() const {
     for (std::size_t end = 0; end < 2 * chains_.size(); ++end) {
       if (!chains_[end / 2].open) continue;
@@ -125,7 +125,7 @@ class ChainEnds {
   std::map<Point, std::vector<std::size_t>> at_;
 };
 
-/// How many different points there are, but no more than three.
+/// The number of distinct points, counted up to three.
 std::size_t distinct_up_to_three(const std::vector<Point>& points) {
   std::array<Point, 3> found;
   std::size_t count = 0;
@@ -168,7 +168,8 @@ class Joiner {
     outline_.names.push_back(name);
   }
 
-  /// Walks from chain to chain until back at the first; a chain met at its last point is walked backwards.
+  /// Follows chains until the first one is reached again; a chain reached at its last point is traversed
+  /// backwards.
   void join_from(std::size_t first, OutlineLoop& loop) {
     std::size_t entered = 2 * first;
     do {

@@ -16,7 +16,7 @@ namespace {
 
 double gap(Point a, Point b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
-/// The points on one side of the axis, mirrored or not, all with heights above 0.
+/// The points on one side of the axis, mirrored if necessary, all with positive heights.
 class PointsAbove {
  public:
   PointsAbove(std::vector<Point> points, double tolerance)
@@ -24,7 +24,7 @@ class PointsAbove {
     std::sort(points_.begin(), points_.end());
   }
 
-  /// The one at a place, or the nearest one within the tolerance; null where there is none.
+  /// The point at this place, or the nearest one within the tolerance; null if there is none.
   const Point* find(Point p) const {
     const auto same = std::lower_bound(points_.begin(), points_.end(), p);
     if (same != points_.end() && *same == p) return &*same;
@@ -52,8 +52,8 @@ PointsAbove points_above(const std::vector<Chain>& chains, MirrorAxis axis, int 
   return {std::move(points), tolerance};
 }
 
-/// Where the image in the line through the middle of the chains' box is a point of them, the outline may be
-/// symmetric about that: what is to be done then.
+/// Advice if the image of the point in the centre line of the chains' bounding box is one of their points:
+/// the geometry may be symmetric about that line instead.
 std::string advice_beside_axis(const std::vector<Chain>& chains, Point p, MirrorAxis axis, const Box& box) {
   const double middle = height_over(axis, box.centre()), size = std::max(box.width(), box.height());
   if (std::abs(middle) <= mirror_rounding * size) return {};
@@ -161,7 +161,7 @@ IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry,
   const std::vector<Segment> segments = segments_by_ends(geometry);
   IdVector<BoundaryId, BoundaryId> image_of_boundary(geometry.boundaries().size());
   for (const Segment& s : segments) {
-    const std::pair wanted{image_of(axis, s.to), image_of(axis, s.from)};  // the domain to its left
+    const std::pair wanted{image_of(axis, s.to), image_of(axis, s.from)};  // with the domain to its left
     const auto image = std::lower_bound(segments.begin(), segments.end(), wanted,
                                         [](const Segment& t, const auto& ends) { return t.ends() < ends; });
     if (image == segments.end() || image->ends() != wanted)
@@ -184,8 +184,8 @@ IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry,
 
 namespace {
 
-/// The outline's parts above the axis, each of one boundary; open ones begin and end on the axis or where the
-/// next part goes on.
+/// The parts of the geometry above the axis, each on one boundary; open parts begin and end on the axis or at
+/// the next part.
 std::vector<Chain> parts_above(const Geometry& geometry, MirrorAxis axis) {
   std::vector<Chain> parts;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -211,9 +211,9 @@ std::vector<Chain> parts_above(const Geometry& geometry, MirrorAxis axis) {
 std::vector<Chain> half_outline(const Geometry& geometry, MirrorAxis axis, const std::string& name) {
   std::vector<Chain> chains = parts_above(geometry, axis);
   struct Meeting {
-    double along;  ///< the way in which the domain above lies to the left
+    double along;  ///< direction along the axis with the domain above to the left
     Point point;
-    bool leaves;  ///< the axis
+    bool leaves;  ///< the part leaves the axis here
   };
   std::vector<Meeting> meetings;
   const auto add = [&](Point p, bool leaves) {

@@ -9,23 +9,23 @@
 
 namespace quadloop {
 
-/// How far a point may lie from where its image says, of the longer side of the chains' box: that is
-/// rounding.
+/// Largest distance of a point from its image that counts as rounding, relative to the longer side of the
+/// chains' bounding box.
 inline constexpr double mirror_rounding = 1e-12;
 
-/// Makes chains that are their own mirror image but for rounding so to the last bit: points below the axis
-/// become the images of those above it. A warning counts them. Throws InputError, naming the first point
-/// without an image and the chain that it is of.
+/// Makes chains that are mirror-symmetric up to rounding exactly symmetric: points below the axis are
+/// replaced by the images of those above it. A warning counts them. Throws InputError with the first point
+/// without an image and its chain.
 void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnings);
 
-/// Throws InputError, naming the place, unless the outline is its own mirror image, to the last bit: each
-/// segment has its image, of the same boundary or of one that asks for the same spacing, corners and layers
-/// and is the image of this one everywhere. The image of each boundary.
+/// Checks that the geometry is exactly mirror-symmetric. Each segment must have an image, on the same
+/// boundary or on a boundary with the same spacing, corners and layers; images of a boundary's segments must
+/// all be on one boundary. Returns the image of each boundary. Throws InputError with the place otherwise.
 IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry, MirrorAxis axis);
 
-/// Of an outline that is its own mirror image the half above the axis (on its right: of the y-axis), as open
-/// chains: the outline's parts there, and between them along the axis those of a boundary `name`. Where the
-/// outline crosses the axis within a segment, as a blunt edge may, there is a point then.
+/// The half of a mirror-symmetric geometry above the axis (right of the y-axis) as open chains: its parts
+/// there, joined along the axis by parts of a boundary `name`. Where a segment crosses the axis, as at a
+/// blunt edge, a point is inserted.
 std::vector<Chain> half_outline(const Geometry& geometry, MirrorAxis axis, const std::string& name);
 
 }  // namespace quadloop

@@ -27,8 +27,8 @@ double rounding_of(const std::vector<Chain>& chains) {
   return units_in_last_place * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// Drops points that are no further than rounding from the one before; the ends of an open chain stay.
-/// Returns how many.
+/// Drops points within rounding of the previous one; keeps the ends of an open chain. Returns the number of
+/// dropped points.
 std::int64_t drop_near_repeats(Chain& chain, double rounding) {
   const auto near = [&](Point a, Point b) {
     return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding;
@@ -44,8 +44,8 @@ std::int64_t drop_near_repeats(Chain& chain, double rounding) {
   return before - points.size();
 }
 
-/// The ends of open chains at which no other ends exactly, by their places; number 2 * chain, one more for
-/// its last point.
+/// Ends of open chains that coincide exactly with no other end, by place. Number 2 * chain is the first
+/// point, 2 * chain + 1 the last.
 class LooseEnds {
  public:
   LooseEnds(std::vector<Chain>& chains, double most) : chains_{chains}, most_{most} {
@@ -60,7 +60,7 @@ class LooseEnds {
     }
   }
 
-  /// Joins all pairs; returns how many, and where the first in the order of input is.
+  /// Joins all pairs; returns their number and the first place in the order of input.
   std::pair<std::int64_t, Point> join() {
     std::map<std::size_t, std::size_t> later_to_earlier;
     for (const auto& [place, end] : loose_) {
@@ -97,7 +97,7 @@ class LooseEnds {
     return found;
   }
 
-  /// A chain that closes on itself has three points beside the one that comes twice.
+  /// A chain that closes on itself needs three points besides the repeated one.
   bool too_short(std::size_t one, std::size_t other) const {
     return one / 2 == other / 2 && chains_[one / 2].points.size() < 4;
   }
@@ -117,7 +117,7 @@ double extent_of(const std::vector<Chain>& chains) {
   return std::max({0.0, box.width(), box.height()});
 }
 
-/// The same for a chain and its reverse, and for a loop from any of its points.
+/// Canonical points: the same for a chain and its reverse, and for a loop from any of its points.
 std::vector<Point> points_either_way(const Chain& chain) {
   std::vector<Point> forth = chain.points;
   if (!chain.open) std::rotate(forth.begin(), std::min_element(forth.begin(), forth.end()), forth.end());

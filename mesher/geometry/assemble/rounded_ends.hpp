@@ -7,13 +7,13 @@
 
 namespace quadloop {
 
-/// A repair of input, once, before anything is decided: programs that compute the ends of arcs leave gaps of
-/// rounding between pieces which are meant to meet, and drawings have lines twice. Of open chains, two loose
-/// ends that are no farther apart along x and along y than `share` of the extent, or 16 units in the last
-/// place of the largest coordinate (3.6e-15 of it), and no third one as near, become one point: the later
-/// moves onto the earlier, exactly. Points that are as near as rounding to the one before are dropped, the
-/// last of a closed chain to the first. Of chains of one name that have the same points, either way round,
-/// the first stays. Warns with how many, and where the first were.
+/// Repairs the input before all other checks: computed ends of arcs leave gaps of rounding size between
+/// chains that should meet, and drawings contain duplicate lines. Two loose ends of open chains are joined if
+/// their distance along x and along y is at most `share` of the extent, or 16 units in the last place of the
+/// largest coordinate (3.6e-15 of it), and no third end is as near; the later end moves exactly onto the
+/// earlier. Points within rounding of the previous one are dropped, in a closed chain also a last point near
+/// the first. Of chains of one name with the same points, in either direction, the first is kept. Warns with
+/// the number of repairs and the first places.
 void join_rounded_ends(std::vector<Chain>& chains, double share, std::vector<std::string>& warnings);
 
 }  // namespace quadloop

@@ -24,7 +24,7 @@ Box widened(Box box, double by) {
   return box;
 }
 
-/// A point next to one of an earlier loop moves onto it.
+/// Moves points onto near points of earlier loops.
 void join_near_points(std::vector<SplitLoop>& loops, double near) {
   std::vector<Point*> points;
   std::vector<std::size_t> loop_of;
@@ -47,13 +47,13 @@ void join_near_points(std::vector<SplitLoop>& loops, double near) {
   }
 }
 
-/// One piece and the points that split it.
+/// A piece and the points that split it.
 struct SplitPiece {
   Point a, b;
   std::int32_t loop = 0;
   std::vector<Point> inner = {};
 
-  /// Returns whether that is new. Ends are none.
+  /// Returns whether the point is new; ends do not count.
   bool add(Point p) {
     if (p == a || p == b || std::ranges::count(inner, p) > 0) return false;
     inner.push_back(p);
@@ -62,7 +62,7 @@ struct SplitPiece {
   bool has_end(Point p) const { return p == a || p == b; }
 };
 
-/// Splits at every place where two pieces meet; one round.
+/// One round of splitting at all places where two pieces meet.
 class SplitRound {
  public:
   explicit SplitRound(const std::vector<SplitLoop>& loops) {
@@ -88,7 +88,7 @@ class SplitRound {
     return any;
   }
 
-  Point place() const { return place_; }  ///< next to one of the splits
+  Point place() const { return place_; }  ///< near one of the splits
 
   void apply_to(std::vector<SplitLoop>& loops) {
     std::size_t piece = 0;
@@ -140,7 +140,7 @@ class SplitRound {
 }  // namespace
 
 std::vector<SplitLoop> split_loops(const Outline& outline, double near) {
-  constexpr int most_rounds = 50;  // each bends pieces by rounding alone; two or three are usual
+  constexpr int most_rounds = 50;  // each round bends pieces by rounding only; two or three are usual
   std::vector<SplitLoop> loops;
   for (const OutlineLoop& loop : outline.loops) {
     loops.push_back({loop.points, {}});

@@ -7,18 +7,17 @@
 
 namespace quadloop {
 
-/// A loop of an outline, with points added where other loops meet it. Piece i runs from points[i] to the next
-/// point.
+/// A loop with points added where other loops meet it. Piece i runs from points[i] to the next point.
 struct SplitLoop {
   std::vector<Point> points;
-  std::vector<std::int32_t> segment;  ///< of each piece: the segment of the outline's loop that it is part of
+  std::vector<std::int32_t> segment;  ///< for each piece the segment of the original loop that contains it
 };
 
-/// Splits all loops where they cross, touch or overlap, so that two pieces of the result have nothing in
-/// common but end points, or are equal. A point within `near` of another loop's point or segment (along each
-/// axis, or to the segment) counts as lying on it: later points move onto earlier ones, and segments bend to
-/// points. Crossings are rounded once. Decided by exact predicates on the rounded coordinates, until nothing
-/// is left to split. Each loop is simple. Throws InputError, with a place, where no end is found.
+/// Splits all loops where they cross, touch or overlap, so that two pieces are equal or share only end
+/// points. A point within `near` (along each axis) of another loop's point, or within `near` of a segment,
+/// counts as lying on it: later points move onto earlier ones, and segments bend to points. Crossings are
+/// rounded once. Uses exact predicates on the rounded coordinates and repeats until nothing is left to split.
+/// Each loop must be simple. Throws InputError with a place if the process does not terminate.
 std::vector<SplitLoop> split_loops(const Outline& outline, double near);
 
 }  // namespace quadloop

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// Cosine and sine of an angle in degrees; multiples of 90 give -1, 0 and 1 themselves.
+/// Cosine and sine of an angle in degrees; exactly -1, 0 or 1 for multiples of 90.
 Point direction(double degrees) {
   const double turn = std::remainder(degrees, 360.0);  // exact, in -180 .. 180
   if (turn == 0) return {1, 0};
@@ -43,7 +43,7 @@ void apply(const Transform& transform, std::vector<Chain>& chains) {
 
 namespace {
 
-/// The box of the chains. Throws InputError where one of them is a far field already.
+/// The bounding box of the chains. Throws InputError if one of them already is a far field.
 Box box_without_far_field(const std::vector<Chain>& chains, const std::string& where) {
   Box box;
   for (const Chain& chain : chains) {

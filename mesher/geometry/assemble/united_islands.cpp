@@ -30,7 +30,7 @@ double longer_side_of(const Outline& outline) {
   return std::max(box.width(), box.height());
 }
 
-/// Only its sign and order of size are needed.
+/// Twice the signed area or a multiple: only its sign and relative size are used.
 double area_of(const std::vector<Point>& points) {
   double sum = 0;
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
@@ -43,7 +43,8 @@ std::int32_t root_of(std::vector<std::int32_t>& parents, std::int32_t l) {
   return l;
 }
 
-/// Loops that have a point in common, directly or through others; in the order of their first loops.
+/// Groups of loops that have a point in common, directly or through others, in the order of their first
+/// loops.
 std::vector<LoopGroup> groups_of(const std::vector<SplitLoop>& loops) {
   std::vector<std::int32_t> parents(loops.size());
   std::iota(parents.begin(), parents.end(), 0);
@@ -63,7 +64,7 @@ std::vector<LoopGroup> groups_of(const std::vector<SplitLoop>& loops) {
   return groups;
 }
 
-/// Tells which loops are around a point that is on none of them.
+/// Finds the loops that enclose a point which is on none of them.
 class LoopsAround {
  public:
   explicit LoopsAround(const std::vector<SplitLoop>& loops) {
@@ -75,7 +76,7 @@ class LoopsAround {
     tree_ = BoxTree(size32(edges_), [&](std::int32_t e) { return box_of(edges_[e].a, edges_[e].b); });
   }
 
-  /// Ascending, by an exact count of the edges that a ray to the left crosses.
+  /// Ascending; by an exact count of the edges that a ray to the left crosses.
   std::vector<std::int32_t> of(Point p) const {
     std::set<std::int32_t> odd;
     tree_.for_each_meeting({{-std::numeric_limits<double>::infinity(), p.y}, p}, [&](std::int32_t e) {
@@ -98,7 +99,7 @@ class LoopsAround {
   BoxTree tree_;
 };
 
-/// What is to be counted for the user.
+/// Counts for the user.
 struct UnionCounts {
   std::int64_t joined = 0, made = 0, dropped = 0;
   std::string first_joined, first_dropped;
@@ -148,7 +149,7 @@ class IslandUnion {
                        loop.points.front().x, loop.points.front().y);
   }
 
-  /// Of two loops that meet: whether all points of the one that are none of the other lie in it.
+  /// For two loops that meet: whether all points of the inner one that are not shared lie inside the other.
   bool is_inside(std::int32_t inner, std::int32_t l) const {
     const std::set<Point> shared(loops_[l].points.begin(), loops_[l].points.end());
     bool any = false;
@@ -159,15 +160,16 @@ class IslandUnion {
     }
     return any;
   }
-  /// Whether this loop may be meant as a hole in the other: its file directs it, or both are of one feature.
+  /// Whether this loop may be a hole in the other: its file specifies its direction, or both belong to one
+  /// feature.
   bool may_be_hole_in(std::int32_t l, std::int32_t other) const {
     return outline_.loops[l].directed || source(l) == source(other);
   }
 
-  /// +1 for a loop with domain in it, -1 for an island.
+  /// +1 for a loop with domain inside, -1 for an island.
   int sign_of(std::int32_t l, std::int32_t g) const {
     const std::vector<std::int32_t>& outer = outer_[g];
-    std::vector<std::int32_t> around;  // that count for this loop
+    std::vector<std::int32_t> around;  // relevant for this loop
     for (const std::int32_t other : groups_[g]) {
       if (other != l && may_be_hole_in(l, other) && is_inside(l, other)) around.push_back(other);
     }
@@ -181,8 +183,8 @@ class IslandUnion {
     return is_hole ? 1 : -1;
   }
 
-  /// Of loops with nothing around them that meet: the largest is the outer boundary, and others that are
-  /// directed so.
+  /// Whether a loop is an outer boundary, among loops that meet and are not enclosed: the largest one is, and
+  /// others whose specified direction says so.
   bool is_outermost(std::int32_t l, std::int32_t g) const {
     const LoopGroup& group = groups_[g];
     const std::int32_t largest =
@@ -242,7 +244,7 @@ class IslandUnion {
   LoopsAround around_;
   std::vector<double> areas_;
   std::vector<int> sign_;
-  std::vector<std::vector<std::int32_t>> outer_;  ///< by group: the loops of other groups around it
+  std::vector<std::vector<std::int32_t>> outer_;  ///< for each group the loops of other groups around it
 };
 
 void require_simple_loops(const Outline& outline) {

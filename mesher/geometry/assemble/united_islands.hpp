@@ -7,13 +7,13 @@
 
 namespace quadloop {
 
-/// Islands that overlap or share edges become one: the union of what they enclose. Of islands that meet the
-/// outer boundary the part inside it is taken out of the domain. An island inside another one is dropped; a
-/// ring inside a polygon of its own feature, or a loop that its file directs so, stays a hole in the island,
-/// with domain in it. Loops that meet no other stay as they are. Each edge keeps the boundary of the loop
-/// that it comes from; of loops that share it, the first. Points nearer than the share `join` of the extent
-/// count as one, points nearer to a segment as on it. Warnings count what was joined and dropped. Throws
-/// InputError, naming boundary and coordinates, where a loop crosses itself.
+/// Unites islands that overlap or share edges. If an island meets the outer boundary, its part inside is
+/// removed from the domain. An island inside another one is dropped. A ring inside a polygon of the same
+/// feature, or a loop with a direction specified by its file, remains a hole of the island that contains
+/// domain. Loops that meet no other are unchanged. Each edge keeps the boundary of its loop; a shared edge
+/// that of the first loop. Points nearer than `join` (fraction of the extent) are identified, and points
+/// nearer to a segment lie on it. Warnings count joined and dropped islands. Throws InputError with boundary
+/// and coordinates if a loop crosses itself.
 Outline united_islands(const Outline& outline, double join, std::vector<std::string>& warnings);
 
 }  // namespace quadloop

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-/// The graph by half-edges: 2 e and 2 e + 1 are the two directions of one edge.
+/// The graph as half-edges: 2 e and 2 e + 1 are the two directions of edge e.
 class HalfEdges {
  public:
   HalfEdges(const std::vector<WindingEdge>& edges, int outside) {
@@ -31,11 +31,11 @@ class HalfEdges {
   std::int32_t head(std::int32_t h) const { return head_[h]; }
   std::int32_t origin(std::int32_t h) const { return origin_[h]; }
 
-  /// Whether the domain is to its left, and not to its right.
+  /// Whether the domain is to its left and not to its right.
   bool bounds_domain(std::int32_t h) const { return winding_[face_[h]] > 0 && winding_[face_[h ^ 1]] <= 0; }
 
-  /// The next one that bounds the domain, counter-clockwise from the way back: so that what is between the
-  /// two is no domain.
+  /// The next half-edge that bounds the domain, counter-clockwise from the reverse of h, so that there is no
+  /// domain between the two.
   std::int32_t next_bound(std::int32_t h) const {
     std::int32_t turned = after_[h ^ 1];
     while (!bounds_domain(turned)) turned = after_[turned];
@@ -67,7 +67,7 @@ class HalfEdges {
 
   bool is_right(std::int32_t h) const { return points_[tail(h)] < points_[head_[h]]; }
 
-  /// By tails, then counter-clockwise from straight down.
+  /// Order by tails, then counter-clockwise from straight down.
   bool comes_before(std::int32_t g, std::int32_t h) const {
     if (tail(g) != tail(h)) return tail(g) < tail(h);
     if (is_right(g) != is_right(h)) return is_right(g);
@@ -88,7 +88,7 @@ class HalfEdges {
         after_[order[i]] = following;
         before_[following] = order[i];
       }
-      // Left of the leftmost vertex there is nothing: what lies behind the last edge to the right is outside.
+      // Nothing is left of the leftmost vertex: the face to the right behind the last edge is the outside.
       if (outermost_ == none || points_[tail(order[first])] < points_[tail(outermost_)])
         outermost_ = order[end - 1];
       first = end;
@@ -134,11 +134,11 @@ class HalfEdges {
   std::int32_t outermost_ = none;
 };
 
-/// Cuts off a loop of its own wherever a closed walk comes back to a vertex.
+/// Splits a closed walk into simple loops wherever it returns to a vertex.
 void add_simple_loops(const HalfEdges& graph, const std::vector<std::int32_t>& walk,
                       std::vector<WindingLoop>& loops) {
   std::vector<std::int32_t> path;
-  std::map<std::int32_t, std::size_t> place_in_path;  // of each tail
+  std::map<std::int32_t, std::size_t> place_in_path;  // by tail
   const auto cut_off = [&](std::size_t begin) {
     WindingLoop loop;
     for (std::size_t i = begin; i < path.size(); ++i) {
@@ -157,10 +157,10 @@ void add_simple_loops(const HalfEdges& graph, const std::vector<std::int32_t>& w
   }
 }
 
-/// Begins with the first origin.
+/// Rotates the loop to begin with its first origin.
 void rotate_to_first(WindingLoop& loop) {
   const auto first = std::ranges::min_element(loop.origin) - loop.origin.begin();
-  // Pieces of one segment follow each other: the first of them has another one before it.
+  // Pieces of one segment are consecutive; the first has a different origin before it.
   auto begin = first;
   const auto size = std::ssize(loop.origin);
   while (loop.origin[(begin + size - 1) % size] == loop.origin[first] && begin > first - size) --begin;
