@@ -29,7 +29,7 @@ std::vector<char> DelaunayPatch::doubtful() const {
   return doubts;
 }
 
-/// Whether the closed circumcircle meets a segment; rather yes than no where rounding might tell otherwise.
+/// Whether the closed circumcircle meets a segment; true in case of doubt (rounding).
 bool DelaunayPatch::circle_reaches(std::size_t triangle, Point from, Point to) const {
   using Wide = long double;
   constexpr Wide margin = 1e-6L;
@@ -38,9 +38,9 @@ bool DelaunayPatch::circle_reaches(std::size_t triangle, Point from, Point to) c
   const Wide twice_area = Wide(u.x) * v.y - Wide(u.y) * v.x;
   const Wide uu = Wide(u.x) * u.x + Wide(u.y) * u.y, vv = Wide(v.x) * v.x + Wide(v.y) * v.y;
   const Wide x = (v.y * uu - u.y * vv) / (2 * twice_area),
-             y = (u.x * vv - v.x * uu) / (2 * twice_area);  // the centre, from a
+             y = (u.x * vv - v.x * uu) / (2 * twice_area);  // the centre, relative to a
   const Wide square = x * x + y * y;
-  if (!(square < 1e12L * (uu + vv))) return true;  // next to a half plane
+  if (!(square < 1e12L * (uu + vv))) return true;  // the circle is nearly a half plane
   const Point p = from - a, d = to - from;
   const Wide length_squared = Wide(d.x) * d.x + Wide(d.y) * d.y;
   const Wide t = std::clamp(((x - p.x) * d.x + (y - p.y) * d.y) / length_squared, Wide(0), Wide(1));

@@ -4,14 +4,14 @@
 
 namespace quadloop {
 
-/// The constrained Delaunay triangulation of a part of the domain, which may go on beyond it.
+/// The constrained Delaunay triangulation of a part of the domain, which may continue beyond it.
 class DelaunayPatch {
  public:
   using Triangle = Flipper::Triangle;
 
-  /// From any counter-clockwise triangles over the nodes, as Flipper makes it. Where `open` is set for a
-  /// triangle, the domain may go on across its edges that have no other triangle. `rank_of` and `moved` as
-  /// Flipper has them; the points must outlive the patch.
+  /// Starts from any counter-clockwise triangles over the nodes. Where `open` is set for a triangle, the
+  /// domain may continue across its edges that have no other triangle. `rank_of` and `moved` as in Flipper.
+  /// The points must outlive the patch.
   DelaunayPatch(std::span<const Point> points, const Flipper::RankOf& rank_of,
                 std::vector<Triangle> triangles, const std::vector<char>& open,
                 const std::vector<std::int32_t>& blocks = {}, std::span<const char> moved = {})
@@ -22,11 +22,12 @@ class DelaunayPatch {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   const Point& point(std::int32_t node) const { return points_[node]; }
 
-  /// A flag for each triangle that nodes across the open edges might undo: one whose circumcircle reaches
-  /// such an edge, with all between them.
+  /// Flags the triangles that nodes beyond the open edges might invalidate: those whose circumcircle reaches
+  /// such an edge.
   std::vector<char> doubtful() const;
 
-  /// Whether an edge of the triangle has no other one of its block, and `may(node)` of both its ends.
+  /// Whether an edge of the triangle has no second triangle of its block, and `may(node)` holds for both its
+  /// ends.
   template <class May>
   bool has_single_edge(std::size_t triangle, const May& may) const {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -29,14 +29,14 @@ void Flipper::flip_first(std::span<const Point> points, const RankOf& rank_of, s
   flip_below(static_cast<Edge>(3 * count), rank_of);
 }
 
-/// Makes right the edges that are numbered below `end`, and what this makes wrong.
+/// Corrects the edges with numbers below `end`, and those that become wrong by this.
 void Flipper::flip_below(Edge end, const RankOf& rank_of) {
-  for (Edge e = 0; e < end; ++e) {  // what flips make wrong is looked at by flip_from()
+  for (Edge e = 0; e < end; ++e) {  // edges made wrong by flips are checked in flip_from()
     if (across(e) > e && (is_blunt(e) || is_blunt(across(e))) && !is_firm(e)) flip_from(e, rank_of);
   }
 }
 
-/// Flips an edge if it is wrong, and then what this makes wrong.
+/// Flips an edge if it is wrong, then edges made wrong by this.
 void Flipper::flip_from(Edge first, const RankOf& rank_of) {
   waiting_.assign(1, first);
   while (!waiting_.empty()) {
@@ -45,12 +45,12 @@ void Flipper::flip_from(Edge first, const RankOf& rank_of) {
     if (across(e) < 0 || !is_wrong(e, rank_of)) continue;
     const Edge s = e - e % 3, t = across(e) - across(e) % 3;
     flip(e);
-    waiting_.insert(waiting_.end(), {s, t, s + 2, t + 2});  // not what they share: it is right now
+    waiting_.insert(waiting_.end(), {s, t, s + 2, t + 2});  // not the shared edge, which is now right
   }
 }
 
-/// Finds the triangles across the edges. Those whose other triangle has not come yet are chained, one lower
-/// node's after the other: meanwhile the next of the chain is what stands across.
+/// Finds the triangles across the edges. Edges whose other triangle has not been found yet are chained by
+/// their lower node; meanwhile across_ holds the next of the chain.
 void Flipper::join(std::span<const std::int32_t> blocks) {
   across_.assign(3 * triangles_.size(), border);
   last_low_.assign(points_.size(), border);
@@ -67,7 +67,7 @@ void Flipper::join(std::span<const std::int32_t> blocks) {
   }
 }
 
-/// What is left in the chains has no triangle across it.
+/// Edges left in the chains have no triangle across.
 void Flipper::close(std::span<const char> open) {
   for (Edge e : last_low_) {
     while (e >= 0)
@@ -94,7 +94,7 @@ void Flipper::list_blunt() {
   }
 }
 
-/// Its ends, then the nodes opposite it.
+/// The ends of the edge, then the opposite nodes.
 std::array<std::size_t, 4> Flipper::nodes_of_both(Edge e) const {
   return {static_cast<std::size_t>(node(e, 1)), static_cast<std::size_t>(node(e, 2)),
           static_cast<std::size_t>(node(e, 0)), static_cast<std::size_t>(node(across(e), 0))};
@@ -103,7 +103,7 @@ std::array<std::size_t, 4> Flipper::nodes_of_both(Edge e) const {
 bool Flipper::is_wrong(Edge e, const RankOf& rank_of) const {
   const auto n = nodes_of_both(e);
   const Point &a = points_[n[0]], &b = points_[n[1]], &c = points_[n[2]], &d = points_[n[3]];
-  if (surely_acute(a, c, b) && surely_acute(a, d, b)) return false;  // so that d lies outside the circle
+  if (surely_acute(a, c, b) && surely_acute(a, d, b)) return false;  // d then lies outside the circle
   if (is_firm(e) && in_circle(a, b, c, d) == 0) return false;
   return should_flip(a, b, c, d, [&](std::size_t k) { return rank_of(static_cast<std::int32_t>(n[k])); });
 }
@@ -113,7 +113,7 @@ void Flipper::set_across(Edge e, Edge other) {
   if (other >= 0) across_[other] = e;
 }
 
-/// The flags of the outer edges of two triangles go where flip() puts these edges.
+/// Moves the flags of the outer edges of two triangles to where flip() puts these edges.
 void Flipper::keep_firm(Edge e, Edge f) {
   const auto next = [](Edge edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; };
   const Edge s = e - e % 3, t = f - f % 3;

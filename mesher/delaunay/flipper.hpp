@@ -13,16 +13,16 @@
 
 namespace quadloop {
 
-/// Counter-clockwise exactly, and by the plain products in doubles that every reader of the mesh will use, at
-/// each corner.
+/// Whether a triangle is counter-clockwise both exactly and, at each corner, by the plain products in doubles
+/// that readers of the mesh will use.
 inline bool is_positive(Point a, Point b, Point c) {
   return cross(b - a, c - a) > 0 && cross(c - b, a - b) > 0 && cross(a - c, b - c) > 0 &&
          orientation(a, b, c) > 0;
 }
 
-/// Whether the edge a-b between the triangles a b c and b a d should give way to c-d. Of four points on one
-/// circle that with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of a, b, c, d.
-/// Exact; never where a new triangle would not be positive.
+/// Whether the edge a-b between the triangles a b c and b a d should be replaced by c-d. If the four points
+/// are on one circle, the point with the highest rank gets the edge; `rank_of(k)` is the rank of the k-th of
+/// a, b, c, d. Exact; false if a new triangle would not be positive.
 template <class RankOf>
 bool should_flip(Point a, Point b, Point c, Point d, const RankOf& rank_of) {
   const int inside = in_circle(a, b, c, d);
@@ -31,7 +31,7 @@ bool should_flip(Point a, Point b, Point c, Point d, const RankOf& rank_of) {
   return is_positive(a, d, c) && is_positive(d, b, c);
 }
 
-/// Makes a triangulation constrained Delaunay by flips (Lawson 1977). Keeps its memory for the next one.
+/// Makes a triangulation constrained Delaunay by flips (Lawson 1977). Its memory is reused by the next call.
 class Flipper {
  public:
   using Triangle = std::array<std::int32_t, 3>;
@@ -39,29 +39,28 @@ class Flipper {
   using Edge = std::int32_t;
   static constexpr Edge border = -1, open_border = -2;
 
-  /// The rank of a node for a choice between diagonals.
+  /// The rank of a node for the choice between diagonals.
   using RankOf = std::function<TieRank(std::int32_t)>;
 
-  /// Flips edges of counter-clockwise `triangles` over the `points`, which the edges shared by two of them
-  /// join. Edges with one triangle stay, and those between triangles of two `blocks` (one for each triangle,
-  /// or none where all are of one block). If the order of ranks is strict, the result depends on
-  /// points, ranks and such edges alone, not on the triangles at the beginning; triangles keep their blocks.
-  /// Where `open` (a flag for each triangle, or none) is set, an edge with one triangle becomes an open
-  /// border.
-  /// `moved` (a flag for each point, or none) says that the triangles were constrained Delaunay before these
-  /// moved: an edge of two triangles without a moved node then gives way to no other diagonal of four nodes
-  /// on one circle, whatever their ranks, and the result depends on such edges, too. It is still unique: an
-  /// edge that flips though it is no tie is of no Delaunay triangulation, and between the edges that stay the
+  /// Flips edges of counter-clockwise `triangles` over the `points`; edges with the same ends are joined.
+  /// Edges with one triangle are kept, and edges between triangles of two `blocks` (one entry per triangle;
+  /// empty: one block). If the order of ranks is strict, the result depends only on points, ranks and kept
+  /// edges, not on the initial triangles. Triangles keep their blocks. Where `open` (a flag per triangle, or
+  /// empty) is set, an edge with one triangle becomes an open border.
+  /// `moved` (a flag per point, or empty): the triangles were constrained Delaunay before these points moved.
+  /// Then an edge of two triangles without a moved node is not replaced by the other diagonal of four nodes
+  /// on one circle, whatever their ranks, and the result also depends on such edges. It is still unique: an
+  /// edge that flips without being a tie belongs to no Delaunay triangulation, and between the kept edges the
   /// ranks decide.
   void flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
                         std::span<const char> open = {}, std::span<const std::int32_t> blocks = {},
                         std::span<const char> moved = {});
 
-  /// The same where all edges that may be wrong are those of the first `count` triangles.
+  /// Same, if all edges that may be wrong belong to the first `count` triangles.
   void flip_first(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
                   std::size_t count);
 
-  /// The same edge of the triangle beyond it, `border` or `open_border`, after the flips.
+  /// The same edge in the adjacent triangle, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }
   static std::size_t triangle_of(Edge e) { return e / 3; }
   static std::size_t corner_of(Edge e, int step) { return (e % 3 + step) % 3; }
@@ -88,10 +87,11 @@ class Flipper {
   std::span<const Point> points_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
-  std::vector<char> firm_;           ///< a flag for each edge that gives way to no tie; or none
+  std::vector<char> firm_;           ///< a flag for each edge that no tie may flip; may be empty
   std::vector<char> moved_;          ///< a flag for each triangle with a moved node
-  std::vector<std::uint8_t> blunt_;  ///< the blunt_corners of each triangle before the flips
-  std::vector<Edge> last_low_;  ///< of each node, the last edge with it as the lower end and one triangle
+  std::vector<std::uint8_t> blunt_;  ///< blunt_corners() of each triangle before the flips
+  std::vector<Edge>
+      last_low_;  ///< for each node the last edge that has it as lower end and only one triangle
   std::vector<Edge> waiting_;
 };
 

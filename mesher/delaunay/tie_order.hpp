@@ -9,13 +9,13 @@
 
 namespace quadloop {
 
-/// Ranks the nodes of a mesh for a choice between the diagonals of four nodes on one circle: the diagonal
-/// through the node of the highest rank wins. Made of numbers that mirror images and quarter turns of the
-/// root (or of a leaf alone) keep; only nodes that are mirror images of each other are told apart by their
-/// coordinates. Over a mesh the order is strict, so that a constrained Delaunay triangulation is unique under
-/// it: nodes on one circle are joined to the highest of them.
+/// Rank of a mesh node for the choice between the diagonals of four nodes on one circle: the diagonal through
+/// the node of the highest rank is used. It consists of numbers that are invariant under reflections and
+/// quarter turns of the root (or of a single leaf); only mirror images are distinguished by their
+/// coordinates. In a mesh the order is strict, so the constrained Delaunay triangulation is unique: nodes on
+/// one circle are joined to the highest of them.
 struct TieRank {
-  /// Trailing zeros of a lattice node's coordinates, the smaller first; -1 for other nodes.
+  /// Trailing zeros of a grid vertex's integer coordinates, the smaller first; -1 for other nodes.
   std::int8_t coarser = -1, finer = -1;
   /// Distances along the axes, the larger first: from the root's centre, or from a leaf's corner of the
   /// highest rank.
@@ -24,7 +24,7 @@ struct TieRank {
   friend auto operator<=>(const TieRank&, const TieRank&) = default;
 };
 
-/// From a node's position alone: nodes farther from the centre of a box rank higher.
+/// Rank by position only: nodes farther from the centre of a box rank higher.
 inline TieRank tie_rank(Point centre, Point position) {
   const double across = std::abs(position.x - centre.x), up = std::abs(position.y - centre.y);
   return {-1, -1, std::max(across, up), std::min(across, up), position.x, position.y};

@@ -12,10 +12,10 @@
 
 namespace quadloop {
 
-/// Edges that may have become wrong where nodes moved: opposite angles that are not acute, between nodes near
-/// moved ones. Those of right angles in halved squares that stayed are left out: such an edge is wrong only
-/// if the angle opposite it on the other side is not acute either, and then that one's triangle has it. No
-/// triangle has more than one, but for rounding.
+/// Edges that may have become wrong where nodes moved: those opposite non-acute angles, between nodes near
+/// moved ones. Excludes edges opposite right angles of unmoved halved squares: such an edge is wrong only if
+/// the angle on its other side is not acute either, and is then found from the other triangle. A triangle has
+/// at most one such edge, up to rounding.
 class BluntEdges {
  public:
   /// The mesh must outlive it.
@@ -33,7 +33,7 @@ class BluntEdges {
     }
   }
 
-  /// Calls `visit(a, b, c, d)` for those between two triangles a b c and b a d, for some twice. To be called
+  /// Calls `visit(a, b, c, d)` for each such edge between two triangles a b c and b a d, for some twice. Call
   /// before for_each_single.
   template <class Visit>
   void for_each_pair(const Visit& visit) {
@@ -51,7 +51,7 @@ class BluntEdges {
     }
   }
 
-  /// Calls `visit(a, b, c)` for those of one triangle a b c on this rank.
+  /// Calls `visit(a, b, c)` for each such edge with only one triangle a b c on this rank.
   template <class Visit>
   void for_each_single(const Visit& visit) const {
     for (const Edge& edge : edges_) {
@@ -63,13 +63,13 @@ class BluntEdges {
   static constexpr std::int32_t none = -1;
   struct Edge {
     NodeId from, to, apex;
-    std::int32_t next;  ///< of the same lower node
+    std::int32_t next;  ///< next edge with the same lower node
     bool is_single;
   };
   static bool has_edge_between(const NodeFlags& flags, const std::array<NodeId, 3>& t) {
     return flags[t[0]] + flags[t[1]] + flags[t[2]] > 1;
   }
-  /// Its ends, counter-clockwise, and the node opposite it.
+  /// The ends of the edge, counter-clockwise, and the opposite node.
   static std::array<NodeId, 3> edge_opposite(const std::array<NodeId, 3>& t, int corner) {
     return {t[(corner + 1) % 3], t[(corner + 2) % 3], t[corner]};
   }
@@ -81,8 +81,8 @@ class BluntEdges {
 
   const Mesh& mesh_;
   std::vector<Edge> edges_;
-  IdVector<NodeId, std::int32_t> last_low_;  ///< of each node, the last edge with it as the lower end
-  NodeFlags has_edge_;                       ///< of each node, whether it is an end of one
+  IdVector<NodeId, std::int32_t> last_low_;  ///< for each node the last edge that has it as lower end
+  NodeFlags has_edge_;                       ///< flag for each node: end of such an edge
 };
 
 }  // namespace quadloop

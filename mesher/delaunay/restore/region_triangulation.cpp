@@ -9,19 +9,19 @@ namespace quadloop {
 
 namespace {
 
-/// The node of the smallest number over all ranks.
+/// Rotates a triangle so that the node with the smallest global number is first.
 void put_smallest_first(const StarHalo& halo, std::array<std::int32_t, 3>& nodes) {
   const auto goes_first = [&](std::int32_t a, std::int32_t b) { return halo.global(a) < halo.global(b); };
   std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), goes_first), nodes.end());
 }
 
-/// Its nodes come in an order that all ranks have, and so does the sum.
+/// All ranks see the nodes in the same order, so the sum has the same bits.
 Point centroid(const StarHalo& halo, const std::array<std::int32_t, 3>& nodes) {
   const auto at = [&](std::size_t k) { return halo.points()[nodes[k]]; };
   return 1.0 / 3 * (at(0) + at(1) + at(2));
 }
 
-/// The triangles of the slots that have changed, as they were, around each node.
+/// The previous triangles of the changed slots, by node.
 class TrianglesBefore {
  public:
   TrianglesBefore(const StarHalo& halo, std::span<const RegionTriangulation::Before> triangles)
@@ -39,7 +39,7 @@ class TrianglesBefore {
 
   bool stays(std::size_t i) const { return stays_[i] != 0; }
 
-  /// Whether a triangle was there before, in whichever slot; it then is none that is gone.
+  /// Whether a triangle existed before, in any slot; if so, it does not count as removed.
   bool find_again(const RegionTriangulation::After& after) {
     for (const std::int32_t i : around(after.nodes[0])) {
       if (triangles_[i].nodes != after.nodes || triangles_[i].freed.block != after.block) continue;
@@ -49,8 +49,8 @@ class TrianglesBefore {
     return false;
   }
 
-  /// The number of the one that is gone, of a block and around the node, that is nearest to a point; of
-  /// several as near the lowest.
+  /// The number of the removed triangle of a block around the node that is nearest to a point; the lowest of
+  /// equally near ones.
   std::int64_t nearest_gone(std::int32_t node, Point p, std::int32_t block) const {
     std::pair best{std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
     for (const std::int32_t i : around(node)) {
@@ -68,10 +68,10 @@ class TrianglesBefore {
   }
 
   std::span<const RegionTriangulation::Before> triangles_;
-  std::vector<std::int32_t> starts_;  ///< of each node, in around_
+  std::vector<std::int32_t> starts_;  ///< start in around_ for each node
   std::vector<std::int32_t> around_;  ///< indices of triangles
   std::vector<Point> centroids_;
-  std::vector<char> stays_;  ///< a flag for each triangle: it came back
+  std::vector<char> stays_;  ///< a flag for each triangle that exists again
 };
 
 }  // namespace
@@ -81,7 +81,7 @@ RegionTriangulation::RegionTriangulation(const StarHalo& halo, const std::functi
   if (!uncertain_) compare(halo, std::move(changes));
 }
 
-/// The patch, which is large, is gone before the changes are looked at.
+/// Frees the patch, which is large, before the changes are compared.
 RegionTriangulation::Changes RegionTriangulation::flip(const StarHalo& halo,
                                                        const std::function<TieRank(Point)>& rank_of) {
   std::vector<char> open;
@@ -103,8 +103,8 @@ bool RegionTriangulation::is_uncertain(const StarHalo& halo, const DelaunayPatch
   return false;
 }
 
-/// Finds those that have outgrown the region, too: with an edge of one triangle between nodes that may have
-/// more triangles around them than the region has.
+/// Also finds nodes whose changes reach the border of the region: ends of an edge with one triangle, both of
+/// which may have more triangles than the region contains.
 RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& halo,
                                                                const DelaunayPatch& patch) {
   Changes changes;
@@ -125,7 +125,7 @@ RegionTriangulation::Changes RegionTriangulation::find_changes(const StarHalo& h
   return changes;
 }
 
-/// A triangle may come back in another slot of the patch.
+/// A triangle may reappear in another slot of the patch.
 void RegionTriangulation::compare(const StarHalo& halo, Changes changes) {
   TrianglesBefore before(halo, changes.before);
   std::erase_if(changes.after, [&](const After& after) { return before.find_again(after); });

@@ -9,38 +9,38 @@
 
 namespace quadloop {
 
-/// A triangle that was not there before.
+/// A triangle that did not exist before.
 struct MadeTriangle {
-  std::int64_t near = 0;  ///< the number of the nearest triangle, by their centroids, of those with its first
-                          ///< node that are gone
-  std::array<GlobalNodeId, 3> nodes;  ///< the smallest first
+  std::int64_t near =
+      0;  ///< number of the nearest removed triangle (by centroid) among those with its first node
+  std::array<GlobalNodeId, 3> nodes;  ///< smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;
   friend auto operator<=>(const MadeTriangle&, const MadeTriangle&) = default;
 };
 
-/// A triangle that is gone.
+/// A removed triangle.
 struct FreedTriangle {
   std::int64_t number = 0;
   std::int32_t block = 0;
   friend auto operator<=>(const FreedTriangle&, const FreedTriangle&) = default;
 };
 
-/// The constrained Delaunay triangulation of what a rank knows of a region, and how it differs from the
-/// triangles before. A triangle is this rank's concern where it owns the first of its nodes.
+/// The constrained Delaunay triangulation of a rank's part of a region, and its difference from the previous
+/// triangles. A triangle is handled by the rank that owns the first of its nodes.
 class RegionTriangulation {
  public:
   RegionTriangulation(const StarHalo& halo, const std::function<TieRank(Point)>& rank_of);
 
-  /// Whether triangles not at hand might change some around nodes that this rank owns. If so, the following
+  /// Whether unknown triangles might change some around nodes that this rank owns. If so, the following lists
   /// are empty.
   bool uncertain() const { return uncertain_; }
   const std::vector<FreedTriangle>& freed() const { return freed_; }
   const std::vector<MadeTriangle>& made() const { return made_; }
-  /// Nodes of new triangles at the region's border: the triangles beyond it may no longer be Delaunay.
+  /// Nodes of new triangles at the region's border: triangles beyond it may no longer be Delaunay.
   const std::vector<GlobalNodeId>& outgrown() const { return outgrown_; }
 
-  /// What the triangle in a slot of the patch was, and what it is now; the smallest node first.
+  /// The previous and the new triangle in a slot of the patch, smallest node first.
   struct Before {
     DelaunayPatch::Triangle nodes;
     FreedTriangle freed;
@@ -52,7 +52,7 @@ class RegionTriangulation {
 
  private:
   using Triangle = DelaunayPatch::Triangle;
-  /// Of the slots that have changed.
+  /// In the changed slots.
   struct Changes {
     std::vector<Before> before;
     std::vector<After> after;

@@ -13,12 +13,13 @@ namespace quadloop {
 
 namespace {
 
-constexpr int first_rings = 2;  ///< fetched at once; more where circumcircles reach farther
+constexpr int first_rings =
+    2;  ///< number of rings fetched at once; more are fetched where circumcircles reach farther
 
 using Known = StarHalo::Known;
 
-/// The triangles around core nodes: no edge from one of these is at the border of the region, but for edges
-/// of the mesh's boundaries.
+/// The triangles around core nodes. Their edges are not on the border of the region, except for boundary
+/// edges of the mesh.
 class Region {
  public:
   Region(const Communicator& comm, const Mesh& mesh, const Known& known)
@@ -29,14 +30,14 @@ class Region {
         exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
         core_(mesh.points.size(), 0) {}
 
-  /// Makes nodes core; every rank may name any. *Collective.*
+  /// Adds core nodes; every rank may list any node. *Collective.*
   void add(const std::vector<GlobalNodeId>& nodes) {
     flag_at_owners(comm_, owners_, nodes, core_);
     exchange_.update(core_, [&](std::int32_t node) { return core_[NodeId{node}] != 0; });
   }
 
-  /// The nodes of this rank's triangles that have an edge which is wrong after moves, or may be, as the
-  /// triangle across it is another rank's. *Collective.*
+  /// The nodes of this rank's triangles with an edge that is wrong after moves, or may be wrong because the
+  /// triangle across it is on another rank. *Collective.*
   std::vector<GlobalNodeId> nodes_at_doubtful_edges() const {
     const NodeFlags near = near_moved();
     BluntEdges blunt(mesh_, known_.moved, near);
@@ -67,7 +68,7 @@ class Region {
   }
 
  private:
-  /// Flags the nodes of triangles that have a moved node, whichever ranks have these. *Collective.*
+  /// Flags the nodes of triangles with a moved node, on any rank. *Collective.*
   NodeFlags near_moved() const {
     QUADLOOP_REQUIRE(known_.moved.size() == mesh_.points.size(), "a flag for each point");
     NodeFlags near(mesh_.points.size(), 0);
@@ -91,13 +92,13 @@ class Region {
   NodeFlags core_;
 };
 
-/// All ranks' rows as one, in the order of ranks. *Collective.*
+/// Ranges of all ranks' rows in rank order. *Collective.*
 template <class Row>
 RankRanges ranges_of(const Communicator& comm, const std::vector<Row>& rows) {
   return {comm, comm.exclusive_sum(std::ssize(rows))};
 }
 
-/// Each row goes to the rank that `rank_of` tells; returns those for this rank, in the order of ranks.
+/// Sends each row to the rank given by `rank_of`; returns the rows for this rank, in rank order.
 /// *Collective.*
 template <class Row, class RankOf>
 std::vector<Row> deliver(const Communicator& comm, const std::vector<Row>& rows, const RankOf& rank_of) {
@@ -106,7 +107,7 @@ std::vector<Row> deliver(const Communicator& comm, const std::vector<Row>& rows,
   return Exchange(comm, ranks).deliver(rows);
 }
 
-/// The same, sorted: by ranks first, as one sort of rows in stretches that ascend takes many times as long.
+/// Same, sorted; sorted by rank first, which is much faster than one sort of concatenated sorted ranges.
 /// *Collective.*
 template <class Row, class RankOf>
 std::vector<Row> deliver_sorted(const Communicator& comm, const std::vector<Row>& rows,
@@ -131,8 +132,8 @@ std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
   return found;
 }
 
-/// Puts a block's new triangles at its free slots, both in an order that all ranks make together: the slots
-/// by their numbers, the triangles by that of the one before that they are near to. *Collective.*
+/// Assigns a block's new triangles to its free slots in a global order: slots by number, triangles by the
+/// number of the nearest previous one. *Collective.*
 void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
                        std::vector<MadeTriangle> made, Mesh& mesh) {
   const auto size_of = [](const auto& rows) { return std::ssize(rows); };
@@ -151,7 +152,7 @@ void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle
   }
 }
 
-/// Puts new triangles where those were that they are near to. *Collective.*
+/// Puts new triangles in the places of the nearest removed ones. *Collective.*
 std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector<FreedTriangle> freed,
                                            std::vector<MadeTriangle> made, Mesh& mesh) {
   const RankRanges triangles = ranges_of(comm, mesh.triangles);
@@ -190,7 +191,7 @@ void require_restorable(const Mesh& mesh, const std::vector<std::int32_t>& trian
                    "a block for each triangle, or none");
 }
 
-/// What changes after moves; nothing where no edge may be wrong. *Collective.*
+/// The changes after moves; none if no edge may be wrong. *Collective.*
 std::optional<RegionTriangulation> changed_region(const Communicator& comm, const Mesh& mesh,
                                                   const std::function<TieRank(Point)>& rank_of,
                                                   const Known& known) {
@@ -206,7 +207,7 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
   return triangulation;
 }
 
-/// New triangles take the slots that become free, block by block. *Collective.*
+/// Assigns new triangles to freed slots, block by block. *Collective.*
 void put_in_slots(const Communicator& comm, const RegionTriangulation& changed,
                   const std::vector<std::int32_t>& triangle_to_block, Mesh& mesh) {
   const std::int32_t blocks = number_of_blocks(comm, triangle_to_block);
@@ -222,7 +223,7 @@ void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<Globa
                          const std::vector<std::int32_t>& triangle_to_block) {
   require_restorable(mesh, triangle_to_block);
   const NodeFlags not_said;
-  while (comm.any(!nodes.empty())) {  // few go on beyond the first region
+  while (comm.any(!nodes.empty())) {  // rarely repeated
     Region region(comm, mesh, {triangle_to_block, not_said});
     region.add(nodes);
     const RegionTriangulation changed = region.triangulate(rank_of);

@@ -20,7 +20,7 @@ StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, const Mes
   gather_stars(core);
 }
 
-/// Each triangle goes to the owners of its nodes.
+/// Sends each triangle to the owners of its nodes.
 void StarHalo::gather_stars(const NodeFlags& core) {
   const std::int64_t first = comm_.exclusive_sum(std::ssize(mesh_.triangles));
   std::vector<std::int32_t> region;
@@ -58,7 +58,7 @@ std::int32_t StarHalo::number_node(GlobalNodeId node, Point point, char core, ch
   return number;
 }
 
-/// One of this rank's triangles.
+/// Handles one of this rank's triangles.
 void StarHalo::share(const Triangle& nodes, std::int64_t number, std::int32_t block,
                      Outbox<Travelling>& to_owners) {
   if (has_owned(nodes)) add(nodes, number, block);
@@ -101,7 +101,7 @@ StarHalo::Travelling StarHalo::travelling(const Triangle& nodes, std::int64_t nu
   return t;
 }
 
-/// The triangles around these nodes, which this rank owns, each once.
+/// Returns the triangles around these nodes, which this rank owns, each once.
 void StarHalo::answer(int rank, std::span<const GlobalNodeId> nodes, Outbox<Travelling>& answers) const {
   std::vector<char> asked(nodes_.size(), 0);
   for (const GlobalNodeId node : nodes) {
