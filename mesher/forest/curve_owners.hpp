@@ -10,24 +10,24 @@
 
 namespace quadloop {
 
-/// A unit square by its key on the space-filling curve: first along the trees, then (Morton order) within
-/// the tree.
+/// The position of a unit square on the space-filling curve: the tree's number on the curve, then the Morton
+/// key within the tree.
 struct CurveKey {
   std::int32_t tree = 0;
   std::uint64_t square = 0;
   friend auto operator<=>(const CurveKey&, const CurveKey&) = default;
 };
 
-/// Which rank owns which part of the space-filling curve, and so of the root.
+/// The partition of the space-filling curve, and so of the root, among the ranks.
 class CurveOwners {
  public:
-  /// `begins`: where each rank's part begins, and last the curve's end; `tree_numbers`: along the curve, of
-  /// the trees row by row.
+  /// `begins`: beginning of each rank's part, then the end of the curve. `tree_numbers`: for each tree, row
+  /// by row, its number on the curve.
   CurveOwners(std::vector<CurveKey> begins, std::vector<std::int32_t> tree_numbers, int trees_x)
       : begins_{std::move(begins)}, tree_numbers_{std::move(tree_numbers)}, trees_x_{trees_x} {}
 
   std::size_t ranks() const { return begins_.size() - 1; }
-  /// Of the unit square right above the lattice corner (x, y), in the root.
+  /// The key of the unit square with lower left grid vertex (x, y), inside the root.
   CurveKey key_at(std::int64_t x, std::int64_t y) const {
     constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
     const std::int64_t tree = (y >> Quadrant::unit_level) * trees_x_ + (x >> Quadrant::unit_level);

@@ -29,7 +29,7 @@ struct Releaser {
 
 static_assert(P4EST_MAXLEVEL == Quadrant::unit_level, "lattice units are p4est's");
 
-/// The first line that p4est has logged of what ends it.
+/// The first error message that p4est has logged.
 std::string& last_words() {
   static std::string words;
   return words;
@@ -39,14 +39,14 @@ void keep_words(FILE*, const char*, int, int, int, int, const char* message) {
   if (last_words().empty()) last_words() = message;
 }
 
-/// In the place of p4est's stack trace and abort(). Nothing is used after it but to be destroyed.
+/// Replaces p4est's stack trace and abort(). Afterwards objects may only be destroyed.
 void throw_for_p4est() {
   const std::string words = std::exchange(last_words(), {});
   if (words.find("lloc") != std::string::npos) throw std::bad_alloc();  // "Allocation", "Reallocation"
   throw Fault("p4est: " + words);
 }
 
-/// p4est is to be set up once in a program.
+/// Initialises p4est once per program.
 void set_up_p4est() {
   if (p4est_package_id >= 0) return;
   sc_set_log_defaults(nullptr, keep_words, SC_LP_ERROR);
@@ -54,7 +54,7 @@ void set_up_p4est() {
   p4est_init(keep_words, SC_LP_ERROR);
 }
 
-/// What p4est's callback reaches through its user pointer.
+/// Data for p4est's callback, passed by its user pointer.
 struct Weights {
   const std::vector<Quadrant>* tree_corners = nullptr;
   const std::function<int(const Quadrant&)>* weight = nullptr;
@@ -71,16 +71,16 @@ int weight_by_function(p4est_t* forest, p4est_topidx_t tree, p4est_quadrant_t* q
   return (*weights.weight)(quadrant_of(*weights.tree_corners, tree, *q));
 }
 
-/// Which of p4est's quadrants of a tree have been split since p4est got them: a flag for each, followed by
-/// those of its children where it is, and so on. So a forest grows by a bit for each quadrant, and p4est gets
-/// the leaves, in arrays of the right length, only where it is to move them.
+/// Splits of p4est's quadrants of a tree since p4est received them: a flag for each quadrant; if set,
+/// followed by the flags of its children, recursively. So a forest grows by one bit per quadrant, and p4est
+/// receives the leaves, in arrays of the right length, only for moving them.
 struct TreeSplits {
   std::vector<bool> flags;
-  std::int32_t leaves = 0;  ///< of flags that are not set
+  std::int32_t leaves = 0;  ///< number of unset flags
 };
 
-/// To what follows along the curve after all of this quadrant; whether that is still inside the one of level
-/// `top` that holds it.
+/// Advances to the quadrant after q along the curve; returns whether that is still inside the ancestor of
+/// level `top`.
 bool to_next(Quadrant& q, int top) {
   for (; q.level > top; --q.level) {
     const std::int64_t size = q.size();
@@ -93,20 +93,20 @@ bool to_next(Quadrant& q, int top) {
   return false;
 }
 
-/// Visits the leaves below a quadrant in the order of the curve. `is_split` is asked of each quadrant, before
-/// those below it.
+/// Visits the leaves below a quadrant in the order of the curve. `is_split` is called for each quadrant
+/// before those below it.
 template <class IsSplit, class Visit>
 void for_leaves_below(Quadrant q, const IsSplit& is_split, const Visit& visit) {
   const int top = q.level;
   do {
-    while (is_split(q)) ++q.level;  // the first child
+    while (is_split(q)) ++q.level;  // first child
     visit(q);
   } while (to_next(q, top));
 }
 
 using Flag = std::vector<bool>::const_iterator;
 
-/// Makes one tree's flags anew, from those that it had.
+/// Builds new flags of a tree from its previous flags.
 class SplitFlags {
  public:
   SplitFlags(const std::vector<bool>& before, const std::function<bool(const Quadrant&)>& split,
@@ -115,7 +115,7 @@ class SplitFlags {
     made_.flags.reserve(before.size());
   }
 
-  /// Of one of p4est's quadrants.
+  /// Adds one of p4est's quadrants.
   void add(const Quadrant& q) {
     known_ = Quadrant::unit_level;
     for_leaves_below(
@@ -134,7 +134,7 @@ class SplitFlags {
   }
 
   Flag next_;
-  int known_ = Quadrant::unit_level;  ///< of the leaf last met: what is below it has no flags yet
+  int known_ = Quadrant::unit_level;  ///< level of the last leaf: quadrants below it have no flags yet
   const std::function<bool(const Quadrant&)>& split_;
   int deepest_level_;
   TreeSplits made_;
@@ -148,13 +148,13 @@ struct Forest::Impl {
   std::unique_ptr<p4est_t, Releaser<p4est_destroy>> forest;
   std::vector<Quadrant> tree_corners;
   std::vector<std::int32_t> tree_numbers;  ///< row by row
-  std::vector<TreeSplits> splits;          ///< of each tree
+  std::vector<TreeSplits> splits;          ///< for each tree
   int trees_x = 1;
 
   /// Trees with quadrants on this rank.
   auto local_trees() const { return std::views::iota(forest->first_local_tree, forest->last_local_tree + 1); }
   p4est_tree_t& tree(p4est_topidx_t t) const { return *p4est_tree_array_index(forest->trees, t); }
-  /// Those of p4est.
+  /// Visits p4est's quadrants.
   template <class Visit>
   void for_quadrants(p4est_topidx_t t, const Visit& visit) const {
     sc_array_t& quadrants = tree(t).quadrants;
@@ -173,7 +173,7 @@ struct Forest::Impl {
   void give_leaves_of(p4est_topidx_t t) const;
 };
 
-/// What p4est has are the leaves.
+/// Uses p4est's quadrants as the leaves.
 void Forest::Impl::take_quadrants() {
   splits.assign(connectivity->num_trees, {});
   for (const p4est_topidx_t t : local_trees()) {
@@ -182,7 +182,7 @@ void Forest::Impl::take_quadrants() {
   }
 }
 
-/// p4est gets the leaves. *Collective.*
+/// Passes the leaves to p4est. *Collective.*
 void Forest::Impl::give_leaves() {
   p4est_locidx_t leaves = 0;
   for (p4est_topidx_t t = std::max(forest->first_local_tree, 0); t < connectivity->num_trees; ++t) {
@@ -244,7 +244,7 @@ void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepe
 void Forest::split_marked(const std::vector<char>& marked) {
   QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf");
   std::size_t next = 0;
-  int children = 0;  // of the last marked one, that are yet to come
+  int children = 0;  // remaining children of the last marked leaf
   const auto split = [&](const Quadrant&) {
     if (children > 0) {
       --children;
@@ -267,7 +267,7 @@ void Forest::partition(const std::function<int(const Quadrant&)>& weight) {
   Weights weights{&impl_->tree_corners, &weight};
   impl_->forest->user_pointer = &weights;
   p4est_partition_ext(impl_->forest.get(), 0,
-                      weight_by_function);  // on every rank, also on one without leaves
+                      weight_by_function);  // on every rank, even without leaves
   impl_->take_quadrants();
 }
 

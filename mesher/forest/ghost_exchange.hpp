@@ -7,16 +7,15 @@
 
 namespace quadloop {
 
-/// Brings to each rank what the owners of its ghost leaves know of them: rows have one entry for each leaf of
-/// the graph.
+/// Sends to each rank the owners' data of its ghost leaves; rows have one entry per leaf of the graph.
 class GhostExchange : public CopyExchange {
  public:
   /// *Collective.*
   GhostExchange(const Communicator& comm, const LeafGraph& graph);
 };
 
-/// Calls `visit` for the leaves of the graph that touch a leaf, by an edge or a corner; for some of them more
-/// than once. Touching leaves must differ by one level at most.
+/// Calls `visit` for the leaves that touch a leaf by an edge or a corner, for some more than once. Touching
+/// leaves must differ by at most one level.
 template <class Visit>
 void for_touching_leaves(LeafFinder& finder, LeafId leaf, const Visit& visit) {
   const LeafGraph::Around& around = finder.graph().around(leaf);

@@ -8,18 +8,18 @@ namespace quadloop {
 
 namespace {
 
-/// A stretch of the curve within one tree: the unit squares of one quadrant.
+/// A range of the curve within one tree: the unit squares of one quadrant.
 struct Stretch {
   CurveKey first, last;
 };
 
-/// Who owns which part of the curve, and which of this rank's leaves others must know.
+/// Finds the leaves of this rank that others need, from the partition of the curve.
 class GhostFinder {
  public:
   GhostFinder(int rank, const Lattice& lattice, const CurveOwners& owners)
       : rank_{rank}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()}, owners_{owners} {}
 
-  /// Visits the leaves below a quadrant, which are this rank's, as far as a neighbour may be another rank's.
+  /// Visits the leaves of this rank below a quadrant, where a neighbour may be on another rank.
   void search(const Quadrant& quadrant, std::span<const Quadrant> leaves, std::int32_t first) {
     if (leaves.empty() || surrounded(quadrant)) return;
     if (leaves.front() == quadrant) {
@@ -68,7 +68,7 @@ class GhostFinder {
     }
   }
 
-  /// Whether the quadrant and all of its size around it are this rank's.
+  /// Whether the quadrant and all of its size around it belong to this rank.
   bool surrounded(const Quadrant& quadrant) const {
     bool all_own = true;
     for_neighbours(quadrant, [&](const Quadrant& q) { all_own = all_own && is_own(stretch_of(q)); });
@@ -85,7 +85,7 @@ class GhostFinder {
     }
   }
 
-  /// The ranks that own a part of `q` which touches the leaf.
+  /// Collects the ranks that own a part of `q` which touches the leaf.
   void collect_owners(const Quadrant& leaf, const Quadrant& q) {
     const Stretch stretch = stretch_of(q);
     const int owner = owners_.rank_of(stretch.first);

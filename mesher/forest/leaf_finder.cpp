@@ -9,7 +9,7 @@ LeafId LeafFinder::leaf_at(std::int64_t x, std::int64_t y) {
   if (!graph_.in_root(x, y)) return LeafGraph::none;
   const auto differing = static_cast<std::uint64_t>((x ^ x_) | (y ^ y_));
   int level = std::min(depth_, Quadrant::unit_level - static_cast<int>(std::bit_width(differing)));
-  if (level < 0) {  // in another tree
+  if (level < 0) {  // another tree
     level = 0;
     path_[0] = graph_.root_at(x, y);
   }

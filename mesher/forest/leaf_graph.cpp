@@ -10,8 +10,7 @@ namespace quadloop {
 
 namespace {
 
-/// Enough for most: what joins them then moves no leaf to a new place. Room that is not filled takes no
-/// memory.
+/// Sufficient for most cases, so that adding ghosts does not reallocate. Unused capacity occupies no memory.
 std::size_t room_for_ghosts(std::int32_t leaves) {
   constexpr std::int32_t share = 16, least = 1024;
   return leaves / share + least;
@@ -63,7 +62,7 @@ LeafGraph::Ref LeafGraph::new_inner() {
   return static_cast<Ref>(-1 - std::ssize(inner_));
 }
 
-/// Hangs each leaf into its tree; the path down to the leaf before it saves the way from the root.
+/// Adds each leaf to its tree, starting from the path to the previous leaf instead of the root.
 void LeafGraph::build_trees(const Lattice& lattice) {
   roots_.assign(lattice.trees_x() * lattice.trees_y(), no_ref);
   inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
@@ -74,7 +73,7 @@ void LeafGraph::build_trees(const Lattice& lattice) {
     const Quadrant& q = leaves_[i];
     const std::int64_t tree =
         (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
-    int common = 0;  // the level of the deepest inner node on both paths
+    int common = 0;  // level of the deepest inner node on both paths
     if (tree == last_tree) {
       const std::uint64_t differing = (q.x ^ last.x) | (q.y ^ last.y);
       common = Quadrant::unit_level - static_cast<int>(std::bit_width(differing));
@@ -91,8 +90,8 @@ void LeafGraph::build_trees(const Lattice& lattice) {
   }
 }
 
-/// Hands each child its neighbours: its siblings, and the children of its parent's neighbours (or those
-/// themselves where they are leaves).
+/// Passes each child its neighbours: its siblings, and the children of its parent's neighbours (or these
+/// themselves if they are leaves).
 void LeafGraph::visit(Ref ref, const Neighbours& n) {
   if (ref == no_ref) return;
   if (!is_inner(ref)) {

@@ -10,9 +10,9 @@
 
 namespace quadloop {
 
-/// This rank's leaves and the ghost leaves around them, in the order of the curve, and which of them touch.
-/// An id numbers both kinds; `none` where there is no leaf (outside the root, or out of this rank's sight).
-/// What is kept of local leaves alone goes by their local index, counted from this rank's first leaf.
+/// This rank's leaves and their ghost leaves, in the order of the curve, with their neighbours. Ids number
+/// both kinds; `none` means no leaf (outside the root, or not known to this rank). Data of local leaves only
+/// are indexed by the local index, counted from this rank's first leaf.
 class LeafGraph {
  public:
   static constexpr LeafId none{};
@@ -21,40 +21,40 @@ class LeafGraph {
   LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest);
 
   std::int32_t size() const { return size32(leaves_); }
-  /// How many ghosts come before the local leaves.
+  /// Number of ghost leaves before the local ones.
   std::int32_t local_begin() const { return local_begin_; }
   std::int32_t local_size() const { return local_count_; }
   auto all() const { return ids_below(LeafId{size()}); }
   auto local() const { return ids_between(from_local(0), from_local(local_count_)); }
   bool is_local(LeafId leaf) const { return 0 <= local_index(leaf) && local_index(leaf) < local_count_; }
-  /// From a local leaf to its local index, and back.
+  /// Conversion between a local leaf and its local index.
   std::int32_t local_index(LeafId leaf) const { return leaf.value() - local_begin_; }
   LeafId from_local(std::int32_t index) const { return LeafId{local_begin_ + index}; }
   const Quadrant& leaf(LeafId leaf) const { return leaves_[leaf.value()]; }
   const std::vector<Quadrant>& leaves() const { return leaves_; }
 
-  /// The rank that a leaf belongs to, and its local index there.
+  /// The rank of a leaf, and its local index there.
   struct Owner {
     int rank = 0;
     std::int32_t index = 0;
   };
   Owner owner_of(LeafId leaf) const;
 
-  /// The leaf that holds the unit square right above the lattice corner (x, y); none where there is none in
-  /// sight. Many are looked up by a LeafFinder.
+  /// The leaf that contains the unit square with lower left grid vertex (x, y); none if it is not known. For
+  /// many queries use a LeafFinder.
   LeafId leaf_at(std::int64_t x, std::int64_t y) const;
-  /// The rank with the leaf that holds it, in sight or not; it must lie in the root.
+  /// The rank of the leaf that contains this unit square, known or not; it must be in the root.
   int rank_at(std::int64_t x, std::int64_t y) const { return owners_.rank_of(owners_.key_at(x, y)); }
 
-  /// The leaves around the lower left part of a leaf, each named by the point of it that they touch; such a
-  /// leaf is the first along the curve of all that touch the point.
+  /// Neighbours at the lower left part of a leaf, each named by the point that they touch. Such a leaf is the
+  /// first along the curve of all leaves that touch the point.
   struct Around {
     LeafId south_west;  ///< beyond the lower left corner, diagonally
-    LeafId south;       ///< below the lower right corner (below the bottom side)
-    LeafId west;        ///< left of the upper left corner (left of the left side)
-    LeafId south_half;  ///< below the bottom side's left half, where the leaves below are finer
-    LeafId west_half;   ///< left of the left side's lower half, where the leaves there are finer
-    SideSet finer;      ///< the sides across which the neighbours are finer: each has a hanging node
+    LeafId south;       ///< below the lower right corner, adjacent to the bottom side
+    LeafId west;        ///< left of the upper left corner, adjacent to the left side
+    LeafId south_half;  ///< below the left half of the bottom side, if the leaves below are finer
+    LeafId west_half;   ///< left of the lower half of the left side, if the leaves there are finer
+    SideSet finer;      ///< sides with finer neighbours: each has a hanging node
   };
   const Around& around(LeafId leaf) const { return around_[leaf.value()]; }
   bool has_hanging(LeafId leaf, Side side) const { return around(leaf).finer.contains(side); }
@@ -88,7 +88,7 @@ class LeafGraph {
   int rank_ = 0;
   std::vector<Owner> ghost_owners_;
   std::vector<Around> around_;
-  std::vector<std::array<Ref, 4>> inner_;  ///< by Corner
+  std::vector<std::array<Ref, 4>> inner_;  ///< children by Corner
   std::vector<Ref> roots_;
   int trees_x_ = 1, trees_y_ = 1;
 };

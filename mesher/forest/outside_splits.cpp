@@ -26,7 +26,7 @@ Quadrant parent_of(const Quadrant& q) {
 /// The corner that a quadrant and its parent share.
 Corner corner_of_parent(const Quadrant& q) { return quarter_at(q.x, q.y, q.level - 1); }
 
-/// A quadrant to be split, by its place along the curve.
+/// A quadrant to be split, with its place on the curve.
 struct Placed {
   CurveKey key;
   Quadrant quadrant;
@@ -50,10 +50,10 @@ bool OutsideSplits::is_split_by_size(const Quadrant& q) {
   return true;
 }
 
-/// A leaf that touches a child of q is as large as q at most, so that all quadrants of q's size round q are
-/// there, and their parents are split: of nine such four, q's own and those that meet it in q's corner of it.
-/// No outline goes through a lattice corner, so those of them that it does not go through lie where the
-/// corner does, here outside.
+/// Adds the quadrants that must be split because q is. A leaf that touches a child of q is at most as large
+/// as q, so all quadrants of q's size around q must exist, and their parents must be split. These are four:
+/// q's own parent and those that meet it in the corner shared with q. As no boundary passes through a grid
+/// vertex, those not intersected by the boundary are on the same side as the corner, here outside.
 void OutsideSplits::add_parents_round(const Quadrant& q, std::vector<Quadrant>& above) {
   const Quadrant parent = parent_of(q);
   const Halves corner = halves_of(site_of(corner_of_parent(q)));
@@ -67,7 +67,7 @@ void OutsideSplits::add_parents_round(const Quadrant& q, std::vector<Quadrant>& 
   }
 }
 
-/// Not so where it was looked at lately: most are, from many sides.
+/// False if it was visited recently; most are visited several times.
 bool OutsideSplits::is_new(const Quadrant& q) {
   const int shift = Quadrant::unit_level - q.level;
   const std::int64_t column = q.x >> shift, row = q.y >> shift;

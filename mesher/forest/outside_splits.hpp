@@ -8,18 +8,18 @@
 
 namespace quadloop {
 
-/// Quadrants outside the domain, which no size is asked of: they are split only so far that leaves which
-/// touch differ by one level at most. What is split in the domain is noted as it is split; what it asks of
-/// the quadrants outside follows when all of it is known.
+/// Handles quadrants outside the domain, where no sizes are prescribed: they are split only as far as needed
+/// for the 2:1 balance of touching leaves. Splits in the domain are recorded as they occur; the splits that
+/// they require outside follow when all are known.
 class OutsideSplits {
  public:
   /// `sizes` must outlive it.
   explicit OutsideSplits(const SizeTree& sizes) : sizes_{sizes}, cursor_{sizes}, lately_(window * window) {}
 
-  /// Whether a quadrant that sizes ask to split is split for it: not where it lies outside. To be asked once
-  /// of each; constant time on average in the order of the curve.
+  /// Whether a quadrant that the size field would split is split: not if it lies outside. Call once for each;
+  /// constant time on average in the order of the curve.
   bool is_split_by_size(const Quadrant& q);
-  /// Once sizes split nothing more: splits what that asks for outside. *Collective.*
+  /// Call when sizes split nothing more: performs the splits required outside. *Collective.*
   void split(const Communicator& comm, Forest& forest);
 
  private:
@@ -27,13 +27,12 @@ class OutsideSplits {
 
   bool is_new(const Quadrant& q);
 
-  static constexpr std::int64_t window =
-      32;  ///< so many quadrants in each direction have places of their own
+  static constexpr std::int64_t window = 32;  ///< number of quadrants in each direction with separate entries
   const SizeTree& sizes_;
   SizeCursor cursor_;
-  std::vector<Quadrant> lately_;  ///< looked at, row by row of the window
-  /// By level: split ones through which the outline goes, and whose corner in the middle of those that they
-  /// ask for lies outside.
+  std::vector<Quadrant> lately_;  ///< recently visited quadrants, row by row of the window
+  /// For each level: split quadrants that the boundary intersects and whose required parents share a corner
+  /// outside the domain.
   std::array<std::vector<Quadrant>, Quadrant::unit_level + 1> cut_;
 };
 

@@ -12,17 +12,17 @@ namespace quadloop {
 
 namespace {
 
-constexpr double quadrants_of_leaf = 4.0 / 3;  ///< leaves and what was split into them
+constexpr double quadrants_of_leaf = 4.0 / 3;  ///< all quadrants per leaf
 constexpr double parts_to_share =
-    64;  ///< for each rank, about: quadrants among which the leaves to come are shared out
+    64;  ///< per rank: approximate number of quadrants for the initial partition
 constexpr std::int64_t leaves_to_judge =
-    4096;                                  ///< for each rank: of so many the sample tells well where they are
-constexpr int last_levels = 5;             ///< refined after a second look at the shares, where it does not
-constexpr int weight_unfinished = 64;      ///< of a leaf that may yet be split, down those levels
-constexpr double leaves_to_weigh = 16384;  ///< for each rank: so many tell what all weigh to a fiftieth
-constexpr double even_enough = 1.02;       ///< to move leaves takes longer than to wait for a rank with more
+    4096;                       ///< per rank: a sample of this size predicts the distribution of leaves
+constexpr int last_levels = 5;  ///< number of levels refined after a second partition, where it does not
+constexpr int weight_unfinished = 64;      ///< of a leaf that may still be split in those levels
+constexpr double leaves_to_weigh = 16384;  ///< per rank: this many leaves predict the total weight within 2 %
+constexpr double even_enough = 1.02;       ///< below this imbalance moving leaves takes longer than waiting
 
-/// Finds the leaves that have finer neighbours on opposite sides, and those that get them when these are
+/// Finds leaves with finer neighbours on opposite sides, and those that get such neighbours when these are
 /// split.
 class SqueezedLeaves {
  public:
@@ -52,7 +52,7 @@ class SqueezedLeaves {
     waiting_.push_back(leaf);
   }
 
-  /// A leaf as large as the one that splits gets a finer neighbour.
+  /// Records at the leaf's equally large neighbours that they get a finer neighbour.
   void tell_neighbours(LeafId leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const std::int64_t s = q.size();
@@ -70,12 +70,12 @@ class SqueezedLeaves {
 
   const LeafGraph& graph_;
   std::vector<char> marked_;
-  std::vector<SideSet> finer_;  ///< as each local leaf's neighbours will be
+  std::vector<SideSet> finer_;  ///< sides with finer neighbours after the splits, for each local leaf
   std::vector<LeafId> waiting_;
   bool any_ = false;
 };
 
-/// Which quadrants are split by their sizes: those that reach into the domain.
+/// Decides which quadrants are split by the size field: only those that reach into the domain.
 class SizedSplits {
  public:
   explicit SizedSplits(const SizeTree& sizes) : gradation_{sizes}, outside_{sizes} {}
@@ -88,8 +88,8 @@ class SizedSplits {
   OutsideSplits outside_;
 };
 
-/// Before the leaves are there: down to quadrants of about as many each, which are then shared out, so that
-/// no two ranks look for the same in the size tree. *Collective.*
+/// Before the leaves exist: refines to quadrants with about equal numbers of expected leaves and partitions
+/// these, so that no two ranks traverse the same part of the size tree. *Collective.*
 void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
                          SizedSplits& splits, Forest& forest) {
   constexpr double units = 1000, most_parts = 1e6;
@@ -98,25 +98,25 @@ void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const 
     return sample.leaves_in(q) > part && splits.must_split(q);
   };
   forest.refine(must_split, sizes.finest_level());
-  forest.partition(
-      [&](const Quadrant& q) {  // not 0, so that those are shared out, too, which the sample has not
-        return 1 + static_cast<int>(part > 0 ? units * std::min(sample.leaves_in(q) / part, most_parts) : 0);
-      });
+  forest.partition([&](const Quadrant& q) {  // not 0, so that quadrants without samples are also partitioned
+    return 1 + static_cast<int>(part > 0 ? units * std::min(sample.leaves_in(q) / part, most_parts) : 0);
+  });
 }
 
-/// Whether leaves are as large as any may be in so much of the root that the sample is right about most.
+/// Whether the leaves are of the largest allowed level in so much of the root that the sample is
+/// representative.
 bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
   constexpr int deep_enough = 15;
   const int level = std::min(sizes.coarsest_level(), deep_enough);
   return (std::int64_t{1} << (2 * level)) > leaves_to_judge * comm.size();
 }
 
-/// By the work of cutting.
+/// Weight by the work of cutting.
 int weight_of(const Quadrant& leaf, SizeCursor& cursor) {
   return cursor.segments_in(leaf).empty() ? weight_uncut : weight_cut;
 }
 
-/// What this rank's leaves weigh, told by some of them.
+/// Total weight of this rank's leaves, estimated from some of them.
 class WeighedLeaves {
  public:
   WeighedLeaves(const SizeTree& sizes, double expected)
@@ -124,7 +124,8 @@ class WeighedLeaves {
         finest_{sizes.finest_level()},
         step_{1 + static_cast<std::int64_t>(expected / leaves_to_weigh)} {}
 
-  /// What was asked about each quadrant, in the order of the curve. Of the finest level nobody asks.
+  /// Records the result for each quadrant, in the order of the curve. Quadrants of the finest level are not
+  /// queried.
   void note(const Quadrant& q, bool is_split) {
     if (!is_split) add(q);
     if (!is_split || q.level + 1 < finest_) return;
