@@ -15,13 +15,14 @@ namespace quadloop {
 
 namespace {
 
-// Shares of the local edge, where crossings nearer than usual_snap take a corner.
+// Fractions of the local edge for the default snap tolerance.
 constexpr double usual_snap = 0.4, edge_reach = 0.34;
-/// A point that turns by more takes corners and edges along even where it is not kept.
+/// A point with a larger turning angle captures grid vertices and edges even if it is not kept.
 constexpr double pointed_degrees = 45;
-constexpr double crossing_reach = 0.4;  ///< a crossing nearer to the point than this is taken by its edge
+constexpr double crossing_reach =
+    0.4;  ///< a crossing nearer to the point is merged with the point by its edge
 
-/// Looks for what one kept point takes along.
+/// Finds what one kept point captures.
 class PointCapture {
  public:
   PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
@@ -31,13 +32,13 @@ class PointCapture {
         geometry_{geometry},
         share_{std::min(1.0, snap / usual_snap)} {}
 
-  /// Whether a point lies on a side of the leaf: the crossings there have its position already.
+  /// Whether a point lies on a side of the leaf; crossings there already have its position.
   bool on_lattice(LeafId leaf, Point p) const {
     const Box box = lattice_.box_of(graph_.leaf(leaf));
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
   }
 
-  /// The corner of the leaf, or hanging node on its sides, that is near enough.
+  /// The corner of the leaf, or hanging node on its sides, within reach.
   std::optional<CornerCapture> corner_near(LeafId leaf, Point p) {
     std::optional<CornerCapture> nearest;
     bool contested = false;
@@ -55,7 +56,7 @@ class PointCapture {
     return contested ? std::nullopt : nearest;
   }
 
-  /// The edge of the leaf that is near enough, with the crossings that it loses to the point.
+  /// The edge of the leaf within reach, with the crossings that the point absorbs.
   std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) {
     const Point p = geometry_.point(vertex);
     LeafEdge nearest;
@@ -96,8 +97,8 @@ class PointCapture {
     return c.side == edge.side && edge.at(lattice_, edge.from) <= at && at <= edge.at(lattice_, edge.to);
   }
 
-  /// How many crossings lie on the edge's side of the leaf between two places along it, both closed. Sorts
-  /// those of a leaf once for all of its points.
+  /// Number of crossings on the edge's side of the leaf between two places along it, both included. The
+  /// crossings of a leaf are sorted once for all of its points.
   std::ptrdiff_t crossings_between(const LeafTrace& view, const LeafEdge& edge, double low, double high) {
     if (sorted_ != view.crossings.data()) {
       for (auto& places : places_) places.clear();
@@ -110,9 +111,9 @@ class PointCapture {
     return std::ranges::upper_bound(places, high) - std::ranges::lower_bound(places, low);
   }
 
-  /// The crossings of the point's own piece that lie on the edge and near it. False where another one lies
-  /// between, or another kept point near, or where what lies between point and crossing, which vanishes,
-  /// holds a kept point or reaches far: a bay behind a narrow mouth.
+  /// Absorbs the crossings of the point's own piece that lie on the edge and near the point. Returns false if
+  /// another crossing lies between, if another kept point is near, or if the part between point and crossing,
+  /// which would vanish, contains a kept point or reaches far (a bay with a narrow mouth).
   bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
                       Snap& snap) {
     const Point p = geometry_.point(vertex);
@@ -137,7 +138,7 @@ class PointCapture {
     });
   }
 
-  /// The vertices of a piece before one of them, or after it.
+  /// The vertices of a piece before or after one of them.
   static std::span<const std::int32_t> between(std::span<const std::int32_t> vertices, std::int32_t vertex,
                                                bool before) {
     const std::size_t at = std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin();
@@ -155,11 +156,11 @@ class PointCapture {
   const Lattice& lattice_;
   const Geometry& geometry_;
   double share_;
-  const Crossing* sorted_ = nullptr;           ///< the first crossing of the leaf that `places_` is of
+  const Crossing* sorted_ = nullptr;           ///< first crossing of the leaf that `places_` belongs to
   std::array<std::vector<double>, 4> places_;  ///< along each side, ascending
 };
 
-/// Of those that claim one corner the nearest has it; none where two are equally near.
+/// Of points that claim one grid vertex the nearest gets it; none if two are equally near.
 std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
     return a.corner != b.corner ? comes_earlier(a.corner, b.corner) : a.distance < b.distance;
@@ -173,8 +174,8 @@ std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
   return settled;
 }
 
-/// Moves one hanging node onto the nearest point of the outline in its leaf, if that is within reach and the
-/// node is the only one to be there.
+/// Moves one hanging node to the nearest point of the boundary in its leaf, if that is within reach and of no
+/// other node.
 std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view,
                                  LatticePoint corner, double reach) {
   const Point node = lattice.corner(corner);
@@ -200,7 +201,7 @@ std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometr
   return snap;
 }
 
-/// An edge that two points claim goes to neither.
+/// An edge claimed by two points is given to neither.
 std::vector<Snap> settle_edges(std::vector<Snap> claims) {
   const auto same = [](const Snap& a, const Snap& b) { return a.corner == b.corner; };
   std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.corner < b.corner; });

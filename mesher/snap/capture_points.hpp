@@ -8,33 +8,33 @@
 
 namespace quadloop {
 
-/// How far a corner moves at most, as a share of the shortest edge there. Below one half, so that a point is
-/// within reach of one corner only.
+/// Largest movement of a grid vertex, as a fraction of the shortest edge there. Less than one half, so that a
+/// point is within reach of one vertex only.
 inline constexpr double corner_reach = 0.45;
 
-/// A kept point of the geometry takes a lattice corner along that lies near it.
+/// A kept point of the geometry that captures a nearby grid vertex.
 struct CornerCapture {
   LatticePoint corner;
   double distance = 0;
   std::int32_t vertex = -1;
-  std::int32_t trace = -1, piece = -1;  ///< that the vertex lies on
+  std::int32_t trace = -1, piece = -1;  ///< trace and piece that contain the geometry vertex
 };
 
-/// What the kept points, and others where the outline turns sharply, take along: each the lattice corner next
-/// to it, or else the lattice edge next to it, which then bends through it. So no sliver is left between a
-/// point and a corner or an edge.
+/// The grid vertices and edges captured by kept points and other points with sharp turns: each captures the
+/// nearest grid vertex, or else the nearest grid edge, which then bends through the point. So no slivers
+/// remain between a point and a vertex or an edge.
 struct Captures {
-  std::vector<CornerCapture> corners;  ///< in the order of comes_earlier; one each
-  std::vector<Snap> edges;             ///< on_edge is set
+  std::vector<CornerCapture> corners;  ///< in the order of comes_earlier; at most one per grid vertex
+  std::vector<Snap> edges;             ///< with on_edge set
 };
 
-/// Chosen from the traces of the local and the ghost leaves, each point alone, so that all ranks which see a
-/// corner or an edge agree on it. `snap` as in choose_snaps; below its usual 0.4 less is captured.
+/// Computed from the traces of local and ghost leaves, for each point separately, so that all ranks that see
+/// a grid vertex or edge agree. `snap` as in choose_snaps; below its default 0.4 fewer are captured.
 Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                         const TracedForest& traced, double snap);
 
-/// Hanging nodes that come near the outline in the leaf on whose side they hang, while it crosses no edge
-/// next to them: they move onto its nearest point. In the order of the leaves.
+/// Snaps hanging nodes that are near the boundary in the leaf with the hanging node, if no adjacent edge is
+/// crossed: they move to the nearest point of the boundary. In the order of the leaves.
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                 const TracedForest& traced, double share);
 

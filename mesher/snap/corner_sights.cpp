@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// Sorts small keys and then moves each sight once. By merging: along the curve corners come nearly in order.
+/// Sorts small keys, then moves each sight once. Merge sort, as the vertices are nearly in curve order.
 std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
   struct Key {
     LatticePoint corner;
@@ -32,7 +32,7 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
   const std::size_t crossings = traced.traces.crossings();
-  sights.reserve(crossings + crossings / 8);  // those near the middle of an edge are seen from both ends
+  sights.reserve(crossings + crossings / 8);  // crossings near the middle of an edge are seen from both ends
   for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
     const LeafId leaf = traced.leaves[trace];
     const LeafTrace view = traced.traces[trace];

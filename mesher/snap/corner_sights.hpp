@@ -8,25 +8,25 @@
 
 namespace quadloop {
 
-/// How far a corner sees along a leaf edge, as a share of it: a little beyond the middle, so that every
-/// crossing is seen from the end nearer to it, and lengths may be rounded. Crossings farther off bear on no
-/// corner.
+/// Distance along a leaf edge within which a grid vertex sees crossings, as a fraction of the edge: slightly
+/// more than half, so that every crossing is seen from its nearer end despite rounding. Crossings farther
+/// away affect no vertex.
 inline constexpr double sight_reach = 0.52;
 
-/// A crossing as one of the corners at the ends of its leaf edge sees it, through one of the two leaves at
-/// that edge.
+/// A crossing as seen from a grid vertex at an end of its leaf edge, through one of the two leaves at that
+/// edge.
 struct Sight {
   LatticePoint corner;
   double distance = 0;  ///< along the edge
-  double edge = 0;      ///< its length
+  double edge = 0;      ///< length of the edge
   std::int32_t segment = -1;
   std::int32_t trace = -1, piece = -1;
-  Direction direction = Direction::east;  ///< of the edge from the corner
-  bool at_entry = false;                  ///< of the piece
+  Direction direction = Direction::east;  ///< of the edge, from the vertex
+  bool at_entry = false;                  ///< the crossing is the entry of the piece
 };
 
-/// What all corners of the local and the ghost leaves see within reach, the corners in the order of
-/// comes_earlier. Of one corner: in the order of leaves and their pieces, along the curve.
+/// The crossings within reach of all grid vertices of local and ghost leaves, by vertices in the order of
+/// comes_earlier; for one vertex in the order of leaves and pieces along the curve.
 std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
                                     const TracedForest& traced);
 

@@ -9,8 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// The numbers of the crossings of one segment with the sides of the leaf: at most one inwards and one
-/// outwards.
+/// Numbers of a segment's crossings with the sides of the leaf: at most one inwards and one outwards.
 struct Passage {
   std::int32_t entry = -1, exit = -1;
 };
@@ -56,8 +55,8 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
   return passage;
 }
 
-/// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the
-/// vertices on the way.
+/// Follows the boundary from the segment at `start` until it leaves the leaf or returns; appends the vertices
+/// on the way.
 Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages,
              std::vector<char>& seen, std::size_t start, std::int32_t first_vertex,
              std::vector<std::int32_t>& vertices) {

@@ -11,23 +11,23 @@
 
 namespace quadloop {
 
-/// Where the outline crosses a side of a leaf.
+/// A crossing of the boundary with a side of a leaf.
 struct Crossing {
   std::int32_t segment = -1;
   Side side = Side::bottom;
-  bool enters = false;  ///< into the leaf
+  bool enters = false;  ///< the boundary enters the leaf here
   Point position;       ///< rounded once; the same for both leaves at the side
 };
 
-/// The outline's run through a leaf: from a crossing over vertices inside to a crossing, or a whole loop
-/// inside (no crossings). Numbers count from the first of its leaf.
+/// A part of the boundary in a leaf: from a crossing over vertices inside to a crossing, or a whole loop
+/// (without crossings). Numbers are relative to the first of the leaf.
 struct Piece {
   std::int32_t entry = -1, exit = -1;                 ///< numbers of crossings; -1 for a loop
-  std::int32_t first_segment = -1;                    ///< the segment that the piece begins on
+  std::int32_t first_segment = -1;                    ///< first segment of the piece
   std::int32_t vertices_begin = 0, vertices_end = 0;  ///< its vertices inside the leaf
 };
 
-/// All of the outline inside one leaf, cut at its sides (thesis Fig. 3.10, 3.11). A view of a LeafTraces.
+/// The boundary inside one leaf, cut at its sides (thesis Fig. 3.10, 3.11). A view of a LeafTraces.
 struct LeafTrace {
   Box box;
   std::span<const Crossing> crossings;
@@ -40,17 +40,17 @@ struct LeafTrace {
   }
 };
 
-/// The outline inside any number of leaves.
+/// The boundary inside any number of leaves.
 class LeafTraces {
  public:
-  /// Traces the outline through one more leaf. `segments` are those that meet its inside, in ascending order.
-  /// Exact in its decisions; the positions of crossings are rounded. Work and memory depend on these segments
-  /// alone. Returns the number of the trace.
+  /// Traces the boundary through one more leaf. `segments` are those that meet its interior, ascending.
+  /// Decisions are exact; positions of crossings are rounded. Time and memory depend on these segments only.
+  /// Returns the number of the trace.
   std::int32_t add(const ShiftedOutline& outline, const Box& box, std::span<const std::int32_t> segments);
 
   LeafTrace operator[](std::int32_t trace) const;
   std::size_t size() const { return begins_.size(); }
-  /// How many crossings all traces have.
+  /// Number of crossings in all traces.
   std::size_t crossings() const { return crossings_.size(); }
   void clear();
 
@@ -65,14 +65,14 @@ class LeafTraces {
   std::vector<std::int32_t> vertices_;
 };
 
-/// The outline in this rank's leaves and in the ghost leaves.
+/// The boundary in this rank's leaves and in the ghost leaves.
 struct TracedForest {
   LeafTraces traces;
   std::vector<LeafId> leaves;          ///< of each trace, ascending
-  std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it holds no geometry
+  std::vector<std::int32_t> trace_of;  ///< of each leaf of the graph; -1 where it contains no geometry
 
   explicit TracedForest(std::int32_t leaf_count) : trace_of(leaf_count, -1) {}
-  /// As LeafTraces::add, for the leaves that hold geometry, one after another along the curve.
+  /// Same as LeafTraces::add, for the leaves with geometry in the order of the curve.
   void add(LeafId leaf, const ShiftedOutline& outline, const Box& box,
            std::span<const std::int32_t> segments) {
     trace_of[leaf.value()] = traces.add(outline, box, segments);

@@ -9,8 +9,8 @@ namespace quadloop {
 
 namespace {
 
-/// Where the leaf that lies in this direction from the snap has it. A leaf that lies in two directions has
-/// the corner in the middle of a side.
+/// The site of the snap in the leaf that lies in this direction from it. A leaf that lies in two directions
+/// has the vertex in the middle of a side.
 Site site_in(const Snap& snap, Corner direction) {
   const Halves towards = halves_of(site_of(direction));
   if (snap.on_edge && snap.vertical) return elsewhere_on(towards.x == 0 ? Side::right : Side::left);
@@ -22,10 +22,10 @@ Site site_in(const Snap& snap, Corner direction) {
   return site_at({same_leaf(!east, north) ? 1 : 2 - towards.x, same_leaf(east, !north) ? 1 : 2 - towards.y});
 }
 
-/// By counting those of each leaf, and those of one leaf by their sites.
+/// Counting sort by leaf, then by site within a leaf.
 std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<LeafSnap>& snaps) {
   std::vector<std::int32_t> begin_of(graph.local_size() + 1,
-                                     0);  // of each leaf's snaps among the sorted ones
+                                     0);  // for each leaf the start of its snaps in the sorted array
   for (const LeafSnap& s : snaps) ++begin_of[graph.local_index(s.leaf) + 1];
   std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
   std::vector<LeafSnap> sorted(snaps.size());

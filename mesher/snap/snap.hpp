@@ -9,38 +9,37 @@
 
 namespace quadloop {
 
-/// A lattice corner that takes the place of the crossings near it: it moves onto the outline, and the
-/// crossings become one node with it. Or a lattice edge that bends through a kept point, which becomes a node
-/// of it.
+/// A grid vertex that moves onto the boundary, where it replaces the crossings near it by one node; or a grid
+/// edge that bends through a kept point, which becomes a node of the edge.
 struct Snap {
-  LatticePoint corner;  ///< of an edge: its middle
-  Point position;       ///< where it goes: the nearest point of the outline's run past it, or a kept point of
-                        ///< the geometry
-  Point centre;         ///< vertices next to an absorbed crossing and nearer to this than `radius` vanish
+  LatticePoint corner;  ///< for an edge: its middle
+  Point position;  ///< new position: the nearest point of the boundary's run past the vertex, or a kept point
+  Point centre;    ///< vertices next to an absorbed crossing and within `radius` of this point vanish
   double radius = 0;
   struct Absorbed {
     std::int32_t segment = -1;
-    bool vertical = false;  ///< whether the crossing lies on the vertical lattice line through the corner
+    bool vertical = false;  ///< the crossing is on the vertical grid line through `corner`
     friend auto operator<=>(const Absorbed&, const Absorbed&) = default;
   };
   std::vector<Absorbed> absorbed;  ///< ascending
-  std::int32_t segment = -1;       ///< that a hanging node was moved onto where no crossing was near; else -1
-  bool on_edge = false;            ///< an edge's, not a corner's
-  bool vertical = false;           ///< of an edge
+  std::int32_t segment =
+      -1;                 ///< segment onto which a hanging node was moved without a near crossing; else -1
+  bool on_edge = false;   ///< for an edge, not a vertex
+  bool vertical = false;  ///< the edge is vertical
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 
-/// Fills in the leaves round the snaps; few steps each where they lie near each other.
+/// Sets `leaves_round` of the snaps; fast if consecutive snaps are near each other.
 void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps);
 
-/// A snap as one leaf sees it: at a corner, a hanging node, or elsewhere on a side of it.
+/// A snap as seen by one leaf: at a corner, a hanging node, or elsewhere on a side.
 struct LeafSnap {
   LeafId leaf;
   Site site = Site::south_west;
   const Snap* snap = nullptr;
 };
 
-/// What each local leaf sees of the snaps, sorted by leaf. Points into `snaps`.
+/// The snaps that affect each local leaf, sorted by leaf. Points into `snaps`.
 std::vector<LeafSnap> snaps_of_leaves(const LeafGraph& graph, const std::vector<Snap>& snaps);
 
 }  // namespace quadloop

@@ -14,26 +14,25 @@ namespace quadloop {
 
 namespace {
 
-constexpr double swallow_share = 0.15;  ///< of the local edge: no vertex vanishes that lies farther than this
-                                        ///< from the outline as it goes on from the corner
+constexpr double swallow_share = 0.15;  ///< of the local edge: a vertex farther than this from the boundary
+                                        ///< beyond the grid vertex does not vanish
 
 constexpr std::int32_t none = -1;
 
-/// Which sights are of crossings that the outline passes one after another near the corner: the same
-/// crossing, and the two ends of one piece, belong to one run.
+/// Groups sights into runs: crossings that the boundary passes consecutively near the grid vertex. Sights of
+/// one crossing, and the two ends of one piece, belong to one run.
 class Runs {
  public:
   Runs(std::size_t sights, std::pmr::memory_resource* memory)
       : number_(sights, none, memory), sights_(memory) {}
 
-  /// Steps to make them: adds sights in ascending order, each a run of its own, joins the runs of two,
-  /// closes.
+  /// Construction: add sights in ascending order, each as a run of its own, join runs, then close.
   void add(std::int32_t sight) {
     number_[sight] = sight;
     sights_.push_back(sight);
   }
   void join(std::int32_t a, std::int32_t b) {
-    const auto [low, high] = std::minmax({first_of(a), first_of(b)});  // a list: values
+    const auto [low, high] = std::minmax({first_of(a), first_of(b)});  // by value
     number_[high] = low;
   }
   void close() {
@@ -41,9 +40,9 @@ class Runs {
     std::ranges::sort(sights_, {}, [&](std::int32_t sight) { return std::pair(number_[sight], sight); });
   }
 
-  /// Of a sight the number of its run, that of the run's first sight, or `none`.
+  /// The number of a sight's run (that of the run's first sight), or `none`.
   std::int32_t number_of(std::size_t sight) const { return number_[sight]; }
-  /// The sights that are in runs, run after run, those of each in ascending order.
+  /// The sights in runs, run after run, ascending in each.
   std::span<const std::int32_t> sights() const { return sights_; }
 
  private:
@@ -52,12 +51,11 @@ class Runs {
     return sight;
   }
 
-  std::pmr::vector<std::int32_t>
-      number_;  ///< until they are closed: of an earlier sight of the run, or its own
+  std::pmr::vector<std::int32_t> number_;  ///< until closed: an earlier sight of the run, or its own number
   std::pmr::vector<std::int32_t> sights_;
 };
 
-/// One of them.
+/// One run.
 struct Run {
   const Runs* runs;
   std::int32_t number;
@@ -75,28 +73,28 @@ Run run_at(const Runs& runs, std::int32_t number) {
 
 bool on_one_piece(const Sight& a, const Sight& b) { return a.trace == b.trace && a.piece == b.piece; }
 
-/// A run that claims the corner, and its nearest point.
+/// A run that claims the grid vertex, and its nearest point.
 struct Claim {
   Run run;
   Point nearest;
 };
 
-/// What vanishes in a corner that takes a run.
+/// What vanishes when a grid vertex absorbs a run.
 struct Swallowed {
   explicit Swallowed(std::pmr::memory_resource* memory) : vertices(memory), goes_on(memory) {}
   std::pmr::vector<std::int32_t> vertices;  ///< each once
-  /// Where the outline goes on from the corner: nowhere for an island round it.
+  /// Points where the boundary continues from the grid vertex; empty for an island around it.
   std::pmr::vector<Point> goes_on;
 };
 
-/// The steps of one corner's decision; none changes anything.
+/// The steps of the decision for one grid vertex; none has side effects.
 class CornerDecision {
  public:
   CornerDecision(const Geometry& geometry, const LeafTraces& traces, const SightedCorner& corner,
                  double share)
       : geometry_{geometry}, traces_{traces}, corner_{corner}, sights_{corner.sights}, share_{share} {}
 
-  /// A whole run is taken where that is a contraction, else what of it claims the corner.
+  /// Absorbs a whole run if that is a contraction, else the part of it that claims the vertex.
   std::optional<Snap> decide() const {
     if (std::none_of(sights_.begin(), sights_.end(), [&](const Sight& s) { return claims(s); })) return {};
     for (const bool whole_run : {true, false}) {
@@ -133,21 +131,20 @@ class CornerDecision {
     return view.vertices_of(view.pieces[s.piece]);
   }
 
-  /// Whether the ends of a piece belong to one run. A kept point far from the corner parts what comes before
-  /// from what comes after it.
+  /// Whether the ends of a piece belong to one run. A kept point far from the grid vertex separates them.
   bool joins_its_ends(const Sight& s) const {
     const auto vertices = vertices_of(s);
     return std::none_of(vertices.begin(), vertices.end(),
                         [&](std::int32_t v) { return geometry_.kept(v) && !is_near(geometry_.point(v)); });
   }
 
-  /// The same for sights of one crossing.
+  /// Equal for sights of one crossing.
   std::pair<Direction, std::int32_t> crossing_of(std::int32_t sight) const {
     return {sights_[sight].direction, sights_[sight].segment};
   }
 
-  /// The runs among the crossings that claim the corner and, if asked, those that are at least nearer to it
-  /// than to the far end of their edge: the corner there is farther, and never takes them.
+  /// The runs among the crossings that claim the grid vertex. With `whole_run` also crossings nearer to it
+  /// than to the far end of their edge: the vertex there is farther and never absorbs them.
   Runs runs_among(bool whole_run) const {
     Runs runs(sights_.size(), &memory_);
     for (std::int32_t i = 0; i < size32(sights_); ++i) {
@@ -155,7 +152,7 @@ class CornerDecision {
       if (claims(sights_[i]) || (whole_run && nearer)) runs.add(i);
     }
     std::pmr::vector<std::int32_t> order(runs.sights().begin(), runs.sights().end(), &memory_);
-    for (std::size_t k = 1; k < order.size(); ++k) {  // both ends of a piece come one after the other
+    for (std::size_t k = 1; k < order.size(); ++k) {  // both ends of a piece are consecutive
       const Sight& s = sights_[order[k]];
       if (on_one_piece(sights_[order[k - 1]], s) && joins_its_ends(s)) runs.join(order[k - 1], order[k]);
     }
@@ -168,7 +165,7 @@ class CornerDecision {
     return runs;
   }
 
-  /// The run that claims the corner and comes nearest; none where two come equally near.
+  /// The nearest run that claims the grid vertex; none if two are equally near.
   std::optional<Claim> nearest_claim(const Runs& runs) const {
     double best = corner_.edge;
     std::optional<Claim> nearest;
@@ -185,7 +182,7 @@ class CornerDecision {
     return nearest;
   }
 
-  /// The run of the point that captures the corner: of the first sight of its piece that has one.
+  /// The run of the capturing point: that of the first sight of its piece in a run.
   std::optional<Run> run_of(const CornerCapture& capture, const Runs& runs) const {
     for (std::size_t i = 0; i < sights_.size(); ++i) {
       if (sights_[i].trace == capture.trace && sights_[i].piece == capture.piece && runs.number_of(i) != none)
@@ -194,7 +191,8 @@ class CornerDecision {
     return std::nullopt;
   }
 
-  /// Whether a crossing that is not taken lies between the corner and one that is: no contraction.
+  /// Whether a crossing that is not absorbed lies between the vertex and one that is; then it is no
+  /// contraction.
   bool passes_over(const Run& run) const {
     std::array<double, 4> nearest_other;  // of each direction
     nearest_other.fill(std::numeric_limits<double>::infinity());
@@ -207,9 +205,9 @@ class CornerDecision {
     });
   }
 
-  /// Follows a sight's piece from its crossing on, as long as it turns near the corner only: calls `segment`
-  /// up to the first turn that is not near, `turn` for the vertices before. Returns that turn, or the piece's
-  /// other end.
+  /// Follows a sight's piece from its crossing as long as its vertices are near the grid vertex: calls
+  /// `segment` up to the first vertex that is not near, and `turn` for the vertices before it. Returns that
+  /// vertex, or the piece's other end.
   template <class Turn, class Segment>
   Point follow(const Sight& s, const Turn& turn, const Segment& segment) const {
     const LeafTrace view = traces_[s.trace];
@@ -227,8 +225,8 @@ class CornerDecision {
     return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
   }
 
-  /// Of a corner that moves along an axis the run's crossing there. Off the axis the outline may come as near
-  /// on both sides, and neither place is its own image.
+  /// For a vertex that moves along an axis: the run's crossing there. Off the axis the boundary may be
+  /// equally near on both sides, and neither place is its own image.
   std::optional<Point> crossing_on_axis(const Run& run) const {
     std::optional<Point> nearest;
     if (!corner_.mirror || side_of(*corner_.mirror, corner_.position) != 0) return nearest;
@@ -242,8 +240,8 @@ class CornerDecision {
     return nearest;
   }
 
-  /// Of two places equally near, whether the first is taken instead of the second, which was found before:
-  /// an order that a mirror image keeps, if there is to be one.
+  /// For two equally near places: whether the first replaces the second, found earlier. With a mirror axis
+  /// the order is symmetric.
   bool goes_before(Point p, Point found) const {
     if (!corner_.mirror) return false;
     const auto rank = [&](Point q) {
@@ -253,7 +251,7 @@ class CornerDecision {
     return rank(p) < rank(found);
   }
 
-  /// The nearest point to the corner on the outline from a run's crossings on, as long as it stays near.
+  /// The point nearest to the grid vertex on the near part of the boundary at the run's crossings.
   Point nearest_point(const Run& run) const {
     if (const auto on_axis = crossing_on_axis(run)) return *on_axis;
     Point nearest;
@@ -272,7 +270,7 @@ class CornerDecision {
     return nearest;
   }
 
-  /// Whether the run has the other end of a sight's piece as well: the sight before or after.
+  /// Whether the run also contains the other end of a sight's piece: the sight before or after.
   bool has_other_end(const Run& run, std::int32_t sight) const {
     const Sight& s = sights_[sight];
     const auto is_other_end = [&](std::int32_t i) {
@@ -282,7 +280,7 @@ class CornerDecision {
     return is_other_end(sight - 1) || is_other_end(sight + 1);
   }
 
-  /// A piece with both ends in the run vanishes whole.
+  /// A piece with both ends in the run vanishes entirely.
   Swallowed swallowed_by(const Run& run) const {
     Swallowed swallowed(&memory_);
     const auto swallow = [&](std::int32_t v) { swallowed.vertices.push_back(v); };
@@ -299,9 +297,9 @@ class CornerDecision {
     return swallowed;
   }
 
-  /// Where a corner that takes the run goes: to a kept point that vanishes in it, else to the nearest point
-  /// of the outline, or to a vertex that strays from the outline beside it: the nearest that does. None where
-  /// two kept points would vanish, or what lies too far off, or a whole loop.
+  /// The target of a grid vertex that absorbs the run: a kept point that vanishes in it, else the nearest
+  /// point of the boundary, or the nearest vertex that deviates too far from the boundary beside it. None if
+  /// two kept points, something too far away, or a whole loop would vanish.
   std::optional<Point> target_of(const Claim& claim) const {
     Swallowed swallowed = swallowed_by(claim.run);
     const auto kept =
@@ -321,13 +319,13 @@ class CornerDecision {
     return std::nullopt;
   }
 
-  /// Whether the target is near the corner, and no vertex that vanishes in it strays from the outline as it
-  /// goes on from there, nor is a kept one. One that does comes first from then on: most likely it strays
-  /// from the next target, too.
+  /// Whether the target is near the grid vertex, and no vanishing vertex is kept or deviates too far from the
+  /// boundary as it continues from the target. A vertex that does is tested first from then on, as it
+  /// probably also fails for the next target.
   bool follows(Swallowed& swallowed, Point target) const {
     const auto& ways = swallowed.goes_on;
     if (!is_near(target) || ways.empty()) return false;
-    std::size_t near = 0;  // the way that the last vertex lies near: most likely the next one does so, too
+    std::size_t near = 0;  // direction near the last vertex; probably also near the next one
     const auto strays = [&](std::int32_t v) {
       const Point p = geometry_.point(v);
       if (geometry_.kept(v) && p != target) return true;
@@ -345,7 +343,7 @@ class CornerDecision {
     return false;
   }
 
-  /// `run`: none for a corner that takes no crossing.
+  /// `run`: none for a vertex that absorbs no crossing.
   Snap snap_to(Point target, const std::optional<Run>& run) const {
     Snap snap{corner_.corner, target, corner_.position, corner_reach * corner_.edge, {}};
     if (!run) return snap;
@@ -362,7 +360,7 @@ class CornerDecision {
   const SightedCorner& corner_;
   std::span<const Sight> sights_;
   double share_;
-  /// For the lists of a decision, which are short.
+  /// Memory for the short lists of a decision.
   mutable std::array<std::byte, 1024> room_;
   mutable std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
 };

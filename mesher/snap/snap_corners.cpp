@@ -12,7 +12,7 @@ namespace quadloop {
 
 namespace {
 
-/// Forgets the crossings that bent edges have taken.
+/// Removes the crossings absorbed by bent edges.
 void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
   if (edges.empty()) return;
   std::set<std::tuple<bool, std::int64_t, std::int32_t>> taken;  // vertical, line, segment
@@ -26,16 +26,16 @@ void drop_taken(const std::vector<Snap>& edges, std::vector<Sight>& sights) {
   });
 }
 
-/// Whether any crossing can be near enough: the shortest edge at a corner is no longer than a sight's, but
-/// for rounding.
+/// Whether any crossing may be near enough: up to rounding, the shortest edge at a vertex is at most a
+/// sight's edge.
 bool may_claim(std::span<const Sight> sights, double share) {
   constexpr double rounding = 1.02;
   return std::any_of(sights.begin(), sights.end(),
                      [&](const Sight& s) { return s.distance < rounding * share * s.edge; });
 }
 
-/// Adds those whose place no snapped corner has; these, in their order, come after `edges` snaps of edges, in
-/// whose middle no node hangs.
+/// Adds hanging snaps at places without a snapped vertex. Both lists are in order; the first `edges` snaps
+/// are those of edges, which have no hanging node in the middle.
 void add_hanging(std::vector<Snap> hanging, std::size_t edges, std::vector<Snap>& snaps) {
   const std::size_t count = snaps.size();
   std::set<LatticePoint> added;

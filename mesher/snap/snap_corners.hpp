@@ -6,10 +6,10 @@
 
 namespace quadloop {
 
-/// Chooses the corners to snap: first those that kept points capture (capture_points), then those with a
-/// crossing nearer than `share`, at most one half, of the shortest leaf edge there (snap_corner). Each corner
-/// is decided alone, from the traces of the leaves around it, so that all ranks which see it decide the same.
-/// With a mirror axis corners on it stay on it.
+/// Selects the grid vertices to snap: first those captured by kept points (capture_points), then those with a
+/// crossing nearer than `share` (at most one half) of the shortest leaf edge there (snap_corner). Each vertex
+/// is decided separately from the traces of the leaves around it, so that all ranks that see it agree. With a
+/// mirror axis vertices on it stay on it.
 std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
                                const TracedForest& traced, double share,
                                std::optional<MirrorAxis> mirror = {});
