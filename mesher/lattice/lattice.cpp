@@ -11,9 +11,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_trees = 16;     ///< along one side of the brick
+constexpr int most_trees = 16;     ///< along one side of the root
 constexpr int deepest_level = 29;  ///< p4est's limit
-/// Of a padded root's tree edge, so that lattice coordinates are exact.
+/// Mantissa bits of a padded root's tree edge, so that grid coordinates are exact.
 constexpr int root_mantissa_bits = 16;
 
 std::string text(Point p) {
@@ -23,7 +23,7 @@ std::string text(Point p) {
   return out.str();
 }
 
-/// Whether segments of the outline cover the whole side of its bounding box; `along` and `across` pick the
+/// Whether segments of the geometry cover a whole side of its bounding box; `along` and `across` select the
 /// coordinates.
 template <class Along, class Across>
 bool side_is_boundary(const Geometry& g, double at, double low, double high, Along along, Across across) {
@@ -52,7 +52,7 @@ bool is_own_root(const Geometry& g) {
          side_is_boundary(g, box.high.x, box.low.y, box.high.y, y, x);
 }
 
-/// The smallest number of trees that tile the box with squares, if any.
+/// The smallest number of square trees that tile the box, if any.
 std::optional<std::pair<int, int>> tiling(const Box& box) {
   for (int longer = 1; longer <= most_trees; ++longer) {
     for (int shorter = 1; shorter <= longer; ++shorter) {
@@ -119,7 +119,7 @@ Lattice::Axis Lattice::make_axis(double low, double high, int trees) {
   return axis;
 }
 
-/// Where a line between the ends lies if the unit is no double.
+/// The coordinate of an interior line if the unit is not exactly a double.
 double Lattice::Axis::rounded_at(std::int64_t i) const {
   const double n = static_cast<double>(i);
   const double product = n * unit, product_rest = std::fma(n, unit, -product) + n * unit_rest;

@@ -10,23 +10,22 @@
 
 namespace quadloop {
 
-/// A corner of the lattice: where lattice lines meet, counted in lattice units from the root's lower left
-/// corner.
+/// A grid vertex: the intersection of two grid lines, in grid units from the root's lower left corner.
 struct LatticePoint {
   std::int64_t x = 0, y = 0;
   friend constexpr auto operator<=>(const LatticePoint&, const LatticePoint&) = default;
 };
 
-/// The order of lattice points along the curve, by which those near each other follow each other: that of
-/// their coordinates counts whose highest differing bit is the higher (Chan 2002).
+/// Order of grid vertices along the space-filling curve (Morton order): decided by the coordinate with the
+/// highest differing bit (Chan 2002).
 constexpr bool comes_earlier(LatticePoint a, LatticePoint b) {
   const std::int64_t in_x = a.x ^ b.x, in_y = a.y ^ b.y;
   const bool by_x = in_y < in_x && in_y < (in_x ^ in_y);
   return by_x ? a.x < b.x : a.y < b.y;
 }
 
-/// A square of the forest by its place alone. x and y count lattice units from the root's lower left corner;
-/// a tree's edge is 2^30 units.
+/// A square of the forest by its position. x and y count grid units from the root's lower left corner; a
+/// tree's edge is 2^30 units.
 struct Quadrant {
   static constexpr int unit_level = 30;
 
@@ -38,12 +37,12 @@ struct Quadrant {
     const Halves from = halves_of(site_of(quarter));
     return {x + from.x * size() / 4, y + from.y * size() / 4, level + 1};
   }
-  /// Of a corner, or the middle of a side.
+  /// The grid vertex at a corner or the middle of a side.
   constexpr LatticePoint at(Site site) const {
     const std::int64_t half = size() / 2;
     return {x + halves_of(site).x * half, y + halves_of(site).y * half};
   }
-  /// The lattice line that a side lies on: a column for a vertical side, else a row.
+  /// The grid line of a side: a column for a vertical side, else a row.
   constexpr std::int64_t line(Side side) const {
     const std::int64_t low = is_vertical(side) ? x : y;
     return side == Side::right || side == Side::top ? low + size() : low;
@@ -54,24 +53,25 @@ struct Quadrant {
   friend constexpr bool operator==(const Quadrant&, const Quadrant&) = default;
 };
 
-/// The quarter in which the unit square right above (x, y) lies, of the quadrant of this level that holds it.
+/// The quarter that contains the unit square with lower left vertex (x, y), in the quadrant of this level
+/// around it.
 constexpr Corner quarter_at(std::int64_t x, std::int64_t y, int level) {
   const int shift = Quadrant::unit_level - 1 - level;
   return corner_at((x >> shift & 1) != 0, (y >> shift & 1) != 0);
 }
 
-/// The largest of the two distances along the axes between the closed squares; 0 where they touch.
+/// The larger of the two distances along the axes between the closed squares; 0 if they touch.
 constexpr std::int64_t chebyshev_gap(const Quadrant& a, const Quadrant& b) {
   const std::int64_t in_x = std::max(a.x - (b.x + b.size()), b.x - (a.x + a.size())),
                      in_y = std::max(a.y - (b.y + b.size()), b.y - (a.y + a.size()));
   return std::max(std::max(in_x, in_y), std::int64_t{0});
 }
 
-/// Where the lattice lines lie. Every coordinate is one double, computed the same way wherever it is needed;
-/// mirrored roots have mirrored coordinates, bit for bit.
+/// The background grid of the quadtrees: coordinates of the grid lines. Every coordinate is one double,
+/// computed in the same way everywhere; mirrored roots have mirrored coordinates, bit for bit.
 class Lattice {
  public:
-  /// `box` is cut into trees_x by trees_y square trees (square but for rounding).
+  /// `box` is divided into trees_x by trees_y square trees (square up to rounding).
   Lattice(const Box& box, int trees_x, int trees_y);
 
   int trees_x() const { return trees_x_; }
@@ -84,18 +84,18 @@ class Lattice {
   double y(std::int64_t j) const { return y_.at(j); }
   Point corner(std::int64_t i, std::int64_t j) const { return {x(i), y(j)}; }
   Point corner(LatticePoint p) const { return corner(p.x, p.y); }
-  /// The last line at or before a coordinate inside the root (the last but the root's side at most); the unit
-  /// square right of it, above it holds the coordinate.
+  /// The last grid line at or before a coordinate inside the root (excluding the root's last side); the unit
+  /// square to its right (above it) contains the coordinate.
   std::int64_t column_at(double x) const { return x_.line_before(x); }
   std::int64_t row_at(double y) const { return y_.line_before(y); }
-  /// The line of squares of this level that lies at just this coordinate, if there is one. Their lines lie at
-  /// different doubles where finest_level() allows the level; lattice lines between them may not.
+  /// The grid line of this level at exactly this coordinate, if any. Lines of levels allowed by
+  /// finest_level() have different doubles; lines of finer levels may coincide.
   std::optional<std::int64_t> column_on(double x, int level) const { return x_.line_on(x, level); }
   std::optional<std::int64_t> row_on(double y, int level) const { return y_.line_on(y, level); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
-  /// The finest level whose leaves are not smaller than `min`. Throws InputError where that is deeper than
-  /// the forest or than double precision can tell apart; it names the setting.
+  /// The finest level whose leaves are not smaller than `min`. Throws InputError, naming the setting, if that
+  /// is deeper than the forest or than double precision allows.
   int finest_level(double min, const char* setting = "spacing.min") const;
 
  private:
@@ -103,7 +103,7 @@ class Lattice {
     double low = 0, high = 0;
     std::int64_t count = 0;
     double unit = 0, unit_rest = 0;  ///< (high - low) / count as a sum of two doubles
-    bool exact = false;              ///< whether every i * unit is a double
+    bool exact = false;              ///< every i * unit is a double
     double at(std::int64_t i) const {
       if (i == count) return high;
       return exact ? low + static_cast<double>(i) * unit : rounded_at(i);
@@ -120,9 +120,9 @@ class Lattice {
   Axis x_, y_;
 };
 
-/// The root for a geometry: as the user gave it; the geometry's own bounding box where all four sides are
-/// boundary and square trees tile it; else that box, padded. Throws InputError where the geometry sticks out
-/// of the user's root.
+/// The root for a geometry: as specified by the user; the geometry's bounding box if all four of its sides
+/// are boundaries and square trees tile it; else that box, padded. Throws InputError if the geometry exceeds
+/// the user's root.
 Lattice choose_root(const Geometry& geometry, const std::optional<RootOptions>& wanted);
 
 }  // namespace quadloop

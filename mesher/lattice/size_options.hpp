@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// Leaves that meet the shape are no larger than `spacing`.
+/// A size source: leaves that meet the shape are at most `spacing` large.
 struct SizeSource {
   struct Disc {
     Point centre;
@@ -26,22 +26,21 @@ struct SizeSource {
 /// Whether the closed shape and the closed box have a point in common.
 bool meets(const SizeSource& source, const Box& box);
 
-/// The root as the user may fix it: trees_x by trees_y square trees, the first one's lower left corner at
-/// `corner`.
+/// A root specified by the user: trees_x by trees_y square trees, with the lower left corner at `corner`.
 struct RootOptions {
   Point corner;
   double tree_edge = 0;
   int trees_x = 1, trees_y = 1;
-  std::optional<Point> far_corner = {};  ///< the opposite one, where more than this tells it to the bit
+  std::optional<Point> far_corner = {};  ///< the opposite corner, where it must be exact to the bit
 };
 
-/// How fine the leaves are. Lengths in the geometry's unit.
+/// Options of the size field. Lengths in the geometry's unit.
 struct SizeOptions {
-  double min = 0;                   ///< no leaf is cut smaller than this; > 0
-  double max = 0;                   ///< no leaf stays larger than this; >= min
-  double gradation = 1.5;           ///< 1 < g <= 2: h <= h' + (g-1)/2 d
-  std::optional<double> curvature;  ///< degrees that a boundary may turn within one leaf
-  std::optional<double> gap;        ///< leaves across the gap between two boundaries
+  double min = 0;                   ///< lower limit of leaf sizes, positive
+  double max = 0;                   ///< upper limit of leaf sizes, at least min
+  double gradation = 1.5;           ///< growth limit 1 < g <= 2: h <= h' + (g-1)/2 d
+  std::optional<double> curvature;  ///< maximum turning angle of a boundary per leaf, degrees
+  std::optional<double> gap;        ///< number of leaves across the gap between two boundaries
   std::vector<SizeSource> sources;
   std::optional<RootOptions> root;
 };

@@ -7,20 +7,20 @@
 
 namespace quadloop {
 
-// The parts of a square have one order: from the bottom and the lower left corner on, counter-clockwise.
+// The parts of a square are numbered from the bottom and the lower left corner, counter-clockwise.
 
 enum class Side : std::uint8_t { bottom, right, top, left };
 enum class Corner : std::uint8_t { south_west, south_east, north_east, north_west };
-/// Of the lattice edges at a lattice corner.
+/// Of the grid edges at a grid vertex.
 enum class Direction : std::uint8_t { east, north, west, south };
 
-/// Where a node of a square sits.
+/// The place of a node in a square.
 enum class Site : std::uint8_t {
-  south_west,  ///< the corners
+  south_west,  ///< corners
   south_east,
   north_east,
   north_west,
-  bottom_middle,  ///< the middles of the sides: where nodes hang
+  bottom_middle,  ///< middles of the sides: hanging nodes
   right_middle,
   top_middle,
   left_middle,
@@ -32,7 +32,7 @@ enum class Site : std::uint8_t {
 };
 
 inline constexpr std::array all_sides{Side::bottom, Side::right, Side::top, Side::left};
-/// The sites that lie on the lattice.
+/// The sites that are grid vertices.
 inline constexpr std::array lattice_sites{Site::south_west, Site::south_east,    Site::north_east,
                                           Site::north_west, Site::bottom_middle, Site::right_middle,
                                           Site::top_middle, Site::left_middle};
@@ -40,7 +40,7 @@ inline constexpr std::array lattice_sites{Site::south_west, Site::south_east,   
 inline constexpr std::array corners_along_curve{Corner::south_west, Corner::south_east, Corner::north_west,
                                                 Corner::north_east};
 
-/// The index of a part in arrays that have an entry for each.
+/// The index of a part in arrays with one entry per part.
 template <class Part>
 constexpr std::size_t index_of(Part part) {
   return static_cast<std::size_t>(part);
@@ -69,7 +69,7 @@ constexpr Site elsewhere_on(Side s) { return static_cast<Site>(8 + index_of(s));
 constexpr bool is_corner(Site s) { return s <= Site::north_west; }
 constexpr bool is_on_lattice(Site s) { return s <= Site::left_middle; }
 constexpr bool is_middle(Site s) { return is_on_lattice(s) && !is_corner(s); }
-/// The side that a middle, or a site elsewhere on a side, lies on.
+/// The side of a middle or of a site elsewhere on a side.
 constexpr Side side_of(Site s) { return all_sides[index_of(s) % 4]; }
 
 /// A set of sides.
@@ -94,27 +94,26 @@ class SideSet {
   std::uint8_t bits_ = 0;
 };
 
-/// The sides that a site lies on: two for a corner.
+/// The sides on which a site lies: two for a corner.
 constexpr SideSet sides_of(Site s) {
   if (s == Site::inside) return {};
   return is_corner(s) ? SideSet{side_of(s), all_sides[(index_of(s) + 3) % 4]} : SideSet{side_of(s)};
 }
 
-/// The site that takes this one's place when the square is turned counter-clockwise until the bottom is where
-/// `bottom` is.
+/// The site that corresponds to s after a rotation that moves the bottom to the side `bottom`.
 constexpr Site turned(Site s, Side bottom) {
   return s == Site::inside ? s
                            : static_cast<Site>(index_of(s) / 4 * 4 + (index_of(s) + index_of(bottom)) % 4);
 }
 
-/// Of a lattice site, from the lower left corner, in halves of the edge: 0 to 2.
+/// Position of a grid site from the lower left corner, in half edges: 0 to 2.
 struct Halves {
   int x = 0, y = 0;
 };
 inline constexpr std::array<Halves, lattice_sites.size()> halves_of_sites{
     {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}}};
 constexpr Halves halves_of(Site s) { return halves_of_sites[index_of(s)]; }
-/// The opposite of halves_of: the sites row by row; the square's middle is `inside`.
+/// Inverse of halves_of: the sites row by row; the square's middle is `inside`.
 inline constexpr std::array<Site, 9> sites_by_halves{
     Site::south_west,   Site::bottom_middle, Site::south_east, Site::left_middle, Site::inside,
     Site::right_middle, Site::north_west,    Site::top_middle, Site::north_east};
