@@ -13,9 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_height_ratio = 0.75,
-                 largest_height_ratio =
-                     2;  // cells are left alone between these ratios of their height to the last layer's
+// Cells are left alone between these ratios of their height to the last layer's.
+constexpr double least_height_ratio = 0.75, largest_height_ratio = 2;
 constexpr double steepest = 1.3;                 // ratio of neighbouring widths that is left alone
 constexpr double low_aim = 0.9, high_aim = 1.7;  // limits of the target height, in heights of the last layer
 constexpr double height_of_equilateral = 0.8660254;  // height over width

@@ -24,15 +24,15 @@ namespace {
 
 constexpr int free_rings = 3;  ///< nodes within this many rings of a cell above the threshold may move
 constexpr double cost_rounding = 1e-12;  ///< relative difference of a cost seen from different corners
-constexpr int pinned_rings =
-    2;  ///< rings around triangles that flips made too bad; increased by this each time
+/// Rings around triangles that flips made too bad; increased by this each time.
+constexpr int pinned_rings = 2;
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
 /// Above this cost the shape of a cell has priority over even edges along boundaries: an angle of about 15
 /// degrees in the first round; in later rounds a factor of `SmoothOptions::bad`.
 constexpr double even_at_first = 0.3, even_later = 1.1;
-constexpr std::int64_t few =
-    100;  ///< a sweep with this many times fewer moves than the busiest one ends a round
+/// A sweep with this many times fewer moves than the busiest one ends a round.
+constexpr std::int64_t few = 100;
 
 template <class AnyMesh, std::size_t width>
 std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
