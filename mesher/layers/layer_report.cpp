@@ -85,8 +85,8 @@ double median_first(std::span<const Column> columns) {
 
 /// Statistics of the stations of one boundary.
 struct WallFigures {
-  double full_length = 0,
-         length = 0;  ///< length of wall between stations with the requested thickness; total length
+  /// Length of wall between stations with the requested thickness; total length.
+  double full_length = 0, length = 0;
   double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< requested first heights
 
   double share_full() const { return length > 0 ? full_length / length : 1; }

@@ -199,7 +199,7 @@ void OuterOutline::add_front_of(const LayerStrip& strip) {
   }
 }
 
-/// Whether the segment, of a boundary without layers, begins at a wall and is covered by its last column.
+/// Whether a segment of a boundary without layers begins at the end of a wall with layers.
 bool OuterOutline::begins_below(std::int32_t s) const {
   return first_of_segment_[g_.previous(s)] != WallLine::none;
 }

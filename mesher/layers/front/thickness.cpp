@@ -18,10 +18,9 @@ namespace {
 constexpr double share_of_end = 0.9;  // of the straight part of the boundary on which a run ends
 constexpr double shrink = 0.85, steepest = 0.35;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
-constexpr double share_of_gap =
-    0.36;  // with it the columns of two facing walls, with their clearance, just do not meet
-constexpr double own_reach =
-    4;  // length of wall, in thicknesses, within which a column's own wall is no obstacle
+// Fraction of a gap: the columns of two facing walls, with their clearance, just do not meet.
+constexpr double share_of_gap = 0.36;
+constexpr double own_reach = 4;  // thicknesses of wall within which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {
