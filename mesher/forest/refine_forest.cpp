@@ -13,11 +13,12 @@ namespace quadloop {
 namespace {
 
 constexpr double quadrants_of_leaf = 4.0 / 3;  ///< all quadrants per leaf
-constexpr double parts_to_share =
-    64;  ///< per rank: approximate number of quadrants for the initial partition
-constexpr std::int64_t leaves_to_judge =
-    4096;                       ///< per rank: a sample of this size predicts the distribution of leaves
-constexpr int last_levels = 5;  ///< number of levels refined after a second partition, where it does not
+/// Approximate number of quadrants per rank for the initial partition.
+constexpr double parts_to_share = 64;
+/// Leaves per rank from which on the sample predicts their distribution.
+constexpr std::int64_t leaves_to_judge = 4096;
+/// Number of levels refined after a second partition if the sample is insufficient.
+constexpr int last_levels = 5;
 constexpr int weight_unfinished = 64;      ///< of a leaf that may still be split in those levels
 constexpr double leaves_to_weigh = 16384;  ///< per rank: this many leaves predict the total weight within 2 %
 constexpr double even_enough = 1.02;       ///< below this imbalance moving leaves takes longer than waiting
@@ -103,8 +104,7 @@ void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const 
   });
 }
 
-/// Whether the leaves are of the largest allowed level in so much of the root that the sample is
-/// representative.
+/// Whether the coarsest allowed level alone has enough leaves per rank for the sample to be representative.
 bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
   constexpr int deep_enough = 15;
   const int level = std::min(sizes.coarsest_level(), deep_enough);
