@@ -46,7 +46,7 @@ struct CellHessian {
 /// is exact for quadratics, at walls, between leaves of different sizes, on triangles and quadrilaterals.
 /// Cell values are located at the centroids; there it is exact up to the difference between mean and point
 /// value. Derivatives that the points do not determine (across a channel of one cell) are 0.
-/// tell (across a channel of one cell) is 0.
+///
 /// Cells in layers are excluded: nodes on the outer edge of layers are fitted from outside only. In wall
 /// layers the Hessian is the second derivative along the rows only, as splitting does not make the rows
 /// thinner; it is 0 in strips and, for cell values, in layers. Values within the rounding of the variable

@@ -57,10 +57,8 @@ void check_cells(const Mesh& mesh, const Cells& cells, const CellValues& values,
 
 void check_field(const Communicator& comm, const Mesh& mesh, const Field& field, FieldSign sign) {
   for (std::size_t variable = 0; variable < field.width(); ++variable) {
-    comm.together(
-        [&] {  // nodes are numbered in rank order, so the lowest rank that throws has the first node
-          check_variable(mesh, field, variable, sign);
-        });
+    // Nodes are numbered in rank order, so the lowest rank that throws has the first node.
+    comm.together([&] { check_variable(mesh, field, variable, sign); });
   }
   if (field.cells.width() == 0) return;
   const CellOwners owners(comm, mesh);
