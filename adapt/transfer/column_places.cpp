@@ -24,10 +24,9 @@ class LayeredWall {
     for (const LayeredEdge& edge : layered_edges(comm, mesh))
       own.push_back({mesh.point(edge.nodes[0]), mesh.point(edge.nodes[1])});
     segments_ = comm.all_gather_values(std::span<const Segment>(own));
+    // Independent of the ranks: the first of equal ones is found.
     std::ranges::sort(segments_, {},
-                      [](const Segment& s) {  // independent of the ranks: the first of equal ones is found
-                        return std::tuple(s.from.x, s.from.y, s.to.x, s.to.y);
-                      });
+                      [](const Segment& s) { return std::tuple(s.from.x, s.from.y, s.to.x, s.to.y); });
     std::vector<Box> boxes;
     for (const Segment& s : segments_) boxes.push_back(box_of(s.from, s.to));
     tree_ = BoxTree(boxes);
@@ -63,8 +62,8 @@ std::vector<Point> column_places(const Communicator& comm, const Mesh& old_mesh,
   const IdVector<NodeId, double> rest = heights_to_front(comm, new_mesh, in_layers);
   for (const NodeId node : ids_below(NodeId{new_mesh.owned_nodes})) {
     if (!in_layers[node].valid() || in_layers[node].strip >= 0) continue;  // strips do not move
-    if (rest[node] == 0)
-      continue;  // on the outer edge of the layers, or on a base whose layers end in a strip
+    // On the outer edge of the layers, or on a base whose layers end in a strip.
+    if (rest[node] == 0) continue;
     Point& p = places[node.value()];
     const auto [foot, edge] = new_wall.nearest(p);
     const Point shift = old_wall.nearest(foot).point - foot;

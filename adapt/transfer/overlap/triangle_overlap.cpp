@@ -44,7 +44,7 @@ Polygon left_part(const Polygon& polygon, Point a, Point b) {
 }  // namespace
 
 TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array<Point, 3>& by) {
-  const Point origin = clipped[0];  // differences of near points are exact
+  const Point origin = clipped[0];  // relative coordinates keep precision
   Polygon polygon;
   for (const Point p : clipped) polygon.add(p - origin);
   for (std::size_t k = 0; k < 3 && polygon.count > 0; ++k)
