@@ -13,8 +13,8 @@ namespace quadloop {
 /// A triangle with the data of its nodes, for messages between ranks.
 struct LooseTriangle {
   std::array<TileNode, 3> nodes;
-  std::array<std::int32_t, 3> boundaries{-1, -1,
-                                         -1};  ///< of the edge from node k to the next; negative: no boundary
+  /// Boundary of the edge from node k to the next; negative: none.
+  std::array<std::int32_t, 3> boundaries{-1, -1, -1};
 
   Point centroid() const;  ///< independent of the first node
 };

@@ -13,8 +13,8 @@ namespace quadloop {
 /// Data from which the metric of the next mesh is computed.
 struct MetricDemand {
   std::vector<std::string> variables;  ///< at the nodes of the mesh of the solution
-  std::string
-      error;  ///< nodal error variable that determines sizes (`variables` then only shapes); may be empty
+  /// Nodal error variable that determines sizes (`variables` then only shapes); may be empty.
+  std::string error;
   double norm = 2;                ///< the p of the L^p norm of the interpolation error
   std::int64_t nodes = 0;         ///< target number of nodes
   double min = 0;                 ///< smallest requested edge length, in the geometry's unit

@@ -9,8 +9,8 @@ namespace quadloop {
 namespace {
 
 constexpr int least_rounds = 3;
-constexpr double settled_share =
-    0.003;  ///< fraction of nodes added and removed in a round below which adaptation ends
+/// Fraction of nodes added and removed in a round below which adaptation ends.
+constexpr double settled_share = 0.003;
 
 }  // namespace
 

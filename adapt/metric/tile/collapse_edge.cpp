@@ -30,8 +30,8 @@ bool may_go(const TileMesh& mesh, std::int32_t gone, const TileMesh::Edge& edge)
   if (edge.side.boundary < 0) return false;
   const auto [before, after] = mesh.neighbours_on_wall(gone);
   if (before == after || mesh.edge(before, after)) return false;
-  if (on_rim(mesh, before) && on_rim(mesh, after))
-    return false;  // a third edge of the hole may be outside the tile
+  // A third edge of the hole may be outside the tile.
+  if (on_rim(mesh, before) && on_rim(mesh, after)) return false;
   const Walls& walls = mesh.walls();
   Walls::Chord whole = mesh.chord(before, after, edge.side.boundary);
   const OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);

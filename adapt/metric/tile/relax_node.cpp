@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::array<double, 4> relaxation_shares{0.8, 0.4, 0.2,
-                                                  0.1};  ///< fractions of the distance to the target position
+/// Fractions of the distance to the target position.
+constexpr std::array<double, 4> relaxation_shares{0.8, 0.4, 0.2, 0.1};
 
 /// The star of a node at another position: its worst quality, and the sum of the quality deficits.
 struct StarQuality {

@@ -51,8 +51,8 @@ void TileMesh::lock_walls() {
   }
 }
 
-/// A node is free if no edge at it is locked or on a boundary; it slides if it has exactly two boundary
-/// edges, of the same boundary and not locked.
+/// A node is free if no edge at it is locked or on a boundary. It slides if it has exactly two boundary
+/// edges, of the same boundary and not locked, and is no kept point. Otherwise it is fixed.
 void TileMesh::set_freedom(std::int32_t n) {
   int on_wall = 0;
   std::int32_t boundary = -1;
