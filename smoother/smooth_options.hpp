@@ -31,7 +31,7 @@ struct SmoothOptions {
   /// Height of the last layer at each segment of the geometry where layers end, 0 for other segments; may be
   /// empty. Nodes there are spread evenly, and the adjacent cells are fitted to this height.
   std::vector<double> front_heights;
-  NodeFlags pinned;                        ///< a flag for each owned node that must stay; may be empty
+  NodeFlags pinned;                        ///< flags the owned nodes that must stay; may be empty
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and
                                            ///< flips restore this at the end
   /// Block of each owned triangle (empty: one block); edges between blocks are not flipped.

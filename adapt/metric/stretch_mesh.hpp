@@ -12,7 +12,7 @@ namespace quadloop {
 
 /// Data from which the metric of the next mesh is computed.
 struct MetricDemand {
-  std::vector<std::string> variables;  ///< at the nodes of the mesh of the solution
+  std::vector<std::string> variables;  ///< nodal variables of the solution
   /// Nodal error variable that determines sizes (`variables` then only shapes); may be empty.
   std::string error;
   double norm = 2;                ///< the p of the L^p norm of the interpolation error

@@ -10,7 +10,7 @@ namespace quadloop {
 
 /// Parameters of r-adaptation.
 struct TargetDemand {
-  std::vector<std::string> variables;  ///< at the nodes of the mesh of the solution
+  std::vector<std::string> variables;  ///< nodal variables of the solution
   double norm = 2;                     ///< the p of the L^p norm of the interpolation error
   double min = 0;                      ///< edge of the smallest leaves, in the geometry's unit
   double stretch = 8;                  ///< largest factor by which a cell is made thinner

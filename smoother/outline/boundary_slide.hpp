@@ -94,7 +94,7 @@ class BoundarySlide {
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
-  std::vector<char> outlined_;  ///< a flag for each boundary that the geometry has
+  std::vector<char> outlined_;  ///< flags the boundaries that the geometry has
   IdVector<NodeId, NodeFreedom> freedom_;
   /// The last located point of a node and its place on the geometry, which depends on the point only.
   struct Located {
