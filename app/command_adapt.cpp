@@ -122,8 +122,7 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.figures.add("folder", folder);
   of_run.figures.add("cycles", cycles);
   std::vector<std::string> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(fmt::format("{}/cycle_{:02}", folder, record.cycle)))
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + cycle_name(record.cycle)))
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
@@ -140,9 +139,10 @@ std::string why_ended(const LoopEnd& end) {
 std::string closing_line(const std::string& folder, const LoopEnd& end) {
   const int first = end.first, last = end.last;
   if (first > last)
-    return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
-  if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
-  return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
+    return fmt::format("  all cycles are there already: {}/{} to {}\n", folder, cycle_name(0),
+                       cycle_name(last));
+  if (first == last) return fmt::format("  wrote {}/{}\n", folder, cycle_name(last));
+  return fmt::format("  wrote {}/{} to {}\n", folder, cycle_name(first), cycle_name(last));
 }
 
 std::string folder_of(const AdaptArguments& arguments) {

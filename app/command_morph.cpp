@@ -151,14 +151,8 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
   std::erase_if(joined.names,
                 [](const std::string& name) { return std::ranges::count(velocity_names, name) > 0; });
   const Field kept = selected(before, joined.names, "the mesh's solution");
-  joined.names.insert(joined.names.end(), velocity_names.begin(), velocity_names.end());
-  joined.values.clear();
-  for (const NodeId node : ids_below(NodeId{input.whole.mesh.owned_nodes})) {
-    for (const Field* rows : {&kept, &of_whole}) {
-      const auto row = rows->row(node);
-      joined.values.insert(joined.values.end(), row.begin(), row.end());
-    }
-  }
+  joined.values = kept.values;
+  append_columns(joined, velocity_names, of_whole.values);
 }
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the outline. *Collective.*

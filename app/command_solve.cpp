@@ -141,12 +141,9 @@ void write(const CommandContext& context, SolveProblem& problem, const Mesh& par
 
 EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
   EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
-  const bool steady = options.time == EulerOptions::Time::steady;
-  options.progress = [&comm, steady](const EulerProgress& p) {
-    if (!comm.is_root()) return;
-    const std::string time = steady ? "" : fmt::format(", time {:.6g}", p.time);
-    log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual,
-                                 p.cl, p.cd, time));
+  const bool in_time = options.time == EulerOptions::Time::accurate;
+  options.progress = [&comm, in_time](const EulerProgress& progress) {
+    if (comm.is_root()) log::information(line_of(progress, in_time));
   };
   return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
                      estimate_goals(options));

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "adapt/solvers/cycle_paths.hpp"
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
@@ -51,7 +52,7 @@ CycleFolders::~CycleFolders() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
+std::string CycleFolders::whole(int cycle) const { return folder_ + "/" + cycle_name(cycle); }
 
 void CycleFolders::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

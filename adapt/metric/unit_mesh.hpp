@@ -12,8 +12,7 @@ using MetricAt = std::function<std::vector<LogMetric>(const Mesh&)>;
 
 struct UnitMeshOptions {
   std::int64_t tile_size = TileCut{}.size;
-  int rounds = 10;      ///< maximum number
-  int first_round = 0;  ///< selects the borders of tiles, which should differ from those of earlier rounds
+  int rounds = 10;  ///< at most
 };
 
 /// Adapts a mesh of triangles until its edges have a length of about 1 in the metric: edges longer than

@@ -58,8 +58,7 @@ CarriedMesh with_nodes_of(const Communicator& comm, const MeshInput& input, cons
   result.report = report_of(comm, old.tree);
   result.mesh = std::move(mesh);
   carried.start = old.solution;
-  carried.report.drift.assign(old.solution.width() + old.solution.cells.width(), 0);
-  carried.report.relative_drift = carried.report.drift;
+  carried.report = TransferReport::without_drift(old.solution);
   carried.morphed = true;
   return carried;
 }

@@ -25,8 +25,14 @@ struct TransferReport {
   std::vector<double> relative_drift;  ///< drift relative to the old integral of the variable's absolute
                                        ///< value; 0 if that is 0
   std::size_t conserved_from =
-      0;  ///< index of the first variable whose integral is conserved; all later ones are too
-  double area_change = 0;  ///< relative change of the mesh area; 0 if nothing is conserved
+      0;                   ///< the first of these variables whose integral is to be kept; all later are
+  double area_change = 0;  ///< of the new mesh against the old one, as a fraction; 0 if nothing is conserved
+
+  /// Of a field that stays on its mesh.
+  static TransferReport without_drift(const Field& field) {
+    const std::vector<double> none(field.width() + field.cells.width(), 0.0);
+    return {.drift = none, .relative_drift = none};
+  }
 };
 
 struct Transferred {
@@ -34,18 +40,18 @@ struct Transferred {
   TransferReport report;
 };
 
-/// Transfers values from the nodes and cells of one mesh to those of another. Linear: a node inside an old
-/// triangle, or half of a quadrilateral (split_quad), gets linearly interpolated values: exactly those of an
-/// old node at the same place; exact to rounding for linear fields. Of several triangles that contain it the
-/// one with the lowest global number is used. A node outside the old mesh gets the values at the nearest
-/// point of its boundary edges, of equally near edges the lowest-numbered one. In wall layers nodes are
-/// mapped by their height above the wall (column_places). So no value exceeds the range of the nodes from
-/// which it is computed, and the bits depend on the two meshes only, not on their partition. Conservative:
-/// the same, corrected to conserve integrals (conserve_at_nodes()). Cell values are transferred by
-/// carry_cells(); a cell outside the old mesh gets the values of the old cell at the nearest boundary edge.
-/// `old_field` has a row of finite numbers for each owned node and each cell. Each rank handles a part of the
-/// plane with its old triangles and new nodes; the old boundary edges are gathered on all ranks if some node
-/// is outside. *Collective.*
+/// Carries values from the nodes and cells of one mesh to those of another. Linear: a node inside an old
+/// triangle, or in half of a quad (parts_of), takes the values interpolated linearly there: those of an old
+/// node at the same place bit for bit, linear fields to rounding. Of several triangles that it lies in it is
+/// the one of the lowest number over all ranks. A node outside the old mesh takes the values at the nearest
+/// point of its boundary edges, of several edges as near those of the lowest number. In layers at walls nodes
+/// go by their height above the wall (column_places). So no value leaves the range of the nodes that it is
+/// made from, and the bits depend on the two meshes alone, not on how they are spread over the ranks.
+/// Conservative: that, changed so that integrals are kept (conserve_at_nodes()). Values of cells go as
+/// carry_cells() says; a cell outside the old mesh takes those of the old cell at the nearest of its boundary
+/// edges. `old_field` holds a row of finite numbers for each owned node and each cell. Each rank works on a
+/// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
+/// if some node is outside. *Collective.*
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind = TransferKind::linear);
 

@@ -54,7 +54,7 @@ struct Split {
   bool are_counter_clockwise = true;
 };
 
-/// The result of split_quad(), and whether the halves are valid.
+/// The halves of a quad, and whether they are as they should be.
 Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
   const std::array<Point, 4> corners = corners_of(mesh, quad);
   if (is_rectangle(corners)) return {halves(quad, farthest_corner(centre, corners))};
@@ -103,11 +103,6 @@ void append_all(const Communicator& comm, const Mesh& mesh, Point centre,
 
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
   return box_over_ranks(comm, mesh.points).centre();
-}
-
-std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
-                                                const std::array<NodeId, 4>& quad) {
-  return split_of(mesh, centre, quad).halves;
 }
 
 TrianglesOfCell parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {

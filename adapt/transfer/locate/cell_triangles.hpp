@@ -42,14 +42,10 @@ inline std::size_t farthest_corner(Point centre, const std::array<Point, 4>& p) 
   return is_right ? 1 : 0;
 }
 
-/// The two triangles of a quadrilateral: split along the diagonal through the corner of the highest tie rank,
-/// the one farthest from `centre` along an axis, so that mirror images of a mesh are split alike. If a half
-/// would not be counter-clockwise (the quadrilateral is not convex there) the other diagonal is used.
-std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
-                                                const std::array<NodeId, 4>& quad);
-
-/// A cell's triangles, one or the two of split_quad(). Triangles without area are omitted, clockwise ones
-/// reversed.
+/// A cell's triangles, one or two. One without area is left out, one that runs clockwise turned. A quad is
+/// split along the diagonal through its corner of the highest tie rank, the one farthest from `centre` along
+/// an axis, so that mirror images of a mesh are split alike. Where a half would not be counter-clockwise (the
+/// quad is not convex there) it is the other diagonal.
 struct TrianglesOfCell {
   std::array<std::array<NodeId, 3>, 2> nodes;
   std::array<std::int8_t, 2> half{};  ///< first or second half, for each
