@@ -20,7 +20,7 @@ TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt
   for (int round = 0; round < options.rounds; ++round) {
     std::vector<LooseTriangle> triangles = loosened(comm, mesh, metric_at(mesh));
     const std::int64_t nodes = comm.sum(std::int64_t{mesh.owned_nodes});
-    changes = adapt_in_tiles(comm, {options.tile_size, round}, walls, nodes, triangles);
+    changes = adapt_in_tiles(comm, {options.tile_size, options.first_round + round}, walls, nodes, triangles);
     mesh = joined(comm, triangles, mesh.boundaries);
     log::detail(fmt::format("metric: {} nodes, {} splits, {} collapses, {} flips, {} moves", nodes,
                             changes.splits, changes.collapses, changes.flips, changes.moves));

@@ -12,7 +12,8 @@ using MetricAt = std::function<std::vector<LogMetric>(const Mesh&)>;
 
 struct UnitMeshOptions {
   std::int64_t tile_size = TileCut{}.size;
-  int rounds = 10;  ///< at most
+  int rounds = 10;      ///< at most
+  int first_round = 0;  ///< where borders of tiles lie: other than in rounds before
 };
 
 /// Adapts a mesh of triangles until its edges have a length of about 1 in the metric: edges longer than
