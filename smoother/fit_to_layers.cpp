@@ -39,8 +39,8 @@ struct FrontEdge {
   double last_layer = 0;  ///< the height of the last layer below it; 0: no such edge begins here
 };
 
-/// The edge that begins at each node, ghost copies included. *Collective.*
-IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, const BoundarySlide& slide,
+/// Of each node, copies too. *Collective.*
+IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, BoundarySlide& slide,
                                         std::span<const double> heights) {
   IdVector<NodeId, FrontEdge> edges(mesh.points().size());
   for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -64,8 +64,7 @@ struct FrontCell {
 
 class LayerFit {
  public:
-  LayerFit(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
-           std::span<const double> heights)
+  LayerFit(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide, std::span<const double> heights)
       : comm_{comm}, mesh_{mesh}, slide_{slide}, heights_{heights} {
     const IdVector<NodeId, FrontEdge> edges = front_edges(mesh, slide, heights);
     mesh.for_each_cell([&](const auto& cell) {
@@ -215,7 +214,7 @@ class LayerFit {
 
   const Communicator& comm_;
   HaloMesh& mesh_;
-  const BoundarySlide& slide_;
+  BoundarySlide& slide_;
   std::span<const double> heights_;
   std::vector<FrontCell> cells_;
   std::vector<NodeId> nodes_;  ///< nodes that may move
@@ -226,7 +225,7 @@ class LayerFit {
 
 }  // namespace
 
-bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
+bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                    std::span<const double> heights) {
   return LayerFit(comm, mesh, slide, heights).run();
 }

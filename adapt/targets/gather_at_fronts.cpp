@@ -56,7 +56,7 @@ NodeFlags nodes_of_front(const Communicator& comm, const MeshInput& input, const
   const OutlinePath outline(input.geometry);
   const HaloMesh halo(comm, mesh);
   const NodeFlags none;
-  const BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
+  BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
   NodeFlags flags(mesh.owned_nodes, 0);
   for (const HaloEdge& edge : halo.boundary_edges()) {
     if (!(slide.height_at(edge, heights) > 0)) continue;
