@@ -21,9 +21,13 @@ double chord_of(const std::vector<Point>& rows) {
   return std::max(box.width(), box.height());
 }
 
-/// Two whole numbers from 2 on can only be the counts of a Lednicer file: coordinates are shares of the
-/// chord.
-bool are_counts(Point p) { return p.x >= 2 && p.y >= 2 && p.x == std::floor(p.x) && p.y == std::floor(p.y); }
+bool is_count(double value) {
+  constexpr double most = 1e9;  // more points than a file holds
+  return value >= 2 && value <= most && value == std::floor(value);
+}
+
+/// Two integers from 2 on are the point counts of a Lednicer file, since coordinates are fractions of the chord.
+bool are_counts(Point p) { return is_count(p.x) && is_count(p.y); }
 
 /// A third column of zeros is that of files in three dimensions.
 bool has_no_third(const LineReader& lines) {
