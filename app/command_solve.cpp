@@ -46,7 +46,7 @@ struct SolveProblem {
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
   if (!format_of(output)->holds(Content::solution))
-    throw InputError(output + ": this format has no place for the flow; name a " +
+    throw InputError(output + ": this format cannot store the flow; use a " +
                      suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
@@ -58,7 +58,8 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
-        "{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, name));
+        "{}: its solution has no {}, so the flow starts from the free stream and the solution is replaced",
+        path, name));
     return {};
   }
   for (const char* const name : at_end_names) {
@@ -69,8 +70,8 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
     const auto row = start.row(NodeId{node});
     if (row[0] > 0 && row[3] > 0) continue;
     throw InputError(
-        fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; take the "
-                    "solution out to start afresh",
+        fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; remove the "
+                    "solution to start from the free stream",
                     path, row[0], row[3], node + 1));
   }
   return start;
@@ -215,7 +216,7 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
   command.add_case_argument(arguments->case_path);
   command
       .add_option("input", arguments->input,
-                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
+                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is the initial state")
       .required()
       .value_name("IN");
   command

@@ -84,8 +84,8 @@ JsonObject record_of(const MetricFigures& figures) {
 
 std::string lines_of(const MetricFigures& figures) {
   return fmt::format(
-      "complexity of the metric {:.1f}\nedges by length in it {}\ntriangles by quality in it {}, worst "
-      "{:.3f}\n",
+      "complexity of the metric {:.1f}\nedges by length in the metric {}\ntriangles by quality in the metric "
+      "{}, worst {:.3f}\n",
       figures.complexity, shares(MetricFigures::length_limits, figures.edges),
       shares(MetricFigures::quality_limits, figures.triangles), figures.worst_quality);
 }

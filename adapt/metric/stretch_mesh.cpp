@@ -153,8 +153,8 @@ class Stretching {
   [[noreturn]] static void refuse(const Mesh& mesh, const CrossingWalls& met) {
     const Point at = 0.5 * (met.one.from() + met.one.to());
     throw InputError(fmt::format(
-        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): "
-        "give them a smaller `spacing`, or take a larger adapt.min",
+        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): give "
+        "them a smaller `spacing`, or use a larger adapt.min",
         mesh.boundaries[met.one.boundary].name, mesh.boundaries[met.other.boundary].name, at.x, at.y));
   }
 
@@ -184,7 +184,7 @@ class Stretching {
     constexpr double enough = 0.95, aim = 0.975;
     constexpr double nodes_of_unit = 1.3;  // a first guess
     if (metric_.flat()) {
-      report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the tree");
+      report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the quadtree");
       return start;
     }
     Mesh mesh = start;
@@ -244,13 +244,12 @@ class Stretching {
       return;
     }
     report.warnings.push_back(fmt::format(
-        "stretched cells take {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+        "the anisotropic mesh needs {} nodes, but adapt.max_nodes is {}: {}", all, demand_.nodes,
         is_floor(last, now)
-            ? fmt::format("the case's own sizes ask for them, and leave none to stretch cells with; give at "
-                          "least {}, "
-                          "better twice as many, or make spacing.max and the boundaries' spacings larger",
+            ? fmt::format("the case's own sizes need all of them; set at least {}, preferably twice that, or "
+                          "increase spacing.max and the spacings of the boundaries",
                           with_room(all))
-            : "it came no nearer"));
+            : "the number could not be reduced further"));
   }
 
   const Communicator& comm_;

@@ -124,8 +124,8 @@ void gather_at_fronts(const Communicator& comm, const MeshInput& input, const Me
       fmt::format("targets: norm of the carried error {:.4g}, before {:.4g}", best.least(), best.first()));
   if (!(best.least() < best.first()))
     result.report.warnings.push_back(
-        fmt::format("smooth.targets = \"solution\": no node is moved, as that would not lower the error's "
-                    "norm {:.4g} of p = {}",
+        fmt::format("smooth.targets = \"solution\": no node is moved, because that would not reduce the norm "
+                    "{:.4g} of the error with p = {}",
                     best.first(), demand.norm));
   result.mesh.points = best.places();
 }

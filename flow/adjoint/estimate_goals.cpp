@@ -46,16 +46,14 @@ void append_places(const std::string& goal, const std::vector<Point>& derivative
 
 void refuse(const EulerOptions& options) {
   if (options.time != EulerOptions::Time::steady)
-    throw InputError("solver.goal needs a steady flow; set solver.time = \"steady\" or leave the goal out");
+    throw InputError("solver.goal requires a steady flow; set solver.time = \"steady\", or remove the goal");
   if (options.far_field == EulerOptions::FarField::vortex)
     throw InputError(
-        "solver.goal needs the free stream beyond the far field; set solver.far_field = \"uniform\", or "
-        "leave "
-        "the goal out");
+        "solver.goal requires the free stream at the far field; set solver.far_field = \"uniform\", or "
+        "remove the goal");
   if (options.viscosity > 0)
     throw InputError(
-        "solver.goal needs a flow without viscosity; leave out solver.viscosity and solver.reynolds, or the "
-        "goal");
+        "solver.goal requires an inviscid flow; remove solver.viscosity and solver.reynolds, or the goal");
 }
 
 void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {

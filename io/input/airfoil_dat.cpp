@@ -109,10 +109,9 @@ class AirfoilRows {
   void warn(const std::string& path, std::vector<std::string>& warnings) const {
     if (passed_.count == 0) return;
     warnings.push_back(fmt::format(
-        "{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} passed over",
-        path, passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s",
-        passed_.count == 1 ? "is" : "are", passed_.count == 1 ? "" : "s", passed_.first_row,
-        passed_.count == 1 ? "was" : "were"));
+        "{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} ignored", path,
+        passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s", passed_.count == 1 ? "is" : "are",
+        passed_.count == 1 ? "" : "s", passed_.first_row, passed_.count == 1 ? "was" : "were"));
   }
 
  private:

@@ -120,9 +120,8 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
   const Face& edge = boundary.faces[number];
   const Point a = mesh.point(NodeId{edge[0]}), b = mesh.point(NodeId{edge[1]});
   scan.refuse_at(boundary.places.empty() ? 0 : boundary.places[number],
-                 fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
-                             "cell; take it out of the boundary, "
-                             "or mesh the surface beside it",
+                 fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no cell; remove "
+                             "it from the boundary, or mesh the surface beside it",
                              boundary.name, a.x, a.y, b.x, b.y));
 }
 
@@ -157,8 +156,8 @@ void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
   }
   if (names.empty()) return;
   loaded.warnings.push_back(
-      fmt::format("{}: {} edges between two cells are no boundary and were left out: those of {}", path,
-                  count, some_names(names)));
+      fmt::format("{}: {} edges between two cells are not boundary edges and were left out: those of {}",
+                  path, count, some_names(names)));
 }
 
 void add_outer_boundary(Mesh& mesh) {
@@ -311,7 +310,8 @@ LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
   place_edges(file.boundaries, loaded, scan);
   if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
   if (turned > 0)
-    loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
+    loaded.warnings.push_back(
+        fmt::format("{}: {} cells ran clockwise and were reversed", scan.path(), turned));
   warn_of_inner_curves(loaded, scan.path());
   return loaded;
 }

@@ -199,8 +199,8 @@ class ForestCutter {
     message.precision(17);
     message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near ("
             << trace.box.centre().x << ", " << trace.box.centre().y
-            << "): the outline comes so near to itself that double precision cannot part the two sides; move "
-               "or remove points there";
+            << "): the geometry comes so close to itself that double precision cannot separate the two "
+               "sides; move or remove points there";
     throw InputError(message.str());
   }
 

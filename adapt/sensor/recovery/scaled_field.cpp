@@ -18,7 +18,7 @@ const char* fault_of(double value, FieldSign sign) {
   if (sign == FieldSign::not_negative && value < 0)
     return "but an error is never negative; correct what the solver writes";
   if (sign == FieldSign::positive && value <= 0)
-    return "but a wanted size is larger than 0; correct what the solver writes";
+    return "but a target size must be above 0; correct what the solver writes";
   return nullptr;
 }
 

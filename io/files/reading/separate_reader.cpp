@@ -24,7 +24,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr const char* cure = "; take it from a copy, or write it anew";
+constexpr const char* cure = "; restore it from a copy, or write it again";
 constexpr int too_much_memory = -1;  // sent in place of an exit status
 
 /// What reading a file may cost: generous for every whole one, also for thousands of boundaries (20 s for 100
@@ -122,7 +122,7 @@ class Child {
 [[noreturn]] void refuse_ending(const std::string& path, int wait_status, const Allowance& allowance) {
   const int signal = WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : 0;
   if (signal == SIGXCPU || signal == SIGKILL || signal == SIGALRM) {
-    throw InputError(fmt::format("{}: is damaged: reading it came to no end within {} seconds{}", path,
+    throw InputError(fmt::format("{}: is damaged: reading it did not end within {} seconds{}", path,
                                  allowance.seconds, cure));
   }
   const std::string how = signal != 0 ? fmt::format("crashed ({})", ::strsignal(signal)) : "gave up";
