@@ -184,7 +184,7 @@ class SteadyMarch {
     run_.residual.evaluate(run_.states);
     keep_limiter();
     if (run_.comm.is_root())
-      log::detail(fmt::format("step {}: a Newton step failed: the limiter's factors are kept from here on",
+      log::detail(fmt::format("step {}: a Newton step failed: the limiter is frozen from here on",
                               result_.iterations));
   }
 

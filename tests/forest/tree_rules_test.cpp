@@ -130,13 +130,16 @@ TEST_P(TreeRulesAt, TouchingLeavesDifferByOneLevelAtMost) {
   const Geometry even = circle_in_square(0.02), uneven = circle_in_square(0.05, 0.06);
   for (const Geometry* geometry : {&even, &uneven}) {
     Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
+    int other_levels = 0;
     for (const Quadrant& a : tree.leaves) {
       for (const Quadrant& b : tree.leaves) {
         if (chebyshev_gap(a, b) == 0) {
           EXPECT_LE(std::abs(a.level - b.level), 1);
+          other_levels += a.level != b.level ? 1 : 0;
         }
       }
     }
+    EXPECT_GT(world().sum(other_levels), 0);
   }
 }
 
