@@ -7,7 +7,7 @@
 #include "generate/generate.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/generate/generate.hpp"
+#include "generate/generate.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
 namespace quadloop {
