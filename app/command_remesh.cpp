@@ -287,7 +287,7 @@ void add_remesh_command(CommandLine& line, CommandContext& context) {
           "the mesh that was solved on, where it is neither beside the tree nor the tree's own, as after "
           "quadloop smooth")
       .value_name("MESH");
-  command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+  command.add_option("--geometry", arguments->geometry, "changed geometry, instead of that of the case")
       .value_name("NEW.geom");
   command.add_option("-o,--output", arguments->prefix, "prefix of the output files, instead of output.prefix")
       .value_name("PREFIX");
