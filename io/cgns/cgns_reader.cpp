@@ -151,9 +151,7 @@ class ZoneReader {
     });
   }
 
-  bool is_read(const CgnsShape& shape) const {
-    return shape.width > 0 && shape.dimension <= mesh_.dimension;
-  }
+  bool is_read(const CgnsShape& shape) const { return shape.width > 0 && shape.dimension <= mesh_.dimension; }
 
   void read_section(int section) {
     Name name{};

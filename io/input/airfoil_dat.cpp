@@ -26,7 +26,8 @@ bool is_count(double value) {
   return value >= 2 && value <= most && value == std::floor(value);
 }
 
-/// Two integers from 2 on are the point counts of a Lednicer file, since coordinates are fractions of the chord.
+/// Two integers from 2 on are the point counts of a Lednicer file, since coordinates are fractions of the
+/// chord.
 bool are_counts(Point p) { return is_count(p.x) && is_count(p.y); }
 
 /// A third column of zeros is that of files in three dimensions.

@@ -23,8 +23,8 @@ struct Range {
   std::string text() const;
 };
 
-/// One table of a case file. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for what
-/// came from the command line, "--set spacing.min=x: ". Which keys a table may have is not its concern
+/// One table of a case file. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for
+/// what came from the command line, "--set spacing.min=x: ". Which keys a table may have is not its concern
 /// (quadloop/case/key_table). A view: cheap to copy, and it keeps the file's data alive.
 class CaseTable {
  public:

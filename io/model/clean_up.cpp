@@ -139,7 +139,8 @@ void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded
         inner.edges.push_back({from, to});
         continue;
       }
-      if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left))) std::swap(from, to);
+      if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left)))
+        std::swap(from, to);
       outer.edges.push_back({from, to});
     }
     if (!outer.edges.empty()) loaded.mesh.boundaries.push_back(std::move(outer));

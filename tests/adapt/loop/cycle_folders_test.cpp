@@ -172,7 +172,9 @@ TEST(Resume, AnotherOutlineIsRefused) {
   CycleRecord now = record_with(settings);
   now.geometry_digest = 8;
   now.case_digest = run_digest(settings, 8);
-  EXPECT_NE(test::refusal_text([&] { require_same_run(world(), temporary.path(), now); }).find("the geometry in the files"),
+  EXPECT_NE(test::refusal_text([&] {
+              require_same_run(world(), temporary.path(), now);
+            }).find("the geometry in the files"),
             std::string::npos);
 }
 
