@@ -136,8 +136,7 @@ std::string why_ended(const LoopEnd& end) {
 std::string closing_line(const std::string& folder, const LoopEnd& end) {
   const int first = end.first, last = end.last;
   if (first > last)
-    return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, cycle_name(0),
-                       cycle_name(last));
+    return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, cycle_name(0), cycle_name(last));
   if (first == last) return fmt::format("  wrote {}/{}\n", folder, cycle_name(last));
   return fmt::format("  wrote {}/{} to {}\n", folder, cycle_name(first), cycle_name(last));
 }

@@ -7,7 +7,6 @@
 #include "generate/generate.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/timer.hpp"
-#include "generate/generate.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
 namespace quadloop {

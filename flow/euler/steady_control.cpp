@@ -57,11 +57,10 @@ bool SteadyControl::leads_nowhere(const Flow& flow) const {
 SteadyControl::Decision SteadyControl::start_over() {
   const BestFlow best = best_;
   *this = SteadyControl(false, may_leave_);
-  return {
-      .next = Next::start_over,
-      .messages = {fmt::format("no convergence from the given initial flow (residual {:.2e} at step {}): "
-                               "restart from the free stream",
-                               best.residual, best.iteration)}};
+  return {.next = Next::start_over,
+          .messages = {fmt::format("no convergence from the given initial flow (residual {:.2e} at step {}): "
+                                   "restart from the free stream",
+                                   best.residual, best.iteration)}};
 }
 
 /// Whether the flow is on the way to a worse one than the best. More returns than are borne have no effect: a
@@ -75,10 +74,10 @@ bool SteadyControl::sets_back(const Flow& flow, Decision& decision) {
                                               flow.residual > setback.rise * best_.residual);
   if (!returns || ++returns_ > setback.most_returns) return false;
   decision.next = Next::return_to_best;
-  decision.messages.push_back(
-      fmt::format("the residual {} {:.2e} at step {} {} {:.2e}: restart from that step with a smaller CFL number",
-                  stands ? "was" : "rose from", best_.residual, best_.iteration,
-                  stands ? "and stalled at" : "to", flow.residual));
+  decision.messages.push_back(fmt::format(
+      "the residual {} {:.2e} at step {} {} {:.2e}: restart from that step with a smaller CFL number",
+      stands ? "was" : "rose from", best_.residual, best_.iteration, stands ? "and stalled at" : "to",
+      flow.residual));
   limit_.lower(explodes ? steady_parameters.cfl.harder : steady_parameters.cfl.milder);
   return true;
 }
