@@ -10,6 +10,7 @@
 
 #include "io/model/mesh_of_file.hpp"
 #include "io/model/orient_cells.hpp"
+#include "io/model/pass_mesh.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -218,6 +219,27 @@ void drop_repeated(FileMesh& mesh, const std::string& path, const GroupSizes& si
   drop_repeated_faces(mesh, sizes, repeated);
   values.values = std::move(kept_values);
   warn_of_repeated(repeated, path, mesh.warnings);
+}
+
+void require_consistent(const FileMesh& mesh, const std::string& path) {
+  const auto is_in = [](std::int64_t number, const auto& list) {
+    return number >= 0 && number < std::ssize(list);
+  };
+  bool good = true;
+  const auto visit = [&](std::int32_t node) { good = good && is_in(node, mesh.points); };
+  for_each_named_node(mesh, visit);
+  std::ranges::for_each(mesh.periodic_nodes, visit);
+  for_each_kind([&]<CellKind kind>() {
+    const std::vector<std::int32_t>& blocks = mesh.cell_to_block[static_cast<std::size_t>(kind)];
+    good = good && blocks.size() == cells_of<kind>(mesh).size();
+    for (const std::int32_t block : blocks) good = good && is_in(block, mesh.block_names);
+  });
+  if (mesh.solution) {
+    const auto& [names, values, constants, cells] = *mesh.solution;
+    good = good && values.size() == names.size() * mesh.points.size() &&
+           std::ssize(cells.values) == std::ssize(cells.names) * cell_count(mesh);
+  }
+  if (!good) throw InputError(path + ": is damaged: what was read from it is no mesh");
 }
 
 std::vector<char> used_nodes(const FileMesh& mesh) {
