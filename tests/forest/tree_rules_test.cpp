@@ -139,7 +139,7 @@ TEST_P(TreeRulesAt, TouchingLeavesDifferByOneLevelAtMost) {
         }
       }
     }
-    EXPECT_GT(world().sum(other_levels), 0);
+    EXPECT_GT(test::world().sum(other_levels), 0);
   }
 }
 

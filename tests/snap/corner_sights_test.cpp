@@ -65,7 +65,7 @@ TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
       }
     }
   }
-  EXPECT_GE(world().sum(corners), 10);
+  EXPECT_GE(test::world().sum(corners), 10);
 }
 
 TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
@@ -81,7 +81,7 @@ TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
     }
     ++corners;
   }
-  EXPECT_GE(world().sum(corners), 3);
+  EXPECT_GE(test::world().sum(corners), 3);
 }
 
 TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
