@@ -147,13 +147,6 @@ ValueForm<std::string> text() {
           [](const std::string& value) { return value.empty() ? "" : json_of(value); }};
 }
 
-ValueForm<std::string> one_of(const std::vector<std::string>& words) {
-  return {words_in_text(words), json_of(words.back()),
-          [words](const CaseTable& table, const std::string& key) {
-            return table.known_word(key, *table.text(key), words);
-          }};
-}
-
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words) {
   const auto read = [words](const CaseTable& table, const std::string& key) {
     const std::vector<std::string> values = table.texts(key);

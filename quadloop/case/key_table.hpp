@@ -69,7 +69,6 @@ ValueForm<double> number(const Range& range = {});
 ValueForm<std::int64_t> whole(const Range& range);
 ValueForm<bool> flag();
 ValueForm<std::string> text();
-ValueForm<std::string> one_of(const std::vector<std::string>& words);
 /// One text or a list of them; of the words, if there are any.
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words = {});
 ValueForm<Point> point();

@@ -174,6 +174,20 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
   return keys;
 }
 
+/// The values of the key `bc`: all conditions except those of the key `wall`.
+std::vector<std::pair<const char*, BoundaryCondition>> values_of_bc() {
+  std::vector<std::pair<const char*, BoundaryCondition>> values(BoundaryCondition::words.begin(),
+                                                                BoundaryCondition::words.end());
+  std::erase_if(values, [](const auto& value) {
+    return value.second.is_wall() && value.second != BoundaryCondition::wall;
+  });
+  return values;
+}
+
+std::vector<std::pair<const char*, BoundaryCondition>> values_of_wall() {
+  return {BoundaryCondition::wall_words.begin(), BoundaryCondition::wall_words.end()};
+}
+
 const KeyTable<BoundaryKeys>& boundary_keys() {
   static const KeyTable<BoundaryKeys> keys{
       "boundary.NAME",
@@ -190,8 +204,8 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "Largest size of cells at a sharp corner of this boundary, where it turns by more than `corner`.",
            {.unit = "length", .fallback = "none"}),
        key<&BoundaryKeys::rule, &BoundaryRule::condition>(
-           "bc", one_of(condition_words()), "Boundary condition for the solver.", {.fallback = "`none`"}),
-       key<&BoundaryKeys::wall>("wall", one_of(wall_words()),
+           "bc", choice(values_of_bc()), "Boundary condition for the solver.", {.fallback = "`none`"}),
+       key<&BoundaryKeys::wall>("wall", choice(values_of_wall()),
                                 "Kind of wall, for formats that distinguish them (CGNS, `.mapbc`). The "
                                 "built-in solver uses `viscosity` instead.",
                                 {.fallback = "none", .needs = {{"bc = \"wall\""}}}),
@@ -219,7 +233,7 @@ void read_boundary_tables(const CaseTable& boundaries, Settings& settings) {
     BoundaryRule& rule = keys.rule;
     rule.pattern = name;
     rule.where = fmt::format("{}: [{}]", table.place(), boundaries.full_name(name));
-    if (keys.wall) rule.condition = *keys.wall + "_wall";
+    if (keys.wall) rule.condition = *keys.wall;
     if (keys.pressure) settings.solver.pressures.push_back({name, *keys.pressure});
     if (keys.wall_temperature) settings.solver.wall_temperatures.push_back({name, *keys.wall_temperature});
     settings.wants_y_plus = settings.wants_y_plus || (rule.layers && rule.layers->y_plus > 0);

@@ -285,7 +285,7 @@ void read_mesh_table(const CaseTable& table, Settings& settings) {
   settings.mesh.mirror.reset();  // the half is no image of itself
   settings.outline.rules.insert(
       settings.outline.rules.begin(),
-      {settings.half->boundary, {}, {}, "symmetry", table.place("half"), false, true});
+      {settings.half->boundary, {}, {}, BoundaryCondition::symmetry, table.place("half"), false, true});
 }
 
 }  // namespace quadloop

@@ -81,7 +81,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   settings.flow = read_flow_table(root);
   if (settings.far_field)  // unless the case says other
     settings.outline.rules.push_back(
-        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});
+        {"farfield", {}, {}, BoundaryCondition::farfield, settings.far_field->where, false, true});
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));

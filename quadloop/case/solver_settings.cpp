@@ -228,7 +228,7 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
     const bool has_pressure = std::ranges::any_of(settings.pressures, [&](const OutflowPressure& outflow) {
       return matches(outflow.pattern, rule.pattern);
     });
-    if (rule.condition == "outflow" && !has_pressure)
+    if (rule.condition == BoundaryCondition::outflow && !has_pressure)
       warnings.push_back(
           rule.where +
           " is a subsonic outflow without back pressure, where gas leaves as into a vacuum; set "
@@ -245,7 +245,7 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
   EulerOptions options = settings.euler;
   for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
-    BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}, {}};
+    BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
         if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))

@@ -157,7 +157,7 @@ std::map<std::string, Condition> usable_conditions() {
   Mesh mesh = test::irregular_grid(2, {1, 1}, 0);
   std::map<std::string, Condition> usable;
   for (const std::string& word : condition_words()) {
-    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = word;
+    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = *BoundaryCondition::named(word);
     try {
       usable[word] = flow_model(world(), mesh, {}).boundaries[0].condition;
     } catch (const InputError&) {
