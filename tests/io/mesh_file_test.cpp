@@ -177,7 +177,7 @@ TEST(MeshFile, ConditionsOfInterfacesStay) {
   for (const char* format : {"cgns", "qmesh"}) {
     const test::TemporaryFolder folder;
     LoadedMesh loaded = sample(Kind::hybrid, false);
-    loaded.mesh.boundaries[0].condition = "interface";
+    loaded.mesh.boundaries[0].condition = BoundaryCondition::interface;
     const LoadedMesh back = through_file(loaded, folder.file(std::string("a.") + format));
     EXPECT_EQ(back.mesh.boundaries[0].condition, BoundaryCondition::interface) << format;
     EXPECT_EQ(back.mesh.boundaries[1].condition, loaded.mesh.boundaries[1].condition) << format;

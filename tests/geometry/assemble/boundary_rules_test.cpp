@@ -20,7 +20,7 @@ TEST(BoundaryRules, MatchPatterns) {
 
 TEST(BoundaryRules, ExactNamesWinOverPatterns) {
   BoundaryRule exact{"island_2", 0.5, {}, {}, "", true};
-  BoundaryRule pattern{"island_*", 2.0, 45.0, "wall", "", true};
+  BoundaryRule pattern{"island_*", 2.0, 45.0, BoundaryCondition::wall, "", true};
   const auto boundaries = boundaries_by_rules({"sea", "island_1", "island_2"}, {exact, pattern}, 30);
   EXPECT_EQ(boundaries[0].spacing, 0);
   EXPECT_EQ(boundaries[0].corner_degrees, 30);
@@ -56,9 +56,9 @@ TEST(BoundaryRules, PatternsLeaveWhatIsClaimed) {
   BoundaryRule pattern, ours, exact;
   pattern.pattern = "*";
   pattern.spacing = 0.1;
-  pattern.condition = "wall";
+  pattern.condition = BoundaryCondition::wall;
   ours.pattern = "farfield";
-  ours.condition = "farfield";
+  ours.condition = BoundaryCondition::farfield;
   ours.claims = true;
   exact.pattern = "farfield";
   exact.spacing = 2;

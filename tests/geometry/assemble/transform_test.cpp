@@ -13,7 +13,7 @@ using test::refusal;
 using test::square;
 
 Point transformed(Point p, const Transform& transform) {
-  std::vector<Chain> chains{{.name = "point", .points = {p}}};
+  std::vector<Chain> chains{{"point", false, {p}, ""}};
   apply(transform, chains);
   return chains[0].points[0];
 }

@@ -149,7 +149,8 @@ TEST_F(Case, OfPressuresExactNamesWinOverPatternsAndLaterOverEarlier) {
 }
 
 TEST_F(Case, RulesThatFindNothingInAMeshAreNoFault) {
-  BoundaryRule wall{"wall*", {}, {}, "wall", "case.toml:3"}, gone{"island", {}, {}, "wall", "case.toml:4"};
+  BoundaryRule wall{"wall*", {}, {}, BoundaryCondition::wall, "case.toml:3"},
+      gone{"island", {}, {}, BoundaryCondition::wall, "case.toml:4"};
   const auto choices = euler_options({}, {wall, gone}, with_boundaries({"wall_1", "far"})).boundaries;
   EXPECT_EQ(choices.at(0).condition, BoundaryCondition::wall);
   EXPECT_EQ(choices.at(1).condition, BoundaryCondition::none);

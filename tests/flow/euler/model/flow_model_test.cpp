@@ -125,7 +125,7 @@ TEST(FluxMatrix, IsTheDerivativeOfTheFlux) {
 TEST(FlowModel, RefusesAConditionThatItCannotUse) {
   Mesh mesh = test::irregular_grid(4, {1, 1}, 0);
   EulerOptions options;
-  mesh.boundaries[1].condition = "interface";
+  mesh.boundaries[1].condition = BoundaryCondition::interface;
   try {
     flow_model(world(), mesh, options);
     FAIL() << "taken";
@@ -133,7 +133,7 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
     EXPECT_NE(std::string(error.what()).find("in [boundary.far] set bc to"), std::string::npos)
         << error.what();
   }
-  mesh.boundaries[0].condition = "none";
+  mesh.boundaries[0].condition = BoundaryCondition::none;
   try {
     flow_model(world(), mesh, options);
     FAIL() << "taken";
@@ -143,7 +143,7 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
         << what;
     EXPECT_NE(what.find("in [boundary.wall], [boundary.far] set bc to"), std::string::npos) << what;
   }
-  mesh.boundaries[0].condition = "wall";
+  mesh.boundaries[0].condition = BoundaryCondition::wall;
   options.boundaries = {{"far", "outflow", 0.5}};
   const FlowModel model = flow_model(world(), mesh, options);
   EXPECT_EQ(model.boundaries[1].condition, Condition::outflow);
