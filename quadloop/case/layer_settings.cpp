@@ -165,12 +165,12 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
   static const KeyTable<LayerLineKeys> keys{
       "layer_line",
       joined<LayerLineKeys>(
-          {key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
-                                                       {.required = {{"the points of the line"}}}),
-           key<&LayerLineKeys::line, &LayerLine::spacing>(
-               "spacing", number(Range::positive()), "Target cell length along the line.",
-               {.unit = "length", .required = {{"the length of cells along the line"}}})},
-          layer_keys().keys_of<&LayerLineKeys::layers>())};
+          {{key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
+                                                        {.required = {{"the points of the line"}}}),
+            key<&LayerLineKeys::line, &LayerLine::spacing>(
+                "spacing", number(Range::positive()), "Target cell length along the line.",
+                {.unit = "length", .required = {{"the length of cells along the line"}}})},
+           layer_keys().keys_of<&LayerLineKeys::layers>()})};
   return keys;
 }
 
@@ -219,9 +219,10 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            {.fallback = "none: supersonic outflow, choked where subsonic", .needs = {{"bc = \"outflow\""}}}),
        key<&BoundaryKeys::wall_temperature>(
            "wall_temperature", number(Range::positive()),
-           "Wall temperature divided by the free-stream temperature in a viscous flow. Without viscosity it "
-           "has no effect and gives a warning.",
-           {.fallback = "adiabatic", .needs = {{"bc = \"wall\""}}})}};
+           "Wall temperature divided by the free-stream temperature in a viscous flow.",
+           {.fallback = "adiabatic",
+            .needs = {{"bc = \"wall\""},
+                      {"solver.viscosity > 0 or solver.reynolds", "", "solver.kind = \"euler\"", true}}})}};
   return keys;
 }
 
