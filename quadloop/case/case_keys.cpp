@@ -142,8 +142,10 @@ std::string key_help(const std::string& topic) {
         guess = fmt::format("; do you mean '{}'?", dotted(table, key));
     }
   }
-  throw UsageError(fmt::format("'{}' is no key and no table of a case file{} 'quadloop help'", topic,
-                               guess.empty() ? "; see" : guess + " See"));
+  throw UsageError(
+      fmt::format("'{}' is no key and no table of a case file{} 'quadloop help', or 'quadloop COMMAND "
+                  "--help' for a command",
+                  topic, guess.empty() ? "; see" : guess + " See"));
 }
 
 std::string key_reference() {
