@@ -91,6 +91,8 @@ std::optional<std::vector<FolderLock>> lock_all(
 
 OutputSet::~OutputSet() {
   for (const Written& file : written_) ::close(file.descriptor);
+  staging_.clear();  // it may lie in a folder
+  for (const auto& folder : folders_) ::rmdir(folder->path().c_str());
 }
 
 StagingFolder& OutputSet::staging_beside(const std::string& target, const std::string& shown) {
@@ -116,7 +118,8 @@ StagedFile OutputSet::stage(const std::string& path) {
 std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
                                                 const std::vector<std::string>& files) {
   comm_.together([&] {
-    if (comm_.is_root()) folders_.push_back(NewFolder::at(path, files));
+    if (!comm_.is_root()) return;
+    if (auto made = make_output_folder(path, files)) folders_.push_back(std::move(made));
   });
   std::vector<StagedFile> staged;
   for (const std::string& file : files) staged.push_back(stage(path + "/" + file));
@@ -172,7 +175,6 @@ void OutputSet::put_in_place() {
     outputs_.clear();
     targets_.clear();
     staging_.clear();
-    for (NewFolder& folder : folders_) folder.keep();
     folders_.clear();
     return;
   }

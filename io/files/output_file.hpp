@@ -79,7 +79,7 @@ class OutputSet {
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<NewFolder> folders_;  ///< the first four on rank 0 only; before what is staged in them
+  std::vector<std::unique_ptr<Temporary>> folders_;  ///< made for outputs; the first four on rank 0 only
   std::vector<Output> outputs_;
   std::set<std::string> targets_;  ///< theirs
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;

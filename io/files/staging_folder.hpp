@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/files/folder_lock.hpp"
 #include "io/files/interruption.hpp"
 
 namespace quadloop {
@@ -32,12 +33,11 @@ class StagingFolder {
 
  private:
   void make(const std::string& shown);
-  bool lock();
 
   std::string parent_;
   std::optional<Temporary> folder_;
   std::vector<Temporary> files_;
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace quadloop
