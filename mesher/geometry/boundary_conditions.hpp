@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/word_table.hpp"
@@ -57,5 +58,15 @@ class BoundaryCondition {
  private:
   Kind kind_ = none;
 };
+
+/// The values of a case's key `bc`: all conditions except those of its key `wall`.
+inline std::vector<std::pair<const char*, BoundaryCondition>> values_of_bc() {
+  std::vector<std::pair<const char*, BoundaryCondition>> values(BoundaryCondition::words.begin(),
+                                                                BoundaryCondition::words.end());
+  std::erase_if(values, [](const auto& value) {
+    return value.second.is_wall() && value.second != BoundaryCondition::wall;
+  });
+  return values;
+}
 
 }  // namespace quadloop

@@ -174,16 +174,6 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
   return keys;
 }
 
-/// The values of the key `bc`: all conditions except those of the key `wall`.
-std::vector<std::pair<const char*, BoundaryCondition>> values_of_bc() {
-  std::vector<std::pair<const char*, BoundaryCondition>> values(BoundaryCondition::words.begin(),
-                                                                BoundaryCondition::words.end());
-  std::erase_if(values, [](const auto& value) {
-    return value.second.is_wall() && value.second != BoundaryCondition::wall;
-  });
-  return values;
-}
-
 std::vector<std::pair<const char*, BoundaryCondition>> values_of_wall() {
   return {BoundaryCondition::wall_words.begin(), BoundaryCondition::wall_words.end()};
 }

@@ -57,10 +57,10 @@ void require_conditions(const std::vector<const BoundaryEdges*>& boundaries, con
     tables.push_back(fmt::format("[boundary.{}]", boundary->name));
   }
   if (faults.empty()) return;
-  std::vector<std::string> usable = condition_words();
-  std::erase_if(usable, [](const std::string& known) {
-    return used_as(*BoundaryCondition::named(known)) == Condition::none;
-  });
+  std::vector<std::string> usable;
+  for (const auto& [word, condition] : values_of_bc()) {
+    if (used_as(condition) != Condition::none) usable.emplace_back(word);
+  }
   const std::string last = usable.back();
   usable.pop_back();
   throw InputError(fmt::format("the flow solver cannot use these boundaries: {}; in {} set bc to {} or {}",
