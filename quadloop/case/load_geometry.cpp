@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-/// The far field where a saved tree has it, if its root is one of that size.
+/// Returns the far field of the saved tree, if its root is one of that size.
 Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   constexpr double rounding = 1e-9;
   const Point low{saved.root_x, saved.root_y};
@@ -26,7 +26,7 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   return root_box(saved);
 }
 
-/// Box and unit of a file. Throws InputError where it is to declare a unit and does not.
+/// Records bounding box and unit of a file. Throws InputError if the file must declare a unit and does not.
 void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, FileExtent& extent) {
   extent.path = input.path;
   for (const Chain& chain : chains) {
@@ -42,13 +42,13 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
       extent.declared.name.empty() ? "" : fmt::format(" that is known ('{}')", extent.declared.name)));
 }
 
-/// Where the coordinates have a unit.
+/// Adds the conversion to metres if the coordinates have a unit.
 Transform in_metres(Transform transform, const FileExtent& extent) {
   if (extent.metres > 0) transform.scale *= extent.metres;
   return transform;
 }
 
-/// Their images stand for them.
+/// Warns about conditions of boundaries that lie in the dropped half only.
 void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
                                  const IdVector<BoundaryId, BoundaryId>& images, Warnings& warnings) {
   for (const BoundaryId b : ids_below(BoundaryId{size32(whole.boundaries())})) {
@@ -96,7 +96,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
     options.far_field = where;
   }
-  if (settings.half)  // of the half alone there is a boundary of that name
+  if (settings.half)  // only the half model has a boundary of that name
     std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
   Geometry geometry = assemble(std::move(chains), options, warnings);
   if (!axis) return geometry;
@@ -109,7 +109,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   }
   options = settings.outline;
   for (auto& rule : options.rules)
-    rule.must_match = false;  // each has matched; a name may be the dropped half's
+    rule.must_match = false;  // each has matched already; a name may be in the dropped half
   Geometry half = assemble(half_outline(geometry, *axis, settings.half->boundary), options, warnings);
   warn_of_conditions_left_out(geometry, half, images, warnings);
   return half;
