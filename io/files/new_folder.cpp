@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t open_to_all = 0777;  // less the user's umask
+constexpr mode_t open_to_all = 0777;  // minus the user's umask
 
 void refuse_others(const std::string& path, const std::vector<std::string>& files) {
   std::error_code failure;

@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t mine_alone = 0700;
-constexpr mode_t readable_by_all = 0666;  // less the user's umask
+constexpr mode_t readable_by_all = 0666;  // minus the user's umask
 constexpr const char* ending = ".part";
 
-/// How the names of this machine's folders begin: whether a lock on a folder is still held, its own kernel
-/// alone is sure to know.
+/// Prefix of the names of this machine's folders: only its own kernel reliably knows whether a lock on a
+/// folder is still held.
 std::string beginning() {
   std::array<char, 65> host = {};
   if (::gethostname(host.data(), host.size() - 1) != 0) host = {};

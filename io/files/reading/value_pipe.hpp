@@ -10,7 +10,7 @@
 
 namespace quadloop {
 
-/// Sends values through a pipe, whose end it owns. Where nobody reads any more, what is put is lost.
+/// Sends values through a pipe, whose end it owns. If there is no reader, data are discarded.
 class PipeWriter {
  public:
   static constexpr bool reads = false;
@@ -30,14 +30,15 @@ class PipeWriter {
   std::vector<char> waiting_;
 };
 
-/// Thrown where the pipe ends before the values do.
+/// Thrown if the pipe ends before the values do.
 struct PipeEnded {};
 
-/// Receives them.
+/// Receives values.
 class PipeReader {
  public:
   static constexpr bool reads = true;
-  static constexpr std::size_t largest_step = std::size_t{1} << 22;  // values; what a wrong size can cost
+  // number of values; limits the memory that a wrong size can allocate
+  static constexpr std::size_t largest_step = std::size_t{1} << 22;
 
   explicit PipeReader(int descriptor);
   ~PipeReader();
@@ -49,7 +50,7 @@ class PipeReader {
  private:
   int descriptor_;
   std::vector<char> room_;
-  std::size_t begin_ = 0, end_ = 0;  ///< of what waits in it
+  std::size_t begin_ = 0, end_ = 0;  ///< of the unread bytes in it
 };
 
 namespace detail {
@@ -68,7 +69,7 @@ struct IsOptional<std::optional<T>> : std::true_type {};
 template <class Pipe, class T>
 void pass(Pipe& pipe, T& value);
 
-/// The elements of a text or of a list. Memory is taken as they come, not by what the size promises.
+/// Passes the elements of a string or vector. Memory is allocated as they arrive, not by the announced size.
 template <class Pipe, class List>
 void pass_list(Pipe& pipe, List& list) {
   using Element = typename List::value_type;
@@ -89,8 +90,8 @@ void pass_list(Pipe& pipe, List& list) {
   }
 }
 
-/// Puts a value into a PipeWriter, or takes it, empty until then, from a PipeReader. A type of several fields
-/// has an overload of `pass_fields` beside it.
+/// Writes a value to a PipeWriter, or reads it, initially empty, from a PipeReader. For a type with several
+/// fields overload `pass_fields`.
 template <class Pipe, class T>
 void pass(Pipe& pipe, T& value) {
   if constexpr (detail::IsOptional<T>::value) {
@@ -109,7 +110,7 @@ void pass(Pipe& pipe, T& value) {
   }
 }
 
-/// One after another.
+/// Passes several values one after another.
 template <class Pipe, class First, class Second, class... More>
 void pass(Pipe& pipe, First& first, Second& second, More&... more) {
   pass(pipe, first);
