@@ -29,12 +29,12 @@ Number number_in(std::string_view text) {
   return number;
 }
 
-/// The pairs of lines that a drawing is made of: a code, and a value.
+/// The pairs of lines of a drawing: a code, and a value.
 class DxfPairs {
  public:
   explicit DxfPairs(std::string_view text) : text_{text} {}
 
-  /// False at the end, and if a line that should be a group code is no number.
+  /// Returns false at the end, and if a line that should be a group code is not a number.
   bool next() {
     begin_ = at_;
     const std::string_view code = line();
@@ -45,7 +45,7 @@ class DxfPairs {
   int code() const { return code_; }
   std::string_view value() const { return value_; }
   bool is(int code, std::string_view value) const { return code_ == code && value_ == value; }
-  std::size_t begin() const { return begin_; }  ///< of the pair, in the text
+  std::size_t begin() const { return begin_; }  ///< position of the pair in the text
   bool at_end() const { return trimmed(text_.substr(begin_)).empty(); }
   std::int64_t line_number() const { return 1 + std::ranges::count(text_.substr(0, begin_), '\n'); }
   std::size_t end() const { return at_; }
@@ -63,7 +63,7 @@ class DxfPairs {
   int code_ = 0;
 };
 
-/// One entity while its pairs are read.
+/// An entity while its pairs are read.
 struct PartEntity {
   DxfEntity entity;
   std::string handle;
@@ -92,7 +92,7 @@ struct PartEntity {
   }
 };
 
-/// The units of the variable $INSUNITS, by its value.
+/// Returns the unit for a value of $INSUNITS.
 std::string unit_named(int value) {
   constexpr std::array<const char*, 17> names{"",   "inch",   "foot",      "mile", "mm",   "cm",
                                               "m",  "km",     "microinch", "mil",  "yard", "angstrom",
@@ -105,13 +105,13 @@ void refuse_binary(const std::string& path, std::string_view text) {
     throw InputError(path + ": is a binary DXF, which is not read; export it as ASCII DXF");
 }
 
-/// GDAL 3.6 reads some drawings that end within a section without end.
+/// GDAL 3.6 loops forever on some drawings that end within a section.
 [[noreturn]] void refuse_damaged(const std::string& path, const DxfPairs& pairs, const std::string& what) {
   throw InputError(fmt::format("{}:{}: {}; the drawing is truncated or damaged, export it again", path,
                                pairs.line_number(), what));
 }
 
-/// The curve's point at `t`, in the span of knots that begins at `span`.
+/// Returns the curve's point at `t`, in the knot span that begins at `span`.
 Point point_at(const DxfSpline& spline, std::size_t span, double t) {
   struct Weighted {
     Point p;

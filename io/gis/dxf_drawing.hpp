@@ -9,38 +9,35 @@
 
 namespace quadloop {
 
-/// A B-spline, rational where it has weights.
+/// A B-spline, rational if it has weights.
 struct DxfSpline {
   int degree = 3;
   std::vector<double> knots, weights;
   std::vector<Point> controls;
 };
 
-/// Points of the curve: all its knots, and so many segments between two of them that it looks smooth. Empty
-/// where the numbers are none of a spline. De Boor's algorithm (C. de Boor, A Practical Guide to Splines,
-/// 1978).
+/// Returns points of the curve: all its knots, with enough segments between them for a smooth appearance.
+/// Empty if the spline is invalid. De Boor's algorithm (C. de Boor, A Practical Guide to Splines, 1978).
 std::vector<Point> points_of(const DxfSpline& spline);
 
-/// One entity of a drawing's section ENTITIES.
+/// An entity in a drawing's section ENTITIES.
 struct DxfEntity {
   std::string type;  ///< LINE, DIMENSION, ...
   std::string layer;
   std::optional<DxfSpline> spline;
 };
 
-/// What GDAL does not tell of a drawing.
+/// Data of a drawing that GDAL does not provide.
 class DxfDrawing {
  public:
-  /// Reads the file. Throws InputError for a binary drawing, and for a spline that is given by fit points
-  /// alone.
+  /// Reads the file. Throws InputError for a binary drawing, and for a spline given by fit points only.
   explicit DxfDrawing(const std::string& path);
 
-  /// Null where there is none with this handle.
+  /// Returns the entity with this handle; null if there is none.
   const DxfEntity* find(const std::string& handle) const;
-  /// The drawing with nothing but its entities, where it begins with a section that GDAL does not expect
-  /// there.
+  /// The drawing reduced to its entities, if it begins with a section that GDAL does not expect.
   const std::string& entities_alone() const { return entities_alone_; }
-  /// The unit that the drawing declares, a name of length_units.hpp; empty where it declares none.
+  /// The unit declared in the drawing, a name of length_units.hpp; empty if there is none.
   const std::string& unit() const { return unit_; }
 
  private:

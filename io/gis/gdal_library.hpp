@@ -26,11 +26,11 @@ namespace quadloop {
                                           DO(VSIFileFromMemBuffer) DO(VSIUnlink)
 // clang-format on
 
-/// GDAL, loaded when it is first asked for: with all that it depends on that takes longer than the rest of
-/// the program, and few runs read maps. Its members are the functions of the same names.
+/// GDAL, loaded on first use: with its dependencies this takes longer than the rest of the program, and few
+/// runs read maps. Its members are the functions of the same names.
 class GdalLibrary {
  public:
-  /// Throws InputError where GDAL is not installed, or not the version that this program was built with.
+  /// Throws InputError if GDAL is not installed, or not the version used at build time.
   static const GdalLibrary& instance();
 
 #define QUADLOOP_DECLARE(function) decltype(&::function) function = nullptr;

@@ -1,6 +1,6 @@
-// quadloop-reader: reads one file with libcgns or HDF5 and sends what it holds to the program that started it
-// (io/files/reading/separate_reader.hpp). A damaged file may crash these libraries, or make them loop or take
-// all memory: that ends this process alone, in silence.
+// quadloop-reader: reads one file with libcgns or HDF5 and sends its contents to the program that started it
+// (io/files/reading/separate_reader.hpp). A damaged file may crash these libraries, or make them loop or use
+// all memory: this ends only this process, silently.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace quadloop {
 
 namespace {
 
-/// Bytes of memory that this process may write to, as RLIMIT_DATA counts them.
+/// Returns the writable memory of this process, in bytes, as counted by RLIMIT_DATA.
 rlim_t own_data() {
   std::ifstream file("/proc/self/statm");
   std::array<rlim_t, 6> pages{};
@@ -86,7 +86,7 @@ int main(int count, char** texts) {
   std::signal(SIGPIPE, SIG_IGN);
   std::atexit([] {
     ::_exit(EXIT_FAILURE);
-  });  // libcgns calls exit() where memory runs out; what libraries do at the end could crash on what they read
+  });  // libcgns calls exit() when memory runs out; exit handlers of libraries could crash on the data read
   quadloop::limit_costs(std::stoull(arguments[0]), std::stoull(arguments[1]));
   quadloop::answer(arguments);
   ::_exit(EXIT_SUCCESS);
