@@ -81,9 +81,9 @@ NewMesh make_mesh(const Communicator& comm, const Case& of);
 /// Smooths a mesh by the case's settings; boundary nodes slide along the case's geometry. The mesh may be any
 /// valid mesh of that geometry. Connectivity is preserved, except for Delaunay meshes of Delaunay-type cases,
 /// where edge flips restore the Delaunay property (checking this gathers the mesh on one rank). With quads =
-/// "parallel", parallelograms are not moved out of shape; unlike make_mesh(), quads that become skew are not
-/// split. Boundary layers (boundaries with a layer count) are kept bitwise. Never degrades the worst cell.
-/// Untangles as many inverted cells as possible; check() reports the others.
+/// "parallel", smoothing avoids skewing parallelograms; quads that nevertheless become skew are not split,
+/// unlike in make_mesh(). Boundary layers (boundaries with a layer count) are kept bitwise. Never degrades
+/// the worst cell. Untangles as many inverted cells as possible; check() reports the others.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.

@@ -12,8 +12,8 @@ namespace quadloop {
 /// edge that starts there.
 struct BoundaryOutline {
   Geometry geometry;
-  std::vector<GlobalNodeId>
-      nodes;  ///< of each vertex; a node where the boundary passes twice is listed twice
+  /// Node of each vertex; a node where the boundary passes twice is listed twice.
+  std::vector<GlobalNodeId> nodes;
 };
 
 /// `mesh` must have a closed boundary (MeshRule::closed). Each rank stores all boundary edges. *Collective.*

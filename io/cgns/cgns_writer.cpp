@@ -192,8 +192,9 @@ class CgnsWriter {
   const MeshStream& stream_;
   const StreamCellValues cells_;
   StagedFile staged_;
-  std::vector<std::string>
-      names_;  ///< of patches, then of the triangles of those that are not sides; the next two on rank 0 only
+  /// Names of patches, then of the triangles of those that are not sides; this and the next two on rank 0
+  /// only.
+  std::vector<std::string> names_;
   std::unique_ptr<CgnsSink> sink_;
   std::unique_ptr<CgnsPatches> patches_;
 };

@@ -202,8 +202,8 @@ class MshReader {
 
   MshText text_;
   FileMesh mesh_;
-  std::optional<std::pair<std::int64_t, std::size_t>>
-      off_plane_;  ///< a node's tag, and its position in the text
+  /// A node's tag, and its position in the text.
+  std::optional<std::pair<std::int64_t, std::size_t>> off_plane_;
   ElementList<2> lines_;
   ElementList<3> triangles_;
   ElementList<4> quads_, tetrahedra_;

@@ -15,8 +15,8 @@ struct WeightedGraph {
 
   std::vector<std::int64_t> weights;  ///< of the nodes
   std::vector<char> sides;            ///< of the nodes
-  std::vector<std::array<std::int64_t, 2>>
-      fixed;                         ///< for each node: weight of its edges to fixed cells on each side
+  /// For each node: weight of its edges to fixed cells on each side.
+  std::vector<std::array<std::int64_t, 2>> fixed;
   std::vector<std::int64_t> starts;  ///< the neighbours of node i: from starts[i] to starts[i + 1]
   std::vector<Neighbour> neighbours;
 

@@ -13,8 +13,8 @@ namespace quadloop {
 struct FaceFigures {
   static constexpr double severe_degrees = 70, severe_skewness = 4, severe_aspect_ratio = 1000;
 
-  double non_orthogonality =
-      0;  ///< largest angle in degrees between an edge's normal and the line between the cell centres
+  /// Largest angle in degrees between an edge's normal and the line between the cell centres.
+  double non_orthogonality = 0;
   /// Largest distance from the edge's midpoint to the point where that line meets the edge, divided by half
   /// the edge's length or a fifth of the line's (at the boundary two fifths), whichever is larger.
   double skewness = 0;
