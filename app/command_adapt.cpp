@@ -50,14 +50,11 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
                                  suffixes_for({Content::solution}, "and") + "; end the name in one of these");
   if (solver.solution == solver.mesh ||
       std::filesystem::path(solver.solution).stem() == CyclePaths::mesh_stem)
-    table.refuse(
-        "solution",
-        "is '" + solver.solution +
-            "', the name of a mesh that is given to the solver; write the solution to a file of its own");
+    table.refuse("solution",
+                 "is '" + solver.solution + "', the name of a mesh file; give the solution another name");
   if (solver.solution == solver.state())
-    table.refuse("solution", "is '" + solver.solution +
-                                 "', where the starting state stands that belongs to " + solver.mesh +
-                                 "; write the solution to a file of its own");
+    table.refuse("solution", "is '" + solver.solution + "', the file of the initial state for " +
+                                 solver.mesh + "; give the solution another name");
 }
 
 /// Of each cycle, where the next shape's mesh is to be morphed from it.
@@ -122,8 +119,7 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.figures.add("folder", folder);
   of_run.figures.add("cycles", cycles);
   std::vector<std::string> files;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(fmt::format("{}/cycle_{:02}", folder, record.cycle)))
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + cycle_name(record.cycle)))
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
@@ -140,9 +136,9 @@ std::string why_ended(const LoopEnd& end) {
 std::string closing_line(const std::string& folder, const LoopEnd& end) {
   const int first = end.first, last = end.last;
   if (first > last)
-    return fmt::format("  all cycles are there already: {}/cycle_00 to cycle_{:02}\n", folder, last);
-  if (first == last) return fmt::format("  wrote {}/cycle_{:02}\n", folder, last);
-  return fmt::format("  wrote {}/cycle_{:02} to cycle_{:02}\n", folder, first, last);
+    return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, cycle_name(0), cycle_name(last));
+  if (first == last) return fmt::format("  wrote {}/{}\n", folder, cycle_name(last));
+  return fmt::format("  wrote {}/{} to {}\n", folder, cycle_name(first), cycle_name(last));
 }
 
 std::string folder_of(const AdaptArguments& arguments) {
@@ -193,22 +189,21 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
 
 void add_adapt_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<AdaptArguments>();
-  Command command = line.add_command("adapt", "mesh, solve and adapt in turn, as a case file says");
+  Command command = line.add_command("adapt", "run the adaptive loop of a case file: mesh, solve, adapt");
   command.add_case_argument(arguments->case_path);
-  command.add_option("-o,--output", arguments->folder, "the folder for the cycles: CASE.adapt")
+  command.add_option("-o,--output", arguments->folder, "folder of the cycles (default: CASE.adapt)")
       .value_name("DIR");
   command
-      .add_option(
-          "--from", arguments->from,
-          "begin with what another run left, on the outline of now: its folder, that of a cycle, or a mesh "
-          "beside its tree")
+      .add_option("--from", arguments->from,
+                  "start from mesh and flow of another run, on the current geometry: its folder, that of a "
+                  "cycle, or a mesh beside its tree")
       .value_name("RUN");
-  command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+  command.add_option("--geometry", arguments->geometry, "changed geometry, instead of that of the case")
       .value_name("NEW.geom");
-  command.add_option("--cycles", arguments->cycles, "how many times to adapt, instead of adapt.cycles")
+  command.add_option("--cycles", arguments->cycles, "number of adaptation cycles, instead of adapt.cycles")
       .value_name("N")
       .between(0, 10000);
-  command.add_flag("--resume", arguments->resume, "go on after the last whole cycle in the folder");
+  command.add_flag("--resume", arguments->resume, "continue after the last complete cycle in the folder");
   command.add_max_cells_option(arguments->max_cells);
   command.add_set_option(arguments->assignments, "solver.mach=0.7");
   command.set_work([&context, arguments] { run_adapt(context, *arguments); });

@@ -78,7 +78,8 @@ std::string regions_warning(const CheckReport& report) {
 void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
                          const FileMesh& mesh) {
   if (!arguments.geometry.empty())
-    throw UsageError(arguments.input + ": is a 3D mesh, which --geometry says nothing of; leave it out");
+    throw UsageError(arguments.input +
+                     ": is a 3D mesh, which cannot be compared with a geometry; remove --geometry");
   context.warn(mesh.warnings);
   const SolidFigures figures = check_solid(mesh);
   context.record.figures = solid_record(arguments.input, mesh, figures);
@@ -111,14 +112,16 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
 
 void add_check_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<CheckArguments>();
-  Command command = line.add_command("check", "say whether a mesh is valid");
+  Command command = line.add_command("check", "check the validity and quality of a mesh");
   command
       .add_option("input", arguments->input,
-                  "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
+                  "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
                       suffixes_for({Content::solid}) + ", a folder)")
       .required()
       .value_name("IN");
-  command.add_option("--geometry", arguments->geometry, "the geometry that it was made from, as meshed")
+  command
+      .add_option("--geometry", arguments->geometry,
+                  "the geometry of the mesh, as written by `mesh --geometry-out`")
       .value_name("FILE.geom");
   command.set_work([&context, arguments] {
     context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status

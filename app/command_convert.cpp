@@ -47,14 +47,13 @@ const FileFormat& output_format(const ConvertArguments& arguments) {
   const FileFormat* format =
       arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
   if (is_of_meshes(format)) return *format;
-  throw InputError(
-      fmt::format("{}: its suffix names none of the formats that meshes are written in; end it in .{}, or "
-                  "give --format NAME",
-                  arguments.output, fmt::join(formats_of_meshes(), ", .")));
+  throw InputError(fmt::format(
+      "{}: the suffix is not that of a mesh format that can be written; use .{}, or give --format NAME",
+      arguments.output, fmt::join(formats_of_meshes(), ", .")));
 }
 
 [[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
-  throw InputError(fmt::format("{}: holds a 3D mesh, which the format {} has no place for; {} have",
+  throw InputError(fmt::format("{}: contains a 3D mesh, which the format {} cannot store; {} can",
                                arguments.input, output.name, suffixes_for({Content::solid}, "and")));
 }
 
@@ -70,10 +69,9 @@ MeshOfFile read_convert_input(const ConvertArguments& arguments) {
     return plane_of_solid(*solid, arguments.input);
   if (solid != nullptr && !output.holds(Content::solid)) refuse_solid(arguments, output);
   if (solid == nullptr && !output.holds(Content::mesh))
-    throw InputError(
-        fmt::format("{}: holds a plane mesh, and the format {} those of three dimensions alone; "
-                    "`quadloop extrude` draws it out",
-                    arguments.input, output.name));
+    throw InputError(fmt::format(
+        "{}: contains a 2D mesh, but the format {} stores 3D meshes only; `quadloop extrude` extrudes it",
+        arguments.input, output.name));
   return mesh;
 }
 
@@ -108,7 +106,8 @@ PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks)
                       part_formats({format->name}, blocks)};
   if (request.formats.empty())
     throw InputError(fmt::format(
-        "{}: parts are written as .mesh, .vtu or, of one block, .cgns; name one of these", arguments.output));
+        "{}: partitions can be written as .mesh, .vtu or, with one block, .cgns; use one of these",
+        arguments.output));
   return request;
 }
 
@@ -137,7 +136,7 @@ std::optional<WrittenParts> write_parts(const Communicator& comm, const MeshOfFi
   if (arguments.parts == 0) return std::nullopt;
   const LoadedMesh* plane = std::get_if<LoadedMesh>(&input);
   if (comm.any(plane == nullptr))
-    throw InputError(arguments.input + ": holds a 3D mesh; parts are made of plane ones");
+    throw InputError(arguments.input + ": contains a 3D mesh; only 2D meshes can be partitioned");
   const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{plane->blocks}));
   const PartRequest request = part_request(arguments, blocks);
   return WrittenParts{request, write_parts_of_root(files, comm, *plane, request)};
@@ -193,11 +192,11 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
 
 void add_convert_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<ConvertArguments>();
-  Command command = line.add_command("convert", "write a mesh, as it is, in another format");
+  Command command = line.add_command("convert", "write a mesh unchanged in another format");
   command
       .add_option("input", arguments->input,
-                  "the mesh, of two dimensions (" + suffixes_for({Content::mesh}) + ") or three (" +
-                      suffixes_for({Content::solid}) + "), with a solution where it has one")
+                  "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
+                      suffixes_for({Content::solid}) + "), with its solution if it has one")
       .required()
       .value_name("IN");
   command
@@ -205,14 +204,13 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
                   "the same mesh, in the format of its suffix; IN itself is overwritten")
       .required()
       .value_name("OUT");
-  command.add_option("--format", arguments->format, "the format to write, whatever OUT ends in")
+  command.add_option("--format", arguments->format, "format of the output, whatever the suffix of OUT")
       .value_name("NAME")
       .one_of(formats_of_meshes());
   command
-      .add_option(
-          "--parts", arguments->parts,
-          "write the mesh in so many parts as well, for the ranks of a solver: OUT without its suffix "
-          "is the prefix of their names")
+      .add_option("--parts", arguments->parts,
+                  "also write the mesh in N partitions, for the ranks of a solver: OUT without its suffix is "
+                  "the prefix of their names")
       .value_name("N")
       .between(1, 100000);
   command.set_work([&context, arguments] { run_convert(context, *arguments); });

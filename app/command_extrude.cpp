@@ -54,7 +54,7 @@ std::vector<double> read_heights(const std::string& path) {
     heights.push_back(height);
   }
   if (heights.size() < 2)
-    scan.refuse(fmt::format("{} heights; a mesh is drawn out between two levels or more", heights.size()));
+    scan.refuse(fmt::format("{} heights; extrusion needs two levels or more", heights.size()));
   return heights;
 }
 
@@ -62,9 +62,9 @@ std::vector<double> read_heights(const std::string& path) {
 void require_one_way(const ExtrudeArguments& arguments) {
   const bool even = arguments.layers > 0 || arguments.thickness > 0;
   if (even == !arguments.heights.empty())
-    throw UsageError("extrude wants either --layers N and --thickness T, or --heights FILE");
+    throw UsageError("extrude requires either --layers N and --thickness T, or --heights FILE");
   if (even && (arguments.layers == 0 || arguments.thickness == 0))
-    throw UsageError("extrude wants both --layers N and --thickness T, the thickness of all layers together");
+    throw UsageError("extrude requires both --layers N and --thickness T, the total thickness of the layers");
 }
 
 /// Beyond these bounds areas and volumes leave the range of double precision.
@@ -87,8 +87,8 @@ std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments&
   if (arguments.heights.empty()) {
     heights = even_heights(arguments.layers, arguments.thickness);
     if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) != heights.end())
-      throw UsageError(fmt::format("--thickness {} is too little to be divided into {} layers",
-                                   arguments.thickness, arguments.layers));
+      throw UsageError(
+          fmt::format("--thickness {} is too small for {} layers", arguments.thickness, arguments.layers));
     require_in_range(heights, "--thickness");
     return heights;
   }
@@ -118,7 +118,7 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
     if (!context.comm.is_root()) return;
     MeshOfFile input = read_mesh_file(arguments.input);
     if (const FileMesh* solid = std::get_if<FileMesh>(&input); solid != nullptr && !is_one_cell_thick(*solid))
-      throw InputError(arguments.input + ": is a 3D mesh already; give one of two dimensions");
+      throw InputError(arguments.input + ": is a 3D mesh already; give a 2D mesh");
     whole = plane_of(std::move(input), arguments.input);
     require_valid_input(whole, arguments.input);
     warnings = whole.warnings;
@@ -173,13 +173,13 @@ void require_room(const Communicator& comm, const ExtrudedCounts& counts, const 
                                     ? fmt::format("--max-cells allows {:.0f}", *arguments.max_cells)
                                     : fmt::format("{} are free there", text_of_bytes(free));
       throw TooManyCells(fmt::format(
-          "{}: would have {} cells in {} layers, {} on the disk or more, but {}; ask for fewer layers, or {} "
-          "--max-cells {:.0f}",
+          "{}: would have {} cells in {} layers and need at least {} on the disk, but {}; use fewer layers, "
+          "or {} --max-cells {:.0f}",
           arguments.output, text_of_cells(cells), counts.cells() / (counts.triangles + counts.quads),
-          text_of_bytes(bytes), limit, arguments.max_cells ? "allow more with" : "insist with", cells));
+          text_of_bytes(bytes), limit, arguments.max_cells ? "allow more with" : "override with", cells));
     }
     const std::string text =
-        fmt::format("{} cells, {} on the disk or more", text_of_cells(cells), text_of_bytes(bytes));
+        fmt::format("{} cells, at least {} on the disk", text_of_cells(cells), text_of_bytes(bytes));
     if (cells >= large)
       log::information(text);
     else
@@ -235,24 +235,24 @@ void add_options(Command& command, ExtrudeArguments& arguments) {
           "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::solid}) + ", a folder)")
       .required()
       .value_name("OUT");
-  command.add_option("--layers", arguments.layers, "how many layers of cells, of the same thickness")
+  command.add_option("--layers", arguments.layers, "number of cell layers, of equal thickness")
       .value_name("N")
       .between(1, most_layers);
-  command.add_option("--thickness", arguments.thickness, "of all of them together")
+  command.add_option("--thickness", arguments.thickness, "total thickness of the layers")
       .value_name("T")
       .positive();
   command
       .add_option("--heights", arguments.heights,
-                  "in their place: the coordinates of the levels along the axis, two or more, ascending")
+                  "instead: file with the coordinates of the levels along the axis, two or more, ascending")
       .value_name("FILE");
   command
       .add_option("--axis", arguments.axis,
-                  "the axis along which it is drawn out: z (the default), or y: the plane's y becomes z")
+                  "axis of extrusion: z (the default), or y: the y of the 2D mesh becomes z")
       .value_name("AXIS")
       .one_of({"y", "z"});
   command
       .add_option("--max-cells", arguments.max_cells,
-                  "the most cells that the mesh may have; without it as many as the disk has room for")
+                  "largest number of cells (default: limited by the free disk space)")
       .value_name("N")
       .positive();
 }
@@ -261,8 +261,7 @@ void add_options(Command& command, ExtrudeArguments& arguments) {
 
 void add_extrude_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<ExtrudeArguments>();
-  Command command =
-      line.add_command("extrude", "draw a mesh out into prisms and hexahedra, with its solution");
+  Command command = line.add_command("extrude", "extrude a mesh to prisms and hexahedra, with its solution");
   add_options(command, *arguments);
   command.set_work([&context, arguments] { run_extrude(context, *arguments); });
 }

@@ -161,14 +161,14 @@ void Command::add_case_argument(std::string& case_path) {
 }
 
 void Command::add_set_option(std::vector<std::string>& assignments, const std::string& example) {
-  app_.add_option("--set", assignments, "set a key of the case file, as in " + example + "; one or more")
+  app_.add_option("--set", assignments,
+                  "set a key of the case file, such as " + example + "; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
 
 void Command::add_max_cells_option(std::optional<double>& max_cells) {
-  add_option("--max-cells", max_cells,
-             "the most cells that a mesh may have by estimate; without it as many as free memory holds")
+  add_option("--max-cells", max_cells, "largest estimated number of cells (default: limited by free memory)")
       .value_name("N")
       .positive();
 }

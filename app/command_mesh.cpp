@@ -60,7 +60,8 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   std::erase_if(settings.formats, [&](const std::string& format) {
     if (format_named(format)->holds(Content::mesh)) return false;
     warnings.push_back(fmt::format(
-        "output.formats: a .{} holds a solution alone, and a new mesh has none; it is left out", format));
+        "output.formats: a .{} contains only a solution, which a new mesh does not have; it is not written",
+        format));
     return true;
   });
   for (const std::string& format : settings.formats)
@@ -113,13 +114,12 @@ Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
   const auto& formats = settings.formats;
   if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few)
     return {};
-  return {
-      fmt::format("{}.su2: {:.0f} % of the quads are skew, on which node-centred solvers such as SU2 lose "
-                  "accuracy; {}",
-                  settings.output_prefix, 100 * (1 - shape.parallelogram_share()),
-                  settings.mesh.quads == QuadChoice::parallel
-                      ? "they stand in layers, which mesh.quads = \"parallel\" leaves whole"
-                      : "mesh.quads = \"parallel\" divides them")};
+  return {fmt::format(
+      "{}.su2: {:.0f} % of the quads are skewed, where node-centred solvers such as SU2 lose accuracy; {}",
+      settings.output_prefix, 100 * (1 - shape.parallelogram_share()),
+      settings.mesh.quads == QuadChoice::parallel
+          ? "they are in layers, which mesh.quads = \"parallel\" does not divide"
+          : "mesh.quads = \"parallel\" divides them")};
 }
 
 /// Stretched cells hang on a solution, which this command does not take. Those of a metric are told of where
@@ -131,8 +131,8 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
       saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
   if (!setting || (same && input.mesh.type == MeshType::metric)) return {};
   return {fmt::format(
-      "{}: {}: the mesh is that of the tree alone, {} nodes without stretched cells{}; \"remesh\" "
-      "makes such cells, from a solution",
+      "{}: {}: the mesh is that of the quadtree, {} nodes without anisotropic cells{}; \"remesh\" creates "
+      "such cells from a solution",
       tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
 }
 
@@ -140,10 +140,8 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
 Warnings first_mesh_warnings(const MeshInput& input) {
   const char* setting = setting_that_follows(input);
   if (!setting) return {};
-  return {
-      fmt::format("{}: there is no solution to follow yet: this is the first mesh of \"adapt\", as the tree "
-                  "makes it",
-                  setting)};
+  return {fmt::format(
+      "{}: there is no solution yet: this is the first mesh of \"adapt\", that of the quadtree", setting)};
 }
 
 /// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
@@ -189,22 +187,20 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
 
 void add_mesh_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MeshArguments>();
-  Command command = line.add_command("mesh", "mesh the domain that a case file describes");
+  Command command = line.add_command("mesh", "generate the mesh of a case file");
   command.add_case_argument(arguments->case_path);
-  command
-      .add_option("-o,--output", arguments->prefix,
-                  "what the output files begin with, instead of output.prefix")
+  command.add_option("-o,--output", arguments->prefix, "prefix of the output files, instead of output.prefix")
       .value_name("PREFIX");
   command.add_option("--type", arguments->type, "kind of mesh, instead of mesh.type: hybrid or delaunay")
       .value_name("TYPE")
       .one_of({"hybrid", "delaunay"});
   command
       .add_option("--tree", arguments->tree,
-                  "restart from the tree of an earlier run: what it wanted refined stays so")
+                  "restart from the quadtree of an earlier run: its refinement is kept")
       .value_name("TREE.h5");
   command
       .add_option("--geometry-out", arguments->geometry_out,
-                  "write the geometry as it is meshed, without the islands that are dropped")
+                  "write the geometry as meshed, without dropped islands")
       .value_name("OUT.geom");
   command.add_max_cells_option(arguments->max_cells);
   command.add_set_option(arguments->assignments, "spacing.min=0.1");

@@ -58,16 +58,17 @@ struct MorphInput {
 void require_outputs(const MorphArguments& arguments) {
   if (arguments.nodal_gradient.empty() != arguments.outline_gradient.empty())
     throw UsageError(
-        "--nodal-gradient and --outline-gradient go together: the one is read, the other written");
+        "--nodal-gradient and --outline-gradient require each other: the first is read, the second is "
+        "written");
   if (arguments.fields.front() == arguments.fields.back())
     throw UsageError("--fields: '" + arguments.fields.front() +
                      "' is named twice; name the fields of dJ/dx and of dJ/dy");
   if (arguments.output.empty() && (arguments.outline_gradient.empty() || !arguments.direction.empty()))
-    throw UsageError("-o is required: the mesh on the new outline; see 'quadloop morph --help'");
+    throw UsageError("-o is required: the mesh on the new geometry; see 'quadloop morph --help'");
   if (arguments.direction.empty()) return;
   require_writable_suffix(arguments.output);
   if (!format_of(arguments.output)->holds(Content::solution))
-    throw InputError(arguments.output + ": this format has no place for the nodes' velocities; name a " +
+    throw InputError(arguments.output + ": this format cannot store the nodal velocities; use a " +
                      suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
@@ -83,7 +84,7 @@ void require_other_outputs(const MorphArguments& arguments) {
   const auto require_other = [](const std::string& output, const std::string& other) {
     if (!output.empty() && !other.empty() && is_same_file(output, other))
       throw UsageError(output + ": is " + (output == other ? "" : other + ", ") +
-                       "named for two things, and would be written over; give the output another name");
+                       "used for two files, one of which would be overwritten; give the output another name");
   };
   for (const std::string& output : {mesh, table}) {
     if (!output.empty()) require_possible_outputs({output});
@@ -151,14 +152,8 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
   std::erase_if(joined.names,
                 [](const std::string& name) { return std::ranges::count(velocity_names, name) > 0; });
   const Field kept = selected(before, joined.names, "the mesh's solution");
-  joined.names.insert(joined.names.end(), velocity_names.begin(), velocity_names.end());
-  joined.values.clear();
-  for (const NodeId node : ids_below(NodeId{input.whole.mesh.owned_nodes})) {
-    for (const Field* rows : {&kept, &of_whole}) {
-      const auto row = rows->row(node);
-      joined.values.insert(joined.values.end(), row.begin(), row.end());
-    }
-  }
+  joined.values = kept.values;
+  append_columns(joined, velocity_names, of_whole.values);
 }
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the outline. *Collective.*
@@ -248,22 +243,20 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
 
 void add_derivative_options(Command& command, MorphArguments& arguments) {
   command
-      .add_option(
-          "--direction", arguments.direction,
-          "a table boundary,x,y,dx,dy of what points of NEW.geom do: OUT has the nodes' velocities, as dx_ds "
-          "and dy_ds")
+      .add_option("--direction", arguments.direction,
+                  "table boundary,x,y,dx,dy of the displacements of points of NEW.geom: OUT contains the "
+                  "nodal velocities as dx_ds and dy_ds")
       .value_name("TABLE.csv");
   command
-      .add_option(
-          "--nodal-gradient", arguments.nodal_gradient,
-          "dJ/dX at the nodes of the mesh on the new outline, in the fields dJ_dx and dJ_dy of an adjoint "
-          "solution")
+      .add_option("--nodal-gradient", arguments.nodal_gradient,
+                  "dJ/dX at the nodes of the mesh on the new geometry, in the fields dJ_dx and dJ_dy of an "
+                  "adjoint solution")
       .value_name("SOLUTION");
   command
       .add_option("--outline-gradient", arguments.outline_gradient,
-                  "writes what J gains from the points of NEW.geom: boundary,x,y,dJ_dx,dJ_dy")
+                  "writes the gradient of J with respect to the points of NEW.geom: boundary,x,y,dJ_dx,dJ_dy")
       .value_name("TABLE.csv");
-  command.add_option("--fields", arguments.fields, "the two fields of --nodal-gradient by other names")
+  command.add_option("--fields", arguments.fields, "other names of the two fields of --nodal-gradient")
       .count(2)
       .value_name("NAME");
 }
@@ -272,23 +265,23 @@ void add_derivative_options(Command& command, MorphArguments& arguments) {
 
 void add_morph_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MorphArguments>();
-  Command command = line.add_command("morph", "move a mesh's nodes to a changed outline");
+  Command command = line.add_command("morph", "move the nodes of a mesh to a changed geometry");
   command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command
       .add_option("--geometry", arguments->geometry,
-                  "the new outline; boundaries that it lacks stay where they are")
+                  "the new geometry; boundaries that are not in it stay in place")
       .required()
       .value_name("NEW.geom");
   command
       .add_option("--from", arguments->from,
-                  "the outline that IN was made on: where NEW.geom has as many points, nodes stay with their "
-                  "segments, else they keep their shares of the way between corners")
+                  "the geometry on which IN was made: if NEW.geom has as many points, nodes stay on their "
+                  "segments, otherwise they keep their relative arc length between feature points")
       .value_name("OLD.geom");
   command
       .add_option("-o,--output", arguments->output,
-                  "the mesh on the new outline, in the format of its suffix")
+                  "the mesh on the new geometry, in the format of its suffix")
       .value_name("OUT");
   add_derivative_options(command, *arguments);
   command.set_work([&context, arguments] { run_morph(context, *arguments); });

@@ -100,7 +100,7 @@ PlotOptions options_of(const PlotArguments& arguments) {
   options.field = arguments.field;
   read_size(arguments.size, options);
   if (arguments.colouring == "rank")
-    throw UsageError("--colour-by rank: a mesh file holds no ranks; colour by block, quality or type");
+    throw UsageError("--colour-by rank: a mesh file contains no ranks; use block, quality or type");
   if (arguments.colouring == "quality") options.colouring = PlotColouring::quality;
   if (arguments.colouring == "block") options.colouring = PlotColouring::block;
   if (!arguments.range.empty()) {
@@ -131,7 +131,7 @@ PlotTask task_of(const PlotArguments& arguments) {
   const PlotOptions& options = task.options;
   const bool is_of_field = options.range || options.contours > 0 || arguments.shading != "smooth";
   if (task.subject == Subject::mesh && is_of_field && options.field.empty())
-    throw UsageError("--range, --contours and --shading tell how a field is shown; name it with --field");
+    throw UsageError("--range, --contours and --shading require a field; name it with --field");
   return task;
 }
 
@@ -193,51 +193,49 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
 }
 
 void add_field_options(Command& command, PlotArguments& arguments) {
-  const Option field =
-      command
-          .add_option("--field", arguments.field,
-                      "a variable of the solution, mach or pressure_coefficient, as colours; with --walls a "
-                      "column of the table")
-          .value_name("NAME");
+  const Option field = command
+                           .add_option("--field", arguments.field,
+                                       "variable of the solution, mach or pressure_coefficient, shown by "
+                                       "colours; with --walls a column of the table")
+                           .value_name("NAME");
   command
       .add_option("--colour-by,--color-by", arguments.colouring,
-                  "what the cells' colours tell: block, quality or type (the default); rank is refused, as "
-                  "a mesh file holds no ranks")
+                  "quantity shown by the cell colours: block, quality or type (the default); rank is "
+                  "refused, as mesh files contain no ranks")
       .value_name("WHAT")
       .one_of({"block", "quality", "type", "rank"})
       .excludes(field);
-  command.add_option("--range", arguments.range, "what the colours of a field span: the values shown")
+  command.add_option("--range", arguments.range, "range of the colours (default: that of the values shown)")
       .value_name("A,B");
-  command.add_option("--map", arguments.map, "the colours of a field: viridis, coolwarm, grey or plasma")
+  command.add_option("--map", arguments.map, "colour map of a field: viridis, coolwarm, grey or plasma")
       .value_name("NAME")
       .one_of(colour_map_names());
   command
       .add_option("--shading", arguments.shading,
-                  "of a field: smooth (linear over triangles, bilinear over quads) or flat")
+                  "shading of a field: smooth (linear over triangles, bilinear over quads) or flat")
       .value_name("HOW")
       .one_of({"smooth", "flat"});
-  command.add_option("--lines", arguments.lines, "the mesh's lines, on or off: off where a field is shown")
+  command.add_option("--lines", arguments.lines, "mesh lines, on or off (default: off if a field is shown)")
       .value_name("on|off")
       .one_of({"on", "off"});
-  command.add_option("--contours", arguments.contours, "lines of equal values of the field, so many: 0")
+  command.add_option("--contours", arguments.contours, "number of contour lines (default: 0)")
       .value_name("N")
       .between(0, 1000);
   command
       .add_option("--streamlines", arguments.streamlines,
-                  "streamlines, about so many across the picture's shorter side: 0")
+                  "approximate number of streamlines across the shorter side (default: 0)")
       .value_name("N")
       .between(0, 200);
 }
 
 void add_chart_options(Command& command, PlotArguments& arguments) {
-  const Option walls =
-      command.add_flag("--walls", arguments.walls,
-                       "Cp over x along the walls, from the table .walls.csv beside IN, or in the last "
-                       "cycle of IN, the folder of an adaptive run");
+  const Option walls = command.add_flag("--walls", arguments.walls,
+                                        "Cp over x along the walls, from the table .walls.csv beside IN, or "
+                                        "from the last cycle if IN is the folder of an adaptive run");
   command
       .add_flag("--history", arguments.history,
-                "residual and forces over steps, from the table .history.csv beside IN, or in the cycles of "
-                "IN, the folder of an adaptive run; over cycles where the solver leaves no such table")
+                "residual and forces over steps, from the table .history.csv beside IN, or from all cycles "
+                "if IN is the folder of an adaptive run; over cycles if the solver writes no such table")
       .excludes(walls);
 }
 
@@ -245,8 +243,7 @@ void add_chart_options(Command& command, PlotArguments& arguments) {
 
 void add_plot_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
-  Command command =
-      line.add_command("plot", "draw a mesh, a field on it, the flow along walls, or a history");
+  Command command = line.add_command("plot", "plot a mesh, a field, the flow along walls, or a history");
   command
       .add_option("input", arguments->input,
                   "the mesh (" + suffixes_for({Content::mesh}) + "); or a table .walls.csv or .history.csv")

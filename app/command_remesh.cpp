@@ -274,12 +274,11 @@ std::string solution_help() {
 
 void add_remesh_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<RemeshArguments>();
-  Command command =
-      line.add_command("remesh", "one pass of the loop for a solution that was computed elsewhere");
+  Command command = line.add_command("remesh", "one adaptation step for the solution of any solver");
   command.add_case_argument(arguments->case_path);
   command
       .add_option("--tree", arguments->tree,
-                  "the tree of the mesh that was solved on: quadloop mesh writes it beside the mesh")
+                  "quadtree of the mesh of the solution: quadloop mesh writes it beside the mesh")
       .value_name("TREE.h5 REQUIRED");
   command.add_option("--solution", arguments->solution, solution_help()).required().value_name("IN");
   command
@@ -288,11 +287,9 @@ void add_remesh_command(CommandLine& line, CommandContext& context) {
           "the mesh that was solved on, where it is neither beside the tree nor the tree's own, as after "
           "quadloop smooth")
       .value_name("MESH");
-  command.add_option("--geometry", arguments->geometry, "a changed outline, in the place of the case's")
+  command.add_option("--geometry", arguments->geometry, "changed geometry, instead of that of the case")
       .value_name("NEW.geom");
-  command
-      .add_option("-o,--output", arguments->prefix,
-                  "what the output files begin with, instead of output.prefix")
+  command.add_option("-o,--output", arguments->prefix, "prefix of the output files, instead of output.prefix")
       .value_name("PREFIX");
   command.add_max_cells_option(arguments->max_cells);
   command.add_set_option(arguments->assignments, "adapt.refine=0.5");

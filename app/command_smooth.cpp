@@ -76,8 +76,8 @@ Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
   for (const auto& nodes : mesh.quads) look_at(nodes);
   if (stretched == 0) return {};
   return {fmt::format(
-      "{}: {} cells are more than {:g} times as long as wide; if these are layers at a wall they are evened "
-      "out, unless a .mesh file says '# layers NAME COUNT' before the number of edges of that boundary",
+      "{}: {} cells have an aspect ratio above {:g}; smoothing makes layers among them uniform, unless a "
+      ".mesh file has the line '# layers NAME COUNT' before the number of edges of the wall",
       path, stretched, most_stretched)};
 }
 
@@ -111,8 +111,9 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     loaded.delaunay = loaded.whole.inner_curves.empty() && is_delaunay_outside_layers(loaded.whole);
     append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)
-      warnings.push_back(arguments.input +
-                         ": the solution stays with its nodes, which move; it is that of the old mesh");
+      warnings.push_back(
+          arguments.input +
+          ": the solution keeps its values at the nodes, which move; it is that of the old mesh");
     append(warnings, losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
@@ -152,9 +153,8 @@ void warn_of_skew_quads(const CommandContext& context, const std::string& output
   const std::int64_t skew = figures.quads - figures.parallelograms;
   if (skew == 0) return;
   context.warn(
-      {fmt::format("{}: {} of the {} quads, which were parallelograms, are none any more; smoothed by `mesh` "
-                   "with mesh.quads = \"parallel\" they "
-                   "would be divided",
+      {fmt::format("{}: {} of the {} quads were parallelograms and no longer are; `mesh` with mesh.quads = "
+                   "\"parallel\" would divide them",
                    output, skew, figures.quads)});
 }
 
@@ -213,7 +213,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 
 void add_smooth_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
-  Command command = line.add_command("smooth", "move a mesh's nodes to better the shapes of its cells");
+  Command command = line.add_command("smooth", "improve the cell shapes of a mesh by moving its nodes");
   command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
       .required()
       .value_name("IN");
@@ -222,28 +222,25 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
                   "the smoothed mesh, in the format of its suffix; IN itself is overwritten")
       .required()
       .value_name("OUT");
-  command.add_option("--sweeps", arguments->sweeps, "how often each node is visited at most: 20")
+  command.add_option("--sweeps", arguments->sweeps, "largest number of visits to each node (default: 20)")
       .value_name("N")
       .between(0, 100000);
-  command
-      .add_option("--method", arguments->method,
-                  "how a node's place is looked for: perturb (the default) or nlopt")
+  command.add_option("--method", arguments->method, "optimisation method: perturb (the default) or nlopt")
       .value_name("METHOD")
       .one_of(words_of(method_words));
   command
       .add_option("--objective", arguments->objective,
-                  "what is lowered: power (the default) or thesis (Eq. 3.4)")
+                  "objective function: power (the default) or thesis (Eq. 3.4)")
       .value_name("COST")
       .one_of(words_of(objective_words));
   command
       .add_option("--geometry", arguments->geometry,
-                  "the outline that boundary nodes may slide along, as `mesh --geometry-out` wrote it")
+                  "geometry along which boundary nodes may slide, as written by `mesh --geometry-out`")
       .value_name("FILE.geom");
   command
-      .add_option(
-          "--fix", arguments->fix,
-          "boundaries, inner curves or blocks whose nodes stay; those of periodic sides and inner curves "
-          "stay anyway")
+      .add_option("--fix", arguments->fix,
+                  "boundaries, inner curves or blocks whose nodes are fixed; nodes of periodic sides and "
+                  "inner curves are always fixed")
       .value_name("NAME");
   command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }

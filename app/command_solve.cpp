@@ -46,7 +46,7 @@ struct SolveProblem {
 void require_outputs(const std::string& output) {
   require_writable_suffix(output);
   if (!format_of(output)->holds(Content::solution))
-    throw InputError(output + ": this format has no place for the flow; name a " +
+    throw InputError(output + ": this format cannot store the flow; use a " +
                      suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
@@ -58,7 +58,8 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
-        "{}: its solution has no {}, so the flow starts afresh and its solution is replaced", path, name));
+        "{}: its solution has no {}, so the flow starts from the free stream and the solution is replaced",
+        path, name));
     return {};
   }
   for (const char* const name : at_end_names) {
@@ -69,8 +70,8 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
     const auto row = start.row(NodeId{node});
     if (row[0] > 0 && row[3] > 0) continue;
     throw InputError(
-        fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; take the "
-                    "solution out to start afresh",
+        fmt::format("{}: density {} and pressure {} of node {} in its solution must be above 0; remove the "
+                    "solution to start from the free stream",
                     path, row[0], row[3], node + 1));
   }
   return start;
@@ -141,12 +142,9 @@ void write(const CommandContext& context, SolveProblem& problem, const Mesh& par
 
 EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
   EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
-  const bool steady = options.time == EulerOptions::Time::steady;
-  options.progress = [&comm, steady](const EulerProgress& p) {
-    if (!comm.is_root()) return;
-    const std::string time = steady ? "" : fmt::format(", time {:.6g}", p.time);
-    log::information(fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual,
-                                 p.cl, p.cd, time));
+  const bool in_time = options.time == EulerOptions::Time::accurate;
+  options.progress = [&comm, in_time](const EulerProgress& progress) {
+    if (comm.is_root()) log::information(line_of(progress, in_time));
   };
   return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
                      estimate_goals(options));
@@ -218,7 +216,7 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
   command.add_case_argument(arguments->case_path);
   command
       .add_option("input", arguments->input,
-                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is started from")
+                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is the initial state")
       .required()
       .value_name("IN");
   command

@@ -54,8 +54,8 @@ class MpiGuard {
   MpiGuard& operator=(const MpiGuard&) = delete;
 };
 
-constexpr const char* about_quiet = "print nothing but warnings and errors";
-constexpr const char* about_verbose = "print details, those of each rank too";
+constexpr const char* about_quiet = "print only warnings and errors";
+constexpr const char* about_verbose = "print details, also of each rank";
 constexpr const char* about_json = "print one JSON record instead of a table";
 
 void add_commands(CommandLine& line, CommandContext& context) {
@@ -72,6 +72,7 @@ void add_commands(CommandLine& line, CommandContext& context) {
   add_convert_command(line, context);
   add_extrude_command(line, context);
   add_morph_command(line, context);
+  add_help_command(line, context);
   line.set_footer(
       fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"
                   "  --json                      {}\n  --version",
@@ -81,7 +82,7 @@ void add_commands(CommandLine& line, CommandContext& context) {
 /// The command's name in the record says that one was to run.
 void run(int argc, char** argv, CommandContext& context) {
   const Communicator& comm = context.comm;
-  CommandLine line("quadloop: parallel 2D mesh generation from named outlines", "quadloop",
+  CommandLine line("quadloop: parallel 2D mesh generation from named boundary curves", "quadloop",
                    "quadloop " QUADLOOP_VERSION);
   add_commands(line, context);
   const auto work = line.parse(argc, argv, comm, context.record.command);
@@ -104,7 +105,7 @@ Outcome guarded_run(int argc, char** argv, CommandContext& context) {
   } catch (const std::bad_alloc&) {
     return {ExitStatus::bad_input, out_of_memory};
   } catch (const std::exception& error) {
-    return {ExitStatus::fault, fmt::format("a fault of the program itself: {}", error.what())};
+    return {ExitStatus::fault, fmt::format("internal error: {}", error.what())};
   }
 }
 

@@ -34,21 +34,21 @@ std::vector<WholeCycle> cycles_in(const std::string& run) {
     const auto [after, fault] = std::from_chars(name.data() + head.size(), end, number);
     if (fault == std::errc() && after == end) cycles.push_back({number, {entry.path()}});
   }
-  if (cycles.empty()) throw InputError(run + ": holds no cycle; name the folder of 'quadloop adapt'");
+  if (cycles.empty())
+    throw InputError(run + ": contains no cycle; give the folder of a 'quadloop adapt' run");
   std::ranges::sort(cycles, {}, &WholeCycle::number);
   return cycles;
 }
 
 constexpr const char* cure =
-    "; forces and the flow along walls are written where [flow] has a pressure, and boundaries with bc = "
-    "\"wall\"";
+    "; forces and wall values are written if [flow] has a pressure and a boundary has bc = \"wall\"";
 
 /// The table itself, or that beside a mesh with a flow.
 std::string table_of(const std::string& input, const char* suffix) {
   if (suffix_of(input) == ".csv") return input;
   const std::string table = fs::path(input).replace_extension().string() + suffix;
   if (!fs::exists(table))
-    throw InputError(table + ": is not there; 'quadloop solve' writes it beside the flow");
+    throw InputError(table + ": does not exist; 'quadloop solve' writes it beside the flow");
   return table;
 }
 
@@ -72,7 +72,7 @@ Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cy
 PlotTable wall_table_for(const std::string& input) {
   if (!fs::is_directory(input)) return read_plot_table(table_of(input, wall_table_suffix));
   const std::string table = cycles_in(input).back().paths.walls();
-  if (!fs::exists(table)) throw InputError(table + ": is not there" + cure);
+  if (!fs::exists(table)) throw InputError(table + ": does not exist" + cure);
   return read_plot_table(table);
 }
 

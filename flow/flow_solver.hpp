@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "flow/quantities/boundary_forces.hpp"
+#include "flow/quantities/flow_figures.hpp"
 #include "flow/quantities/free_stream.hpp"
-#include "flow/quantities/goal_value.hpp"
 #include "flow/quantities/history.hpp"
-#include "flow/quantities/unsteady_flow.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -17,16 +15,12 @@
 namespace quadloop {
 
 /// A flow on a mesh, and what the solver says of it.
-struct SolvedFlow {
+struct SolvedFlow : FlowFigures {
   Field solution;                            ///< a row for each owned node, or for each cell, or both
-  std::optional<double> cl, cd, residual;    ///< where the solver knows them
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
   std::optional<FreeStream> stream;          ///< where the solver knows it
-  std::vector<BoundaryForce> forces;         ///< of each boundary that feels a force
   Field at_walls = {};                       ///< rows of nodes, as wall_flow(); empty: those of the solution
   std::vector<HistoryRow> history;
-  std::optional<UnsteadyFlow> unsteady = {};  ///< where flow and forces are means over time
-  std::vector<GoalValue> goals = {};          ///< what it was solved for, with an estimate of the error
 };
 
 /// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or cells,

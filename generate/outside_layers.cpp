@@ -45,11 +45,10 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
     if (cells <= std::min(limit.cells, most) && bytes <= limit.bytes) continue;
     const std::string allowed = cells > limit.cells   ? fmt::format("--max-cells allows {:.0f}", limit.cells)
                                 : bytes > limit.bytes ? text_of_bytes(limit.bytes) + " are free"
-                                                      : "no mesh holds so many";
+                                                      : "no mesh can have so many";
     throw TooManyCells(
-        fmt::format("{}the layers of {} would have {} cells or more, in {} columns, {} of memory, but {}; "
-                    "make it shorter, "
-                    "or its spacing of {:g} larger",
+        fmt::format("{}the layers of {} would have at least {} cells in {} columns and need {} of memory, "
+                    "but {}; shorten it, or increase its spacing of {:g}",
                     line.place, line.name, text_of_cells(cells), text_of_cells(columns), text_of_bytes(bytes),
                     allowed, line.spacing));
   }

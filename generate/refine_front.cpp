@@ -38,7 +38,8 @@ bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshRe
   const std::vector<UnsoundStrip> strips = unsound_strips(comm, front, outside.mesh, outside.edge_leaves);
   const std::int64_t count = comm.sum(std::ssize(strips));
   if (count == 0) return false;
-  log::detail(fmt::format("layers cannot stand on {} edges of the front; meshed again", count));
+  log::detail(fmt::format(
+      "{} edges are too long for the columns of layers below them; the mesh is made again", count));
   std::vector<SplitDemand> demands;
   std::vector<std::int32_t> kept;
   for (const UnsoundStrip& strip : strips) {

@@ -66,7 +66,7 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
   for (std::string& block : mesh.block_names) names.push_back(&block);
   clean_up_names(std::move(names), mesh.solution, path, mesh.warnings);
   if (const std::int64_t turned = orient_solid(mesh); turned > 0)
-    mesh.warnings.push_back(fmt::format("{}: {} inside out and turned", path,
+    mesh.warnings.push_back(fmt::format("{}: {} inside out and reversed", path,
                                         turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
 }
 
@@ -123,9 +123,8 @@ void append_block_names(const FileFormat& format, const MeshContent& content, co
     if (content.block_names[b] != usual) names.push_back(content.block_names[b]);
   }
   if (!names.empty())
-    losses.push_back(
-        fmt::format("{}: this format has no place for the names of blocks, which are left out: {}", path,
-                    some_names(names)));
+    losses.push_back(fmt::format("{}: this format cannot store the names of blocks, which are omitted: {}",
+                                 path, some_names(names)));
 }
 
 std::vector<std::string> losses_of(const MeshContent& content, const FileFormat& format,
@@ -134,9 +133,9 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
   const auto lose = [&](const char* what) { losses.push_back(path + ": " + what); };
   const Field* const solution = content.solution;
   if (solution != nullptr && !format.holds(Content::solution)) {
-    lose("this format has no place for the solution, which is left out");
+    lose("this format cannot store the solution, which is omitted");
   } else if (solution != nullptr && !solution->constants.empty() && !format.holds(Content::constants)) {
-    lose("this format has no place for the solution's constants, which are left out");
+    lose("this format cannot store the constants of the solution, which are omitted");
   }
   if (solution != nullptr) {
     if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
@@ -144,15 +143,15 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
   }
   if (content.blocks > 1 && !format.holds(Content::blocks)) lose("the blocks are written as one");
   if (content.has_conditions && !format.holds(Content::conditions))
-    lose("this format has no place for boundary conditions, which are left out");
+    lose("this format cannot store boundary conditions, which are omitted");
   if (content.has_layers && !format.holds(Content::layers))
-    lose("this format has no place for the number of layers, which is left out");
+    lose("this format cannot store the number of layers, which is omitted");
   append_block_names(format, content, path, losses);
   if (format.unknown_boundary != nullptr && !content.knows_walls && !content.has_conditions &&
       !content.boundary_names.empty())
     losses.push_back(
-        fmt::format("{}: nothing says which boundaries are walls; each is written as {}. A .cgns "
-                    "holds what the case says: begin with that",
+        fmt::format("{}: the input does not specify which boundaries are walls; each is written as {}. A "
+                    ".cgns file contains the conditions of the case: use it as input",
                     path, format.unknown_boundary));
   return losses;
 }
@@ -166,7 +165,7 @@ void require_readable_suffix(const std::string& path) {
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
   if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
-    throw InputError(path + ": holds a 3D mesh, where one of two dimensions is wanted; give a " +
+    throw InputError(path + ": contains a 3D mesh, but a 2D mesh is required; give a " +
                      suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::mesh}) + " file");
@@ -186,7 +185,7 @@ LoadedMesh read_mesh(const std::string& path) { return plane_of(read_mesh_file(p
 void require_writable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
   if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
-    throw InputError(path + ": is of a format of 3D meshes, which `quadloop extrude` writes; name a " +
+    throw InputError(path + ": has a format of 3D meshes, which `quadloop extrude` writes; use a " +
                      suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a " +
                    suffixes_for({Content::mesh}) + " file");
@@ -272,7 +271,7 @@ std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, cons
 
 void require_solid_suffix(const std::string& path) {
   if (solid_format(path) != nullptr) return;
-  throw InputError(path + ": no 3D mesh is written in this format; name a " + suffixes_for({Content::solid}) +
+  throw InputError(path + ": this format cannot store a 3D mesh; use a " + suffixes_for({Content::solid}) +
                    " (a folder)");
 }
 

@@ -127,7 +127,7 @@ NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, con
   const TreeAttributes& tree = before.tree.attributes;
   comm.together([&] {
     if (marks.case_digest_ != tree.case_digest || marks.coordinate_digest_ != tree.coordinate_digest)
-      throw InputError("the marks are of another mesh than the one that is to be changed; sense() it anew");
+      throw InputError("the flags belong to another mesh than the one to be changed; call sense() again");
   });
   CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan_, before);
   MeshResult& made = carried.generated.result;
@@ -191,7 +191,8 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {
     if (made.case_digest != mesh_input(of).digest || made.geometry_digest != mesh_input(of).geometry.digest())
-      throw InputError(tree + ": is of another case than " + of.parts().path + ", or of another outline");
+      throw InputError(tree + ": belongs to another case than " + of.parts().path +
+                       ", or to another geometry");
   });
   require_own_mesh(comm, solved, mesh, tree);
   return solved;

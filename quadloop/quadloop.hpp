@@ -137,8 +137,8 @@ struct MeshFile {
 };
 
 /// Reads a mesh, and the field at its nodes, in the format that the suffix tells: .mesh, .cgns, .vtu, .su2,
-/// .msh. The first rank reads it whole; .cgns in a child process, which calls nothing of MPI: fork() must be
-/// allowed there (some InfiniBand drivers forbid it). Throws InputError with the file and, in text, the line.
+/// .msh. The first rank reads it whole; .cgns by the installed program quadloop-reader. Throws InputError with
+/// the file and, in text, the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
@@ -155,7 +155,7 @@ std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem);
 
 /// The way back, to the last bit, on any number of ranks, so that an adaptation goes on as if it had not been
-/// interrupted. The tree is read in a child process, as read() reads .cgns. Throws InputError where they do
+/// interrupted. The tree is read as read() reads .cgns. Throws InputError where they do
 /// not belong to each other, or are not of this case.
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem);
 

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
+bool even_widths(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                  std::span<const double> heights, int sweeps) {
   std::vector<NodeId> nodes;
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {

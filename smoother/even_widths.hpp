@@ -7,11 +7,11 @@
 
 namespace quadloop {
 
-/// Slides boundary nodes on segments with a height (see SmoothOptions) towards the midpoint of their
-/// neighbours, so that cell widths vary smoothly. Angles stay above 28 degrees, or above their present value
-/// where that is smaller. The result has the same bits on any number of ranks. Returns whether any node has
-/// moved. *Collective.*
-bool even_widths(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
+/// Slides boundary nodes on segments of the outline with a height (see SmoothOptions) towards the middle of
+/// their neighbours, so that the widths of cells change little from one to the next; angles stay above 28
+/// degrees or what they are. The same bits on any number of ranks. *Collective.* Returns whether any node has
+/// moved.
+bool even_widths(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                  std::span<const double> heights, int sweeps);
 
 }  // namespace quadloop

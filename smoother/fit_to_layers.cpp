@@ -13,9 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_height_ratio = 0.75,
-                 largest_height_ratio =
-                     2;  // cells are left alone between these ratios of their height to the last layer's
+// Cells are left alone between these ratios of their height to the last layer's.
+constexpr double least_height_ratio = 0.75, largest_height_ratio = 2;
 constexpr double steepest = 1.3;                 // ratio of neighbouring widths that is left alone
 constexpr double low_aim = 0.9, high_aim = 1.7;  // limits of the target height, in heights of the last layer
 constexpr double height_of_equilateral = 0.8660254;  // height over width
@@ -40,8 +39,8 @@ struct FrontEdge {
   double last_layer = 0;  ///< the height of the last layer below it; 0: no such edge begins here
 };
 
-/// The edge that begins at each node, ghost copies included. *Collective.*
-IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, const BoundarySlide& slide,
+/// Of each node, copies too. *Collective.*
+IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, BoundarySlide& slide,
                                         std::span<const double> heights) {
   IdVector<NodeId, FrontEdge> edges(mesh.points().size());
   for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -65,8 +64,7 @@ struct FrontCell {
 
 class LayerFit {
  public:
-  LayerFit(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
-           std::span<const double> heights)
+  LayerFit(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide, std::span<const double> heights)
       : comm_{comm}, mesh_{mesh}, slide_{slide}, heights_{heights} {
     const IdVector<NodeId, FrontEdge> edges = front_edges(mesh, slide, heights);
     mesh.for_each_cell([&](const auto& cell) {
@@ -216,7 +214,7 @@ class LayerFit {
 
   const Communicator& comm_;
   HaloMesh& mesh_;
-  const BoundarySlide& slide_;
+  BoundarySlide& slide_;
   std::span<const double> heights_;
   std::vector<FrontCell> cells_;
   std::vector<NodeId> nodes_;  ///< nodes that may move
@@ -227,7 +225,7 @@ class LayerFit {
 
 }  // namespace
 
-bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
+bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                    std::span<const double> heights) {
   return LayerFit(comm, mesh, slide, heights).run();
 }

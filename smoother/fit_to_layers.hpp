@@ -7,13 +7,12 @@
 
 namespace quadloop {
 
-/// Moves nodes beside the outer edge of the layers where the adjacent cells are much lower or higher than the
-/// last layer, or where cell widths jump along the edge. A few rings of outside nodes follow the nodes on the
-/// edge, which slide towards the midpoint of their neighbours. No angle falls below 28 degrees, or below the
-/// smallest angle in the node's star. `heights`: height of the last layer at each segment of the geometry, 0
-/// where no layers end. The result has the same bits on any number of ranks. Returns whether any node has
-/// moved. *Collective.*
-bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, const BoundarySlide& slide,
+/// Moves nodes beside the front of layers where the cells there are much lower or higher than the layers'
+/// last one, or where widths jump along the front: a few rings of nodes outside follow the front's own, which
+/// go on towards the middle of their neighbours. No angle falls under 28 degrees, or under the smallest one
+/// in a node's star. `heights`: of the last layer at each segment of the outline, 0 where it is no front. The
+/// same bits on any number of ranks. *Collective.* Returns whether any node has moved.
+bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                    std::span<const double> heights);
 
 }  // namespace quadloop

@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// A cell whose longest edge is at least this many times its shortest edge is taken for a layer cell, in a
+/// A cell whose longest edge is more than this many times its shortest edge is taken for a layer cell, in a
 /// mesh with layers on walls but without named strips (a file of an earlier version).
 inline constexpr double stretched_like_layers = 5;
 

@@ -24,15 +24,15 @@ namespace {
 
 constexpr int free_rings = 3;  ///< nodes within this many rings of a cell above the threshold may move
 constexpr double cost_rounding = 1e-12;  ///< relative difference of a cost seen from different corners
-constexpr int pinned_rings =
-    2;  ///< rings around triangles that flips made too bad; increased by this each time
+/// Rings around triangles that flips made too bad; increased by this each time.
+constexpr int pinned_rings = 2;
 constexpr int most_attempts = 5;
 constexpr int most_even_sweeps = 40;
 /// Above this cost the shape of a cell has priority over even edges along boundaries: an angle of about 15
 /// degrees in the first round; in later rounds a factor of `SmoothOptions::bad`.
 constexpr double even_at_first = 0.3, even_later = 1.1;
-constexpr std::int64_t few =
-    100;  ///< a sweep with this many times fewer moves than the busiest one ends a round
+/// A sweep with this many times fewer moves than the busiest one ends a round.
+constexpr std::int64_t few = 100;
 
 template <class AnyMesh, std::size_t width>
 std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
@@ -167,8 +167,8 @@ void yield(const HaloMesh& mesh, NodeFlags bad, int rings, NodeFlags& yielding) 
   flag_those_of(bad, yielding);
 }
 
-/// The nodes flagged `near` that may move: those of no parallelogram, and those flagged in `yielding`.
-std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, const BoundarySlide& slide,
+/// The nodes near that may move: those of no parallelogram, and the ones flagged in `yielding`.
+std::vector<NodeId> free_nodes(const Survey& surveyed, const HaloMesh& mesh, BoundarySlide& slide,
                                const NodeFlags& yielding) {
   std::vector<NodeId> free;
   for_each_flagged(surveyed.near, [&](NodeId node) {
@@ -235,18 +235,17 @@ double even_up_to(int round, const SmoothOptions& options, bool any_targets) {
   return round == 0 ? even_at_first : even_later * options.bad;
 }
 
-/// Marks the sliding nodes among the bad ones for another visit: the limit on edge ratios may have held them
-/// back.
-void look_again_at_slides(const HaloMesh& mesh, const BoundarySlide& slide, const NodeFlags& bad,
+/// Has the nodes that slide visited again among the bad ones: they may have been held back.
+void look_again_at_slides(const HaloMesh& mesh, BoundarySlide& slide, const NodeFlags& bad,
                           NodeFlags& stale) {
   for (const NodeId node : ids_below(NodeId{mesh.owned_nodes()})) {
     if (bad[node] != 0 && slide.freedom(node) == NodeFreedom::sliding) stale[node] = 1;
   }
 }
 
-/// Rounds of sweeps. In the first, nodes of parallelograms stay; in later ones those of bad cells may move,
-/// then those in rings around them, until no cell is bad or no further nodes are freed. *Collective.*
-void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+/// Rounds of sweeps: parallelograms stay in the first; in the next ones those yield that a bad cell touches,
+/// then those in rings round it, until no cell is bad or no more nodes yield. *Collective.*
+void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, BoundarySlide& slide,
                      const std::vector<CellTarget>& targets, const Survey& surveyed,
                      const SmoothOptions& options, SmoothReport& report) {
   NodeFlags yielding(halo.points().size(), 0), stale(halo.points().size(), 1), bad = surveyed.bad;
@@ -273,9 +272,8 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, const BoundarySli
   }
 }
 
-/// Spreads the nodes on the outer edge of the layers evenly and fits the adjacent cells to the layers.
-/// *Collective.*
-void fit_front(const Communicator& comm, HaloMesh& halo, const BoundarySlide& slide,
+/// Nodes on the front of layers spread evenly, the cells beside it fitted to the layers. *Collective.*
+void fit_front(const Communicator& comm, HaloMesh& halo, BoundarySlide& slide,
                std::span<const double> heights) {
   if (!comm.any(!heights.empty())) return;
   even_widths(comm, halo, slide, heights, most_even_sweeps);
@@ -318,7 +316,7 @@ Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   const bool any_targets = comm.any(!options.targets.empty());  // a rank without cells has no targets
   const std::vector<CellTarget> targets =
       any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
-  const BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
+  BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   BadCells bad = find_bad_cells(comm, halo, targets, options.threshold);
   NodeFlags doubtful;
   if (options.level_lines && options.sweeps > 0 && !any_targets)

@@ -26,12 +26,12 @@ struct SmoothOptions {
   bool level_lines = true;
   double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more (an angle below 28
                        ///< degrees) is near
-  const Geometry* geometry =
-      nullptr;  ///< boundary nodes slide along it; without it along straight parts of the mesh boundary
+  /// Boundary nodes slide along it; without it along straight parts of the mesh boundary.
+  const Geometry* geometry = nullptr;
   /// Height of the last layer at each segment of the geometry where layers end, 0 for other segments; may be
   /// empty. Nodes there are spread evenly, and the adjacent cells are fitted to this height.
   std::vector<double> front_heights;
-  NodeFlags pinned;                        ///< a flag for each owned node that must stay; may be empty
+  NodeFlags pinned;                        ///< flags the owned nodes that must stay; may be empty
   std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and
                                            ///< flips restore this at the end
   /// Block of each owned triangle (empty: one block); edges between blocks are not flipped.
@@ -39,9 +39,9 @@ struct SmoothOptions {
   bool keep_slots = true;  ///< triangles made by flips take slots in the order in which these become free,
                            ///< else slots next to them; not with blocks
   std::optional<MirrorAxis> mirror;  ///< the mesh is mirror-symmetric in this axis, and stays so
-  std::vector<CellTarget>
-      targets;  ///< target shape of each owned cell, triangles first, then quadrilaterals; empty: ideal
-                ///< shapes. With targets angles may decrease. Not with `delaunay`
+  /// Target shape of each owned cell, triangles first, then quadrilaterals; empty: ideal shapes. With targets
+  /// angles may decrease. Not with `delaunay`.
+  std::vector<CellTarget> targets;
 };
 
 }  // namespace quadloop

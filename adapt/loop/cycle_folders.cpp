@@ -11,6 +11,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "adapt/solvers/cycle_paths.hpp"
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
@@ -51,7 +52,7 @@ CycleFolders::~CycleFolders() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-std::string CycleFolders::whole(int cycle) const { return fmt::format("{}/cycle_{:02}", folder_, cycle); }
+std::string CycleFolders::whole(int cycle) const { return folder_ + "/" + cycle_name(cycle); }
 
 void CycleFolders::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -59,7 +60,7 @@ void CycleFolders::lock() {
   // Some file systems of networks have no such locks; a run without one is better than none.
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw InputError(
-      folder_ + ": another run is at work in this folder; wait for its end, or name another folder with -o");
+      folder_ + ": another run is using this folder; wait until it ends, or choose another folder with -o");
 }
 
 int CycleFolders::count_whole() const {
@@ -71,10 +72,9 @@ int CycleFolders::count_whole() const {
     if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles ||
         fs::path(whole(later)).filename() != name)
       continue;
-    throw InputError(
-        fmt::format("{}: is missing, but {} is there; bring it back, or remove the later cycles, and "
-                    "--resume makes them again",
-                    whole(cycles), name));
+    throw InputError(fmt::format(
+        "{}: is missing, but {} exists; restore it, or remove the later cycles, and --resume repeats them",
+        whole(cycles), name));
   }
   return cycles;
 }
@@ -88,11 +88,11 @@ void CycleFolders::settle_start(bool resume, const std::string& start) const {
   if (resume && has_begun && digest_of_start(before) != digest_of_start(start)) {
     if (before.empty())
       throw InputError(folder_ +
-                       ": the run in it was begun without --from and holds no whole cycle yet; "
-                       "resume it without, or name another folder with -o");
+                       ": the run in it was started without --from and has no complete cycle yet; resume it "
+                       "without --from, or choose another folder with -o");
     throw InputError(
-        fmt::format("{}: the run in it was begun with --from, by {}, and holds no whole cycle "
-                    "yet; resume it with the same, or name another folder with -o",
+        fmt::format("{}: the run in it was started with --from, by {}, and has no complete cycle yet; resume "
+                    "it with the same --from, or choose another folder with -o",
                     folder_, before.substr(before.find(' ') + 1)));
   }
   fs::remove(start_file());
@@ -110,12 +110,12 @@ int CycleFolders::open(bool resume, const std::string& start) {
     if (!comm_.is_root()) return;
     on_disk(folder_, [&] {
       if (fs::exists(folder_) && !fs::is_directory(folder_))
-        throw InputError(folder_ + ": is a file, but a folder is wanted; name another one");
+        throw InputError(folder_ + ": is a file, not a folder; choose another name");
       fs::create_directories(folder_);
       lock();
       if (!resume && !holds_nothing_whole(folder_, under_way(0), start_file())) {
         throw InputError(
-            folder_ + ": is not empty; --resume goes on with the run in it, or name another folder with -o");
+            folder_ + ": is not empty; --resume continues the run in it, or choose another folder with -o");
       }
       cycles = count_whole();
       if (cycles == 0) settle_start(resume, start);

@@ -20,19 +20,10 @@ void append(std::vector<std::string>& lines, const std::vector<std::string>& mor
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
-void add_seconds(std::vector<std::pair<std::string, double>>& all, const std::string& stage, double seconds) {
-  for (auto& [name, sum] : all) {
-    if (name != stage) continue;
-    sum += seconds;
-    return;
-  }
-  all.emplace_back(stage, seconds);
-}
-
-/// Stages of one name are added up; the slowest rank counts. *Collective.*
-std::vector<std::pair<std::string, double>> seconds_of(const Communicator& comm, const StageTimes& times) {
-  std::vector<std::pair<std::string, double>> seconds;
-  for (const auto& [stage, own] : times.stages()) add_seconds(seconds, stage, comm.maximum(own));
+/// Of the slowest rank. *Collective.*
+StageSeconds seconds_of(const Communicator& comm, const StageTimes& times) {
+  StageSeconds seconds = added_up(times.stages());
+  for (auto& [stage, own] : seconds) own = comm.maximum(own);
   return seconds;
 }
 
@@ -123,12 +114,7 @@ class Loop {
     record.passes = carried.passes;
     record.outside = carried.report.outside;
     record.drift = carried.drifts();
-    record.cl = flow.cl;
-    record.cd = flow.cd;
-    record.residual = flow.residual;
-    record.unsteady = flow.unsteady;
-    record.goals = flow.goals;
-    record.forces = flow.forces;
+    static_cast<FlowFigures&>(record) = flow;
     for (const BoundaryLayerReport& row : carried.generated.layers) {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});

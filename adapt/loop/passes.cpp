@@ -14,14 +14,6 @@ void add_warnings(int pass, const std::vector<std::string>& from, std::vector<st
   for (const std::string& warning : from) to.push_back(fmt::format("pass {}: {}", pass, warning));
 }
 
-/// Of a solution that stays on its mesh.
-TransferReport without_drift(const Field& solution) {
-  TransferReport report;
-  report.drift.assign(solution.width() + solution.cells.width(), 0.0);
-  report.relative_drift = report.drift;
-  return report;
-}
-
 }  // namespace
 
 CarriedMesh mesh_after_passes(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
@@ -42,7 +34,7 @@ CarriedMesh mesh_after_passes(const Communicator& comm, const MeshInput& mesh, c
       result.mesh = std::move(solved.mesh);
       result.tree = std::move(solved.tree);
       carried.start = std::move(solved.solution);
-      if (carried.report.drift.empty()) carried.report = without_drift(carried.start);
+      if (carried.report.drift.empty()) carried.report = TransferReport::without_drift(carried.start);
       break;
     }
     add_warnings(pass + 1, result.report.warnings, warnings);

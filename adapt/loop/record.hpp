@@ -9,9 +9,7 @@
 #include "adapt/loop/case_settings.hpp"
 #include "adapt/metric/metric_figures.hpp"
 #include "adapt/remesh/remesh.hpp"
-#include "flow/quantities/boundary_forces.hpp"
-#include "flow/quantities/goal_value.hpp"
-#include "flow/quantities/unsteady_flow.hpp"
+#include "flow/quantities/flow_figures.hpp"
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
@@ -30,7 +28,7 @@ struct LayerQuality {
 };
 
 /// What record.json keeps of a cycle.
-struct CycleRecord {
+struct CycleRecord : FlowFigures {
   int cycle = 0;
   std::uint64_t case_digest = 0;      ///< of all that the run depends on
   std::uint64_t geometry_digest = 0;  ///< of the outline alone
@@ -50,10 +48,6 @@ struct CycleRecord {
   std::int64_t outside = 0;        ///< nodes that the transfer found outside the old mesh
   /// How far each variable's integral drifted in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
-  std::optional<double> cl, cd, residual;
-  std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
-  std::vector<GoalValue> goals;          ///< with an estimate of their errors
-  std::vector<BoundaryForce> forces;     ///< of each boundary that feels a force
   /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
   std::vector<FirstHeights> first_heights;
   std::optional<MetricFigures> metric;  ///< that the mesh follows

@@ -18,7 +18,7 @@ namespace quadloop {
 namespace {
 
 std::string cure_of(const std::string& folder) {
-  return "; bring the file back, or remove the folder " + folder + ", and --resume makes that cycle again";
+  return "; restore the file, or remove the folder " + folder + ", and --resume repeats that cycle";
 }
 
 std::string text_of_record(const std::string& path, const std::string& folder) {
@@ -32,7 +32,7 @@ std::string text_of_record(const std::string& path, const std::string& folder) {
 RecordedCase record_in(const std::string& folder) {
   const std::string path = CyclePaths{folder}.record();
   const auto recorded = recorded_case(text_of_record(path, folder));
-  if (!recorded) throw InputError(path + ": is no whole record of a cycle" + cure_of(folder));
+  if (!recorded) throw InputError(path + ": is not a complete record of a cycle" + cure_of(folder));
   return *recorded;
 }
 
@@ -42,9 +42,9 @@ RecordedCase record_in(const std::string& folder) {
   if (!changes.empty())
     what = text_of(changes);
   else if (!same_geometry)
-    what = "the outline in the files of geometry.file has changed";
-  throw InputError(CyclePaths{folder}.record() + ": is of another case: " + what +
-                   "; resume with the same, or take another folder");
+    what = "the geometry in the files of geometry.file has changed";
+  throw InputError(CyclePaths{folder}.record() + ": belongs to another case: " + what +
+                   "; resume with the same settings, or use another folder");
 }
 
 /// A further file of the mesh, for viewers.
@@ -61,7 +61,7 @@ SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   comm.together([&] {
     if (!comm.is_root()) return;
     whole = read_mesh(path);
-    if (!whole.solution) throw InputError(path + ": holds no solution; a whole cycle has one");
+    if (!whole.solution) throw InputError(path + ": contains no solution; a complete cycle has one");
   });
   SolvedMesh solved =
       spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, paths.tree()));
@@ -92,7 +92,7 @@ std::vector<std::string> require_same_run(const Communicator& comm, const std::s
     for (const ChangedSetting& change : changed_settings(recorded.settings, now.settings)) {
       if (may_change_in_a_run(change.key))
         warnings.push_back(text_of({change}) + "; the cycles up to " +
-                           std::filesystem::path(folder).filename().string() + " stay as they are");
+                           std::filesystem::path(folder).filename().string() + " remain unchanged");
       else
         refused.push_back(change);
     }

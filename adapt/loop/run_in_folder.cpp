@@ -118,7 +118,7 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   CycleFolders folders(comm, folder);
   const int first = folders.open(resume, start ? begun_with(*start) : std::string());
   if (resume && first == 0)
-    report.warning(folder + ": holds no whole cycle to go on after; the run begins with cycle 0");
+    report.warning(folder + ": contains no complete cycle to continue; the run begins with cycle 0");
   std::optional<CycleEnd> before;
   if (first > 0) before = left_by_earlier_run(comm, adaptive, folders, first - 1, report);
   CycleFiles files(comm, folders, file_options(adaptive), report.cycle);

@@ -38,10 +38,9 @@ bool have_settled(const AdaptOptions::Until& until, const CycleValues& before, c
 void require_told(const AdaptOptions::Until& until, const CycleValues& now) {
   const bool cl_misses = until.cl && !now.cl, cd_misses = until.cd && !now.cd;
   if (!cl_misses && !cd_misses) return;
-  throw InputError(
-      std::string("adapt.until waits for ") + (cl_misses ? "cl" : "cd") +
-      ", which the solver does not tell: forces need a boundary with bc = \"wall\" and, of a solver "
-      "of your own, a pressure in [flow]");
+  throw InputError(std::string("adapt.until requires ") + (cl_misses ? "cl" : "cd") +
+                   ", which the solver does not provide: forces need a boundary with bc = \"wall\" and, with "
+                   "an external solver, a pressure in [flow]");
 }
 
 }  // namespace quadloop

@@ -9,10 +9,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_sweeps = 100;         ///< each carries a size one edge farther
-constexpr double settled_change = 1e-3;  ///< of the density, in a sweep, at any node
+constexpr int most_sweeps = 100;         ///< each propagates a size by one edge
+constexpr double settled_change = 1e-3;  ///< largest relative change of the density per sweep at any node
 
-/// The nodes round each owned node, in their global order.
+/// The neighbours of each owned node, in global order.
 class Neighbours {
  public:
   explicit Neighbours(const HaloMesh& halo) : of_(static_cast<std::size_t>(halo.owned_nodes())) {

@@ -8,9 +8,9 @@
 
 namespace quadloop {
 
-/// Limits how fast the sizes that metrics ask for grow along a mesh's edges: by `slope` for each unit of
-/// length and of metric length (grown()), from every node on. Only ever asks for smaller sizes. `metrics` has
-/// one for each owned node and copy. The same bits on any number of ranks. *Collective.*
+/// Limits the growth of metric sizes along a mesh's edges to `slope` per unit of length and of metric length
+/// (grown()), from every node. Only reduces sizes. `metrics` has one entry per owned node and ghost copy. The
+/// same bits on any number of ranks. *Collective.*
 void limit_growth(const Communicator& comm, const Mesh& mesh, double slope, std::vector<Metric>& metrics);
 
 }  // namespace quadloop

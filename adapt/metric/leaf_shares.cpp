@@ -10,14 +10,14 @@ namespace quadloop {
 
 namespace {
 
-/// A tree of the brick, and a unit square in it, along the curve.
+/// Key of a unit square on the curve: the tree, then the square in it.
 struct SquareKey {
   std::int64_t tree = 0;
   std::uint64_t square = 0;
   friend auto operator<=>(const SquareKey&, const SquareKey&) = default;
 };
 
-/// All ranks' leaves, found by a point.
+/// All ranks' leaves, searchable by point.
 class LeafIndex {
  public:
   /// *Collective.*
@@ -31,7 +31,7 @@ class LeafIndex {
     const SquareKey beyond{std::ssize(trees_), 0};
     begins_ = comm.all_gather(keys_.empty() ? beyond : keys_.front());
     for (std::size_t rank = begins_.size() - 1; rank-- > 0;)
-      begins_[rank] = std::min(begins_[rank], begins_[rank + 1]);  // of ranks without leaves
+      begins_[rank] = std::min(begins_[rank], begins_[rank + 1]);  // for ranks without leaves
   }
 
   SquareKey key_of(Point p) const {
@@ -43,7 +43,7 @@ class LeafIndex {
   int rank_of(const SquareKey& key) const {
     return static_cast<int>(std::ranges::upper_bound(begins_, key) - begins_.begin()) - 1;
   }
-  /// Among this rank's.
+  /// Local index.
   std::int32_t leaf_of(const SquareKey& key) const {
     return static_cast<std::int32_t>(std::ranges::upper_bound(keys_, key) - keys_.begin()) - 1;
   }
@@ -51,7 +51,7 @@ class LeafIndex {
  private:
   using Tree = std::array<std::int64_t, 2>;
 
-  /// As they come along the curve.
+  /// Lists the trees in the order of the curve.
   void list_trees(const Communicator& comm, const std::vector<LeafRecord>& leaves) {
     std::vector<Tree> own;
     for (const LeafRecord& leaf : leaves) {
@@ -70,7 +70,7 @@ class LeafIndex {
   std::vector<SquareKey> keys_, begins_;
 };
 
-/// A triangle in its leaf.
+/// A triangle with its leaf.
 struct PlacedTriangle {
   std::int32_t leaf = 0;
   LooseTriangle triangle;
@@ -82,7 +82,7 @@ struct PlacedTriangle {
   }
 };
 
-/// The smallest id first.
+/// Rotated so that the smallest id is first.
 LooseTriangle turned(LooseTriangle t) {
   const auto first = std::ranges::min_element(t.nodes, {}, &TileNode::id) - t.nodes.begin();
   std::rotate(t.nodes.begin(), t.nodes.begin() + first, t.nodes.end());

@@ -8,10 +8,10 @@
 
 namespace quadloop {
 
-/// Gives each triangle of `mesh`, which has been adapted, to the leaf of the tree that holds its centroid, on
-/// the rank that has the leaf: the result's mesh, its leaves' counts and its boundary edges' leaves become
-/// those of `mesh`. Leaf after leaf along the curve; within one by the nodes' numbers in `mesh`.
-/// *Collective.*
+/// Assigns each triangle of the adapted `mesh` to the leaf of the tree that contains its centroid, on the
+/// rank that has the leaf. Replaces the result's mesh, its leaves' counts and its boundary edges' leaves by
+/// those of `mesh`. Triangles are ordered by leaf along the curve, within a leaf by their node numbers in
+/// `mesh`. *Collective.*
 void share_among_leaves(const Communicator& comm, const Lattice& lattice, const Mesh& mesh,
                         MeshResult& result);
 

@@ -18,7 +18,7 @@ Point LooseTriangle::centroid() const {
 
 namespace {
 
-/// A boundary edge on its way to the rank of its triangle.
+/// A boundary edge, sent to the rank of its triangle.
 struct TravellingSide {
   std::int64_t triangle, from;
   std::int32_t boundary;
@@ -65,7 +65,7 @@ namespace {
 
 constexpr std::int64_t nobody = std::numeric_limits<std::int64_t>::max();
 
-/// The nodes of a rank's triangles as they come up, and their numbers over all ranks.
+/// The nodes of a rank's triangles in order of occurrence, and their global numbers.
 class Numbering {
  public:
   Numbering(const Communicator& comm, const std::vector<LooseTriangle>& triangles) {
@@ -78,7 +78,7 @@ class Numbering {
     number(comm);
   }
 
-  /// Owned nodes first, as the mesh has them.
+  /// Stores owned nodes first, as required by the mesh.
   void put_into(Mesh& mesh) {
     mesh.first_node = first_;
     for (const bool owned : {true, false}) {
@@ -94,7 +94,8 @@ class Numbering {
   NodeId local(std::int64_t id) const { return local_[slot_.at(id)]; }
 
  private:
-  /// A node is owned by the lowest rank that has it; all meet at a rank told by its id.
+  /// A node is owned by the lowest rank that has it; ranks exchange this on a rank determined by the node's
+  /// id.
   void find_owners(const Communicator& comm) {
     rank_ = comm.rank();
     std::vector<int> meeting;
@@ -107,7 +108,7 @@ class Numbering {
     exchange_.emplace(comm, meeting);
     met_ = exchange_->deliver(ids);
     std::unordered_map<std::int64_t, int> lowest;
-    for (const Exchange::Source& from : exchange_->sources()) {  // ascending
+    for (const Exchange::Source& from : exchange_->sources()) {  // in ascending rank order
       for (std::size_t i = from.begin; i < from.end; ++i) lowest.emplace(met_[i], from.rank);
     }
     std::vector<int> answers;

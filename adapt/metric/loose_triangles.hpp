@@ -10,22 +10,24 @@
 
 namespace quadloop {
 
-/// A triangle with all that is known of its nodes, on its way between ranks.
+/// A triangle with the data of its nodes, for messages between ranks.
 struct LooseTriangle {
   std::array<TileNode, 3> nodes;
-  std::array<std::int32_t, 3> boundaries{-1, -1, -1};  ///< of the edge from node k to the next; below 0: none
+  /// Boundary of the edge from node k to the next; negative: none.
+  std::array<std::int32_t, 3> boundaries{-1, -1, -1};
 
-  Point centroid() const;  ///< the same whichever node is first
+  Point centroid() const;  ///< independent of the first node
 };
 
-/// The triangles of a mesh that has no others, each on the rank that has it. `metrics` has one for each owned
-/// node and copy. *Collective.*
+/// The triangles of a pure triangle mesh, each on its rank. `metrics` has one entry per owned node and ghost
+/// copy. *Collective.*
 std::vector<LooseTriangle> loosened(const Communicator& comm, const Mesh& mesh,
                                     const std::vector<LogMetric>& metrics);
 
-/// A mesh of these triangles, in their order over all ranks: nodes are numbered as they come up first, and
-/// owned by the rank where they do; boundary edges are where their triangles are. Nodes are told apart by
-/// their ids, 0 and more. `boundaries` gives names and conditions; edges of it do not count. *Collective.*
+/// Builds a mesh of these triangles in their global order. Nodes are numbered by first occurrence, and owned
+/// by the rank of the first occurrence; boundary edges are on the ranks of their triangles. Nodes are
+/// identified by their ids, which are not negative. `boundaries` gives names and conditions only.
+/// *Collective.*
 Mesh joined(const Communicator& comm, const std::vector<LooseTriangle>& triangles,
             const std::vector<BoundaryEdges>& boundaries);
 

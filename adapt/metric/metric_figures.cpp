@@ -38,7 +38,7 @@ MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
     figures.worst_quality = std::min(figures.worst_quality, quality);
     terms.push_back(0.5 * cross(q - p, r - p) * (density_of(a) + density_of(b) + density_of(c)) / 3);
   }
-  // Once more those with one triangle: then every edge is counted twice.
+  // Counts edges with one triangle again, so that every edge is counted twice.
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     for (const auto& edge : boundary.edges) count_edge(edge[0], edge[1]);
   }
@@ -59,7 +59,7 @@ JsonObject histogram(const Limits& limits, const Counts& counts) {
   return json;
 }
 
-/// Shares in percent, with the limits between them.
+/// Fractions in percent, with the limits between them.
 template <class Limits, class Counts>
 std::string shares(const Limits& limits, const Counts& counts) {
   const auto all = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
@@ -84,8 +84,8 @@ JsonObject record_of(const MetricFigures& figures) {
 
 std::string lines_of(const MetricFigures& figures) {
   return fmt::format(
-      "complexity of the metric {:.1f}\nedges by length in it {}\ntriangles by quality in it {}, worst "
-      "{:.3f}\n",
+      "complexity of the metric {:.1f}\nedges by length in the metric {}\ntriangles by quality in the metric "
+      "{}, worst {:.3f}\n",
       figures.complexity, shares(MetricFigures::length_limits, figures.edges),
       shares(MetricFigures::quality_limits, figures.triangles), figures.worst_quality);
 }

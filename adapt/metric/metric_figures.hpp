@@ -12,9 +12,10 @@
 
 namespace quadloop {
 
-/// How a mesh of triangles keeps to a metric; the same on every rank.
+/// Statistics of how a mesh of triangles conforms to a metric; the same on every rank.
 struct MetricFigures {
-  /// Of edge lengths in the metric: below the first of `length_limits`, ..., from the last on.
+  /// Limits of edge lengths in the metric; the first count is below the first limit, the last from the last
+  /// limit on.
   static constexpr std::array length_limits{0.5, 0.70710678118654752, 1.0, 1.4142135623730951, 2.0};
   static constexpr std::array quality_limits{0.2, 0.4, 0.6, 0.8};
 
@@ -27,10 +28,10 @@ struct MetricFigures {
 /// {"complexity": ..., "edges": {"limits": [...], "counts": [...]}, "quality": {..., "worst": ...}}
 JsonObject record_of(const MetricFigures& figures);
 
-/// Two histograms for people, a line each.
+/// Two histograms as text, one line each.
 std::string lines_of(const MetricFigures& figures);
 
-/// `metrics` has one for each owned node and copy. *Collective.*
+/// `metrics` has one entry per owned node and ghost copy. *Collective.*
 MetricFigures metric_figures(const Communicator& comm, const Mesh& mesh,
                              const std::vector<LogMetric>& metrics);
 

@@ -12,11 +12,11 @@ namespace quadloop {
 
 namespace {
 
-/// Of the largest eigenvalue anywhere. Far below what a solution tells: at shocks eigenvalues are some 1e8
-/// times those of a far field, whose cells are large.
+/// Lower limit of eigenvalues relative to the largest one. Far below significant values: at shocks
+/// eigenvalues are about 1e8 times those of a far field with large cells.
 constexpr double least_anywhere = 1e-14;
-/// Of cells: on longer ones flow solvers stall (past the wedge with some of 90 and more), and hardly a node
-/// is gained.
+/// Largest aspect ratio of cells. With longer cells flow solvers stall (on the wedge for 90 and more), and
+/// the number of nodes is hardly reduced.
 constexpr double most_stretch = 15;
 
 /// *Collective.*
@@ -33,9 +33,9 @@ Metric positive(const Hessian& h, double largest) {
   return Metric{symmetric_of(e)};
 }
 
-/// Each with its own determinant, but with the shape that those in the cells round it have in the mean of
-/// their logarithms: along a front second derivatives are noise, of other sign and direction from node to
-/// node. *Collective.*
+/// Replaces the shape of each matrix by the mean shape (of logarithms) in the cells around it, keeping its
+/// determinant: along shocks second derivatives are noisy and change sign and direction from node to node.
+/// *Collective.*
 void average_shapes(const Communicator& comm, const Mesh& mesh, std::vector<Symmetric>& bends) {
   const HaloMesh halo(comm, mesh);
   std::vector<LogMetric> logs;
@@ -54,7 +54,7 @@ void average_shapes(const Communicator& comm, const Mesh& mesh, std::vector<Symm
     }
   });
   for (std::size_t n = 0; n < sums.size(); ++n) {
-    if (counts[n] == 0) continue;  // of no cell outside layers
+    if (counts[n] == 0) continue;  // no cell outside layers
     const Symmetric mean = 1 / counts[n] * sums[n];
     const double rise = 0.5 * (logs[n].xx + logs[n].yy - mean.xx - mean.yy);
     logs[n] = LogMetric{mean + Symmetric{rise, 0, rise}};
@@ -97,7 +97,7 @@ double area_of(const HaloMesh& halo, const Nodes& nodes) {
   return 0.5 * twice;
 }
 
-/// Sums over the cells round a node.
+/// Sums over the cells around a node.
 struct Round {
   double area = 0, lost = 0;
 };

@@ -21,13 +21,13 @@ namespace quadloop {
 
 namespace {
 
-/// What a mesh of so many nodes is to be allowed: rounds do not all come to the same.
+/// Allowed number of nodes, with a tolerance, as results differ between rounds.
 std::int64_t with_room(std::int64_t nodes) { return std::llround(1.05 * static_cast<double>(nodes)); }
 
-/// Of equilateral triangles as dense as the halves of a square of edge 1.
+/// Edge of equilateral triangles with the density of halves of a unit square.
 constexpr double size_for_leaf = 1.0745699318235418;
 
-/// The logarithm of the size that the leaves round each owned node allow at most. *Collective.*
+/// The logarithm of the largest size that the leaves around each owned node allow. *Collective.*
 Field leaf_sizes(const Communicator& comm, const MeshResult& result) {
   std::vector<double> of_cells;
   for (const LeafRecord& leaf : result.tree.leaves) {
@@ -48,7 +48,7 @@ Field leaf_sizes(const Communicator& comm, const MeshResult& result) {
   return sizes;
 }
 
-/// At owned nodes and copies of the solved mesh. *Collective.*
+/// At owned nodes and ghost copies of the solved mesh. *Collective.*
 std::vector<double> largest_sizes(const Communicator& comm, const MeshResult& result, const Mesh& solved) {
   const Field sizes = transfer(comm, result.mesh, leaf_sizes(comm, result), solved).field;
   std::vector<double> largest = with_copies(comm, solved, sizes).values;
@@ -56,7 +56,7 @@ std::vector<double> largest_sizes(const Communicator& comm, const MeshResult& re
   return largest;
 }
 
-/// Metrics of the solved mesh brought to other meshes.
+/// Metrics of the solved mesh transferred to other meshes.
 class CarriedMetric {
  public:
   CarriedMetric(const Communicator& comm, const Mesh& solved, const std::vector<LogMetric>& metrics)
@@ -79,8 +79,8 @@ class CarriedMetric {
   Field field_;
 };
 
-/// How many nodes layers will add: as many as they have in the solved mesh, where they were made the same
-/// way. *Collective.*
+/// Expected number of nodes in layers: that of the solved mesh, whose layers were made in the same way.
+/// *Collective.*
 std::int64_t nodes_in_layers(const Communicator& comm, const Mesh& solved) {
   if (!has_layers(solved)) return 0;
   const LayerPlaces places = layer_places(comm, solved);
@@ -106,7 +106,7 @@ std::vector<std::string> names_of(const std::vector<BoundaryEdges>& boundaries) 
   return names;
 }
 
-/// Adapts, counts, and adapts again to a metric of more or fewer nodes.
+/// Adapts the mesh repeatedly, changing the metric's complexity according to the number of nodes.
 class Stretching {
  public:
   Stretching(const Communicator& comm, const MeshInput& input, const Mesh& solved, const Field& solution,
@@ -126,7 +126,7 @@ class Stretching {
 
   StretchReport report;
 
-  /// Those of a mesh of the largest sizes allowed. *Collective.*
+  /// The number of nodes of a mesh with the largest allowed sizes. *Collective.*
   std::int64_t least_nodes(Mesh mesh) {
     constexpr double next_to_nothing = 1e-3;
     int round = 0;
@@ -134,7 +134,7 @@ class Stretching {
     return static_cast<std::int64_t>(nodes);
   }
 
-  /// None of its walls cross. *Collective.*
+  /// An adapted mesh without crossing walls. *Collective.*
   Mesh sound(const Mesh& start) {
     const std::vector<WallSpan> known = wall_edges(comm_, start);
     Mesh mesh = stretched(start);
@@ -153,8 +153,8 @@ class Stretching {
   [[noreturn]] static void refuse(const Mesh& mesh, const CrossingWalls& met) {
     const Point at = 0.5 * (met.one.from() + met.one.to());
     throw InputError(fmt::format(
-        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): "
-        "give them a smaller `spacing`, or take a larger adapt.min",
+        "mesh.type = \"metric\": edges of the boundaries \"{}\" and \"{}\" meet near ({:.6g}, {:.6g}): give "
+        "them a smaller `spacing`, or use a larger adapt.min",
         mesh.boundaries[met.one.boundary].name, mesh.boundaries[met.other.boundary].name, at.x, at.y));
   }
 
@@ -162,7 +162,7 @@ class Stretching {
     double complexity = 0, nodes = 0;
   };
 
-  /// A mesh that has no more nodes than wanted.
+  /// A mesh with at most the target number of nodes.
   struct Fitting {
     Mesh mesh;
     MetricFigures figures;
@@ -170,24 +170,25 @@ class Stretching {
 
   std::int64_t nodes_of(const Mesh& mesh) const { return comm_.sum(std::int64_t{mesh.owned_nodes}); }
 
-  /// The mesh of the tree, where attempts have too many nodes but it has not; none else. *Collective.*
+  /// The mesh of the tree if it has few enough nodes while attempts have too many; otherwise none.
+  /// *Collective.*
   std::optional<Fitting> unstretched(const Mesh& start, double complexity) {
     if (nodes_of(start) > wanted_) return std::nullopt;
     const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
     return Fitting{start, metric_figures(comm_, start, carried.at(start))};
   }
 
-  /// With more nodes than wanted only where the mesh of the tree has. *Collective.*
+  /// Exceeds the target number of nodes only if the mesh of the tree does. *Collective.*
   Mesh stretched(const Mesh& start) {
-    constexpr int attempts = 5, most_attempts = 10;  // more than the first while nodes are too many
+    constexpr int attempts = 5, most_attempts = 10;  // further attempts only while nodes are too many
     constexpr double enough = 0.95, aim = 0.975;
     constexpr double nodes_of_unit = 1.3;  // a first guess
     if (metric_.flat()) {
-      report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the tree");
+      report.warnings.emplace_back("no variable has a second derivative: the mesh is that of the quadtree");
       return start;
     }
     Mesh mesh = start;
-    std::optional<Fitting> fitting;  // the last attempt with too few nodes
+    std::optional<Fitting> fitting;  // the last attempt that has few enough nodes
     const auto wanted = static_cast<double>(std::max<std::int64_t>(wanted_, 1));
     Attempt last, now{wanted / nodes_of_unit, 0};
     int round = 0;
@@ -210,7 +211,7 @@ class Stretching {
     return mesh;
   }
 
-  /// The number of nodes then. *Collective.*
+  /// Returns the number of nodes after adaptation. *Collective.*
   double adapt(Mesh& mesh, double complexity, int rounds, int& round) {
     const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
     const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
@@ -220,14 +221,14 @@ class Stretching {
     return static_cast<double>(nodes_of(mesh));
   }
 
-  /// Those of layers included.
+  /// Including nodes of layers.
   std::int64_t all_nodes(std::int64_t outside) const { return outside + demand_.nodes - wanted_; }
 
-  /// Less complexity takes hardly any nodes away.
+  /// Less complexity hardly reduces the number of nodes.
   static bool is_floor(const Attempt& last, const Attempt& now) {
     return now.complexity < 0.99 * last.complexity && now.nodes > 0.998 * last.nodes;
   }
-  /// More complexity brings hardly any nodes.
+  /// More complexity hardly increases the number of nodes.
   static bool is_ceiling(const Attempt& last, const Attempt& now) {
     return now.complexity > 1.04 * last.complexity && now.nodes < 1.01 * last.nodes;
   }
@@ -243,13 +244,12 @@ class Stretching {
       return;
     }
     report.warnings.push_back(fmt::format(
-        "stretched cells take {} nodes where adapt.max_nodes allows {}: {}", all, demand_.nodes,
+        "the anisotropic mesh needs {} nodes, but adapt.max_nodes is {}: {}", all, demand_.nodes,
         is_floor(last, now)
-            ? fmt::format("the case's own sizes ask for them, and leave none to stretch cells with; give at "
-                          "least {}, "
-                          "better twice as many, or make spacing.max and the boundaries' spacings larger",
+            ? fmt::format("the case's own sizes need all of them; set at least {}, preferably twice that, or "
+                          "increase spacing.max and the spacings of the boundaries",
                           with_room(all))
-            : "it came no nearer"));
+            : "the number could not be reduced further"));
   }
 
   const Communicator& comm_;
@@ -265,7 +265,7 @@ class Stretching {
 
 std::int64_t least_nodes_of_metric(const Communicator& comm, const MeshInput& input, double min,
                                    const MeshResult& result) {
-  Field even{{"q"}, {}, {}};  // a function that bends alike everywhere
+  Field even{{"q"}, {}, {}};  // a function with constant second derivatives
   for (std::int32_t n = 0; n < result.mesh.owned_nodes; ++n) {
     const Point p = result.mesh.point(NodeId{n});
     even.values.push_back(dot(p, p));

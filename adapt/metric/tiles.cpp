@@ -23,7 +23,7 @@ struct KeyedTriangle {
   }
 };
 
-/// The place of each round's curve: the squares that it fills last lie elsewhere every time.
+/// Offset of the curve in each round, so that tile borders change.
 class RoundCurve {
  public:
   RoundCurve(const Communicator& comm, const std::vector<LooseTriangle>& triangles, int round) {
@@ -44,7 +44,7 @@ class RoundCurve {
   Point shift_;
 };
 
-/// The smallest id first, so that a triangle is the same wherever it comes from.
+/// Rotates the smallest id to the front, so that a triangle does not depend on its origin.
 void turn(LooseTriangle& t) {
   const auto id = [](const TileNode& node) { return node.id; };
   const auto first = std::ranges::min_element(t.nodes, {}, id) - t.nodes.begin();
@@ -52,7 +52,7 @@ void turn(LooseTriangle& t) {
   std::rotate(t.boundaries.begin(), t.boundaries.begin() + first, t.boundaries.end());
 }
 
-/// Sorted over all ranks, in about equal parts. *Collective.*
+/// Sorted over all ranks, in approximately equal parts. *Collective.*
 std::vector<KeyedTriangle> sorted_over_ranks(const Communicator& comm, std::vector<KeyedTriangle> rows) {
   constexpr std::size_t samples = 64;
   const auto by_order = [](const KeyedTriangle& a, const KeyedTriangle& b) { return a.order() < b.order(); };
@@ -74,7 +74,7 @@ std::vector<KeyedTriangle> sorted_over_ranks(const Communicator& comm, std::vect
   return rows;
 }
 
-/// How many triangles one becomes, about, in a round.
+/// Approximate number of triangles that one becomes in a round.
 std::int64_t weight_of(const LooseTriangle& t) {
   constexpr double per_unit = 2.3, most = 16;
   const auto& n = t.nodes;
@@ -85,7 +85,7 @@ std::int64_t weight_of(const LooseTriangle& t) {
 
 struct Tiled {
   std::vector<LooseTriangle> triangles;
-  std::vector<std::int64_t> tiles;  ///< of each; ascending
+  std::vector<std::int64_t> tiles;  ///< tile of each triangle; ascending
 };
 
 /// *Collective.*
@@ -115,7 +115,7 @@ Tiled cut_in_tiles(const Communicator& comm, const TileCut& cut,
   return {exchange.deliver(tiled.triangles), exchange.deliver(tiled.tiles)};
 }
 
-/// One tile after another; new nodes get ids below 0 until all ranks' are counted.
+/// Adapts one tile after another; new nodes have negative ids until those of all ranks are counted.
 class TileWorker {
  public:
   explicit TileWorker(const Walls& walls) : walls_{walls} {}

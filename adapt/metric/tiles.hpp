@@ -8,15 +8,16 @@
 
 namespace quadloop {
 
-/// How a mesh is cut into tiles: by its triangles and this alone, whatever the number of ranks.
+/// Division of a mesh into tiles; depends on its triangles and these parameters only, not on the number of
+/// ranks.
 struct TileCut {
-  std::int64_t size = 8192;  ///< triangles, about, that are expected in a tile once it is adapted
-  int round = 0;             ///< borders lie elsewhere in every round
+  std::int64_t size = 8192;  ///< approximate number of triangles per tile after adaptation
+  int round = 0;             ///< borders are at different places in every round
 };
 
-/// Adapts every tile by itself: stretches of a space-filling curve, shared out over the ranks. What lies at
-/// the border of a tile stays. Triangles come back along the curve, their nodes with ids from 0 on, of which
-/// those below `first_new` are those of nodes that were there before. *Collective.*
+/// Adapts every tile separately. Tiles are ranges of a space-filling curve, distributed over the ranks; their
+/// borders do not change. Triangles are returned in the order of the curve. Their nodes have ids from 0; ids
+/// below `first_new` are those of existing nodes. *Collective.*
 TileChanges adapt_in_tiles(const Communicator& comm, const TileCut& cut, const Walls& walls,
                            std::int64_t first_new, std::vector<LooseTriangle>& triangles);
 

@@ -9,7 +9,8 @@ namespace quadloop {
 namespace {
 
 constexpr int least_rounds = 3;
-constexpr double settled_share = 0.003;  ///< nodes that come and go in a round, of all
+/// Fraction of nodes added and removed in a round below which adaptation ends.
+constexpr double settled_share = 0.003;
 
 }  // namespace
 

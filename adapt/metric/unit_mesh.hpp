@@ -7,7 +7,7 @@
 
 namespace quadloop {
 
-/// The logarithm of the metric wanted at the owned nodes and copies of a mesh. *Collective.*
+/// The logarithm of the target metric at the owned nodes and ghost copies of a mesh. *Collective.*
 using MetricAt = std::function<std::vector<LogMetric>(const Mesh&)>;
 
 struct UnitMeshOptions {
@@ -16,12 +16,12 @@ struct UnitMeshOptions {
   int first_round = 0;  ///< where borders of tiles lie: other than in rounds before
 };
 
-/// Adapts a mesh of triangles until its edges have about length 1 in the metric: edges longer than sqrt(2)
-/// are split, those shorter than 1 / sqrt(2) collapse, edges flip and nodes move for triangles near the
-/// equilateral one in the metric (quality_in). Nodes of the boundary lie on the outline, kept vertices and
-/// the edges that layers stand on stay. Nodes are numbered along a space-filling curve. The mesh has the same
-/// bits on any number of ranks, none of which holds more of it than some tiles. Returns what was done in the
-/// last round. *Collective.*
+/// Adapts a mesh of triangles until its edges have a length of about 1 in the metric: edges longer than
+/// sqrt(2) are split, edges shorter than 1 / sqrt(2) collapse, edges flip and nodes move to improve the
+/// triangles' quality in the metric (quality_in). Boundary nodes lie on the geometry; kept vertices and edges
+/// with layers do not change. Nodes are numbered along a space-filling curve. The mesh has the same bits on
+/// any number of ranks, and each rank holds only some tiles of it. Returns the changes of the last round.
+/// *Collective.*
 TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt& metric_at,
                             const Walls& walls, const UnitMeshOptions& options);
 

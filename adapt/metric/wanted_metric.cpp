@@ -84,7 +84,7 @@ std::vector<LogMetric> WantedMetric::of_complexity(double complexity) const {
     metrics = bounded(factor);
     const double found = integral(metrics);
     if (std::abs(found / complexity - 1) < near || factor < least_factor * first) break;
-    // Bounds add what does not grow with the factor: by secants, the first of them through nought.
+    // The limits add a part that does not grow with the factor: secant steps, the first through the origin.
     const double slope = (found - found_before) / (factor - factor_before);
     const double next = slope > 0 ? factor + (complexity - found) / slope : factor * complexity / found;
     factor_before = factor;

@@ -10,38 +10,38 @@
 
 namespace quadloop {
 
-/// Within which sizes a metric stays.
+/// Limits of a metric's sizes.
 struct SizeBounds {
-  /// No edge is wanted shorter than this: a metric that asks for it becomes larger as a whole, so that cells
-  /// of a front that is thinner stay as long along it.
+  /// Smallest edge length. A metric with smaller sizes is scaled as a whole, so that cells at thin shocks
+  /// keep their aspect ratio.
   double min = 0;
-  std::vector<double> most;        ///< at each owned node and copy: nor longer than this
-  double slope = 0.25;             ///< by which sizes may grow for each unit of length: (gradation - 1) / 2
-  std::vector<double> least = {};  ///< at each of them, or of none: nor shorter than this, which may be 0
+  std::vector<double> most;        ///< largest size at each owned node and ghost copy
+  double slope = 0.25;             ///< growth limit of sizes per unit of length: (gradation - 1) / 2
+  std::vector<double> least = {};  ///< smallest size at each of these nodes, may be 0; or empty
 };
 
-/// `least` at facets of an outline (FacetZones), by the points of nodes; of none where there is no facet.
+/// `least` for facets of a geometry (FacetZones), at the given nodes; empty if there are no facets.
 std::vector<double> least_at_facets(const Geometry& geometry, std::span<const Point> points);
 
-/// The metric that makes the L^p norm of the interpolation error least for its complexity, the integral of
-/// its density: det(H)^(-1 / (2 p + 2)) H, but for a factor, with the absolute hessians H (Loseille and
+/// The metric that minimises the L^p norm of the interpolation error for a given complexity (the integral of
+/// its density): det(H)^(-1 / (2 p + 2)) H up to a factor, with the absolute Hessians H (Loseille and
 /// Alauzet, SIAM J. Numer. Anal. 49, 2011). The same bits on any number of ranks.
 class WantedMetric {
  public:
-  /// From hessians at owned nodes and copies, positive definite (node_bends.hpp), or none; `mesh` must
-  /// outlive it. *Collective.*
+  /// `bends`: positive definite Hessians at owned nodes and ghost copies (node_bends.hpp), or empty; `mesh`
+  /// must outlive it. *Collective.*
   WantedMetric(const Communicator& comm, const Mesh& mesh, const std::vector<Symmetric>& bends, double norm,
                SizeBounds bounds);
 
-  /// Whether there is nothing to follow.
+  /// Whether there is no error to reduce.
   bool flat() const { return !(total_ > 0); }
 
-  /// The metrics at owned nodes and copies whose complexity, within the bounds, is so much, to a fiftieth;
-  /// that of the bounds alone where they ask for more. *Collective.*
+  /// The metrics at owned nodes and ghost copies that have this complexity, within 2 %, after the size limits
+  /// are applied; those of the limits alone if these require more. *Collective.*
   std::vector<LogMetric> of_complexity(double complexity) const;
 
-  /// Those whose complexity is so much before they are brought within the bounds: where these take away from
-  /// it nothing is added elsewhere. *Collective.*
+  /// The metrics with this complexity before the size limits are applied; complexity removed by the limits is
+  /// not added elsewhere. *Collective.*
   std::vector<LogMetric> before_bounds(double complexity) const;
 
  private:
@@ -52,9 +52,9 @@ class WantedMetric {
   const Communicator& comm_;
   const Mesh& mesh_;
   SizeBounds bounds_;
-  std::vector<Metric> shapes_;  ///< at owned nodes and copies, but for a factor
+  std::vector<Metric> shapes_;  ///< at owned nodes and ghost copies, up to a factor
   std::vector<double> areas_;   ///< of cells
-  double total_ = 0;            ///< the integral of the shapes' density
+  double total_ = 0;            ///< integral of the shapes' density
 };
 
 }  // namespace quadloop

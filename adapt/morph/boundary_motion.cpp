@@ -41,9 +41,8 @@ class PlacesOnOutline {
     const OutlinePlace place = path_.locate(p, name);
     if (place.valid()) return place;
     throw InputError(
-        fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this "
-                    "outline; leave --from out, or give the outline that `quadloop mesh "
-                    "--geometry-out` wrote",
+        fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this geometry; omit "
+                    "--from, or give the geometry that `quadloop mesh --geometry-out` wrote",
                     change_.from_file, p.x, p.y, name));
   }
 
@@ -79,10 +78,10 @@ std::vector<std::int32_t> vertices_as_given(const Geometry& like, const Geometry
 }
 
 [[noreturn]] void refuse_shares(const OutlineChange& change) {
-  throw InputError(fmt::format(
-      "{}: what nodes do when one of its points moves is known where its points stand for those of the "
-      "outline that the mesh was made on; give that as --from, with as many points",
-      change.file));
+  throw InputError(
+      fmt::format("{}: derivatives with respect to its points require the geometry on which the mesh was "
+                  "made, with as many points; give that as --from",
+                  change.file));
 }
 
 /// A node that the boundary passes twice stands for one place of the new outline too.
@@ -93,8 +92,8 @@ std::vector<BoundaryNodeMotion> each_once(std::vector<BoundaryNodeMotion> motion
     if (motions[k].node != motions[k - 1].node || length(other.to - one.to) <= rounding * motions[k].width)
       continue;
     throw InputError(
-        fmt::format("{}: the mesh's boundary passes the node ({:g}, {:g}) twice, where the new outline "
-                    "parts; mesh that anew",
+        fmt::format("{}: the boundary of the mesh passes the node ({:g}, {:g}) twice, where the new geometry "
+                    "separates; generate a new mesh",
                     file, one.from.x, one.from.y));
   }
   const auto again = std::ranges::unique(motions, {}, &BoundaryNodeMotion::node);

@@ -189,7 +189,7 @@ void OutlineMap::match_loops(const Names& names) {
     const std::int32_t nearest =
         counterpart(to_, image, from_, [&](std::int32_t loop) { return !maps(loop); });
     if (nearest < 0)
-      throw InputError(fmt::format("{}: has more loops of {} than {}; mesh the new outline anew", names.to,
+      throw InputError(fmt::format("{}: has more loops of {} than {}; generate a new mesh", names.to,
                                    listed(names_of(to_, image)), names.from));
     loops_[nearest].image = image;
   }
@@ -199,10 +199,9 @@ void OutlineMap::match_loops(const Names& names) {
     for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
       const NameSet other = names_of(to_, image);
       if (std::ranges::none_of(own, [&](const auto& n) { return other.contains(n); })) continue;
-      throw InputError(
-          fmt::format("{}: {} has a loop of {} near ({:g}, {:g}) that has no counterpart here; mesh the "
-                      "new outline anew",
-                      names.to, names.from, listed(own), centre_of(from_, loop).x, centre_of(from_, loop).y));
+      throw InputError(fmt::format(
+          "{}: {} has a loop of {} near ({:g}, {:g}) that has no counterpart here; generate a new mesh",
+          names.to, names.from, listed(own), centre_of(from_, loop).x, centre_of(from_, loop).y));
     }
   }
 }
@@ -320,8 +319,8 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
   if (turn) return with_standing(loop, anchored(image, corners, counterparts, *turn), standing);
   const Point centre = centre_of(to_, image);
   throw InputError(
-      fmt::format("{}: the loop of {} round ({:g}, {:g}) has {} corners where {} has {}, or others between "
-                  "its boundaries; mesh the new outline anew",
+      fmt::format("{}: the loop of {} round ({:g}, {:g}) has {} feature points and that of {} has {}, or "
+                  "others between its boundaries; generate a new mesh",
                   names.to, listed(names_of(to_, image)), centre.x, centre.y, counterparts.size(), names.from,
                   corners.size()));
 }

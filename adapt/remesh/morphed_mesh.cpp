@@ -58,8 +58,7 @@ CarriedMesh with_nodes_of(const Communicator& comm, const MeshInput& input, cons
   result.report = report_of(comm, old.tree);
   result.mesh = std::move(mesh);
   carried.start = old.solution;
-  carried.report.drift.assign(old.solution.width() + old.solution.cells.width(), 0);
-  carried.report.relative_drift = carried.report.drift;
+  carried.report = TransferReport::without_drift(old.solution);
   carried.morphed = true;
   return carried;
 }
@@ -86,7 +85,7 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
   }
   if (!report.valid())
     return {{},
-            fmt::format("near ({:g}, {:g}) some cells turn over after {:.0f} % of the way",
+            fmt::format("cells near ({:g}, {:g}) become inverted after {:.0f} % of the movement",
                         report.worst_place.x, report.worst_place.y, 100 * report.possible_way)};
   if (report.worst_after < wish.least_quality)
     return {{}, fmt::format("the worst cell's quality fell to {:.3f}", report.worst_after)};
@@ -99,7 +98,7 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
 
 std::string why_anew(const MorphWish& wish, const std::string& refusal) {
   return fmt::format(
-      "{}: was remeshed, because its cells cannot follow with a quality of {:g} (design.morph_to): {}",
+      "{}: was remeshed, because morphing would reduce the cell quality below {:g} (design.morph_to): {}",
       wish.file, wish.least_quality, refusal);
 }
 

@@ -47,10 +47,11 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
   if (of_mesh.nodes == of_tree.nodes && of_mesh.triangles == of_tree.triangles &&
       of_mesh.quads == of_tree.quads)
     return;
-  throw InputError(fmt::format(
-      "{}: is of another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's mesh has {}, {}, {}",
-      shown, tree, of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes, of_tree.triangles,
-      of_tree.quads));
+  throw InputError(
+      fmt::format("{}: belongs to another mesh than {}: {} nodes, {} triangles, {} quads, but the tree's "
+                  "mesh has {}, {}, {}",
+                  shown, tree, of_mesh.nodes, of_mesh.triangles, of_mesh.quads, of_tree.nodes,
+                  of_tree.triangles, of_tree.quads));
 }
 
 bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree) {
@@ -86,9 +87,8 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
                         bottom[i] > box.low.y - far && top[i] < box.high.y + far;
       if (near) continue;
       throw InputError(
-          fmt::format("{}: is of another mesh than {}: a cell at ({}, {}) does not belong to the tree's leaf "
-                      "at ({}, {}); give the mesh that "
-                      "was written with the tree",
+          fmt::format("{}: belongs to another mesh than {}: a cell at ({}, {}) does not belong to the "
+                      "quadtree cell at ({}, {}); give the mesh that was written with the tree",
                       shown, tree, left[i], bottom[i], box.centre().x, box.centre().y));
     }
   });
@@ -98,7 +98,7 @@ void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, 
                             const std::string& tree) {
   require_own_mesh(comm, solved, shown, tree);
   if (is_untouched(comm, solved)) return;
-  throw InputError(fmt::format("{}: its nodes do not lie where those of the mesh of {} lie", shown, tree));
+  throw InputError(fmt::format("{}: its nodes differ in position from those of the mesh of {}", shown, tree));
 }
 
 }  // namespace quadloop

@@ -107,7 +107,7 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
         "{} leaves no room{}",
         options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
                           : "--max-cells or free memory",
-        options.max_nodes ? "; raise it, or set adapt.norm, which moves nodes to where they are wanted" : "");
+        options.max_nodes ? "; increase it, or set adapt.norm, which redistributes the nodes" : "");
   const std::vector<Mark> marks = family.marks(1);
   const std::int64_t wanted = count_of(comm, marks, Mark::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)
@@ -140,7 +140,7 @@ Made made_from(const Communicator& comm, const AdaptOptions& options, const Solv
 }
 
 constexpr const char* text_of_bound =
-    "--max-cells or free memory limits the mesh: fewer cells are refined than marked";
+    "--max-cells or free memory limits the mesh: fewer cells are refined than flagged";
 
 void take(ChangedSplits changes, AdaptationPlan& plan) {
   plan.refined = changes.refined;
@@ -153,9 +153,9 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
                     AdaptationPlan& plan) {
   const auto [least, nodes] = count.nodes_after(changes);
   if (nodes <= cap || nodes == TrialCount::beyond) return;
-  plan.warnings.push_back(fmt::format(
-      "the mesh has {}{} nodes where adapt.max_nodes allows {}: case and geometry alone ask for them",
-      least < nodes ? "up to " : "", nodes, cap));
+  plan.warnings.push_back(
+      fmt::format("the mesh has {}{} nodes, but adapt.max_nodes is {}: case and geometry alone require them",
+                  least < nodes ? "up to " : "", nodes, cap));
 }
 
 void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
@@ -223,17 +223,17 @@ std::int64_t allowed_nodes(const MeshLimit& limit, std::int64_t nodes) {
 void require_norm(const AdaptOptions& options) {
   if (options.norm && options.max_nodes) return;
   throw InputError(
-      "adapt.norm is missing: mesh.type = \"metric\" makes the L^p norm of the interpolation error least for "
-      "max_nodes nodes; give norm = 2 and max_nodes");
+      "adapt.norm is missing: mesh.type = \"metric\" minimises the L^p norm of the interpolation error for "
+      "max_nodes nodes; set norm = 2 and max_nodes");
 }
 
 void require_at_nodes(const AdaptOptions& options, const SolvedMesh& solved, const char* setting) {
   const CellValues in_cells = selected(solved.solution, options.variables, "adapt.variable").cells;
   if (in_cells.width() == 0) return;
-  throw InputError(fmt::format(
-      "{}: '{}' stands in cells, but {} follows values at nodes; leave that out, or let the solver write it "
-      "at nodes",
-      solved.file, in_cells.names.front(), setting));
+  throw InputError(
+      fmt::format("{}: '{}' is a cell variable, but {} requires node variables; remove that setting, or let "
+                  "the solver write values at nodes",
+                  solved.file, in_cells.names.front(), setting));
 }
 
 TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, const SolvedMesh& solved) {
@@ -305,7 +305,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
     plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);
   if (input.stretch && !plan.flat) plan.anisotropy = target_demand(input, options, solved);
   if (!plan.changes_mesh())
-    plan.warnings.push_back("no cell is marked, the mesh stays: " + plan.reason_for_standing);
+    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_standing);
   return plan;
 }
 
@@ -328,8 +328,8 @@ void require_room_for_metric(const Communicator& comm, const MeshInput& input, c
       least_nodes_of_metric(comm, input, options.min.value_or(input.mesh.size.min), first);
   if (*options.max_nodes >= least) return;
   throw InputError(fmt::format(
-      "adapt.max_nodes = {} leaves no cells to stretch: the case's own sizes take {} nodes; give at least "
-      "{}, better twice as many, or make spacing.max and the boundaries' spacings larger",
+      "adapt.max_nodes = {} leaves no nodes for anisotropic cells: the case's own sizes need {} nodes; set "
+      "at least {}, preferably twice that, or increase spacing.max and the spacings of the boundaries",
       *options.max_nodes, least, least));
 }
 

@@ -46,11 +46,11 @@ std::vector<std::string> drift_warnings(const CarriedMesh& carried) {
     if (size(k) > size(worst)) worst = k;
   }
   if (count == 0) return {};
-  return {fmt::format(
-      "the transfer to the new mesh changed the integral of {} by {:.2g} of its size{}; it should be "
-      "kept to {:g}, except where layers move (docs/explanation/adaptation.md)",
-      carried.drifts()[worst].first, report.relative_drift[worst],
-      count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
+  return {
+      fmt::format("the transfer to the new mesh changed the integral of {} by {:.2g} of its size{}; it "
+                  "should be conserved to {:g}, except where layers move (docs/explanation/adaptation.md)",
+                  carried.drifts()[worst].first, report.relative_drift[worst],
+                  count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
 }
 
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
@@ -90,8 +90,10 @@ AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;
   if (const char* setting = setting_that_follows(input))
-    plan.warnings.push_back(fmt::format(
-        "{} has no table [adapt] to follow: the mesh is that of the tree, without stretched cells", setting));
+    plan.warnings.push_back(
+        fmt::format("{} has no effect without a table [adapt]: the mesh is that of the quadtree, without "
+                    "anisotropic cells",
+                    setting));
   return plan;
 }
 

@@ -11,25 +11,24 @@
 
 namespace quadloop {
 
-/// Indicators from values of cells: jumps across the edges between them, and how gradients change along
-/// edges.
+/// Indicators from cell values: jumps across the edges between cells, or changes of gradients along edges.
 class CellJumps {
  public:
   /// `mesh` and `edges` must outlive it. *Collective.*
   CellJumps(const Communicator& comm, const Mesh& mesh, const TellingEdges& edges, Indicator kind);
 
-  /// Raises each cell's value to the largest indicator of its edges, of a variable with a value for each of
-  /// this rank's cells. *Collective.*
+  /// Raises each cell's value to the largest indicator of its edges, for a variable with one value per local
+  /// cell. *Collective.*
   void raise(const ScaledField& field, std::vector<double>& of_cells) const;
 
  private:
   void raise_by_jumps(const ScaledField& field, std::vector<double>& of_cells) const;
   void raise_by_bends(const ScaledField& field, std::vector<double>& of_cells) const;
 
-  /// An edge of one of this rank's cells that has a cell on its other side.
+  /// An edge of a local cell that has a cell on its other side.
   struct Pair {
     std::int32_t cell;
-    double distance;  ///< of the two centroids
+    double distance;  ///< between the two centroids
   };
 
   const Communicator& comm_;
@@ -38,7 +37,7 @@ class CellJumps {
   Indicator kind_;
   CellsRoundNodes round_nodes_;
   CellOwners owners_;
-  std::vector<std::int64_t> across_;  ///< of each pair the other cell, by its number over all ranks
+  std::vector<std::int64_t> across_;  ///< global number of the other cell of each pair
   std::vector<Pair> pairs_;
 };
 

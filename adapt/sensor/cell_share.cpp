@@ -25,7 +25,7 @@ std::vector<double> CellShare::bring(const Communicator& comm, std::span<const d
   const std::size_t self = comm.rank();
   const std::int64_t begin = first_held_[self], end = first_held_[self + 1];
   QUADLOOP_REQUIRE(std::ssize(held) == end - begin, "there must be one value for each cell");
-  if (first_held_ == first_wanted_) return {held.begin(), held.end()};  // on every rank
+  if (first_held_ == first_wanted_) return {held.begin(), held.end()};  // true on all ranks or on none
   std::vector<int> ranks;
   for (int rank = 0; rank < comm.size(); ++rank) {
     const std::size_t r = rank;

@@ -11,17 +11,16 @@
 
 namespace quadloop {
 
-/// Which cells are whose leaf's: along the curve each leaf has the next of the mesh's triangles and the next
-/// of its quads, as many as its record says. The shares of leaves and of cells that a rank holds need not
-/// meet.
+/// Assigns cells to leaves: along the curve each leaf has the next triangles and the next quadrilaterals of
+/// the mesh, as many as its record states. The partitions of leaves and of cells may differ.
 class CellsOfLeaves {
  public:
-  /// `leaves` is this rank's share and must outlive it. Throws InputError where the tree and the mesh differ
-  /// in their numbers of cells. *Collective.*
+  /// `leaves` are those of this rank and must outlive it. Throws InputError if the numbers of cells in tree
+  /// and mesh differ. *Collective.*
   CellsOfLeaves(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves);
 
-  /// The largest and the smallest value of each local leaf's cells, from a value for each of this rank's
-  /// cells, its triangles, then its quads. 0 for a leaf without cells. *Collective.*
+  /// The largest (smallest) value among each local leaf's cells; `of_cells` has one value per local cell,
+  /// triangles first, then quadrilaterals. 0 for a leaf without cells. *Collective.*
   std::vector<double> largest(const Communicator& comm, std::span<const double> of_cells) const;
   std::vector<double> smallest(const Communicator& comm, std::span<const double> of_cells) const;
 

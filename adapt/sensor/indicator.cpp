@@ -17,9 +17,9 @@ T change(std::span<const T> of_nodes, NodeId from, NodeId to) {
   return of_nodes[to.value()] - of_nodes[from.value()];
 }
 
-/// Raises each cell's value to the largest of its edges that tell. `of_edge(from, to)` must have the same
-/// bits as `of_edge(to, from)`: the cells on both sides of an edge see it in different directions, and so do
-/// different ranks. Absolute values of a change do, and products of two changes.
+/// Raises each cell's value to the largest indicator of its relevant edges. `of_edge(from, to)` must have the
+/// same bits as `of_edge(to, from)`, as cells and ranks see an edge in different directions. Absolute values
+/// of a change, and products of two changes, satisfy this.
 template <class OfEdge>
 void raise_by_edges(const Mesh& mesh, const TellingEdges& edges, const OfEdge& of_edge,
                     std::vector<double>& of_cells) {

@@ -11,10 +11,10 @@
 
 namespace quadloop {
 
-/// What is taken of a variable q, divided by its range, along an edge dx of the mesh (g: gradient at the
-/// nodes). Of a variable of the cells dq is the jump across an edge, between two cells, and dx goes from the
-/// centroid of one to that of the other; g comes from the cells round a node by least squares, and where
-/// these lie on one line (at corners of the domain) there is none.
+/// Indicator of a variable q, divided by its range, along a mesh edge dx (g: gradient at the nodes). For cell
+/// variables dq is the jump across the edge between two cells, and dx connects their centroids; g is a
+/// least-squares gradient of the cells around a node, and is not used where these are collinear (at corners
+/// of the domain).
 enum class Indicator {
   difference,  ///< |dq|
   gradient,    ///< |dq| / |dx|, in 1 / length
@@ -25,18 +25,17 @@ inline constexpr WordTable<Indicator, 3> indicator_words{{{"difference", Indicat
                                                           {"gradient", Indicator::gradient},
                                                           {"hessian", Indicator::hessian}}};
 
-/// For each leaf of this rank's share the largest indicator of any variable of the field on any edge of the
-/// leaf's cells; 0 for leaves without cells. Variables of cells count by the edges between two cells, as
-/// above. An edge counts for the leaves of both its cells, but
-/// not one that crosses layers at a wall: these keep their heights when a leaf is split. A constant
-/// variable adds nothing; what may be rounding of q (ScaledField::rounding) counts as 0 in the differences of
-/// `difference`, `gradient` and in `hessian`. The mesh must be valid. The same bits on any number of ranks,
-/// however leaves and cells are shared out. Throws InputError on all ranks for a value that is not finite, or
-/// where the tree is not this mesh's. *Collective.*
+/// For each local leaf the largest indicator of any variable of the field on any edge of the leaf's cells; 0
+/// for leaves without cells. Cell variables use the edges between two cells, as above. An edge counts for the
+/// leaves of both its cells, except edges across layers at a wall, whose heights do not change when a leaf is
+/// split. A constant variable adds nothing. Differences within the rounding of q (ScaledField::rounding)
+/// count as 0. The mesh must be valid. The same bits on any number of ranks and for any partition. Throws
+/// InputError on all ranks for a value that is not finite, or if the tree does not belong to this mesh.
+/// *Collective.*
 std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
                                    std::span<const LeafRecord> leaves, const Field& field, Indicator kind);
 
-/// For each leaf the largest of the solver's own error estimates, the field's only variable, at the nodes of
+/// For each leaf the largest of the solver's own error estimates (the field's only variable) at the nodes of
 /// its cells, or in them; 0 for leaves without cells. Throws InputError as above, and for a negative error.
 /// *Collective.*
 std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,

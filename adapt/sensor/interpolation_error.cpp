@@ -16,7 +16,7 @@ namespace {
 void raise_by_variable(const Communicator& comm, const Mesh& mesh, std::vector<double> values, ValuesAt at,
                        InterpolationError& error) {
   const ScaledField scaled = scaled_by_range(comm, std::move(values));
-  if (scaled.constant) return;  // on every rank
+  if (scaled.constant) return;  // true on all ranks or on none
   const std::vector<CellHessian> hessians = cell_hessians(comm, mesh, scaled, at);
   std::vector<double> means(hessians.size(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {

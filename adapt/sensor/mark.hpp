@@ -5,10 +5,10 @@
 
 namespace quadloop {
 
-/// What is to become of a leaf's wanted level.
+/// Refinement flag of a leaf.
 enum class Mark : std::int8_t { coarsen = -1, keep = 0, refine = 1 };
 
-/// A leaf is refined where its indicator is above `refine`; else coarsened where it is below `coarsen`. The
+/// A leaf is refined if its indicator is above `refine`, else coarsened if it is below `coarsen`. The
 /// defaults mark nothing.
 struct Thresholds {
   double refine = std::numeric_limits<double>::infinity();

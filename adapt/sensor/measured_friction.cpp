@@ -21,14 +21,14 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// An edge of a wall as all ranks know it; after them what stands at its ends.
+/// A wall edge, known to all ranks, with values at its ends.
 struct WallEdge {
   std::array<GlobalNodeId, 2> nodes;
   std::array<Point, 2> points;
   std::array<double, 2> value{}, density{};  ///< shear or y+
 };
 
-/// The cells' height above one end of an edge.
+/// Height of the cells above one end of an edge.
 struct HeightAbove {
   GlobalNodeId node;
   double height = unknown;
@@ -45,7 +45,7 @@ std::optional<std::size_t> y_plus_among(const std::vector<std::string>& names) {
   return only_one(variables_like(names, "y_plus"));
 }
 
-/// Of all ranks, in the order of their nodes. *Collective.*
+/// Wall edges of all ranks, in the order of their nodes. *Collective.*
 std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, const Field& with_copies,
                                  std::span<const std::string> walls, std::optional<std::size_t> variable) {
   const auto density = only_one(variables_like(with_copies.names, "density"));
@@ -67,14 +67,14 @@ std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, con
   return edges;
 }
 
-/// What the cell at a wall's edge tells of it.
+/// Friction data of the cell at a wall edge.
 struct CellAtEdge {
   std::array<GlobalNodeId, 2> nodes;
   std::array<Point, 2> points;
   double wall_units;
 };
 
-/// The variables of cells that tell friction: y+ of the cells' middles, or shear along the wall.
+/// The cell variables that give friction: y+ of the cell centres, or shear along the wall.
 struct FrictionInCells {
   explicit FrictionInCells(const std::vector<std::string>& names)
       : y_plus{y_plus_among(names)},
@@ -88,7 +88,7 @@ struct FrictionInCells {
     return names[y_plus ? *y_plus : shear ? *shear : *shear_x];
   }
 
-  /// `height`: of the cell's middle above the wall.
+  /// `height`: of the cell centre above the wall.
   double wall_units(std::span<const double> row, double height, const WallFlow& flow) const {
     if (y_plus) return std::abs(row[*y_plus]) / height;
     const double along_wall = shear ? std::abs(row[*shear]) : std::hypot(row[*shear_x], row[*shear_y]);
@@ -99,7 +99,7 @@ struct FrictionInCells {
   std::optional<std::size_t> y_plus, shear, shear_x, shear_y, density;
 };
 
-/// The cells of this rank at edges of walls, by the ends of these.
+/// The local cells at wall edges, by the ends of the edges.
 class CellsAtWalls {
  public:
   CellsAtWalls(const Mesh& mesh, const CellValues& cells, const std::vector<WallEdge>& edges,
@@ -136,7 +136,7 @@ class CellsAtWalls {
   std::vector<CellAtEdge> found_;
 };
 
-/// At a wall's node the mean of the edges that meet there. *Collective.*
+/// Friction at wall nodes as the mean of the adjacent wall edges. *Collective.*
 MeasuredWall friction_of_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells,
                                const std::vector<WallEdge>& edges, const WallFlow& flow,
                                const std::string& where) {
@@ -161,7 +161,7 @@ MeasuredWall friction_of_cells(const Communicator& comm, const Mesh& mesh, const
   return measured;
 }
 
-/// Of a wall's cells, the height of their other nodes above the edge, at the end that each is nearer to.
+/// Heights of the other nodes of wall-adjacent cells above the edge, assigned to the nearer end.
 class CellHeights {
  public:
   CellHeights(const Mesh& mesh, const std::vector<WallEdge>& edges) : mesh_{mesh} {
@@ -190,7 +190,7 @@ class CellHeights {
   std::vector<HeightAbove> heights_;
 };
 
-/// The least one of each node. *Collective.*
+/// The smallest height at each node. *Collective.*
 std::map<GlobalNodeId, double> heights_above(const Communicator& comm, const Mesh& mesh,
                                              const std::vector<WallEdge>& edges) {
   const CellHeights own(mesh, edges);

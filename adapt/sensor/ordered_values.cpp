@@ -12,8 +12,8 @@ namespace quadloop {
 
 namespace {
 
-/// Values that are not negative are in the order of their bits; the first of these, exponent and four digits
-/// behind it, tell in which part a value is.
+/// Non-negative values are ordered like their bit patterns; the upper bits (exponent and four digits of the
+/// mantissa) select the part.
 std::size_t part_of(double value) { return std::bit_cast<std::uint64_t>(value) >> 48; }
 constexpr std::size_t parts = std::size_t{1} << 15;
 
@@ -30,7 +30,7 @@ OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecor
       if (!has_cells(leaves[i])) continue;
       QUADLOOP_REQUIRE(std::isfinite(values[i]) && values[i] >= 0,
                        "an indicator must be finite and not negative");
-      unordered.push_back(values[i] + 0.0);  // -0 becomes 0, whose bits are in order with the others
+      unordered.push_back(values[i] + 0.0);  // -0 becomes 0, so that its bits are in order with the others
     }
   });
   put_into_parts(unordered);
@@ -61,8 +61,8 @@ std::int64_t OrderedValues::count_up_to(double bound) const {
 
 double OrderedValues::kth_smallest(std::int64_t k) const {
   QUADLOOP_REQUIRE(1 <= k && k <= count_, "there is no such value");
-  // The bits of doubles that are not negative are integers in the same order, so halving an interval of them
-  // ends at the very value.
+  // Bit patterns of non-negative doubles are integers in the same order, so bisection of an interval of them
+  // ends at the exact value.
   auto low = std::bit_cast<std::uint64_t>(smallest_), high = std::bit_cast<std::uint64_t>(largest_);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
@@ -83,7 +83,7 @@ std::int64_t OrderedValues::count_of_share(double share) const {
 double OrderedValues::refine_threshold(double share) const {
   const std::int64_t k = count_of_share(share);
   if (k == 0) return std::numeric_limits<double>::infinity();
-  return std::nextafter(kth_largest(k), 0);  // of 0 it is 0 itself, above which no 0 lies
+  return std::nextafter(kth_largest(k), 0);  // 0 if the k-th largest is 0; no 0 is above it
 }
 
 double OrderedValues::coarsen_threshold(double share) const {

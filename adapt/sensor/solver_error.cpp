@@ -18,8 +18,8 @@ double area_of(const HaloMesh& halo, const std::array<NodeId, width>& nodes) {
   return 0.5 * twice;
 }
 
-/// An error at nodes over the area that is a node's: of each of its cells as much as of the cell's others. Of
-/// owned nodes and copies.
+/// Nodal errors per area of the node, where each cell's area is divided equally among its nodes. At owned
+/// nodes and ghost copies.
 std::vector<double> per_area(const Communicator& comm, const Mesh& mesh, const std::vector<double>& errors) {
   const HaloMesh halo(comm, mesh);
   std::vector<double> areas(halo.points().size(), 0.0);
@@ -38,7 +38,7 @@ std::vector<double> per_area(const Communicator& comm, const Mesh& mesh, const s
 std::vector<double> error_densities(const Communicator& comm, const Mesh& mesh, const Field& field) {
   check_field(comm, mesh, field, FieldSign::not_negative);
   std::vector<double> densities = per_area(comm, mesh, field.column(0));
-  densities.resize(mesh.points.size());  // the mesh's own copies come before the halo's
+  densities.resize(mesh.points.size());  // the mesh's own ghost copies come before those of the halo
   return densities;
 }
 

@@ -4,8 +4,8 @@
 
 namespace quadloop {
 
-/// The edges that tell whether a leaf is to be split: not those across layers, which stay as high as the case
-/// asks for, however narrow their columns get, and none within strips, whose columns stay too.
+/// The edges relevant for refinement: excludes edges across layers, whose heights do not change when their
+/// columns get narrower, and all edges within strips, whose columns do not change.
 class TellingEdges {
  public:
   /// *Collective.*
@@ -13,14 +13,14 @@ class TellingEdges {
     if (has_layers(mesh)) places_ = layer_places(comm, mesh);
   }
 
-  /// Of a change along the edge.
+  /// For a change along the edge.
   bool tells(NodeId from, NodeId to) const {
     if (places_.empty()) return true;
     const LayerPlace &a = places_[from], &b = places_[to];
     if (!a.valid() || !b.valid()) return true;
     return a.left == b.left && (a.strip < 0 || b.strip < 0);
   }
-  /// Of a change from the cell on one side of the edge to the one on the other.
+  /// For a change from the cell on one side of the edge to the cell on the other.
   bool tells_across(NodeId from, NodeId to) const {
     if (places_.empty()) return true;
     const LayerPlace &a = places_[from], &b = places_[to];

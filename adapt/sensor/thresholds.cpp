@@ -11,10 +11,10 @@ namespace quadloop {
 
 namespace {
 
-/// As if each indicator were at least `floor`: a threshold above it means the same either way.
+/// Thresholds below `floor` select all leaves, as indicators count as at least `floor`.
 double refine_threshold_from(double logarithm, double floor) {
   const double threshold = std::pow(10, logarithm);
-  return threshold < floor ? -1 : threshold;  // all leaves lie above it, those of indicator 0 too
+  return threshold < floor ? -1 : threshold;  // below all indicators, 0 included
 }
 
 double coarsen_threshold_from(double logarithm, double floor) {
@@ -22,7 +22,7 @@ double coarsen_threshold_from(double logarithm, double floor) {
   return threshold > floor ? threshold : 0;
 }
 
-/// The thresholds of each kind of rule, where the indicators differ.
+/// The thresholds of each kind of rule, if the indicators differ.
 struct ByRule {
   const OrderedValues& values;
   const IndicatorStatistics& statistics;

@@ -11,17 +11,17 @@
 
 namespace quadloop {
 
-/// For each leaf of this rank's share the smallest edge length that the solver wants, the field's only
-/// variable, at the nodes of its cells; 0 for leaves without cells. Throws InputError on all ranks for a size
-/// that is not finite or not larger than 0, or where the tree is not this mesh's. *Collective.*
+/// For each local leaf the smallest edge length that the solver requests (the field's only variable) at the
+/// nodes of its cells; 0 for leaves without cells. Throws InputError on all ranks for a size that is not
+/// finite or not positive, or if the tree does not belong to this mesh. *Collective.*
 std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
                                const Field& size);
 
-/// The level of the largest leaves whose edge is not over `size` (> 0), at most Quadrant::unit_level. Exact.
+/// The level of the largest leaves with edges of at most `size` (> 0), at most Quadrant::unit_level. Exact.
 int level_for_size(double tree_edge, double size);
 
-/// The mark of each leaf of this rank's share: refine where its edge is over its size, coarsen where twice
-/// the edge is not; leaves without cells are kept. Local.
+/// The mark of each local leaf: refine if its edge exceeds its size, coarsen if twice the edge does not;
+/// leaves without cells are kept. Local.
 std::vector<Mark> mark_by_size(const TreeRecord& tree, std::span<const double> sizes);
 
 }  // namespace quadloop

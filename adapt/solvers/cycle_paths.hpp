@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "flow/quantities/history.hpp"
@@ -8,6 +10,9 @@
 #include "io/tree/tree_file.hpp"
 
 namespace quadloop {
+
+/// Of a cycle's folder, in the folder of its run.
+inline std::string cycle_name(int cycle) { return fmt::format("cycle_{:02}", cycle); }
 
 /// Where the files stand that quadloop writes in a cycle's folder.
 struct CyclePaths {

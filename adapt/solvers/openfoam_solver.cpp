@@ -115,11 +115,11 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
     try {
       const std::string own = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
       const std::string time = latest_foam_time(own);
-      if (time.empty()) throw InputError(own + ": has no folder of a time above 0");
+      if (time.empty()) throw InputError(own + ": has no time folder above 0");
       const std::size_t cells = counts.triangles + counts.quads;
       whole.cells = read_foam_fields(time, cells);
       put_wall_values(time, own + "/constant/polyMesh", whole.cells);
-      if (whole.cells.names.empty()) throw InputError(time + ": holds no field of cells");
+      if (whole.cells.names.empty()) throw InputError(time + ": contains no cell field");
     } catch (const InputError& fault) {
       throw SolverError(
           solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));

@@ -44,7 +44,7 @@ class Listing {
     if (fault) throw InputError(folder.string() + ": cannot be read: " + fault.message());
     if (std::ranges::find(around_, real) != around_.end())
       throw InputError(folder.string() +
-                       ": is a link to a folder that it stands in itself; remove it from solver.template");
+                       ": is a link to a folder that contains it; remove it from solver.template");
     around_.push_back(real);
     fs::directory_iterator entries(folder, fault);
     if (fault) throw InputError(folder.string() + ": cannot be read: " + fault.message());
@@ -66,7 +66,7 @@ class Listing {
       return;
     }
     const char* const what = entry.is_symlink(fault)
-                                 ? ": is a link to nothing; mend it, or remove it from solver.template"
+                                 ? ": is a broken link; repair it, or remove it from solver.template"
                                  : ": is neither a file nor a folder; remove it from solver.template";
     throw InputError(path.string() + what);
   }
@@ -119,10 +119,10 @@ OpenfoamTemplate read_openfoam_template(const std::string& folder) {
   const fs::path path = folder;
   const fs::path control = path / "system/controlDict", allrun = path / "Allrun";
   if (!fs::is_regular_file(control))
-    throw InputError(folder + ": is no case of OpenFOAM: it has no system/controlDict");
+    throw InputError(folder + ": is not an OpenFOAM case: it has no system/controlDict");
   const bool has_fields = fs::is_directory(path / "0");
   if (!has_fields && !fs::is_directory(path / "0.orig"))
-    throw InputError(folder + ": has no folder 0 or 0.orig with the fields to begin with");
+    throw InputError(folder + ": has no folder 0 or 0.orig with the initial fields");
   const bool has_allrun = fs::is_regular_file(allrun);
   if (has_allrun && ::access(allrun.c_str(), X_OK) != 0)
     throw InputError(allrun.string() + ": may not be run; allow it with: chmod +x " + allrun.string());

@@ -10,11 +10,11 @@
 
 namespace quadloop {
 
-/// Symmetric matrices as the variables xx, xy, yy of a field, a row for each node.
+/// Symmetric matrices as field variables xx, xy, yy, one row per node.
 Field rows_of(const std::vector<Symmetric>& matrices, std::int32_t owned_nodes);
 
-/// The matrices at the owned nodes of one mesh, brought to the owned nodes and copies of another one of the
-/// same domain. *Collective.*
+/// Transfers matrices from the owned nodes of one mesh to the owned nodes and ghost copies of another mesh of
+/// the same domain. *Collective.*
 template <class Value>
 std::vector<Value> carried(const Communicator& comm, const Mesh& from, const Field& rows, const Mesh& to) {
   const Field there = with_copies(comm, to, transfer(comm, from, rows, to).field);
@@ -24,24 +24,24 @@ std::vector<Value> carried(const Communicator& comm, const Mesh& from, const Fie
   return values;
 }
 
-/// The L^p norm of what linear interpolation in a mesh's cells loses of a function with these absolute second
-/// derivatives at its owned nodes and copies; p >= 1. Each cell has the mean of its nodes; the mean error is
-/// that of interpolation_error(). The same bits on any number of ranks. *Collective.*
+/// The L^p norm (p >= 1) of the linear interpolation error on a mesh for a function with these absolute
+/// second derivatives at its owned nodes and ghost copies. Each cell uses the mean of its nodes; the mean
+/// error is as in interpolation_error(). The same bits on any number of ranks. *Collective.*
 double norm_by_bends(const Communicator& comm, const Mesh& mesh, const std::vector<Symmetric>& bends,
                      double p);
 
-/// The places of a mesh's nodes, of all that were looked at, at which that norm is least: the second
-/// derivatives of a solved mesh are brought to where nodes are.
+/// Keeps the node positions with the smallest norm among those tested; the second derivatives of the solved
+/// mesh are transferred to each set of positions.
 class BestPlaces {
  public:
-  /// `bends` are rows_of() the solved mesh's nodes. All must outlive it but `mesh`, whose places are the
-  /// first. *Collective.*
+  /// `bends`: rows_of() of the solved mesh's nodes. Initial positions are those of `mesh`. All arguments
+  /// except `mesh` must outlive it. *Collective.*
   BestPlaces(const Communicator& comm, const Mesh& solved, const Field& bends, double p, const Mesh& mesh);
 
-  /// The same cells with their nodes elsewhere. *Collective.*
+  /// Tests the same cells with other node positions. *Collective.*
   void look_at(const Mesh& mesh);
 
-  double first() const { return first_; }  ///< the norm before any move
+  double first() const { return first_; }  ///< norm before any move
   double least() const { return least_; }
   const decltype(Mesh::points)& places() const { return places_; }
 

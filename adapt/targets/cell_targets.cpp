@@ -23,7 +23,7 @@ ShapesOfTree::ShapesOfTree(const Mesh& mesh) {
 
 namespace {
 
-/// What the nodes of a cell ask for in the mean of logarithms.
+/// The metric requested by the nodes of a cell: mean of the logarithms.
 template <class Nodes>
 Eigen2 asked_in(const Nodes& nodes, const std::vector<LogMetric>& metrics) {
   Symmetric sum;
@@ -51,7 +51,7 @@ std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector
   targets.reserve(shapes_.size());
   const auto add = [&](const auto& nodes) {
     const Shape& shape = shapes_[targets.size()];
-    const auto kept = [&](double logarithm) {  // of the cell's extent along an axis
+    const auto kept = [&](double logarithm) {  // remaining fraction of the cell's extent along an axis
       return 1 / std::clamp(shape.size * std::exp(0.5 * logarithm), 1.0, stretch);
     };
     const Eigen2 mean = asked_in(nodes, metrics);

@@ -17,21 +17,21 @@ namespace quadloop {
 
 namespace {
 
-/// Each time targets are made where nodes have got to, and nodes move towards them.
+/// Number of rounds; each recomputes the targets at the moved nodes, then moves nodes towards them.
 constexpr int rounds = 4;
-/// Cells that cost less (Eq. 3.2) are left as they are: a stretch of 1.15 is not worth a move.
+/// Cells with lower cost (Eq. 3.2) are left alone: a stretch of 1.15 does not justify a move.
 constexpr double least_cost = 1e-4;
-/// So many cells round a front move with it: else each pulls the next, up to the frame.
+/// Number of cells around a shock that move with it; without a limit movement spreads to the outer boundary.
 constexpr int reach = 4;
 
-/// What the solution asks for, at the owned nodes of the mesh that was solved on; no rows where all variables
-/// are linear.
+/// The requirements of the solution at the owned nodes of the solved mesh; no rows if all variables are
+/// linear.
 struct Asked {
-  Field metric;  ///< its logarithm
+  Field metric;  ///< logarithm of the metric
   Field bends;   ///< absolute second derivatives
 };
 
-/// The tree bounds sizes from above, so the metric need not. *Collective.*
+/// The tree limits sizes from above, so the metric does not need to. *Collective.*
 Asked asked_of(const Communicator& comm, const MeshInput& input, const Mesh& solved, const Field& solution,
                const TargetDemand& demand, const MeshResult& result) {
   const TreeAttributes& a = result.tree.attributes;
@@ -49,14 +49,14 @@ Asked asked_of(const Communicator& comm, const MeshInput& input, const Mesh& sol
   return {rows_of({metrics.begin(), metrics.end()}, solved.owned_nodes), rows_of(bends, solved.owned_nodes)};
 }
 
-/// Flags the owned nodes on which layers are to stand. *Collective.*
+/// Flags the owned nodes on the outer edge of layers. *Collective.*
 NodeFlags nodes_of_front(const Communicator& comm, const MeshInput& input, const Mesh& mesh) {
   const std::vector<double>& heights = input.smooth.front_heights;
   if (heights.empty()) return {};
   const OutlinePath outline(input.geometry);
   const HaloMesh halo(comm, mesh);
   const NodeFlags none;
-  const BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
+  BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
   NodeFlags flags(mesh.owned_nodes, 0);
   for (const HaloEdge& edge : halo.boundary_edges()) {
     if (!(slide.height_at(edge, heights) > 0)) continue;
@@ -67,8 +67,8 @@ NodeFlags nodes_of_front(const Communicator& comm, const MeshInput& input, const
   return flags;
 }
 
-/// Flags the owned nodes that are to stay: those farther than `reach` cells from each cell that is to become
-/// half as thin, and others that are flagged already. *Collective.*
+/// Flags additionally the owned nodes that must stay: those farther than `reach` cells from each cell that is
+/// to become half as thick. *Collective.*
 void pin_far_from_fronts(const Communicator& comm, const Mesh& mesh, const std::vector<double>& thinning,
                          NodeFlags& pinned) {
   constexpr double half_as_thin = 2;
@@ -86,7 +86,7 @@ void pin_far_from_fronts(const Communicator& comm, const Mesh& mesh, const std::
   }
 }
 
-/// Cells keep their places in the tree, so that edges are not flipped.
+/// Cells keep their places in the tree, so edges are not flipped.
 SmoothOptions options_for(const Communicator& comm, const MeshInput& input, const MeshResult& result) {
   SmoothOptions options = smooth_options_for(input, result.report.finest_allowed);
   options.pinned = nodes_of_front(comm, input, result.mesh);
@@ -124,8 +124,8 @@ void gather_at_fronts(const Communicator& comm, const MeshInput& input, const Me
       fmt::format("targets: norm of the carried error {:.4g}, before {:.4g}", best.least(), best.first()));
   if (!(best.least() < best.first()))
     result.report.warnings.push_back(
-        fmt::format("smooth.targets = \"solution\": no node is moved, as that would not lower the error's "
-                    "norm {:.4g} of p = {}",
+        fmt::format("smooth.targets = \"solution\": no node is moved, because that would not reduce the norm "
+                    "{:.4g} of the error with p = {}",
                     best.first(), demand.norm));
   result.mesh.points = best.places();
 }

@@ -13,9 +13,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr double rounding = 1e-10;  // of a wall's edge: what is no nearer to the old wall stands on it
+constexpr double rounding = 1e-10;  // in wall edges: nodes within this distance of the old wall are on it
 
-/// The walls that carry layers, of all ranks.
+/// The walls with layers, of all ranks.
 class LayeredWall {
  public:
   /// *Collective.*
@@ -24,9 +24,9 @@ class LayeredWall {
     for (const LayeredEdge& edge : layered_edges(comm, mesh))
       own.push_back({mesh.point(edge.nodes[0]), mesh.point(edge.nodes[1])});
     segments_ = comm.all_gather_values(std::span<const Segment>(own));
-    std::ranges::sort(segments_, {}, [](const Segment& s) {  // not by ranks: the first of equals is found
-      return std::tuple(s.from.x, s.from.y, s.to.x, s.to.y);
-    });
+    // Independent of the ranks: the first of equal ones is found.
+    std::ranges::sort(segments_, {},
+                      [](const Segment& s) { return std::tuple(s.from.x, s.from.y, s.to.x, s.to.y); });
     std::vector<Box> boxes;
     for (const Segment& s : segments_) boxes.push_back(box_of(s.from, s.to));
     tree_ = BoxTree(boxes);
@@ -34,7 +34,7 @@ class LayeredWall {
 
   struct Foot {
     Point point;
-    double edge = 0;  ///< length of that on which it lies
+    double edge = 0;  ///< length of the edge that contains the foot
   };
   Foot nearest(Point p) const {
     const std::int32_t found = tree_.nearest(p, [&](std::int32_t k) {
@@ -61,8 +61,9 @@ std::vector<Point> column_places(const Communicator& comm, const Mesh& old_mesh,
   const LayerPlaces in_layers = layer_places(comm, new_mesh);
   const IdVector<NodeId, double> rest = heights_to_front(comm, new_mesh, in_layers);
   for (const NodeId node : ids_below(NodeId{new_mesh.owned_nodes})) {
-    if (!in_layers[node].valid() || in_layers[node].strip >= 0) continue;  // strips lie where they lay
-    if (rest[node] == 0) continue;  // on the front, or on a base whose layers end in a strip
+    if (!in_layers[node].valid() || in_layers[node].strip >= 0) continue;  // strips do not move
+    // On the outer edge of the layers, or on a base whose layers end in a strip.
+    if (rest[node] == 0) continue;
     Point& p = places[node.value()];
     const auto [foot, edge] = new_wall.nearest(p);
     const Point shift = old_wall.nearest(foot).point - foot;

@@ -14,8 +14,8 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-/// A triangle of which the old mesh covers no larger share counts as outside: what rounding makes of two that
-/// touch.
+/// A triangle of which the old mesh covers at most this fraction counts as outside; touching triangles give
+/// such values by rounding.
 constexpr double touching = 1e-10;
 
 std::vector<Corners> corners_of(const TransferSide& side) {
@@ -28,7 +28,7 @@ std::vector<Corners> corners_of(const TransferSide& side) {
   return corners;
 }
 
-/// Within the bounds, where there are any.
+/// Limits the value to the bounds, if there are any.
 double bounded(double value, const CoveredValue& by) {
   return by.smallest <= by.largest ? std::clamp(value, by.smallest, by.largest) : value;
 }
@@ -39,7 +39,7 @@ void add(CoveredValue& sum, const CoveredValue& more) {
   sum.largest = std::max(sum.largest, more.largest);
 }
 
-/// The corners of a triangle, by a linear function of that mean and gradient within the old values.
+/// Corner values of a triangle by a linear function with this mean and gradient, limited to the old values.
 std::array<double, 3> at_corners(const Corners& corners, double covered, const CoveredValue& value) {
   const double mean = bounded(value.integral / covered, value);
   const Point gradient = (1 / covered) * value.slope, origin = corners[0];
@@ -55,7 +55,7 @@ std::array<double, 3> at_corners(const Corners& corners, double covered, const C
   return changes;
 }
 
-/// What the triangles of a cell add to one of its corners: areas, areas times values, the range of values.
+/// Contribution of a cell's triangles to one of its corners: area, area times value, range of values.
 struct CornerSum {
   double area = 0, moment = 0;
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -70,7 +70,7 @@ struct CornerSum {
 };
 using CornerSums = std::array<CornerSum, 4>;
 
-/// Of one variable over this rank's cells, triangles, then quads.
+/// Sums of one variable over the local cells, triangles, then quadrilaterals.
 class CellSums {
  public:
   CellSums(const Communicator& comm, const TransferSide& side, const Mesh& areas_of,
@@ -114,7 +114,7 @@ class CellSums {
   std::vector<Corners> corners_;
 };
 
-/// Means of one variable at owned nodes, by the cells of all ranks in their global order. *Collective.*
+/// Means of one variable at owned nodes, from the cells of all ranks in their global order. *Collective.*
 void set_column(const Communicator& comm, const HaloMesh& halo, const std::vector<CornerSums>& own,
                 std::size_t column, std::size_t width, std::vector<double>& values) {
   const std::vector<CornerSums> sums = halo.spread(comm, own);

@@ -12,8 +12,7 @@ void copy(std::span<const double> from, std::span<double> to) {
   std::copy(from.begin(), from.end(), to.begin());
 }
 
-/// Of the three corners the one nearest to p, the first of equals: weights that grow from there lose the
-/// least.
+/// The corner nearest to p, the first of equal ones: weights relative to it are most accurate.
 std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < 3; ++k) {

@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// Values along a segment by its parameter: those of an end bit for bit there, none outside the range of the
-/// two.
+/// Values along a segment by its parameter: at an end exactly the end's values, otherwise within the range of
+/// both.
 void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter,
                             std::span<double> values);
 
-/// Values at a point of a counter-clockwise triangle, interpolated linearly: those of a corner bit for bit
-/// there, none outside the range of the three, also where the weights come out badly (a triangle that
-/// rounding makes flat, a point outside by rounding).
+/// Values at a point of a counter-clockwise triangle by linear interpolation: at a corner exactly the
+/// corner's values, otherwise within the range of the three, even if the weights are inaccurate (a triangle
+/// made flat by rounding, a point outside by rounding).
 void interpolate_in_triangle(const std::array<Point, 3>& corners,
                              const std::array<std::span<const double>, 3>& at_corners, Point p,
                              std::span<double> values);

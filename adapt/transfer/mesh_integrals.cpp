@@ -11,17 +11,17 @@ namespace quadloop {
 
 namespace {
 
-/// What is summed up: a variable, or its absolute value.
+/// The integrand: a variable, or its absolute value.
 struct Column {
   std::size_t variable = 0;
   bool of_size = false;
 };
 
-/// What the cells add to the integrals of some columns. The halves of a quad make one term: sums cost more
-/// than terms.
+/// The cells' contributions to the integrals of some columns. The halves of a quadrilateral form one term, as
+/// summation costs more than terms.
 class CellTerms {
  public:
-  /// Mesh, field and columns must outlive them.
+  /// Mesh, field and columns must outlive it.
   CellTerms(const Mesh& mesh, Point centre, const Field& field, std::span<const Column> columns)
       : mesh_{mesh}, centre_{centre}, field_{field}, columns_{columns}, terms_(columns.size()) {
     for (std::vector<double>& of_column : terms_)
@@ -60,8 +60,8 @@ class CellTerms {
     }
   }
 
-  /// The same of most quads: `third` of each half's area, which are equal, and the first corner of the
-  /// diagonal, 0 or 1.
+  /// Fast path for rectangles: `third` is a third of the equal areas of both halves, `first` the first corner
+  /// of the diagonal, 0 or 1.
   void add_rectangle(const std::array<NodeId, 4>& quad, double third, std::size_t first) {
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const auto at = [&](std::size_t corner) { return value(quad[(first + corner) % 4], columns_[k]); };
@@ -74,7 +74,7 @@ class CellTerms {
   Point centre_;
   const Field& field_;
   std::span<const Column> columns_;
-  std::vector<std::vector<double>> terms_;  ///< of each column
+  std::vector<std::vector<double>> terms_;  ///< for each column
 };
 
 std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
@@ -111,7 +111,7 @@ std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, Point 
 NodalIntegrals integrate_with_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
                                     const Field& field) {
   std::vector<Column> columns = all_variables(field);
-  for (std::size_t k = 0; k < field.width(); ++k) {  // densities and pressures are their own absolute values
+  for (std::size_t k = 0; k < field.width(); ++k) {  // densities and pressures equal their absolute values
     if (has_negative(comm, field, k)) columns.push_back({k, true});
   }
   const std::vector<double> sums = integrals(comm, mesh, centre, field, columns);

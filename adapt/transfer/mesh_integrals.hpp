@@ -7,26 +7,26 @@
 
 namespace quadloop {
 
-/// For each variable area times the mean of the corners, summed over the triangles (parts_of()) of all ranks;
-/// the same bits on any number of ranks. The field has rows for copies. *Collective.*
+/// For each variable the sum of area times mean corner value over the triangles (parts_of()) of all ranks;
+/// the same bits on any number of ranks. The field has rows for ghost copies. *Collective.*
 std::vector<double> integrate(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field);
 
-/// The same, and that of the variables' absolute values. *Collective.*
+/// Same, together with the integrals of the variables' absolute values. *Collective.*
 struct NodalIntegrals {
   std::vector<double> values, sizes;
 };
 NodalIntegrals integrate_with_sizes(const Communicator& comm, const Mesh& mesh, Point centre,
                                     const Field& field);
 
-/// For each variable of the cells area times mean, and area times its absolute value, summed over the cells
-/// of all ranks; the same bits on any number of ranks.
+/// For each cell variable the sums of area times mean, and of area times absolute mean, over the cells of all
+/// ranks; the same bits on any number of ranks.
 struct CellIntegrals {
   std::vector<double> values, sizes;
 };
 /// *Collective.*
 CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells);
 
-/// Of the cells of all ranks; the same bits on any number of ranks. *Collective.*
+/// Total area of the cells of all ranks; the same bits on any number of ranks. *Collective.*
 double total_area(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

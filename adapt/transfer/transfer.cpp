@@ -24,16 +24,16 @@ namespace quadloop {
 
 namespace {
 
-/// The old mesh, and by which shares of the plane it is asked.
+/// The old mesh, and the partition of the plane for queries.
 struct OldMesh {
   const Mesh& mesh;
   const Field& field;
-  Point centre;  ///< by which its quads are split
+  Point centre;  ///< determines how its quadrilaterals are split
   const CurveShares& shares;
   const NodeFlags is_inner;
 };
 
-/// Old nodes with their rows, those of one share of the plane.
+/// Old nodes with their rows, in one part of the plane.
 struct NodeShare {
   std::vector<Point> points;
   Field field;
@@ -43,15 +43,15 @@ std::span<const Point> owned_points(const Mesh& mesh) {
   return std::span(mesh.points).first(mesh.owned_nodes);
 }
 
-/// From this rank's points to the shares of the plane that hold them.
+/// Exchange from this rank's points to the ranks whose parts of the plane contain them.
 Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::span<const Point> points) {
   std::vector<int> ranks;
   for (const Point p : points) ranks.push_back(shares.rank_of(p));
   return {comm, ranks};
 }
 
-/// Of the boundary those that may lie at one of the points; inner nodes are corners of triangles, none of
-/// which lies at another's place.
+/// Boundary nodes that may coincide with one of the points. Interior nodes are corners of triangles, and none
+/// coincides with another.
 NodeShare gather_boundary_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
   std::vector<Point> points;
   std::vector<double> values;
@@ -66,13 +66,13 @@ NodeShare gather_boundary_nodes(const Communicator& comm, const OldMesh& old, co
   return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
 }
 
-/// Only triangles of cells that may hold one of the points leave their rank.
+/// Sends only triangles of cells that may contain one of the points.
 TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
   const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, cells);
   return gather_piece(comm, old.shares, old.mesh, old.field, near);
 }
 
-/// The old mesh's values at points of this rank's share of the plane.
+/// The old mesh's values at points of this rank's part of the plane.
 class Found {
  public:
   /// *Collective.*
@@ -88,7 +88,7 @@ class Found {
     in_triangle_ = locate_points(piece_, moved);
   }
 
-  /// Fills the row of the next point; false where it lies outside the old mesh.
+  /// Fills the row of the next point; returns false if the point is outside the old mesh.
   bool next(std::span<double> row) {
     const std::size_t point = next_point_++;
     if (const std::int32_t node = at_node_[point]; node >= 0) {
@@ -110,25 +110,24 @@ class Found {
   std::span<const Point> points_;
   NodeShare nodes_;
   TrianglePiece piece_;
-  std::vector<std::int32_t> at_node_;      ///< of each point the old boundary node at its place, -1 for none
-  std::vector<std::int32_t> in_triangle_;  ///< of each of the others its triangle in the piece
+  std::vector<std::int32_t> at_node_;      ///< for each point the coincident old boundary node, or -1
+  std::vector<std::int32_t> in_triangle_;  ///< for each other point its triangle in the piece
   std::size_t next_point_ = 0, next_moved_ = 0;
 };
 
-/// Rows at owned nodes, and the nodes that have none yet.
+/// Rows at owned nodes, and the list of nodes without values.
 struct NewRows {
   std::vector<double> values;
   std::vector<std::int32_t> outside;
 };
 
-/// Rows for places that are asked of the ranks in whose shares of the plane they lie, and whether they lie
-/// inside the old mesh.
+/// Rows at queried places, and whether these are inside the old mesh.
 struct Answers {
   std::vector<double> values;
   std::vector<char> is_inside;
 };
 
-/// *Collective.*
+/// Queries the ranks whose parts of the plane contain the places. *Collective.*
 Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
   const Exchange questions = to_shares(comm, old.shares, places);
   const std::vector<Point> points = questions.deliver(places);
@@ -141,7 +140,7 @@ Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point>
   return {questions.answer(rows, width), questions.answer(is_inside)};
 }
 
-/// What the old mesh has at the places of the owned nodes of a new one. *Collective.*
+/// Values of the old mesh at the positions of a new mesh's owned nodes. *Collective.*
 NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
   const std::vector<std::int32_t> standing = standing_nodes(old.mesh, old.is_inner, places);
   const std::size_t width = old.field.width();
@@ -153,7 +152,7 @@ NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Po
       continue;
     }
     const std::span<const double> row = old.field.row(NodeId{standing[node]});
-    for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // of few numbers each
+    for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // a few values each
   }
   std::vector<Point> asked;
   for (const std::int32_t node : others) asked.push_back(places[node]);
@@ -165,7 +164,7 @@ NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Po
   return rows;
 }
 
-/// Each rank that has an edge tells the values there. *Collective.*
+/// Ranks that have the nearest edges send the values there. *Collective.*
 void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                         std::span<const Point> at, NewRows& rows) {
   const NearestBoundary boundary(comm, old_mesh);
@@ -190,7 +189,7 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
   }
 }
 
-/// The new mesh with its nodes at these places. *Collective.*
+/// The new mesh with its nodes at these positions. *Collective.*
 Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Point>& places) {
   Mesh moved = mesh;
   std::ranges::copy(places, moved.points.begin());
@@ -198,7 +197,7 @@ Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Poin
   return moved;
 }
 
-/// Cells outside the old mesh take the values of the cell at the nearest of its boundary edges. *Collective.*
+/// Cells outside the old mesh get the values of the cell at the nearest boundary edge. *Collective.*
 void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, const CellValues& old_cells,
                               const Mesh& new_mesh, CarriedCells& carried) {
   const NearestBoundary boundary(comm, old_mesh);
@@ -232,7 +231,7 @@ CellValues carried_cells(const Communicator& comm, const CurveShares& shares, co
   return {old_cells.names, std::move(carried.values)};
 }
 
-/// What the old mesh had of each variable, at nodes, then in cells.
+/// Integrals of each variable over the old mesh, nodal ones first, then those of cells.
 NodalIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field) {
   NodalIntegrals integrals = integrate_with_sizes(comm, mesh, centre, field);
   if (field.cells.width() == 0) return integrals;

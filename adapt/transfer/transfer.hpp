@@ -10,33 +10,38 @@
 
 namespace quadloop {
 
-/// How values at nodes are carried over; those of cells always keep their integrals.
+/// Transfer method for nodal values; cell values are always transferred conservatively.
 enum class TransferKind { linear, conservative };
 
 inline constexpr WordTable<TransferKind, 2> transfer_words{
     {{"linear", TransferKind::linear}, {"conservative", TransferKind::conservative}}};
 
-/// What a transfer did to the variables, the same on every rank.
+/// Effects of a transfer on the variables; the same on every rank.
 struct TransferReport {
-  std::int64_t outside = 0;  ///< nodes of the new mesh outside the old one; of nodal values alone
-  std::int64_t cells_outside =
-      0;                      ///< its cells of which the old one covers nothing; of values of cells alone
-  std::vector<double> drift;  ///< of each variable, those at nodes first: its integral over the new mesh
-                              ///< less that over the old one
-  std::vector<double> relative_drift;  ///< the same as a share of the old mesh's integral of its absolute
-                                       ///< value; 0 where that is 0
+  std::int64_t outside = 0;        ///< nodes of the new mesh outside the old one; for nodal values only
+  std::int64_t cells_outside = 0;  ///< new cells not covered by the old mesh; for cell values only
+  std::vector<double> drift;  ///< for each variable, nodal ones first: its integral over the new mesh minus
+                              ///< that over the old one
+  std::vector<double> relative_drift;  ///< drift relative to the old integral of the variable's absolute
+                                       ///< value; 0 if that is 0
   std::size_t conserved_from =
       0;                   ///< the first of these variables whose integral is to be kept; all later are
   double area_change = 0;  ///< of the new mesh against the old one, as a fraction; 0 if nothing is conserved
+
+  /// Of a field that stays on its mesh.
+  static TransferReport without_drift(const Field& field) {
+    const std::vector<double> none(field.width() + field.cells.width(), 0.0);
+    return {.drift = none, .relative_drift = none};
+  }
 };
 
 struct Transferred {
-  Field field;  ///< rows for the new mesh's owned nodes and for its cells; the old one's constants
+  Field field;  ///< rows for the new mesh's owned nodes and its cells; constants of the old field
   TransferReport report;
 };
 
 /// Carries values from the nodes and cells of one mesh to those of another. Linear: a node inside an old
-/// triangle, or in half of a quad (split_quad), takes the values interpolated linearly there: those of an old
+/// triangle, or in half of a quad (parts_of), takes the values interpolated linearly there: those of an old
 /// node at the same place bit for bit, linear fields to rounding. Of several triangles that it lies in it is
 /// the one of the lowest number over all ranks. A node outside the old mesh takes the values at the nearest
 /// point of its boundary edges, of several edges as near those of the lowest number. In layers at walls nodes

@@ -12,8 +12,8 @@ namespace {
 std::string line_of(const FileExtent& extent) {
   const auto& [low, high] = extent.box;
   const std::string unit = extent.declared.name.empty() ? "no unit declared" : "in " + extent.declared.name;
-  const std::string taken = extent.metres > 0 ? fmt::format("meshed in metres, {:.6g} for one", extent.metres)
-                                              : "meshed as they stand";
+  const std::string taken =
+      extent.metres > 0 ? fmt::format("meshed in metres (unit: {:.6g} m)", extent.metres) : "meshed as given";
   return fmt::format("{}: coordinates from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), {}, {}",
                      std::filesystem::path(extent.path).filename().string(), low.x, low.y, high.x, high.y,
                      unit, taken);

@@ -163,7 +163,7 @@ void add_objections(Figures& figures, const FaceFiguresByLayers& faces, const Sh
         fmt::format("no objection (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
   const std::string su2 = shape.inexact_nodes == 0
                               ? "no objection"
-                              : fmt::format("{:.2g} % of the quads are no parallelograms",
+                              : fmt::format("{:.2g} % of the quads are not parallelograms",
                                             100 * (1 - shape.parallelogram_share()));
   figures.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));
 }

@@ -44,10 +44,9 @@ std::string more_faults(std::int64_t count) {
 
 void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
   const MeshFault& first = faults.front();
-  const char* cure =
-      first.rule == MeshRule::geometry
-          ? "; the geometry has to be the one that was meshed, as `mesh --geometry-out` writes it"
-          : "";
+  const char* cure = first.rule == MeshRule::geometry
+                         ? "; give the geometry that was meshed, as written by `mesh --geometry-out`"
+                         : "";
   throw InputError(fmt::format("{}: invalid mesh: {}: {} at ({}, {}){}{}", file, name_of(first.rule),
                                first.what, first.place.x, first.place.y, more_faults(std::ssize(faults) - 1),
                                cure));
@@ -57,7 +56,7 @@ std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::strin
   const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
   if (faults.empty()) return {};
   const MeshFault& first = faults.front();
-  return {fmt::format("{}: is not valid, and is passed on as it is: {}: {} at ({}, {}){}", file,
+  return {fmt::format("{}: is not valid, and is written unchanged: {}: {} at ({}, {}){}", file,
                       name_of(first.rule), first.what, first.place.x, first.place.y,
                       more_faults(std::ssize(faults) - 1))};
 }

@@ -114,7 +114,7 @@ void refuse_invalid_solid(const std::string& file, const SolidFigures& figures) 
 std::vector<std::string> doubts_about(const FileMesh& mesh, const std::string& file) {
   const SolidFigures figures = check_solid(mesh);
   if (figures.faults.empty()) return {};
-  return {fmt::format("{}: is not valid, and is passed on as it is: {}{}", file,
+  return {fmt::format("{}: is not valid, and is written unchanged: {}{}", file,
                       fault_text(figures.faults.front()), more_faults(figures.all_faults - 1))};
 }
 

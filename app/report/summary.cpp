@@ -41,17 +41,8 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
 }  // namespace
 
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
-  StageSeconds of_rank;
-  for (const auto& [stage, added] : seconds) {
-    const auto known =
-        std::find_if(of_rank.begin(), of_rank.end(), [&](const auto& row) { return row.first == stage; });
-    if (known == of_rank.end())
-      of_rank.emplace_back(stage, added);
-    else
-      known->second += added;
-  }
   std::vector<StageRow> rows;
-  for (const auto& [stage, sum] : of_rank) {
+  for (const auto& [stage, sum] : added_up(seconds)) {
     const auto microseconds = std::llround(sum * 1e6);  // there is no floating-point sum, on purpose
     rows.push_back(
         {stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});

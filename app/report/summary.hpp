@@ -1,17 +1,15 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/report/figures.hpp"
 #include "generate/generate.hpp"
 #include "mesher/base/parallel/communicator.hpp"
+#include "mesher/base/timer.hpp"
 #include "mesher/mesh/check/shape_figures.hpp"
 
 namespace quadloop {
-
-using StageSeconds = std::vector<std::pair<std::string, double>>;
 
 /// Seconds of one stage over all ranks.
 struct StageRow {

@@ -28,19 +28,6 @@ std::string name_of(Goal::Quantity quantity) {
   return {};
 }
 
-/// The flow's rows with more variables behind them.
-void append(const std::vector<std::string>& names, const std::vector<double>& values, Field& flow) {
-  const std::size_t before = flow.width(), more = names.size(), rows = values.size() / more;
-  std::vector<double> all;
-  all.reserve(rows * (before + more));
-  for (std::size_t row = 0; row < rows; ++row) {
-    all.insert(all.end(), flow.values.begin() + row * before, flow.values.begin() + (row + 1) * before);
-    all.insert(all.end(), values.begin() + row * more, values.begin() + (row + 1) * more);
-  }
-  flow.names.insert(flow.names.end(), names.begin(), names.end());
-  flow.values = std::move(all);
-}
-
 void append_adjoint(const std::string& goal, const Adjoint& adjoint, Field& flow) {
   std::vector<std::string> names;
   for (const char* const name : conserved) names.push_back(fmt::format("{}_adjoint_{}", goal, name));
@@ -48,27 +35,25 @@ void append_adjoint(const std::string& goal, const Adjoint& adjoint, Field& flow
   const std::size_t rows = flow.values.size() / flow.width();
   for (std::size_t row = 0; row < rows; ++row)
     values.insert(values.end(), adjoint.weights[row].begin(), adjoint.weights[row].end());
-  append(names, values, flow);
+  append_columns(flow, names, values);
 }
 
 void append_places(const std::string& goal, const std::vector<Point>& derivative, Field& flow) {
   std::vector<double> values;
   for (const Point& of_node : derivative) values.insert(values.end(), {of_node.x, of_node.y});
-  append({goal + "_by_x", goal + "_by_y"}, values, flow);
+  append_columns(flow, std::vector{goal + "_by_x", goal + "_by_y"}, values);
 }
 
 void refuse(const EulerOptions& options) {
   if (options.time != EulerOptions::Time::steady)
-    throw InputError("solver.goal needs a steady flow; set solver.time = \"steady\" or leave the goal out");
+    throw InputError("solver.goal requires a steady flow; set solver.time = \"steady\", or remove the goal");
   if (options.far_field == EulerOptions::FarField::vortex)
     throw InputError(
-        "solver.goal needs the free stream beyond the far field; set solver.far_field = \"uniform\", or "
-        "leave "
-        "the goal out");
+        "solver.goal requires the free stream at the far field; set solver.far_field = \"uniform\", or "
+        "remove the goal");
   if (options.viscosity > 0)
     throw InputError(
-        "solver.goal needs a flow without viscosity; leave out solver.viscosity and solver.reynolds, or the "
-        "goal");
+        "solver.goal requires an inviscid flow; remove solver.viscosity and solver.reynolds, or the goal");
 }
 
 void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {
@@ -90,7 +75,7 @@ void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {
     append_adjoint(name_of(goal.quantity), adjoint, result.flow);
     append_places(name_of(goal.quantity), place_derivative(linear, functional, adjoint.weights), result.flow);
   }
-  append({error_name}, error, result.flow);
+  append_columns(result.flow, std::vector<std::string>{error_name}, error);
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ GoalFunctional::GoalFunctional(const Communicator& comm, const DualMesh& mesh, c
       length_{reference_length},
       outside_{model.free_stream[3]} {
   if (model.free_stream[1] == 0 && model.free_stream[2] == 0)
-    throw InputError("solver.goal is a coefficient, and the free stream rests; set a solver.mach above 0");
+    throw InputError(
+        "solver.goal is a coefficient, but the free stream is at rest; set a solver.mach above 0");
   const double speed = std::hypot(model.free_stream[1], model.free_stream[2]);
   wind_ = {model.free_stream[1] / speed, model.free_stream[2] / speed};
   scale_ = 1 / (0.5 * speed * speed * reference_length);
@@ -76,8 +77,8 @@ GoalFunctional::GoalFunctional(const Communicator& comm, const DualMesh& mesh, c
   if (comm.any(!parts_.empty())) return;
   throw InputError(
       goal.boundaries.empty()
-          ? std::string("solver.goal: no boundary feels a force; give one bc = \"wall\", or name "
-                        "boundaries in solver.goal_on")
+          ? std::string("solver.goal: no boundary has a force; set bc = \"wall\" for one, or name boundaries "
+                        "in solver.goal_on")
           : fmt::format("solver.goal_on: the mesh has no edges on {}", fmt::join(goal.boundaries, ", ")));
 }
 

@@ -1,5 +1,5 @@
 // How the placeholders of a solver's command are filled in.
-#include <cctype>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,23 +23,6 @@ Values values_of(const SolverFiles& files) {
           {"cycle", std::to_string(files.cycle)}};
 }
 
-bool of_a_name(unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }
-
-/// The name that `text` begins with where it begins with {name}; empty where it does not.
-std::string_view braced_name(std::string_view text) {
-  if (text.empty() || text.front() != '{') return {};
-  std::size_t end = 1;
-  while (end < text.size() && of_a_name(text[end])) ++end;
-  return end < text.size() && text[end] == '}' ? text.substr(1, end - 1) : std::string_view{};
-}
-
-/// The name that `text` begins with where it begins with {{name}}.
-std::string_view escaped_name(std::string_view text) {
-  if (!text.starts_with("{{")) return {};
-  const std::string_view name = braced_name(text.substr(1));
-  return !name.empty() && text.substr(name.size() + 3).starts_with("}") ? name : std::string_view{};
-}
-
 const std::string& value_of(const Values& values, std::string_view name, const std::string& argument) {
   std::string known;
   for (const auto& [placeholder, value] : values) {
@@ -55,20 +38,16 @@ const std::string& value_of(const Values& values, std::string_view name, const s
 std::string filled_argument(const std::string& argument, const Values& values) {
   if (argument.find('\0') != std::string::npos)
     throw InputError("[solver] command: an argument holds a zero byte; no program can be given one");
+  static const std::regex placeholder(R"(\{\{(\w+)\}\}|\{(\w+)\})");  // {{name}} stands for {name}
   std::string result;
-  for (std::string_view rest = argument; !rest.empty();) {
-    if (const std::string_view escaped = escaped_name(rest); !escaped.empty()) {
-      result.append("{").append(escaped).append("}");
-      rest.remove_prefix(escaped.size() + 4);
-    } else if (const std::string_view name = braced_name(rest); !name.empty()) {
-      result += value_of(values, name, argument);
-      rest.remove_prefix(name.size() + 2);
-    } else {
-      result += rest.front();
-      rest.remove_prefix(1);
-    }
+  auto rest = argument.begin();
+  for (std::sregex_iterator found(argument.begin(), argument.end(), placeholder), none; found != none;
+       ++found) {
+    result.append(rest, (*found)[0].first);
+    result += (*found)[1].matched ? "{" + found->str(1) + "}" : value_of(values, found->str(2), argument);
+    rest = (*found)[0].second;
   }
-  return result;
+  return result.append(rest, argument.end());
 }
 
 }  // namespace

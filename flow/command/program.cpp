@@ -38,8 +38,8 @@ std::string program_at(const std::string& name, const std::string& folder, const
   if (!is_file(path)) {
     const bool relative = name.front() != '/';
     refuse_unknown(where, name,
-                   relative ? "is not in the cycle's folder, where it is looked for; write {case}/" + name +
-                                  " for one beside the case file"
+                   relative ? "is not in the folder of the cycle, where the run starts; write {case}/" +
+                                  name + " for one beside the case file"
                             : "is no file; correct its path");
   }
   if (!may_be_run(path)) refuse(where, name, "may not be run; allow it with: chmod +x " + path);

@@ -45,7 +45,7 @@ Launch launch_of(const SolverCommand& command, const SolverFiles& files) {
 void remove_old_file(const std::string& path) {
   std::error_code fault;
   if (std::filesystem::is_directory(std::filesystem::symlink_status(path, fault)))
-    throw InputError(path + ": is a folder, where the solver's run is to leave a file; move it away");
+    throw InputError(path + ": is a folder, but the solver writes a file of that name; move the folder away");
   std::filesystem::remove(path, fault);
   if (fault)
     throw OutputError(path + ": the old file cannot be removed: " + fault.message() + "; remove it by hand");
@@ -64,8 +64,8 @@ struct stat state_of(const std::string& path) {
 struct stat begin_run(const SolverFiles& files) {
   const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
   if (normal(files.solution) == normal(files.mesh))
-    throw InputError("[solver] mesh and solution are one file, " + files.solution +
-                     "; give the solution a name of its own");
+    throw InputError("[solver] mesh and solution have the same name, " + files.solution +
+                     "; give the solution another name");
   remove_old_file(files.solution);
   remove_old_file(solver_log(files));
   if (!std::ofstream(solver_log(files)))
@@ -81,14 +81,14 @@ struct stat begin_run(const SolverFiles& files) {
 std::string time_fault(double timeout) {
   std::ostringstream text;
   text << "had not ended after " << timeout
-       << " s and was stopped (raise [solver] timeout if it needs longer)";
+       << " s and was stopped (increase [solver] timeout if it needs longer)";
   return text.str();
 }
 
 std::string signal_fault(int number) {
   const std::string text =
       "was killed by signal " + std::to_string(number) + " (" + ::strsignal(number) + ")";
-  return number == SIGKILL ? text + ", by somebody or for want of memory" : text;
+  return number == SIGKILL ? text + ", by a user or because memory ran out" : text;
 }
 
 std::string start_fault(int reason) {
@@ -108,7 +108,7 @@ std::string fault_of(const Ending& ending, double timeout) {
     case Ending::Kind::not_started: return start_fault(ending.value);
     case Ending::Kind::guard_lost: break;
   }
-  return "was killed, because the process that watches over it was";
+  return "was killed, because the process that supervises it was";
 }
 
 /// Empty where there is a file that may hold a solution of this run.

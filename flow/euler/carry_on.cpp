@@ -66,7 +66,7 @@ TimePlan plan_of(FlowRun& run) {
 
 /// Its steps may have become ever shorter.
 std::string early_end(int steps, double time, const TimePlan& plan) {
-  return fmt::format("{} steps in time came to time {:.6g} of {:.6g} alone; give a time_step", steps, time,
+  return fmt::format("{} time steps only reached time {:.6g} of {:.6g}; set a time_step", steps, time,
                      plan.end);
 }
 
@@ -78,14 +78,14 @@ void require_few_steps(FlowRun& run) {
   const double steps = course.steps(options);
   if (steps <= most_steps_in_time) return;
   const std::string number = fmt::format(
-      "a flow that is carried on for {:.6g} flow-through times of {:.6g} each would take {:.2g} steps of "
-      "{:.2g}, of which there may be {:.0f}",
+      "continuing the flow for {:.6g} convective times of {:.6g} each would take {:.2g} steps of {:.2g}, but "
+      "at most {:.0f} are allowed",
       options.flow_throughs, course.flow_through, steps, course.step.value_or(course.explicit_step),
       most_steps_in_time);
   if (!options.time_step || course.flow_through / implicit_steps <= *options.time_step)
-    throw InputError(number + "; lower solver.flow_throughs");
-  throw InputError(fmt::format("{}; a solver.time_step of {:.2g} would be a fortieth of such a time", number,
-                               course.flow_through / implicit_steps));
+    throw InputError(number + "; reduce solver.flow_throughs");
+  throw InputError(fmt::format("{}; a solver.time_step of {:.2g} would be a fortieth of a convective time",
+                               number, course.flow_through / implicit_steps));
 }
 
 void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average) {
@@ -95,7 +95,7 @@ void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average) {
   run.residual.release_limiter();
   try {
     const TimePlan plan = plan_of(run);
-    const progress::Stage stage("carrying on in time", plan.end, "units of time");
+    const progress::Stage stage("continuing in time", plan.end, "units of time");
     march_in_time(run, plan, result, average);
     if (!result.converged) failure = early_end(result.iterations - steady.iterations, result.time, plan);
   } catch (const SolverError& error) {  // the same on all ranks

@@ -32,19 +32,23 @@ FreeStream free_stream_of(const EulerOptions& options) {
           options.reference_length};
 }
 
+std::string line_of(const EulerProgress& p, bool in_time) {
+  const std::string time = in_time ? fmt::format(", time {:.6g}", p.time) : "";
+  return fmt::format("step {}: residual {:.2e}, cl {:.6f}, cd {:.6f}{}", p.iteration, p.residual, p.cl, p.cd,
+                     time);
+}
+
 FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
   return [options = std::move(options), at_end = std::move(at_end)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
     SolvedFlow flow;
     EulerOptions told = options;
-    told.progress = [&](const EulerProgress& p) {
-      flow.notes.push_back(fmt::format("iteration {}: residual {:.3e}, cl {:.6f}, cd {:.6f}", p.iteration,
-                                       p.residual, p.cl, p.cd));
-    };
+    const bool in_time = options.time == EulerOptions::Time::accurate;
+    told.progress = [&, in_time](const EulerProgress& p) { flow.notes.push_back(line_of(p, in_time)); };
     const EulerResult result = solve_euler(comm, mesh, told, start, at_end);
     for (const std::string& line : shortfalls(result, options))
       flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line));
-    flow.unsteady = result.unsteady;
+    static_cast<FlowTables&>(flow) = result;
     if (result.unsteady)
       flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line_of(*result.unsteady)));
     flow.solution = flow_with_constants(result, options);
@@ -52,9 +56,7 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
     flow.cd = result.cd;
     flow.residual = result.residual;
     flow.stream = free_stream_of(options);
-    flow.forces = result.forces;
     flow.history = result.history;
-    flow.goals = result.goals;
     return flow;
   };
 }

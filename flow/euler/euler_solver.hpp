@@ -8,6 +8,9 @@ namespace quadloop {
 /// The flow with RunConstants.
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
 
+/// For people; with the time where the run is `in_time`.
+std::string line_of(const EulerProgress& progress, bool in_time);
+
 /// What its coefficients are relative to.
 FreeStream free_stream_of(const EulerOptions& options);
 

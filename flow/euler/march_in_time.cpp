@@ -66,8 +66,8 @@ class TimeMarch {
   /// At the states, of the step under way.
   [[noreturn]] void fail(const std::vector<Flux>& fluxes) const {
     throw SolverError(
-        fmt::format("the flow solver failed at time {:.6g} {}; look at the boundary conditions and the "
-                    "cells there, or try a smaller {}",
+        fmt::format("the flow solver failed at time {:.6g} {}; check the boundary conditions and the cells "
+                    "there, or try a smaller {}",
                     result_.time, worst_place(run_, fluxes),
                     scheme_->is_implicit() ? "time_step" : "cfl, or implicit steps by a time_step"));
   }

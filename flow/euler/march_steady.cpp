@@ -111,8 +111,8 @@ class SteadyMarch {
   /// The flow blew up once more than is borne. One that has its shape is worth keeping.
   EulerResult end_at_best(const std::vector<Flux>& fluxes) {
     const std::string failure = fmt::format(
-        "the flow solver failed after {} steps {}; look at the boundary conditions and the "
-        "cells there, or try a smaller cfl",
+        "the flow solver failed after {} steps {}; check the boundary conditions and the cells there, or try "
+        "a smaller cfl",
         result_.iterations, worst_place(run_, fluxes));
     if (control_.best().residual > steady_parameters.developed) throw SolverError(failure);
     result_.failed_as_steady = failure;
@@ -184,7 +184,7 @@ class SteadyMarch {
     run_.residual.evaluate(run_.states);
     keep_limiter();
     if (run_.comm.is_root())
-      log::detail(fmt::format("step {}: a Newton step failed: the limiter's factors are kept from here on",
+      log::detail(fmt::format("step {}: a Newton step failed: the limiter is frozen from here on",
                               result_.iterations));
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "flow/euler/forces.hpp"
 #include "flow/euler/march.hpp"
@@ -55,18 +56,6 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
   return states;
 }
 
-/// Appends columns of the owned nodes to the rows of a flow.
-void append_states(const std::vector<State>& states, Field& flow) {
-  const std::size_t width = flow.width(), rows = width > 0 ? flow.values.size() / width : 0;
-  std::vector<double> values;
-  for (std::size_t node = 0; node < rows; ++node) {
-    values.insert(values.end(), flow.values.begin() + node * width, flow.values.begin() + (node + 1) * width);
-    values.insert(values.end(), states[node].begin(), states[node].end());
-  }
-  flow.names.insert(flow.names.end(), at_end_names.begin(), at_end_names.end());
-  flow.values = std::move(values);
-}
-
 /// Flow and forces of the run's states, with this friction on walls. *Collective.*
 void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
                const std::vector<Point>& friction, EulerResult& result) {
@@ -103,7 +92,10 @@ void keep_flow(FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const
   average.take(run.states);
   run.residual.evaluate(run.states);
   take_flow(run, boundaries, average.friction(), result);
-  append_states(at_end, result.flow);
+  std::vector<double> rows;
+  for (const State& state : std::span(at_end).first(run.mesh.owned_nodes()))
+    rows.insert(rows.end(), state.begin(), state.end());
+  append_columns(result.flow, std::vector<std::string>(at_end_names.begin(), at_end_names.end()), rows);
   result.unsteady->cl.mean = result.cl;
   result.unsteady->cd.mean = result.cd;
 }

@@ -6,10 +6,8 @@
 #include <vector>
 
 #include "flow/euler/model/euler_options.hpp"
-#include "flow/quantities/boundary_forces.hpp"
-#include "flow/quantities/goal_value.hpp"
+#include "flow/quantities/flow_figures.hpp"
 #include "flow/quantities/history.hpp"
-#include "flow/quantities/unsteady_flow.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -17,7 +15,7 @@
 namespace quadloop {
 
 /// What solve_euler found.
-struct EulerResult {
+struct EulerResult : FlowTables {
   Field flow;           ///< euler_names at each owned node, without constants; a viscous one's
                         ///< wall_shear_name too. Means over time where `unsteady` says so; then the
                         ///< flow at the end comes last, as at_end_names
@@ -26,7 +24,6 @@ struct EulerResult {
                         ///< start's and the uniform free stream's
   double cl_friction = 0, cd_friction = 0;  ///< the part of friction in what follows
   double cl = 0, cd = 0;                    ///< over all boundaries that feels_force() counts, in wind axes
-  std::vector<BoundaryForce> forces;        ///< of each of these boundaries that has edges
   std::vector<HistoryRow> history;          ///< of every step and the end; of explicit ones every tenth
   /// The step whose flow this is: the last, or that of the best residual where it rose again.
   int kept_iteration = 0;
@@ -39,11 +36,9 @@ struct EulerResult {
   double time = 0;           ///< of an accurate run, or of the part that was carried on
   /// What ended a steady run whose best flow is kept, for people. Empty: it did not fail.
   std::string failed_as_steady;
-  std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
   /// Why the flow could not be carried on in time, for people: the steady flow is kept. Empty: it was not
   /// asked, or could.
   std::string failed_in_time;
-  std::vector<GoalValue> goals;  ///< of the options' goals, where something at the end finds them
 };
 
 /// In time: what would take more is taken for a mistake.

@@ -21,13 +21,13 @@ SteadyControl::Decision SteadyControl::decide(const Flow& flow) {
   if (sets_back(flow, decision)) return decision;
   if (swing_.swings(residual)) {
     limit_.lower(steady_parameters.cfl.milder);
-    decision.messages.emplace_back("the residual goes to and fro: a smaller cfl");
+    decision.messages.emplace_back("the residual oscillates: smaller CFL number");
   }
   stall_.add(residual);
   if (flow.limiter == Limiter::live && falls_slowly(residual)) {
     decision.freeze_limiter = true;
     begin_newton_anew();
-    decision.messages.emplace_back("the limiter's factors are kept from here on");
+    decision.messages.emplace_back("the limiter is frozen from here on");
   }
   if (phase_ == Phase::plain && (flow.limiter == Limiter::frozen || is_near_end(residual))) {
     phase_ = Phase::newton;
@@ -57,11 +57,10 @@ bool SteadyControl::leads_nowhere(const Flow& flow) const {
 SteadyControl::Decision SteadyControl::start_over() {
   const BestFlow best = best_;
   *this = SteadyControl(false, may_leave_);
-  return {
-      .next = Next::start_over,
-      .messages = {fmt::format("the flow that was given leads nowhere (residual {:.2e} at step {}): on from "
-                               "the free stream",
-                               best.residual, best.iteration)}};
+  return {.next = Next::start_over,
+          .messages = {fmt::format("no convergence from the given initial flow (residual {:.2e} at step {}): "
+                                   "restart from the free stream",
+                                   best.residual, best.iteration)}};
 }
 
 /// Whether the flow is on the way to a worse one than the best. More returns than are borne have no effect: a
@@ -75,10 +74,10 @@ bool SteadyControl::sets_back(const Flow& flow, Decision& decision) {
                                               flow.residual > setback.rise * best_.residual);
   if (!returns || ++returns_ > setback.most_returns) return false;
   decision.next = Next::return_to_best;
-  decision.messages.push_back(
-      fmt::format("the residual {} from {:.2e} at step {} {} {:.2e}: back to that flow, with a smaller cfl",
-                  stands ? "went" : "rose", best_.residual, best_.iteration,
-                  stands ? "to a standstill at" : "to", flow.residual));
+  decision.messages.push_back(fmt::format(
+      "the residual {} {:.2e} at step {} {} {:.2e}: restart from that step with a smaller CFL number",
+      stands ? "was" : "rose from", best_.residual, best_.iteration, stands ? "and stalled at" : "to",
+      flow.residual));
   limit_.lower(explodes ? steady_parameters.cfl.harder : steady_parameters.cfl.milder);
   return true;
 }

@@ -99,16 +99,16 @@ UnsteadyFlow unsteady_flow(const std::vector<HistoryRow>& history, double from) 
 std::string line_of(const UnsteadyFlow& flow) {
   std::string line;
   if (flow.steady_steps > 0)
-    line = fmt::format("{} in {}: the flow is taken as unsteady; ", fall_of(flow.steady_residual),
+    line = fmt::format("{} in {}: the flow is classified as unsteady; ", fall_of(flow.steady_residual),
                        counted(flow.steady_steps, "step"));
   line += fmt::format("{} {} to time {:.6g}; means from time {:.6g} on: {}, {}",
-                      flow.carried_on ? "carried on in" : "solved in",
+                      flow.carried_on ? "continued in" : "solved in",
                       counted(flow.steps, flow.implicit ? "implicit step" : "explicit step"), flow.to,
                       flow.from, line_of("cl", flow.cl), line_of("cd", flow.cd));
   line += flow.period ? fmt::format(", period {:.6g}", *flow.period) : ", no period seen";
   if (flow.strouhal) line += fmt::format(", Strouhal number {:.4f}", *flow.strouhal);
   if (flow.unsolved > 0)
-    line += fmt::format("; {} of them not solved to the tolerance: try a smaller solver.time_step",
+    line += fmt::format("; {} of them did not converge to the tolerance: try a smaller solver.time_step",
                         flow.unsolved);
   return line;
 }

@@ -17,9 +17,9 @@ namespace quadloop {
 void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
 /// Reads the first base of a CGNS file on the calling rank alone: unstructured zones with sections of TRI_3,
-/// QUAD_4, BAR_2 and MIXED, of three dimensions also TETRA_4, PYRA_5, PENTA_6 and HEXA_8. Of two dimensions each
-/// zone is a block, and nodes at the same place in two zones are made one; of three dimensions there is one
-/// zone. Throws InputError on anything else.
+/// QUAD_4, BAR_2 and MIXED, of three dimensions also TETRA_4, PYRA_5, PENTA_6 and HEXA_8. Of two dimensions
+/// each zone is a block, and nodes at the same place in two zones are made one; of three dimensions there is
+/// one zone. Throws InputError on anything else.
 MeshOfFile read_cgns(const std::string& path);
 
 }  // namespace quadloop

@@ -25,8 +25,7 @@ void refuse_others(const std::string& path, const std::vector<std::string>& file
     const std::string name = entry->path().filename();
     if (name.starts_with('.') || std::ranges::count(files, name) > 0) continue;
     throw OutputError(path + ": holds '" + name +
-                      "', which is no part of this output and would not fit it; remove it, or name another "
-                      "folder");
+                      "', which does not belong to this output; remove it, or choose another folder");
   }
 }
 

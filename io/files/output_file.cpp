@@ -106,7 +106,7 @@ StagedFile OutputSet::stage(const std::string& path) {
     if (!comm_.is_root()) return;
     const std::string target = output_target(path);
     if (!targets_.insert(target).second)
-      throw OutputError(path + ": two outputs are to be written to this file; name another one");
+      throw OutputError(path + ": two outputs have this name; change one of them");
     file.temporary = staging_beside(target, path).new_file(path);
     outputs_.push_back({file, target});
   });

@@ -92,7 +92,7 @@ void FluentSections::read_nodes() {
   if (head.zone == 0) return scan_.skip_list();
   require_room(head, 4, "nodes");
   if (head.kind != 0 && head.kind != dimension_)
-    scan_.refuse(fmt::format("nodes of {} dimensions, where those of {} are wanted", head.kind, dimension_));
+    scan_.refuse(fmt::format("nodes of {} dimensions, but those of {} are expected", head.kind, dimension_));
   if (std::ssize(points_) < head.last) points_.resize(head.last);
   scan_.expect("(");
   for (std::int64_t i = head.first; i <= head.last; ++i) {

@@ -157,9 +157,9 @@ class FluentWriter {
     if (faces_->internal() > 0) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     const std::vector<std::string> names = fluent_zone_names(stream_.patch_names());
     for (std::size_t n = 0; n < names.size(); ++n)
-      text += fluent_zone_name(zone_of_patch(n),
-                               fluent_word(faces_->is_interface(n) ? "interface" : outer_condition(n)),
-                               names[n]);
+      text +=
+          fluent_zone_name(zone_of_patch(n),
+                           fluent_word(faces_->is_interface(n) ? "interface" : outer_condition(n)), names[n]);
     file_.write(text);
   }
 

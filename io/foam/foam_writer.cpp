@@ -81,10 +81,10 @@ class FoamWriter {
     faces_.write_internal(file, 5, [](TextRows& text, const auto& nodes, std::int64_t, std::int64_t) {
       put_foam_face(text, nodes);
     });
-    faces_.write_patches(
-        file, 5, no_head, [](TextRows& text, std::size_t, const auto& nodes, std::int64_t, std::int64_t) {
-          put_foam_face(text, nodes);
-        });
+    faces_.write_patches(file, 5, no_head,
+                         [](TextRows& text, std::size_t, const auto& nodes, std::int64_t, std::int64_t) {
+                           put_foam_face(text, nodes);
+                         });
     finish(file);
   }
 
@@ -102,10 +102,10 @@ class FoamWriter {
     faces_.write_internal(file, 1, [](TextRows& text, const auto&, std::int64_t owner, std::int64_t) {
       text.put(owner, '\n');
     });
-    faces_.write_patches(
-        file, 1, no_head, [](TextRows& text, std::size_t, const auto&, std::int64_t owner, std::int64_t) {
-          text.put(owner, '\n');
-        });
+    faces_.write_patches(file, 1, no_head,
+                         [](TextRows& text, std::size_t, const auto&, std::int64_t owner, std::int64_t) {
+                           text.put(owner, '\n');
+                         });
     finish(file);
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
 
 #include "io/files/reading/input_file.hpp"
@@ -33,7 +34,7 @@ class DxfPairs {
  public:
   explicit DxfPairs(std::string_view text) : text_{text} {}
 
-  /// False at the end, and where a line that should be a code is none.
+  /// False at the end, and if a line that should be a group code is no number.
   bool next() {
     begin_ = at_;
     const std::string_view code = line();
@@ -45,6 +46,8 @@ class DxfPairs {
   std::string_view value() const { return value_; }
   bool is(int code, std::string_view value) const { return code_ == code && value_ == value; }
   std::size_t begin() const { return begin_; }  ///< of the pair, in the text
+  bool at_end() const { return trimmed(text_.substr(begin_)).empty(); }
+  std::int64_t line_number() const { return 1 + std::ranges::count(text_.substr(0, begin_), '\n'); }
   std::size_t end() const { return at_; }
 
  private:
@@ -100,6 +103,12 @@ std::string unit_named(int value) {
 void refuse_binary(const std::string& path, std::string_view text) {
   if (text.starts_with("AutoCAD Binary DXF"))
     throw InputError(path + ": is a binary DXF, which is not read; export it as ASCII DXF");
+}
+
+/// GDAL 3.6 reads some drawings that end within a section without end.
+[[noreturn]] void refuse_damaged(const std::string& path, const DxfPairs& pairs, const std::string& what) {
+  throw InputError(fmt::format("{}:{}: {}; the drawing is truncated or damaged, export it again", path,
+                               pairs.line_number(), what));
 }
 
 /// The curve's point at `t`, in the span of knots that begins at `span`.
@@ -168,8 +177,9 @@ DxfDrawing::DxfDrawing(const std::string& path) {
     if (!part.handle.empty()) entities_[part.handle] = std::move(part.entity);
     part = {};
   };
-  while (pairs.next()) {
+  while (pairs.next() && !pairs.is(0, "EOF")) {
     if (pairs.is(0, "SECTION")) {
+      if (!section.empty()) break;
       section_begin = pairs.begin();
       if (!pairs.next()) break;
       section = pairs.value();
@@ -193,6 +203,8 @@ DxfDrawing::DxfDrawing(const std::string& path) {
       if (pairs.code() == 70 && variable == "$INSUNITS") unit_ = unit_named(number_in<int>(pairs.value()));
     }
   }
+  if (!section.empty()) refuse_damaged(path, pairs, "section " + section + " does not end with ENDSEC");
+  if (!pairs.at_end() && !pairs.is(0, "EOF")) refuse_damaged(path, pairs, "a group code is expected here");
 }
 
 const DxfEntity* DxfDrawing::find(const std::string& handle) const {

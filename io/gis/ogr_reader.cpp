@@ -263,8 +263,8 @@ void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) 
   while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)})
     collector.add_feature(feature.get(), layer, path);
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
-    throw InputError(
-        fmt::format("{}: {}; correct or export the file anew", path, one_line(gdal().CPLGetLastErrorMsg())));
+    throw InputError(fmt::format("{}: {}; correct the file or export it again", path,
+                                 one_line(gdal().CPLGetLastErrorMsg())));
 }
 
 /// A file in memory, for GDAL.
@@ -310,8 +310,8 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
                                        GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
-        fmt::format("{}: cannot be read as the kind of file that its suffix says ({}); export it anew", path,
-                    one_line(gdal().CPLGetLastErrorMsg())));
+        fmt::format("{}: cannot be read as the kind of file that its suffix indicates ({}); export it again",
+                    path, one_line(gdal().CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
   Collector collector(chains, layers, drawing ? &*drawing : nullptr);

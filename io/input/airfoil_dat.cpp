@@ -21,9 +21,14 @@ double chord_of(const std::vector<Point>& rows) {
   return std::max(box.width(), box.height());
 }
 
-/// Two whole numbers from 2 on can only be the counts of a Lednicer file: coordinates are shares of the
+bool is_count(double value) {
+  constexpr double most = 1e9;  // more points than a file holds
+  return value >= 2 && value <= most && value == std::floor(value);
+}
+
+/// Two integers from 2 on are the point counts of a Lednicer file, since coordinates are fractions of the
 /// chord.
-bool are_counts(Point p) { return p.x >= 2 && p.y >= 2 && p.x == std::floor(p.x) && p.y == std::floor(p.y); }
+bool are_counts(Point p) { return is_count(p.x) && is_count(p.y); }
 
 /// A third column of zeros is that of files in three dimensions.
 bool has_no_third(const LineReader& lines) {
@@ -105,10 +110,9 @@ class AirfoilRows {
   void warn(const std::string& path, std::vector<std::string>& warnings) const {
     if (passed_.count == 0) return;
     warnings.push_back(fmt::format(
-        "{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} passed over",
-        path, passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s",
-        passed_.count == 1 ? "is" : "are", passed_.count == 1 ? "" : "s", passed_.first_row,
-        passed_.count == 1 ? "was" : "were"));
+        "{}:{}: {} row{} beside the name that {} no point{} of the airfoil, the first '{}', {} ignored", path,
+        passed_.first_line, passed_.count, passed_.count == 1 ? "" : "s", passed_.count == 1 ? "is" : "are",
+        passed_.count == 1 ? "" : "s", passed_.first_row, passed_.count == 1 ? "was" : "were"));
   }
 
  private:

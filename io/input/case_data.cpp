@@ -83,7 +83,7 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
     const auto [stop, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
     if (fault == std::errc{} && stop == part.data() + part.size() && index < list->size())
       return list->get(index);
-    throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which is what picks one of a list",
+    throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which selects an entry of the list",
                                  place, part, std::ssize(*list) - 1));
   }
   toml::table* table = node.as_table();

@@ -15,7 +15,6 @@ struct CaseTable::Data {
   std::string file;
   toml::table root;
   std::map<std::string, std::string> assigned;  ///< dotted key -> the assignment that set it
-  std::vector<std::string> asked;               ///< the dotted keys that were asked for
 
   /// The place of a dotted key whose node (if there is one) is given.
   std::string place(const std::string& path, const toml::node* node) const;

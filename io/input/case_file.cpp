@@ -131,22 +131,22 @@ class Lookup {
 };
 
 CaseTable::CaseTable(std::shared_ptr<Data> data, const void* table, std::string path)
-    : data_{std::move(data)},
-      table_{table},
-      path_{std::move(path)},
-      known_{std::make_shared<std::vector<std::string>>()} {}
+    : data_{std::move(data)}, table_{table}, path_{std::move(path)} {}
 
-bool CaseTable::has(const std::string& key) const {
-  if (std::find(known_->begin(), known_->end(), key) == known_->end()) {
-    known_->push_back(key);
-    data_->asked.push_back(full_name(key));
-  }
-  return as_table(table_).contains(key);
-}
+CaseTable CaseTable::root() const { return {data_, &data_->root, ""}; }
+
+bool CaseTable::has(const std::string& key) const { return as_table(table_).contains(key); }
 
 std::optional<double> CaseTable::number(const std::string& key, const Range& range) const {
   if (!has(key)) return std::nullopt;
   return Lookup(*this, key, range).number(*as_table(table_).get(key));
+}
+
+std::optional<std::int64_t> CaseTable::whole(const std::string& key, const Range& range) const {
+  const auto value = number(key, range);
+  if (!value) return std::nullopt;
+  if (*value != std::floor(*value)) refuse(key, fmt::format("must be a whole number, not {}", *value));
+  return static_cast<std::int64_t>(*value);
 }
 
 std::optional<std::string> CaseTable::text(const std::string& key) const {
@@ -154,21 +154,17 @@ std::optional<std::string> CaseTable::text(const std::string& key) const {
   return Lookup(*this, key).text(*as_table(table_).get(key));
 }
 
-bool CaseTable::flag(const std::string& key) const {
-  if (!has(key)) return false;
+std::optional<bool> CaseTable::flag(const std::string& key) const {
+  if (!has(key)) return std::nullopt;
   const std::optional<bool> value = as_table(table_).get(key)->value_exact<bool>();
   if (!value) refuse(key, "must be true or false");
-  return *value;
+  return value;
 }
 
-std::optional<std::string> CaseTable::choice(const std::string& key,
-                                             const std::vector<std::string>& words) const {
-  const auto word = text(key);
-  if (word && std::find(words.begin(), words.end(), *word) == words.end()) {
-    refuse(key,
-           fmt::format("is '{}', but must be one of: {}{}", *word, join(words), guess_for(*word, words)));
-  }
-  return word;
+std::string CaseTable::known_word(const std::string& key, const std::string& word,
+                                  const std::vector<std::string>& words) const {
+  if (std::ranges::find(words, word) != words.end()) return word;
+  refuse(key, fmt::format("is '{}', but must be one of: {}{}", word, join(words), guess_for(word, words)));
 }
 
 std::optional<std::vector<double>> CaseTable::numbers(const std::string& key, std::size_t count,
@@ -218,6 +214,8 @@ bool CaseTable::is_text(const std::string& key) const {
   return has(key) && as_table(table_).get(key)->is_string();
 }
 
+std::string CaseTable::json(const std::string& key) const { return json_of(*as_table(table_).get(key)); }
+
 std::vector<std::pair<std::string, std::string>> CaseTable::values(
     const std::vector<std::string>& without) const {
   std::vector<std::pair<std::string, std::string>> result;
@@ -249,7 +247,7 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
   return result;
 }
 
-std::vector<std::string> CaseTable::table_names() const {
+std::vector<std::string> CaseTable::keys() const {
   std::vector<std::pair<std::uint64_t, std::string>> by_line;  // toml++ keeps keys in alphabetical order
   for (const auto& [key, node] : as_table(table_)) {
     const auto line = node.source().begin.line;
@@ -261,29 +259,6 @@ std::vector<std::string> CaseTable::table_names() const {
   std::vector<std::string> names;
   for (auto& entry : by_line) names.push_back(std::move(entry.second));
   return names;
-}
-
-void CaseTable::finish() const {
-  const toml::node* first = nullptr;
-  std::string first_key;
-  for (const auto& [key, node] : as_table(table_)) {
-    if (std::find(known_->begin(), known_->end(), key.str()) != known_->end()) continue;
-    if (first != nullptr && first->source().begin.line <= node.source().begin.line) continue;
-    first = &node;
-    first_key = key.str();
-  }
-  if (first == nullptr) return;
-  throw InputError(fmt::format("{}: unknown key '{}'; known here: {}{}", place(first_key),
-                               full_name(first_key), join(*known_), guess_for_key(first_key)));
-}
-
-/// A key of this table with a similar name, else one of the same name in another table.
-std::string CaseTable::guess_for_key(const std::string& key) const {
-  const std::string guess = guess_for(key, *known_);
-  if (!guess.empty()) return guess;
-  const auto other =
-      std::ranges::find_if(data_->asked, [&](const std::string& name) { return name.ends_with("." + key); });
-  return other == data_->asked.end() ? "" : fmt::format("; do you mean '{}'?", *other);
 }
 
 std::string CaseTable::place(const std::string& key) const {
@@ -298,21 +273,7 @@ std::string CaseTable::full_name(const std::string& key) const {
 }
 
 void CaseTable::refuse(const std::string& key, const std::string& message) const {
-  if (!as_table(table_).contains(key)) refuse_slip_for(key);
   throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
-}
-
-/// The key that is missing may stand there misspelt.
-void CaseTable::refuse_slip_for(const std::string& key) const {
-  std::vector<std::string> unasked;
-  for (const auto& [name, node] : as_table(table_)) {
-    if (std::ranges::find(*known_, name.str()) == known_->end()) unasked.emplace_back(name.str());
-  }
-  for (const std::string& name : unasked) {
-    if (nearest_word(name, {key}).empty()) continue;
-    throw InputError(
-        fmt::format("{}: unknown key '{}'{}", place(name), full_name(name), guess_for(name, {key})));
-  }
 }
 
 CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,24 +23,26 @@ struct Range {
   std::string text() const;
 };
 
-/// One table of a case file. Each lookup makes its key known; finish() then refuses every key that nobody
-/// asked for, so that a mistyped key cannot pass. Refusals are InputErrors that begin with the place:
-/// "case.toml:12: " or, for what came from the command line, "--set spacing.min=x: ". A view: cheap to copy,
-/// and it keeps the file's data alive.
+/// One table of a case file. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for
+/// what came from the command line, "--set spacing.min=x: ". Which keys a table may have is not its concern
+/// (quadloop/case/key_table). A view: cheap to copy, and it keeps the file's data alive.
 class CaseTable {
  public:
   struct Data;  ///< of the whole file; toml++ stays behind it
   CaseTable(std::shared_ptr<Data> data, const void* table, std::string path);
 
+  CaseTable root() const;  ///< of the same file
+
   bool has(const std::string& key) const;
   bool is_table(const std::string& key) const;
   bool is_text(const std::string& key) const;
   std::optional<double> number(const std::string& key, const Range& range = {}) const;
+  std::optional<std::int64_t> whole(const std::string& key, const Range& range) const;
   std::optional<std::string> text(const std::string& key) const;
-  /// true or false; false where the key is absent.
-  bool flag(const std::string& key) const;
-  /// One of the given words.
-  std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& words) const;
+  std::optional<bool> flag(const std::string& key) const;
+  /// The word, which the key has. Throws InputError with the nearest of the words unless it is one of them.
+  std::string known_word(const std::string& key, const std::string& word,
+                         const std::vector<std::string>& words) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count,
                                              const Range& range = {}) const;
   /// Both "a" and ["a", "b"] are lists of texts, both 1 and [1, 2] lists of numbers.
@@ -51,11 +54,8 @@ class CaseTable {
   std::optional<CaseTable> table(const std::string& key) const;
   /// Every [[key]], in the order of the file.
   std::vector<CaseTable> tables(const std::string& key) const;
-  /// Keys of this table in the order of the file, each a table (all of them count as known).
-  std::vector<std::string> table_names() const;
-
-  /// Refuses the first key of this table that no lookup has asked for. Tables below it check themselves.
-  void finish() const;
+  /// Those of this table, in the order of the file.
+  std::vector<std::string> keys() const;
 
   /// Where the key stands (this table, if it is absent), for messages of the caller's own.
   std::string place(const std::string& key) const;
@@ -64,19 +64,16 @@ class CaseTable {
   /// value as JSON on one line; without the keys and tables of the dotted names given. The same for every way
   /// to write the same case.
   std::vector<std::pair<std::string, std::string>> values(const std::vector<std::string>& without) const;
+  /// The value of a key, which the table has, as values() gives it.
+  std::string json(const std::string& key) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
-  /// Of a key that is absent, if one that nobody has asked for is a slip for it: that this is unknown.
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
 
  private:
-  void refuse_slip_for(const std::string& key) const;
-  std::string guess_for_key(const std::string& key) const;
-
   std::shared_ptr<Data> data_;
   const void* table_;
   std::string path_;
-  std::shared_ptr<std::vector<std::string>> known_;
 };
 
 /// Whether a word of the command line is KEY=VALUE, its key a path of TOML keys: neither an option nor the

@@ -88,10 +88,9 @@ std::int32_t vertex_of(const PointRow& row, const std::map<Coordinates, std::int
                        const Geometry& outline, const std::string& place) {
   const auto vertex = vertices.find({row.place.x, row.place.y});
   if (vertex == vertices.end())
-    throw InputError(
-        fmt::format("{}: the outline has no point ({}, {}); give its points with all their digits, as "
-                    "they stand in its file",
-                    place, row.place.x, row.place.y));
+    throw InputError(fmt::format(
+        "{}: the geometry has no point ({}, {}); give its points with all their digits, as in its file",
+        place, row.place.x, row.place.y));
   const std::int32_t v = vertex->second;
   const std::string& after = outline.boundary(outline.boundary_of(v)).name;
   const std::string& before = outline.boundary(outline.boundary_of(outline.previous(v))).name;

@@ -10,6 +10,7 @@
 
 #include "io/model/mesh_of_file.hpp"
 #include "io/model/orient_cells.hpp"
+#include "io/model/pass_mesh.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -120,9 +121,8 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
   const Face& edge = boundary.faces[number];
   const Point a = mesh.point(NodeId{edge[0]}), b = mesh.point(NodeId{edge[1]});
   scan.refuse_at(boundary.places.empty() ? 0 : boundary.places[number],
-                 fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no "
-                             "cell; take it out of the boundary, "
-                             "or mesh the surface beside it",
+                 fmt::format("an edge of boundary {}, from ({}, {}) to ({}, {}), belongs to no cell; remove "
+                             "it from the boundary, or mesh the surface beside it",
                              boundary.name, a.x, a.y, b.x, b.y));
 }
 
@@ -140,7 +140,8 @@ void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded
         inner.edges.push_back({from, to});
         continue;
       }
-      if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left))) std::swap(from, to);
+      if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left)))
+        std::swap(from, to);
       outer.edges.push_back({from, to});
     }
     if (!outer.edges.empty()) loaded.mesh.boundaries.push_back(std::move(outer));
@@ -157,8 +158,8 @@ void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
   }
   if (names.empty()) return;
   loaded.warnings.push_back(
-      fmt::format("{}: {} edges between two cells are no boundary and were left out: those of {}", path,
-                  count, some_names(names)));
+      fmt::format("{}: {} edges between two cells are not boundary edges and were left out: those of {}",
+                  path, count, some_names(names)));
 }
 
 void add_outer_boundary(Mesh& mesh) {
@@ -218,6 +219,27 @@ void drop_repeated(FileMesh& mesh, const std::string& path, const GroupSizes& si
   drop_repeated_faces(mesh, sizes, repeated);
   values.values = std::move(kept_values);
   warn_of_repeated(repeated, path, mesh.warnings);
+}
+
+void require_consistent(const FileMesh& mesh, const std::string& path) {
+  const auto is_in = [](std::int64_t number, const auto& list) {
+    return number >= 0 && number < std::ssize(list);
+  };
+  bool good = true;
+  const auto visit = [&](std::int32_t node) { good = good && is_in(node, mesh.points); };
+  for_each_named_node(mesh, visit);
+  std::ranges::for_each(mesh.periodic_nodes, visit);
+  for_each_kind([&]<CellKind kind>() {
+    const std::vector<std::int32_t>& blocks = mesh.cell_to_block[static_cast<std::size_t>(kind)];
+    good = good && blocks.size() == cells_of<kind>(mesh).size();
+    for (const std::int32_t block : blocks) good = good && is_in(block, mesh.block_names);
+  });
+  if (mesh.solution) {
+    const auto& [names, values, constants, cells] = *mesh.solution;
+    good = good && values.size() == names.size() * mesh.points.size() &&
+           std::ssize(cells.values) == std::ssize(cells.names) * cell_count(mesh);
+  }
+  if (!good) throw InputError(path + ": is damaged: what was read from it is no mesh");
 }
 
 std::vector<char> used_nodes(const FileMesh& mesh) {
@@ -311,7 +333,8 @@ LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
   place_edges(file.boundaries, loaded, scan);
   if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
   if (turned > 0)
-    loaded.warnings.push_back(fmt::format("{}: {} cells ran clockwise and were turned", scan.path(), turned));
+    loaded.warnings.push_back(
+        fmt::format("{}: {} cells ran clockwise and were reversed", scan.path(), turned));
   warn_of_inner_curves(loaded, scan.path());
   return loaded;
 }

@@ -29,8 +29,8 @@ std::vector<char> used_nodes(const FileMesh& mesh);
 /// node values must be those of the nodes that stay.
 void drop_unused_nodes(FileMesh& mesh, const std::string& path);
 
-/// Makes one node of all nodes at the same place: the first, with its values. Where `first_nodes` say where the
-/// nodes of each zone of a file begin, a node stays that lies in the same zone as the first.
+/// Makes one node of all nodes at the same place: the first, with its values. Where `first_nodes` say where
+/// the nodes of each zone of a file begin, a node stays that lies in the same zone as the first.
 void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes = {});
 
 /// Drops blocks without cells, and boundaries without faces.

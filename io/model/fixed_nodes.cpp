@@ -87,8 +87,9 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
   std::vector<std::string> notes;
   if (!loaded.periodic_nodes.empty()) {
     fixed.fix(loaded.periodic_nodes);
-    notes.push_back(fmt::format("{}: the nodes of {} stay, as these sides are periodic or match node by node",
-                                path, quoted(periodic_boundaries(loaded))));
+    notes.push_back(
+        fmt::format("{}: the nodes of {} are fixed, because these sides are periodic or match node by node",
+                    path, quoted(periodic_boundaries(loaded))));
   }
   std::vector<std::string> curves;
   for (const BoundaryEdges& curve : loaded.inner_curves) {
@@ -96,7 +97,7 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
     curves.push_back(curve.name);
   }
   if (!curves.empty())
-    notes.push_back(fmt::format("{}: the nodes of the inner curves {} stay", path, quoted(curves)));
+    notes.push_back(fmt::format("{}: the nodes of the inner curves {} are fixed", path, quoted(curves)));
   return notes;
 }
 

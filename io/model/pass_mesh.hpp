@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "io/files/reading/value_pipe.hpp"
 #include "io/model/file_mesh.hpp"
 
@@ -29,5 +31,9 @@ void pass_fields(Pipe& pipe, FileMesh& mesh) {
        mesh.strips, mesh.warnings);
   for (std::vector<std::int32_t>& blocks : mesh.cell_to_block) pass(pipe, blocks);
 }
+
+/// Throws InputError where a mesh that came through a pipe names a node or a block that it has not, or has
+/// other numbers of values than of nodes and cells: a damaged file may have damaged the process that read it.
+void require_consistent(const FileMesh& mesh, const std::string& path);
 
 }  // namespace quadloop

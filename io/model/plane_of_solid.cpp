@@ -141,7 +141,7 @@ class PlaneMaker {
         const Point lean = axes_.in_plane(edge);
         if (std::max(std::abs(lean.x), std::abs(lean.y)) > most_lean * axes_.along(edge) ||
             is_of(front, from))
-          refuse(cell, fmt::format("is not drawn out along {}", axes_.across));
+          refuse(cell, fmt::format("is not extruded along {}", axes_.across));
       }
     }
   }
@@ -242,8 +242,8 @@ LoadedMesh plane_of(MeshOfFile mesh, const std::string& path) {
   const FileMesh& solid = std::get<FileMesh>(mesh);
   if (is_one_cell_thick(solid)) return plane_of_solid(solid, path);
   throw InputError(path +
-                   ": holds a 3D mesh, where a plane one is wanted (a 3D mesh is taken for a plane one where "
-                   "it is one cell thick between patches of the type empty)");
+                   ": contains a 3D mesh, but a 2D mesh is required (a 3D mesh is read as a 2D mesh if it is "
+                   "one cell thick between patches of type empty)");
 }
 
 }  // namespace quadloop

@@ -15,8 +15,8 @@ void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
       same += count;
     } else if (++lines <= most_lines) {
       warnings.push_back(
-          fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are taken for '{}'", path, count,
-                      kept, other, kept));
+          fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are assigned to '{}'", path,
+                      count, kept, other, kept));
     }
   }
   if (lines > most_lines)
@@ -24,7 +24,7 @@ void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
         fmt::format("{}: {} more pairs of groups have common elements", path, lines - most_lines));
   if (same > 0)
     warnings.push_back(
-        fmt::format("{}: {} elements stand there more than once; the first of each was taken", path, same));
+        fmt::format("{}: {} elements occur more than once; the first of each was used", path, same));
 }
 
 std::string some_names(const std::vector<std::string>& names) {

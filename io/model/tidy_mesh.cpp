@@ -121,15 +121,15 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
   warn(drop_unused_nodes(loaded), "nodes that belong to no cell were left out");
   EdgeTable table(mesh);
   if (!surely_oriented(mesh, table)) {
-    warn(orient_cells(mesh), "cells ran clockwise and were turned");
+    warn(orient_cells(mesh), "cells ran clockwise and were reversed");
     table = EdgeTable(mesh);
   }
-  warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were turned");
+  warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were reversed");
   warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
        "boundaries without edges were left out");
   const std::size_t added = add_missing_boundary(mesh, table);
   if (added > 0)
-    warn(added, fmt::format("edges of the outline belong to no boundary; they are the boundary \"{}\" now",
+    warn(added, fmt::format("outer edges belong to no boundary; they form the boundary \"{}\" now",
                             mesh.boundaries.back().name));
 }
 

@@ -43,7 +43,7 @@ std::vector<std::string> MshGroups::overlaps(int lowest) const {
       if (key.first != dimension || groups.size() < 2 || ++count > 1) continue;
       std::vector<std::string> names;
       for (const std::int64_t physical : groups) names.push_back(name_of(dimension, physical));
-      first = fmt::format("{} {} is in the physical groups {} and is taken for '{}', the smallest",
+      first = fmt::format("{} {} is in the physical groups {} and is assigned to '{}', the smallest",
                           kinds[dimension], key.second, some_names(names),
                           name_of(dimension, physical_of(dimension, key.second)));
     }

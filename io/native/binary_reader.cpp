@@ -52,7 +52,7 @@ class BinaryReader {
     if (!is_ours || end == std::string::npos || !text.substr(second).starts_with(says)) {
       throw InputError(path_ + ": does not begin as a .qmesh file does ('" +
                        std::string(binary_first_line.substr(0, second - 1)) +
-                       "', then 'header' and its bytes); it is damaged, or of another kind");
+                       "', then 'header' and its bytes); it is damaged, or another kind of file");
     }
     const std::size_t begin = std::min(text.find_first_not_of(' ', second + says.size()), end);
     std::int64_t wanted = 0;
@@ -165,8 +165,9 @@ class BinaryReader {
     const StripsInText found = strips_in_comments(header_.strips, loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
     for (const std::string& name : found.damaged)
-      loaded_.warnings.push_back(path_ + ": the comment '# strip " + name +
-                                 "' does not list the nodes of a strip; its cells are taken for others");
+      loaded_.warnings.push_back(
+          path_ + ": the comment '# strip " + name +
+          "' does not list the nodes of a strip; its cells are treated as ordinary cells");
   }
 
   const std::string& path_;

@@ -112,8 +112,9 @@ class NativeReader {
     const StripsInText found = strips_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
     for (const std::string& name : found.damaged)
-      loaded_.warnings.push_back(scan_.path() + ": the comment '# strip " + name +
-                                 "' does not list the nodes of a strip; its cells are taken for others");
+      loaded_.warnings.push_back(
+          scan_.path() + ": the comment '# strip " + name +
+          "' does not list the nodes of a strip; its cells are treated as ordinary cells");
   }
 
   /// What stands in the brackets of "#Number of edges for boundary 1 (name)".

@@ -38,9 +38,10 @@ void read_strips(const TextScanner& scan, PartIndex& index) {
   StripsInText found = strips_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes));
   index.strips = std::move(found.strips);
   for (const std::string& name : found.damaged)
-    index.warnings.push_back(fmt::format(
-        "{}: the comment '# strip {}' does not list the nodes of a strip; its cells are taken for others",
-        scan.path(), name));
+    index.warnings.push_back(
+        fmt::format("{}: the comment '# strip {}' does not list the nodes of a strip; its cells are treated "
+                    "as ordinary cells",
+                    scan.path(), name));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class PartReader {
         format_ = format;
     }
     if (format_.empty())
-      throw InputError(path + ": its parts are in no format that is read: mesh, cgns or vtu");
+      throw InputError(path + ": its parts are not in a format that can be read: mesh, cgns or vtu");
   }
 
   LoadedMesh read() {

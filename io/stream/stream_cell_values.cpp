@@ -72,7 +72,7 @@ void StreamCellValues::find_cells_beside() {
       if (beside[p][i] < 0)
         throw OutputError(
             "face " + std::to_string(i + 1) + " of patch " + held_->boundaries[p].name +
-            " belongs to no cell, whose values it would have; `quadloop check` tells all faults");
+            " belongs to no cell, whose values it would have; `quadloop check` lists all faults");
       (is_triangle(held_->boundaries[p].faces[i]) ? triangles : quads).push_back(beside[p][i]);
     }
   }

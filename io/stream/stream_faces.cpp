@@ -41,7 +41,8 @@ void StreamFaces::find_plane_faces(const std::string& path) {
   const std::int64_t cells = comm.sum(std::ssize(mesh.plane.triangles) + std::ssize(mesh.plane.quads));
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (comm.sum(mesh.plane.owned_nodes) >= most || cells >= most)
-    throw OutputError(path + ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
+    throw OutputError(path +
+                      ": the mesh has more nodes or cells than this format can count (32-bit numbers)");
   cells_ = edge_cells(comm, mesh.plane);
   if (stream_.is_plane() && mesh.blocks != nullptr) find_interfaces();
   require_conforming(path);
@@ -100,9 +101,8 @@ void StreamFaces::renumber_across() {
   std::vector<std::int64_t> wanted;
   for (const auto* cells : {&cells_.across, &cells_.of_boundary, &right_of_boundary_})
     std::ranges::copy_if(*cells, std::back_inserter(wanted), has_cell);
-  const std::vector<std::int64_t> found =
-      rows_of_cells(comm, CellOwners(comm, stream_.extruded()->plane),
-                    std::span<const std::int64_t>(wanted), numbers_);
+  const std::vector<std::int64_t> found = rows_of_cells(comm, CellOwners(comm, stream_.extruded()->plane),
+                                                        std::span<const std::int64_t>(wanted), numbers_);
   auto next = found.begin();
   across_numbers_ = cells_.across;
   for (auto* cells : {&across_numbers_, &cells_.of_boundary, &right_of_boundary_}) {

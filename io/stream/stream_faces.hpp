@@ -18,8 +18,8 @@
 namespace quadloop {
 
 /// The faces of a mesh on its way into a file, for formats of faces, with the cells on their two sides: the
-/// edges of a plane mesh, faces of three or four nodes of a 3D mesh. A face inside stands with its cell of the
-/// lower number; those of one cell of a 3D mesh by their other cell (OpenFOAM's upper-triangular order).
+/// edges of a plane mesh, faces of three or four nodes of a 3D mesh. A face inside stands with its cell of
+/// the lower number; those of one cell of a 3D mesh by their other cell (OpenFOAM's upper-triangular order).
 /// Nodes are counter-clockwise as seen from outside the first cell; an edge has it to its left. Cells and
 /// nodes are counted from 0 over all ranks.
 class StreamFaces {
@@ -74,8 +74,8 @@ class StreamFaces {
   static std::int64_t packed(std::int64_t first, std::int64_t second) { return first << 32 | second; }
   static std::array<std::int64_t, 2> unpacked(std::int64_t both) { return {both >> 32, both & 0xffffffff}; }
 
-  /// Cells of the plane by the edges of which they have one: the neighbours with higher numbers, each with the
-  /// place of the edge in the cell.
+  /// Cells of the plane by the edges of which they have one: the neighbours with higher numbers, each with
+  /// the place of the edge in the cell.
   struct HigherNeighbours {
     struct Entry {
       std::int64_t cell;
@@ -209,7 +209,7 @@ class StreamFaces {
   BoundaryStream sides() const;
 
   const MeshStream& stream_;
-  std::optional<HeldFaces> held_;                            ///< this, or what follows but for the numbers
+  std::optional<HeldFaces> held_;  ///< this, or what follows but for the numbers
   EdgeCells cells_;
   std::vector<std::int64_t> right_of_boundary_;              ///< of interfaces alone; may be empty
   std::set<std::pair<std::int32_t, std::int32_t>> between_;  ///< edges of interfaces

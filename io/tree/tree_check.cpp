@@ -12,7 +12,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr const char* cure = "; the file is damaged: take it from a copy, or make it anew with quadloop mesh";
+constexpr const char* cure =
+    "; the file is damaged: restore it from a copy, or generate it again with quadloop mesh";
 
 std::string text_of(const LeafRecord& leaf) {
   return fmt::format("the leaf of tree ({}, {}) at ({}, {}), level {}", leaf.tree_x, leaf.tree_y, leaf.x,
@@ -30,8 +31,8 @@ const char* fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
   const auto on_lattice = [&](std::int32_t at) {
     return within(at, 0, tree_lattice_edge - 1) && (at & (edge_of(leaf) - 1)) == 0;
   };
-  if (!on_lattice(leaf.x) || !on_lattice(leaf.y)) return "lies beside the lattice of its level";
-  if (!within(leaf.wanted, 0, leaf.level)) return "is coarser than its wanted level {wanted}";
+  if (!on_lattice(leaf.x) || !on_lattice(leaf.y)) return "is not on the grid of its level";
+  if (!within(leaf.wanted, 0, leaf.level)) return "is coarser than its target level {wanted}";
   if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
     return "has splits below itself ('adapted' is {adapted:#x})";
   if (leaf.block < 0 || leaf.triangles < 0 || leaf.quads < 0)
@@ -68,7 +69,7 @@ void require_sum(const Communicator& comm, std::int64_t own, std::int64_t wanted
   const std::int64_t all = comm.sum(own);
   if (all != wanted)
     throw InputError(
-        fmt::format("{}: its leaves have {} {}, where {} are said to be{}", path, all, what, wanted, cure));
+        fmt::format("{}: its leaves have {} {}, but {} are declared{}", path, all, what, wanted, cure));
 }
 
 }  // namespace
@@ -103,8 +104,8 @@ void require_possible_wall(const MeasuredWall& wall, const std::string& path) {
                         std::isfinite(edge.to.x) && std::isfinite(edge.to.y) &&
                         std::isfinite(edge.wall_units_from) && std::isfinite(edge.wall_units_to);
     if (!finite || edge.wall_units_from < 0 || edge.wall_units_to < 0)
-      throw InputError(fmt::format("{}: the friction measured at ({}, {}) is not possible{}", path,
-                                   edge.from.x, edge.from.y, cure));
+      throw InputError(fmt::format("{}: the friction measured at ({}, {}) is impossible{}", path, edge.from.x,
+                                   edge.from.y, cure));
   }
 }
 

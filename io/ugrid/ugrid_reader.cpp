@@ -37,7 +37,7 @@ class UgridReader {
     read_cells(mesh_.hexahedra, head[6]);
     if (at_ < bytes_.size())
       mesh_.warnings.push_back(
-          fmt::format("{}: {} bytes after the mesh are passed over", path_, bytes_.size() - at_));
+          fmt::format("{}: {} bytes after the mesh are ignored", path_, bytes_.size() - at_));
     return std::move(mesh_);
   }
 
@@ -61,16 +61,15 @@ class UgridReader {
     std::uint64_t bytes = 0;
     for (std::size_t k = 0; k < head.size(); ++k) {
       if (head[k] < 0)
-        throw InputError(
-            fmt::format("{}: one of its counts is negative: {}; is the order of its bytes another "
-                        "(.b8.ugrid, .lb8.ugrid)?",
-                        path_, head[k]));
+        throw InputError(fmt::format(
+            "{}: one of its counts is negative: {}; is its byte order different (.b8.ugrid, .lb8.ugrid)?",
+            path_, head[k]));
       bytes += widths[k] * head[k];
     }
     if (bytes > bytes_.size() - at_)
       throw InputError(
-          fmt::format("{}: its counts ask for {} bytes, where {} follow; it is cut short, or the "
-                      "order of its bytes is another (.b8.ugrid, .lb8.ugrid)",
+          fmt::format("{}: its counts require {} bytes, but {} follow; it is cut short, or its byte order is "
+                      "different (.b8.ugrid, .lb8.ugrid)",
                       path_, bytes, bytes_.size() - at_));
   }
 

@@ -81,8 +81,8 @@ class PvtuReader {
     drop_repeated(whole_, scan_.path());
     if (has_strips_)
       whole_.warnings.push_back(scan_.path() +
-                                ": what its pieces tell of the layers of wakes and free lines is "
-                                "left out; where there is a .parts file beside it, read that");
+                                ": the layers of wakes and layer lines described in its pieces are ignored; "
+                                "if there is a .parts file beside it, read that instead");
     if (whole_.dimension == 2) return plane_mesh(std::move(whole_), scan_);
     drop_empty_groups(whole_);
     return std::move(whole_);

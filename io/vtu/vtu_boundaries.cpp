@@ -58,14 +58,14 @@ VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuN
       first = found[cell];
     }
     if (differ)
-      return {std::move(found), false, fmt::format("the cell data '{}' tell its boundaries apart", name),
+      return {std::move(found), false, fmt::format("the cell data '{}' distinguish its boundaries", name),
               group_names(document, numbers, first_type == vtk_line ? 1 : 2)};
   }
   std::vector<std::string> others;
   for (const VtuArray& array : document.arrays) {
     if (is_of_numbers(array)) others.push_back(array.name);
   }
-  std::string warning = "no cell data tell its boundaries apart, they are one";
+  std::string warning = "no cell data distinguish its boundaries; they form one boundary";
   if (!others.empty())
     warning += fmt::format("; where {} number{} them, call these cell data 'boundary'", some_names(others),
                            others.size() == 1 ? "s" : "");

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace quadloop {
+
+using StageSeconds = std::vector<std::pair<std::string, double>>;
 
 /// Seconds that this rank spent in each named stage, in the order in which the stages ran.
 class StageTimes {
@@ -35,12 +38,25 @@ class StageTimes {
     for (const auto& [name, seconds] : other.stages_) sum += seconds;
     stages_.emplace_back(std::move(stage), sum);
   }
-  const std::vector<std::pair<std::string, double>>& stages() const { return stages_; }
+  const StageSeconds& stages() const { return stages_; }
 
  private:
-  std::vector<std::pair<std::string, double>> stages_;
+  StageSeconds stages_;
   std::chrono::steady_clock::time_point started_;
   bool running_ = false;
 };
+
+/// A stage that ran twice stands once, with its sum.
+inline StageSeconds added_up(const StageSeconds& stages) {
+  StageSeconds sums;
+  for (const auto& [stage, seconds] : stages) {
+    const auto known = std::ranges::find(sums, stage, &StageSeconds::value_type::first);
+    if (known == sums.end())
+      sums.emplace_back(stage, seconds);
+    else
+      known->second += seconds;
+  }
+  return sums;
+}
 
 }  // namespace quadloop

@@ -131,8 +131,8 @@ std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, con
   const DemandedSplits none;
   if (demanded.empty() && 2 * estimate.layer_cells > estimate.cells)
     return fmt::format(
-        "{} of them are in layers: ask for fewer, or for thicker ones with a larger growth, as "
-        "a column is no wider than its last two layers are high",
+        "{} of them are in layers: use fewer layers, or thicker ones with a larger growth, as columns are at "
+        "most as wide as their last two layers are high",
         text_of_cells(estimate.layer_cells));
   if (!demanded.empty()) {
     SizedDomain domain(geometry, options.size, none);

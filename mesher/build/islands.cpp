@@ -66,7 +66,7 @@ std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, Mes
     line.precision(12);
     line << "boundary " << g.boundary(g.boundary_of(g.loop_start(loop))).name << ": a loop near ("
          << box.centre().x << ", " << box.centre().y << ") is smaller than spacing.min = " << min
-         << " both ways and was dropped";
+         << " in both directions and was dropped";
     report.warnings.push_back(line.str());
   }
   if (report.islands_dropped == 0) return {};
@@ -76,7 +76,7 @@ std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, Mes
     message << "boundary " << g.boundary(g.boundary_of(0)).name << " near (" << box.centre().x << ", "
             << box.centre().y
             << "): this and every other loop of the geometry is smaller than spacing.min = " << min
-            << " both ways; make spacing.min smaller";
+            << " in both directions; reduce spacing.min";
     throw InputError(message.str());
   }
   Geometry kept = with_loops(g, keep);

@@ -38,7 +38,7 @@ double stations_of(const Geometry& geometry) {
 
 /// Cells of the layers that are to stand below the front: a column on each of its edges, which are as long as
 /// the leaves there.
-double cells_of_layers(const Geometry& geometry, const SizedDomain& domain) {
+double cells_of_layers(const Geometry& geometry, SizedDomain& domain) {
   const Lattice& lattice = domain.lattice;
   SizeCursor leaves(domain.sizes);
   double cells = 0;
@@ -54,7 +54,7 @@ double cells_of_layers(const Geometry& geometry, const SizedDomain& domain) {
 
 }  // namespace
 
-MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, const SizedDomain& domain,
+MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain,
                            const LeafEstimate& leaves) {
   const bool delaunay = has_triangles_alone(type);
   MeshEstimate estimate;
@@ -74,7 +74,7 @@ MeshEstimate estimate_mesh(const Geometry& given, const MeshOptions& options,
   MeshReport dropped;
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
-  const SizedDomain domain(geometry, options.size, demanded);
+  SizedDomain domain(geometry, options.size, demanded);
   return estimate_mesh(geometry, options.type, domain, estimate_leaves(domain.sizes));
 }
 

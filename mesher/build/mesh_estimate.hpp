@@ -12,7 +12,7 @@ namespace quadloop {
 /// without making it. The time grows with the levels and the segments, not with the cells. The same on any
 /// number of ranks; not collective. Boundaries with layers are taken for the front, on whose edges the layers
 /// are to stand. `leaves` are what estimate_leaves() says of the domain.
-MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, const SizedDomain& domain,
+MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain& domain,
                            const LeafEstimate& leaves);
 
 /// The same of a mesh that build_mesh would make. Throws InputError where no domain is left.

@@ -55,12 +55,13 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   }
   if (report.corners_lost == 0) return;
   const std::string& name = geometry.boundary(geometry.boundary_of(first)).name;
-  report.warnings.insert(report.warnings.begin(),  // before a list of islands
-                         fmt::format("boundary '{}': {} of {} kept corner{} of the outline {} no node of the "
-                                     "mesh, the first at {}: several share a smallest leaf; make "
-                                     "spacing.min smaller, or 'corner' larger where they need not be kept",
-                                     name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s",
-                                     report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
+  report.warnings.insert(
+      report.warnings.begin(),  // before a list of islands
+      fmt::format(
+          "boundary '{}': {} of {} feature point{} {} no node of the mesh, the first at {}: several lie in "
+          "one smallest cell; reduce spacing.min, or increase 'corner' if they need not be kept",
+          name, report.corners_lost, kept.size(), kept.size() == 1 ? "" : "s",
+          report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
 }
 
 /// Of each boundary of the outline, that of its segments; empty where it has none.
@@ -145,10 +146,9 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
     if (whole[b] == 0 || wanted[b] == 0 || std::abs(error) <= largest_area_error || meshed[b] == 0) continue;
     const std::string& name = geometry.boundaries()[b].name;
     report.warnings.push_back(
-        fmt::format("boundary '{0}' near {1}: the mesh's edges enclose {2:.0f} percent {3} than the outline "
-                    "does: its leaves "
-                    "are too coarse to show the shape; give [boundary.{0}] a smaller spacing, or make "
-                    "spacing.min smaller",
+        fmt::format("boundary '{0}' near {1}: the boundary edges of the mesh enclose {2:.0f} percent {3} "
+                    "area than the geometry: its cells are too coarse to resolve the shape; set a smaller "
+                    "spacing in [boundary.{0}], or reduce spacing.min",
                     name, text(boxes[b].centre()), 100 * std::abs(error), error < 0 ? "less" : "more"));
   }
 }
@@ -168,14 +168,14 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
   }
   const std::string& name = geometry.boundaries()[worst].name;
   const std::string cause =
-      smoothed ? "nodes have slid along it while smoothing, where it is narrow; set smooth.sweeps = 0, or"
-               : "its leaves are too coarse there;";
-  throw InputError(fmt::format(
-      "boundary '{}' near {}: the area of the mesh is {:.1f} percent off that inside the outline, more than "
-      "the {:.0f} allowed: {} "
-      "give [boundary.{}] a smaller spacing, set spacing.curvature, or make spacing.min or max smaller",
-      name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error, cause,
-      name));
+      smoothed ? "nodes slid along it during smoothing, where it is narrow; set smooth.sweeps = 0, or"
+               : "its cells are too coarse there;";
+  throw InputError(
+      fmt::format("boundary '{}' near {}: the area of the mesh differs by {:.1f} percent from that of the "
+                  "geometry, more than the {:.0f} allowed: {} set a smaller spacing in [boundary.{}], set "
+                  "spacing.curvature, or reduce spacing.min or spacing.max",
+                  name, text(box_of_boundary(geometry, name).centre()), 100 * error, 100 * largest_area_error,
+                  cause, name));
 }
 
 }  // namespace
@@ -184,11 +184,10 @@ void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& v
                      const std::string& why) {
   const Box box = box_of_boundary(geometry, vanished.front());
   const std::string more =
-      vanished.size() == 1 ? "" : fmt::format(", and with it {} other boundaries", vanished.size() - 1);
+      vanished.size() == 1 ? "" : fmt::format(", nor would {} other boundaries", vanished.size() - 1);
   throw InputError(
-      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would vanish from the mesh{}; "
-                  "make spacing.min smaller, or "
-                  "allow it by vanish = \"allow\" in [geometry]",
+      fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would have no edge in the "
+                  "mesh{}; reduce spacing.min, or allow it by vanish = \"allow\" in [geometry]",
                   vanished.front(), text(box.centre()), box.width(), box.height(), why, more));
 }
 
@@ -199,7 +198,7 @@ void report_losses(const Communicator& comm, const Geometry& geometry, const Mes
   has_edges = seen_anywhere(comm, has_edges);
   std::vector<std::string> vanished = vanished_from(geometry, has_edges);
   if (!may_vanish && !vanished.empty())
-    refuse_vanished(geometry, vanished, "lies within leaves that cannot show it");
+    refuse_vanished(geometry, vanished, "lies within cells that cannot resolve it");
   report.boundaries_vanished = std::move(vanished);
   warn_of_lost_corners(comm, geometry, mesh, report);
   warn_of_lost_shapes(comm, geometry, mesh, report);

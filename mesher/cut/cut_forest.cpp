@@ -23,7 +23,7 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
 constexpr double thinnest_sine = 1e-11;
 
 /// On the same way through the size tree the levels that it wants are found.
-TracedForest trace_forest(const LeafGraph& graph, const SizeTree& sizes, const ShiftedOutline& outline,
+TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline,
                           std::vector<std::int8_t>& wanted_levels) {
   TracedForest traced(graph.size());
   SizeCursor cursor(sizes);
@@ -199,8 +199,8 @@ class ForestCutter {
     message.precision(17);
     message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near ("
             << trace.box.centre().x << ", " << trace.box.centre().y
-            << "): the outline comes so near to itself that double precision cannot part the two sides; move "
-               "or remove points there";
+            << "): the geometry comes so close to itself that double precision cannot separate the two "
+               "sides; move or remove points there";
     throw InputError(message.str());
   }
 
@@ -218,7 +218,7 @@ class ForestCutter {
 
 }  // namespace
 
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror) {
   std::vector<std::int8_t> wanted_levels;

@@ -60,7 +60,7 @@ struct CutForest {
 /// taken back. *Collective.* Throws InputError on all ranks where boundaries come nearer to each other than
 /// double precision can resolve. `snap`: how near a crossing takes a lattice corner along, as a share of the
 /// local edge. With a mirror axis corners on it stay on it.
-CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, const SizeTree& sizes,
+CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror = {});
 

@@ -39,8 +39,6 @@ struct CutLeaf {
     bool any() const { return !first.empty() || !second.empty(); }
   };
   InsideHalves inside_halves;
-  /// One piece of outline was merged into one chord: convex loops, nothing can be wrong.
-  bool simple = false;
   /// More points of the geometry were kept than its corners, to follow it closely enough.
   bool refined = false;
 
@@ -57,7 +55,7 @@ enum class Detail {
   exact    ///< every point of the geometry
 };
 
-/// Cuts leaves; keeps its working memory from one to the next.
+/// Cuts leaves; keeps the memory of the result from one to the next.
 class LeafCutter {
  public:
   LeafCutter(const ShiftedOutline& outline, const Interior& inside) : outline_{&outline}, inside_{&inside} {}
@@ -79,60 +77,9 @@ class LeafCutter {
   const CutLeaf& result() const { return leaf_; }
 
  private:
-  struct Stop {
-    Side side = Side::bottom;
-    double along = 0;  ///< ascending counter-clockwise
-    Point position;    ///< before any snap
-    Site site = Site::on_bottom;
-    std::int32_t crossing = -1;
-    std::int32_t snap = -1;  ///< of the leaf's snaps, where the side bends through a kept point
-  };
-
-  void gather_stops();
-  void add_stop(Side side, Point position, Site site, std::int32_t crossing, std::int32_t snap = -1);
-  void name_stops();
-  using SiteNodes = std::array<std::int32_t, lattice_sites.size()>;  ///< of each lattice site
-  SiteNodes add_side_nodes();
-  void name_snaps(const SiteNodes& site_nodes);
-  void name_absorbed_stops();
-  std::int32_t absorbing_snap(const Crossing& crossing) const;
-  /// The snap that takes the crossing; null for none.
-  const LeafSnap* snap_of(std::int32_t crossing) const {
-    return crossing_snap_[crossing] < 0 ? nullptr : &input_.snaps[crossing_snap_[crossing]];
-  }
-  std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const;
-  bool walk_sides();
-  bool status_at_start(bool& inside) const;
-  void note_side(const Stop& from, const Stop& to);
-  void add_chords(Detail detail);
-  void add_chord_run(const Piece& piece, Detail detail);
-  void list_points(const Piece& piece, std::span<const std::int32_t> vertices);
-  void add_hanging_nodes(Point segment_end);
-  void choose_points(bool closed, Detail detail);
-  void keep_strays(std::size_t from, std::size_t to);
-  std::int32_t node_at(Point position);
-  void settle_inner_nodes();
-  bool cancel_opposites();
-
   const ShiftedOutline* outline_;
   const Interior* inside_;
-  Input input_;
   CutLeaf leaf_;
-  std::vector<Stop> stops_;
-  std::vector<std::int32_t> stop_node_, crossing_node_, snap_node_;
-  std::vector<std::int32_t> crossing_snap_;  ///< the snap that takes each crossing; -1 for none
-  std::vector<CutLeaf::Edge> edges_;         ///< of the loops: chords and sides
-  std::vector<CutLeaf::Edge> bare_sides_;    ///< parts of sides outside the domain
-  /// A point of a piece: its entry, a vertex, a hanging node put onto it, its exit.
-  struct RunPoint {
-    Point position;
-    std::int32_t segment = -1;  ///< that begins here or goes on from here
-    bool turns = false;         ///< the outline is not straight here
-    bool fixed = false;         ///< a chord must end here
-    bool chosen = false;        ///< a chord ends here
-  };
-  std::vector<RunPoint> run_;
-  double largest_stray_ = 0;
 };
 
 /// Strings the edges into loops, each split where it touches itself. False where they do not close.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/base/short_lists.hpp"
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -32,10 +33,12 @@ bool clockwise_before(Point hub, Point start, Point a, Point b) {
 /// The edges that no loop has yet, by the nodes where they start.
 class UnusedEdges {
  public:
-  UnusedEdges(Edges edges, const CutLeaf& leaf) : edges_{edges}, leaf_{leaf} {
-    used_.assign(edges.size(), 0);
-    by_start_.resize(edges.size());
-    end_of_.assign(leaf.nodes.size() + 1, 0);
+  UnusedEdges(Edges edges, const CutLeaf& leaf, std::pmr::memory_resource* memory)
+      : edges_{edges},
+        leaf_{leaf},
+        used_(edges.size(), 0, memory),
+        by_start_(edges.size(), memory),
+        end_of_(leaf.nodes.size() + 1, 0, memory) {
     for (const CutLeaf::Edge& e : edges) ++end_of_[e.from + 1];
     std::partial_sum(end_of_.begin(), end_of_.end(), end_of_.begin());
     for (std::int32_t e = 0; e < size32(edges); ++e) by_start_[end_of_[edges[e].from]++] = e;
@@ -62,16 +65,16 @@ class UnusedEdges {
  private:
   Edges edges_;
   const CutLeaf& leaf_;
-  inline static thread_local std::vector<char> used_;
-  inline static thread_local std::vector<std::int32_t> by_start_;
-  inline static thread_local std::vector<std::int32_t> end_of_;  ///< of each node's edges among them
+  std::pmr::vector<char> used_;
+  std::pmr::vector<std::int32_t> by_start_;
+  std::pmr::vector<std::int32_t> end_of_;  ///< of each node's edges among them
 };
 
-/// Cuts off each closed part of the walk as a loop of its own.
-void split_into_loops(const std::vector<std::int32_t>& walk, CutLeaf& leaf) {
-  thread_local std::vector<std::int32_t> open, place_in_open;  // -1 for all nodes that are not in it
+/// Cuts off each closed part of the walk as a loop of its own. Uses two lists: `open`, and `place_in_open`,
+/// which has -1 for all nodes before and after.
+void split_into_loops(std::span<const std::int32_t> walk, std::pmr::vector<std::int32_t>& open,
+                      std::pmr::vector<std::int32_t>& place_in_open, CutLeaf& leaf) {
   open.clear();
-  place_in_open.resize(std::max(place_in_open.size(), leaf.nodes.size()), -1);
   const auto forget = [&](std::int32_t node) { place_in_open[node] = -1; };
   for (const std::int32_t node : walk) {
     if (place_in_open[node] >= 0) {
@@ -212,8 +215,12 @@ bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards
 }  // namespace
 
 bool trace_loops(Edges edges, CutLeaf& leaf) {
-  thread_local std::vector<std::int32_t> walk;
-  UnusedEdges unused(edges, leaf);
+  ShortLists<1024> lists;
+  std::pmr::vector<std::int32_t> walk(lists.memory()), open(lists.memory()),
+      place_in_open(leaf.nodes.size(), -1, lists.memory());
+  walk.reserve(edges.size() + 1);
+  open.reserve(edges.size() + 1);
+  UnusedEdges unused(edges, leaf, lists.memory());
   for (std::size_t start = 0; start < edges.size(); ++start) {
     if (!unused.has(start)) continue;
     walk.assign(1, edges[start].from);
@@ -232,7 +239,7 @@ bool trace_loops(Edges edges, CutLeaf& leaf) {
       if (e == edges.size()) return false;
       unused.take(e);
     }
-    split_into_loops(walk, leaf);
+    split_into_loops(walk, open, place_in_open, leaf);
   }
   return true;
 }
@@ -265,8 +272,8 @@ bool sides_are_sound(Edges edges, Edges bare_sides, const CutLeaf& leaf) {
     if (index.any_conflict(bare, size32(edges), counts)) return false;
   }
   if (any_conflict(leaf, bare_sides)) return false;
-  thread_local std::vector<std::int32_t> round;
-  round.resize(leaf.side_nodes);
+  ShortLists<256> lists;
+  std::pmr::vector<std::int32_t> round(leaf.side_nodes, lists.memory());
   std::iota(round.begin(), round.end(), 0);
   for (const CutLeaf::Edge& e : leaf.outline) {
     if (e.from < leaf.side_nodes && !starts_inwards(leaf, e.from, e.to)) return false;

@@ -87,11 +87,11 @@ class Flipper {
   std::span<const Point> points_;
   std::span<Triangle> triangles_;
   std::vector<Edge> across_;
-  std::vector<char> firm_;           ///< a flag for each edge that no tie may flip; may be empty
-  std::vector<char> moved_;          ///< a flag for each triangle with a moved node
+  std::vector<char> firm_;           ///< flags the edges that no tie may flip; may be empty
+  std::vector<char> moved_;          ///< flags the triangles with a moved node
   std::vector<std::uint8_t> blunt_;  ///< blunt_corners() of each triangle before the flips
-  std::vector<Edge>
-      last_low_;  ///< for each node the last edge that has it as lower end and only one triangle
+  /// For each node the last edge that has it as lower end and only one triangle.
+  std::vector<Edge> last_low_;
   std::vector<Edge> waiting_;
 };
 

@@ -14,7 +14,7 @@ namespace quadloop {
 class OutsideSplits {
  public:
   /// `sizes` must outlive it.
-  explicit OutsideSplits(const SizeTree& sizes) : sizes_{sizes}, cursor_{sizes}, lately_(window * window) {}
+  explicit OutsideSplits(SizeTree& sizes) : sizes_{sizes}, cursor_{sizes}, lately_(window * window) {}
 
   /// Whether a quadrant that the size field would split is split: not if it lies outside. Call once for each;
   /// constant time on average in the order of the curve.
@@ -27,8 +27,9 @@ class OutsideSplits {
 
   bool is_new(const Quadrant& q);
 
-  static constexpr std::int64_t window = 32;  ///< number of quadrants in each direction with separate entries
-  const SizeTree& sizes_;
+  static constexpr std::int64_t window =
+      32;  ///< so many quadrants in each direction have places of their own
+  SizeTree& sizes_;
   SizeCursor cursor_;
   std::vector<Quadrant> lately_;  ///< recently visited quadrants, row by row of the window
   /// For each level: split quadrants that the boundary intersects and whose required parents share a corner

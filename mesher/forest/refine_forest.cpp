@@ -13,11 +13,12 @@ namespace quadloop {
 namespace {
 
 constexpr double quadrants_of_leaf = 4.0 / 3;  ///< all quadrants per leaf
-constexpr double parts_to_share =
-    64;  ///< per rank: approximate number of quadrants for the initial partition
-constexpr std::int64_t leaves_to_judge =
-    4096;                       ///< per rank: a sample of this size predicts the distribution of leaves
-constexpr int last_levels = 5;  ///< number of levels refined after a second partition, where it does not
+/// Approximate number of quadrants per rank for the initial partition.
+constexpr double parts_to_share = 64;
+/// Leaves per rank from which on the sample predicts their distribution.
+constexpr std::int64_t leaves_to_judge = 4096;
+/// Number of levels refined after a second partition if the sample is insufficient.
+constexpr int last_levels = 5;
 constexpr int weight_unfinished = 64;      ///< of a leaf that may still be split in those levels
 constexpr double leaves_to_weigh = 16384;  ///< per rank: this many leaves predict the total weight within 2 %
 constexpr double even_enough = 1.02;       ///< below this imbalance moving leaves takes longer than waiting
@@ -78,7 +79,7 @@ class SqueezedLeaves {
 /// Decides which quadrants are split by the size field: only those that reach into the domain.
 class SizedSplits {
  public:
-  explicit SizedSplits(const SizeTree& sizes) : gradation_{sizes}, outside_{sizes} {}
+  explicit SizedSplits(SizeTree& sizes) : gradation_{sizes}, outside_{sizes} {}
 
   bool must_split(const Quadrant& q) { return gradation_.must_split(q) && outside_.is_split_by_size(q); }
   void split_outside(const Communicator& comm, Forest& forest) { outside_.split(comm, forest); }
@@ -88,9 +89,9 @@ class SizedSplits {
   OutsideSplits outside_;
 };
 
-/// Before the leaves exist: refines to quadrants with about equal numbers of expected leaves and partitions
-/// these, so that no two ranks traverse the same part of the size tree. *Collective.*
-void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const LeafSample& sample,
+/// Before the leaves are there: down to quadrants of about as many each, which are then shared out, so that
+/// no two ranks look for the same in the size tree. *Collective.*
+void share_out_quadrants(const Communicator& comm, SizeTree& sizes, const LeafSample& sample,
                          SizedSplits& splits, Forest& forest) {
   constexpr double units = 1000, most_parts = 1e6;
   const double part = sample.leaves() / (parts_to_share * comm.size());
@@ -103,9 +104,8 @@ void share_out_quadrants(const Communicator& comm, const SizeTree& sizes, const 
   });
 }
 
-/// Whether the leaves are of the largest allowed level in so much of the root that the sample is
-/// representative.
-bool are_leaves_even(const Communicator& comm, const SizeTree& sizes) {
+/// Whether leaves are as large as any may be in so much of the root that the sample is right about most.
+bool are_leaves_even(const Communicator& comm, SizeTree& sizes) {
   constexpr int deep_enough = 15;
   const int level = std::min(sizes.coarsest_level(), deep_enough);
   return (std::int64_t{1} << (2 * level)) > leaves_to_judge * comm.size();
@@ -119,7 +119,7 @@ int weight_of(const Quadrant& leaf, SizeCursor& cursor) {
 /// Total weight of this rank's leaves, estimated from some of them.
 class WeighedLeaves {
  public:
-  WeighedLeaves(const SizeTree& sizes, double expected)
+  WeighedLeaves(SizeTree& sizes, double expected)
       : cursor_{sizes},
         finest_{sizes.finest_level()},
         step_{1 + static_cast<std::int64_t>(expected / leaves_to_weigh)} {}
@@ -150,14 +150,14 @@ class WeighedLeaves {
 };
 
 /// *Collective.*
-void share_out_leaves(const SizeTree& sizes, Forest& forest) {
+void share_out_leaves(SizeTree& sizes, Forest& forest) {
   SizeCursor cursor(sizes);
   forest.partition([&](const Quadrant& q) { return weight_of(q, cursor); });
 }
 
 }  // namespace
 
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected) {
+LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, const LeafEstimate& expected) {
   sizes.expect_cut_leaves(expected.cut / comm.size());
   SizedSplits splits(sizes);
   Forest forest(comm, sizes.lattice());

@@ -10,12 +10,12 @@ namespace quadloop {
 /// Weights of leaves in the partition: a leaf with geometry takes about 16 times as much work as one without.
 constexpr int weight_uncut = 1, weight_cut = 16;
 
-/// Builds the smallest forest that satisfies the size tree in the domain, in which touching leaves differ by
-/// at most one level and no leaf lies between two finer ones on opposite sides (thesis Fig. 3.4 (a)), so that
-/// a leaf has at most two hanging nodes, on adjacent sides. No sizes are prescribed outside the domain.
-/// Leaves are partitioned by weight; loads differ by about 2 %. Returns this rank's leaves and their ghosts.
-/// *Collective.* `expected` is used for the progress line and for load estimates before the leaves exist; it
-/// does not affect the leaves and may be empty.
-LeafGraph refine_forest(const Communicator& comm, const SizeTree& sizes, const LeafEstimate& expected = {});
+/// The smallest forest that the size tree allows in the domain and in which leaves that touch differ by one
+/// level at most and no leaf lies between two finer ones on opposite sides (thesis Fig. 3.4 (a)), so that a
+/// leaf has at most two hanging nodes, on adjacent sides. Outside the domain sizes ask for nothing. The
+/// leaves are shared out by weight: no rank has a fiftieth more than others, about. Returns the leaves of
+/// this rank and those around them. *Collective.* `expected` is for the line of progress, and for shares of
+/// the work before the leaves are there; no leaf depends on it, and there may be none.
+LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, const LeafEstimate& expected = {});
 
 }  // namespace quadloop

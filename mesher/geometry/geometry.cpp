@@ -43,8 +43,8 @@ void digest_layers(const LayerSpec& layers, Digest& digest) {
   digest.add(layers.growth_to);
   digest.add(std::uint64_t(layers.count));
   digest.add(std::uint64_t(layers.equal));
-  if (layers.y_plus > 0)
-    digest.add(layers.y_plus);  // added only if set, so that hashes of older trees remain valid
+  // Added only if set, so that hashes of older trees remain valid.
+  if (layers.y_plus > 0) digest.add(layers.y_plus);
 }
 
 const std::string& name_of(const Geometry& geometry, std::int32_t segment) {

@@ -120,8 +120,8 @@ class Geometry {
   std::vector<double> spacing_;  ///< of each segment, if some differ from their boundary's
   std::vector<double> bend_;     ///< of each vertex, if set by LocalDemands
   std::vector<char> kept_;
-  static constexpr std::uint8_t is_first = 1, is_last = 2,
-                                is_straight = 4;  // flags_: first and last vertex of a loop, straight
+  // Bits of flags_: first and last vertex of a loop, straight.
+  static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;
   std::vector<std::uint8_t> flags_;
   Box box_;
 };

@@ -45,6 +45,8 @@ struct Box {
   constexpr bool meets(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
   }
+
+  friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
 /// The box of a segment.

@@ -77,8 +77,8 @@ bool ShiftedOutline::meets(std::int32_t segment, const Box& box) const {
 }
 
 double crossing_height(Point a, Point b, double x) {
-  if (a.x == x)
-    return a.y;  // both on the line: any point of the segment is valid, and callers avoid this case
+  // Both on the line: any point of the segment is valid, and callers avoid this case.
+  if (a.x == x) return a.y;
   if (b.x == x) return b.y;
   const double to_a = std::abs(x - a.x), to_b = std::abs(x - b.x);
   if (to_a > to_b) std::swap(a, b);  // from the nearer end

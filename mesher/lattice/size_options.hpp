@@ -14,9 +14,13 @@ struct SizeSource {
   struct Disc {
     Point centre;
     double radius = 0;
+
+    friend bool operator==(const Disc&, const Disc&) = default;
   };
   struct Line {
     Point from, to;
+
+    friend bool operator==(const Line&, const Line&) = default;
   };
   std::variant<Box, Disc, Line> shape;
   double spacing = 0;
@@ -32,6 +36,8 @@ struct RootOptions {
   double tree_edge = 0;
   int trees_x = 1, trees_y = 1;
   std::optional<Point> far_corner = {};  ///< the opposite corner, where it must be exact to the bit
+
+  friend bool operator==(const RootOptions&, const RootOptions&) = default;
 };
 
 /// Options of the size field. Lengths in the geometry's unit.

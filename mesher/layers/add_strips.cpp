@@ -230,9 +230,9 @@ void StripBuilder::add_base(std::size_t s) {
 
 void StripBuilder::add_cells(std::size_t s) {
   const FilledStrip& strip = strips_[s];
-  grown_->begin_cells_of(strip.strip().place + strip.strip().name + ", ",
-                         "lead it in gentler bends, ask for thinner layers, or make spacing.min smaller: "
-                         "leaves must not be wider than the strip");
+  grown_->begin_cells_of(
+      strip.strip().place + strip.strip().name + ", ",
+      "use gentler bends or thinner layers, or reduce spacing.min: cells must not be wider than the layers");
   const auto has = [&](std::int32_t edge) { return strip.front()[edge].rank == comm_.rank(); };
   for (std::size_t k = 0; k + 1 < strip.columns(); ++k) {
     const FrontEdge& edge = strip.front()[strip.anchor(k + 1)];

@@ -14,8 +14,8 @@ namespace quadloop {
 void refuse_narrow(const LayerStrip& strip, Point corner) {
   const double width = length(strip.columns[0].back() - strip.columns[0].front());
   throw InputError(
-      fmt::format("{}{}: its layers are {:.3g} wide and end within a leaf near ({}, {}); make "
-                  "spacing.min smaller than that, or the layers thicker",
+      fmt::format("{}{}: its layers are {:.3g} wide and end within one cell near ({}, {}); reduce "
+                  "spacing.min below that, or use thicker layers",
                   strip.place, strip.name, width, corner.x, corner.y));
 }
 

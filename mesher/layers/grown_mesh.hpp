@@ -91,7 +91,7 @@ class GrownMesh {
     Point corner;
     std::string whose, cure;
   };
-  std::string whose_, cure_ = "ask for a smaller spacing there";
+  std::string whose_, cure_ = "use a smaller spacing there";
   std::optional<BadCell> bad_;
 };
 

@@ -85,8 +85,8 @@ double median_first(std::span<const Column> columns) {
 
 /// Statistics of the stations of one boundary.
 struct WallFigures {
-  double full_length = 0,
-         length = 0;  ///< length of wall between stations with the requested thickness; total length
+  /// Length of wall between stations with the requested thickness; total length.
+  double full_length = 0, length = 0;
   double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< requested first heights
 
   double share_full() const { return length > 0 ? full_length / length : 1; }
@@ -207,18 +207,16 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
     warnings.push_back(
-        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the thickness "
-                    "asked for, {:.3g}, "
-                    "as walls come close or turn sharply there: they grow by {:.3g} instead of {:.3g}; "
-                    "{:.1f} % of the wall "
-                    "have all of it",
+        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the requested "
+                    "thickness {:.3g}, as walls come close or turn sharply there: the growth is {:.3g} "
+                    "instead of {:.3g}; {:.1f} % of the wall has the full thickness",
                     row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
                     row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
   }
   if (thin.size() > most_named)
     warnings.push_back(
-        fmt::format("{} more boundaries have layers that are somewhere less than half as thick as asked; the "
-                    "table at the end has them all",
+        fmt::format("{} more boundaries have layers that are in places less than half as thick as requested; "
+                    "the table at the end lists them all",
                     thin.size() - most_named));
   return warnings;
 }
@@ -248,13 +246,12 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
   }
   std::ranges::stable_sort(limited, {}, [&](BoundaryId b) { return wanted[b].size; });
   for (const BoundaryId b : limited | std::views::take(most_named))
-    warnings.push_back(fmt::format(
-        "boundary '{}': its last layer is {:.3g} high near ({:.6g}, {:.6g}) and wants cells of at most "
-        "{:.3g} "
-        "beside it, but spacing.min = {:.6g} ends the refinement before; make spacing.min smaller, or the "
-        "layers thicker or fewer",
-        outer.boundary(b).name, wanted[b].size / leaf_over_last_layer, wanted[b].at.x, wanted[b].at.y,
-        wanted[b].size, min));
+    warnings.push_back(
+        fmt::format("boundary '{}': its last layer is {:.3g} high near ({:.6g}, {:.6g}) and requires cells "
+                    "of at most {:.3g} beside it, but spacing.min = {:.6g} is larger; reduce spacing.min, or "
+                    "use thicker or fewer layers",
+                    outer.boundary(b).name, wanted[b].size / leaf_over_last_layer, wanted[b].at.x,
+                    wanted[b].at.y, wanted[b].size, min));
   if (limited.size() > most_named)
     warnings.push_back(
         fmt::format("{} more boundaries have last layers that are thinner than half of "
@@ -267,11 +264,10 @@ void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::
   const auto least = std::ranges::min_element(strip.spacing);
   if (*least >= min) return;
   const Point at = strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
-  warnings.push_back(
-      fmt::format("{}the layers of {} want cells of {:.3g} beside them at ({:.6g}, {:.6g}), "
-                  "smaller than spacing.min = {:.6g}: triangles there will be thin; make "
-                  "spacing.min smaller, or the layers thicker or fewer",
-                  strip.place, strip.name, *least, at.x, at.y, min));
+  warnings.push_back(fmt::format(
+      "{}the layers of {} require cells of {:.3g} beside them at ({:.6g}, {:.6g}), smaller than spacing.min "
+      "= {:.6g}: triangles there will be thin; reduce spacing.min, or use thicker or fewer layers",
+      strip.place, strip.name, *least, at.x, at.y, min));
 }
 
 /// Warns of a base without layers of its own: its cells are as high as the columns behind it are wide.
@@ -282,11 +278,11 @@ void add_warning_of_base(const LayerStrip& strip, std::vector<std::string>& warn
   const Point at = strip.columns[0][middle];
   const double height = length(strip.columns[1][middle] - at);
   if (height <= too_high * strip.spec.first) return;
-  warnings.push_back(fmt::format(
-      "{}the blunt edge at ({:.6g}, {:.6g}), where {} begins, is too narrow or too slanted for layers on its "
-      "base: cells there are {:.3g} high instead of first = {:.3g}; make first smaller, or leave out this "
-      "wake",
-      strip.place, at.x, at.y, strip.name, height, strip.spec.first));
+  warnings.push_back(
+      fmt::format("{}the blunt trailing edge at ({:.6g}, {:.6g}), where {} begins, is too narrow or too "
+                  "slanted for layers on its base: cells there are {:.3g} high instead of first = {:.3g}; "
+                  "reduce first, or remove this wake",
+                  strip.place, at.x, at.y, strip.name, height, strip.spec.first));
 }
 
 }  // namespace

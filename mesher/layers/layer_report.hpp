@@ -19,8 +19,8 @@ struct BoundaryLayerReport {
   double y_plus = 0;           ///< target of the first layer; 0: none
   /// Range of requested first heights: from `first_asked` to `first_asked_most` if they follow a flow.
   double first_asked = 0, first_asked_most = 0, first_least = 0, first_median = 0;
-  double growth_asked = 0,
-         growth_least = 0;  ///< of the layers above those of equal height; requested: that of the first one
+  /// Growth ratios of the layers above those of equal height; requested: that of the first one.
+  double growth_asked = 0, growth_least = 0;
   double thickness_asked = 0;
   double share_least = 1;  ///< smallest fraction of the requested thickness
   double share_full = 1;   ///< fraction of the wall's length with the requested thickness, within 1.5 %

@@ -63,6 +63,18 @@ Field selected(const Field& field, std::span<const std::string> wanted, const st
   return chosen;
 }
 
+void append_columns(Field& field, std::span<const std::string> names, std::span<const double> values) {
+  const std::size_t before = field.width(), more = names.size(), rows = values.size() / more;
+  std::vector<double> all;
+  all.reserve(rows * (before + more));
+  for (std::size_t row = 0; row < rows; ++row) {
+    all.insert(all.end(), field.values.begin() + row * before, field.values.begin() + (row + 1) * before);
+    all.insert(all.end(), values.begin() + row * more, values.begin() + (row + 1) * more);
+  }
+  field.names.insert(field.names.end(), names.begin(), names.end());
+  field.values = std::move(all);
+}
+
 Field with_copies(const Communicator& comm, const Mesh& mesh, Field field) {
   const std::size_t width = field.width();
   QUADLOOP_REQUIRE(field.values.size() >= mesh.owned_nodes * width,

@@ -44,6 +44,10 @@ struct Field {
 /// where one has the name, else those in cells. Throws InputError as variable() does.
 Field selected(const Field& field, std::span<const std::string> wanted, const std::string& where);
 
+/// More variables at the nodes, behind those that the field has: `values` has a row of them for each node. A
+/// field without variables gets these rows alone.
+void append_columns(Field& field, std::span<const std::string> names, std::span<const double> values);
+
 /// With the rows of owned nodes and after them those of the mesh's copies, fetched from their owners; what
 /// stood after the owned nodes' rows is not read. *Collective.*
 Field with_copies(const Communicator& comm, const Mesh& mesh, Field field);

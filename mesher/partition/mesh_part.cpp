@@ -72,7 +72,7 @@ class PartMaker {
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
       if (is_part_name(boundary.name))
         throw InputError("boundary '" + boundary.name +
-                         "' is named as the edges between two parts are; give it another name");
+                         "' has the name of the edges between two partitions; give it another name");
     }
   }
 
@@ -213,7 +213,7 @@ class PartMaker {
     }
     if (comm_.any(nodes != mesh_.owned_nodes))
       throw InputError(
-          "the mesh has nodes that no cell has, which no part could take; `quadloop check` names them");
+          "the mesh has nodes without cells, which belong to no partition; `quadloop check` lists them");
     std::vector<Sharing> shared = sharings.deliver(comm_);
     std::ranges::sort(shared);
     for (const Sharing& sharing : shared) {

@@ -118,7 +118,7 @@ class SideFinder {
   [[noreturn]] void refuse(const Side& edge) const {
     throw InputError("edge " + std::to_string(edge.place + 1) + " of boundary '" +
                      mesh_.boundaries[edge.boundary].name +
-                     "' has no cell to its left: a mesh that is not valid is not divided into parts");
+                     "' has no cell to its left: an invalid mesh cannot be partitioned");
   }
 
   const Communicator& comm_;

@@ -174,8 +174,8 @@ CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t par
   const std::int64_t triangles = comm.sum(std::ssize(mesh.triangles)),
                      quads = comm.sum(std::ssize(mesh.quads)), cells = triangles + quads;
   if (cells < parts)
-    throw InputError(std::to_string(parts) + " parts are wanted of a mesh of " + std::to_string(cells) +
-                     " cells; ask for at most as many parts as there are cells");
+    throw InputError(std::to_string(parts) + " partitions are requested of a mesh of " +
+                     std::to_string(cells) + " cells; request at most one partition for each cell");
   if (parts == 1)
     return {parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
             std::vector<std::int32_t>(mesh.quads.size(), 0)};

@@ -46,7 +46,7 @@ Gradation::Step& Gradation::step_above(const Quadrant& q) {
 }
 
 /// `parents` are the nodes of this step's size whose children may matter to it.
-void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) const {
+void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
   step.near.clear();
   step.has_near = true;
   const std::int64_t half = step.quadrant.size() / 2;
@@ -68,7 +68,7 @@ void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) 
   }
 }
 
-bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near) const {
+bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near) {
   // First what needs no search: a node split at level l holds a leaf of size size(l)/2 or smaller somewhere
   // within it.
   for (const std::int32_t n : near) {
@@ -81,7 +81,7 @@ bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near)
 }
 
 /// Whether some leaf of the wanted tree in this node forbids a leaf q.
-bool Gradation::forced_by(const Quadrant& q, std::int32_t node) const {
+bool Gradation::forced_by(const Quadrant& q, std::int32_t node) {
   const SizeTree::Node& within = tree_.node(node);
   if (within.plain) return false;
   const Quadrant other = within.quadrant;

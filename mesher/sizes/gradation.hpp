@@ -14,7 +14,7 @@ namespace quadloop {
 class Gradation {
  public:
   /// `tree` must outlive it.
-  explicit Gradation(const SizeTree& tree) : tree_{tree} {}
+  explicit Gradation(SizeTree& tree) : tree_{tree} {}
 
   /// Constant time on average where the quadrants come in the order of the curve, as it remembers the path to
   /// the last one. Not for a root.
@@ -32,11 +32,11 @@ class Gradation {
   };
 
   Step& step_above(const Quadrant& q);
-  void fill_near(Step& step, const std::vector<std::int32_t>& parents) const;
-  bool forced(const Quadrant& q, const std::vector<std::int32_t>& near) const;
-  bool forced_by(const Quadrant& q, std::int32_t node) const;
+  void fill_near(Step& step, const std::vector<std::int32_t>& parents);
+  bool forced(const Quadrant& q, const std::vector<std::int32_t>& near);
+  bool forced_by(const Quadrant& q, std::int32_t node);
 
-  const SizeTree& tree_;
+  SizeTree& tree_;
   std::vector<Step> path_;
 };
 

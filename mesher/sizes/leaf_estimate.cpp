@@ -27,7 +27,7 @@ struct Sampled {
 class LeafCount {
  public:
   /// `comm`: the ranks that share the looks at quadrants; null where this one takes all.
-  LeafCount(const Communicator* comm, const SizeTree& sizes)
+  LeafCount(const Communicator* comm, SizeTree& sizes)
       : comm_{comm}, sizes_{sizes}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
 
   LeafEstimate count() {
@@ -145,7 +145,7 @@ class LeafCount {
   }
 
   const Communicator* comm_;
-  const SizeTree& sizes_;
+  SizeTree& sizes_;
   SizeCursor cursor_;
   Gradation gradation_;
   LeavesAhead ahead_;
@@ -155,9 +155,9 @@ class LeafCount {
 
 }  // namespace
 
-LeafEstimate estimate_leaves(const SizeTree& sizes) { return LeafCount(nullptr, sizes).count(); }
+LeafEstimate estimate_leaves(SizeTree& sizes) { return LeafCount(nullptr, sizes).count(); }
 
-LeafEstimate estimate_leaves(const Communicator& comm, const SizeTree& sizes) {
+LeafEstimate estimate_leaves(const Communicator& comm, SizeTree& sizes) {
   return LeafCount(&comm, sizes).count();
 }
 

@@ -20,9 +20,9 @@ struct LeafEstimate {
 /// expected, each for as many others as its chance says. A forest with fewer is counted, but for what is
 /// split outside the domain, which is guessed by the cut leaves. Time grows with the levels, not with the
 /// leaves. The same on any number of ranks; not collective.
-LeafEstimate estimate_leaves(const SizeTree& sizes);
+LeafEstimate estimate_leaves(SizeTree& sizes);
 
 /// The same to the last bit, in less time: each rank looks at some of the quadrants. *Collective.*
-LeafEstimate estimate_leaves(const Communicator& comm, const SizeTree& sizes);
+LeafEstimate estimate_leaves(const Communicator& comm, SizeTree& sizes);
 
 }  // namespace quadloop

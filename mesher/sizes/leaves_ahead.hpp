@@ -11,7 +11,7 @@ namespace quadloop {
 class LeavesAhead {
  public:
   /// Both must outlive it; `gradation` is that of the tree.
-  LeavesAhead(const SizeTree& tree, Gradation& gradation) : tree_{tree}, gradation_{gradation} {}
+  LeavesAhead(SizeTree& tree, Gradation& gradation) : tree_{tree}, gradation_{gradation} {}
 
   /// How many leaves a quadrant that must be split will hold in the end, about, at least 1: good enough to
   /// tell where most are to be looked for.
@@ -21,7 +21,7 @@ class LeavesAhead {
   double source_leaves(const Quadrant& q) const;
   int level_ahead(std::int32_t node);
 
-  const SizeTree& tree_;
+  SizeTree& tree_;
   Gradation& gradation_;
   std::vector<std::int8_t> levels_;  ///< of nodes, as far as they were asked for; 0: not yet
 };

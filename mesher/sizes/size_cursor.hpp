@@ -14,7 +14,7 @@ namespace quadloop {
 class SizeCursor {
  public:
   /// `tree` must outlive it.
-  explicit SizeCursor(const SizeTree& tree) : tree_{tree} {}
+  explicit SizeCursor(SizeTree& tree) : tree_{tree} {}
 
   /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
   std::span<const std::int32_t> segments_in(const Quadrant& q);
@@ -28,7 +28,7 @@ class SizeCursor {
   std::int32_t deepest_node_at(const Quadrant& q, const Enter& enter);
   std::int32_t deepest_with_geometry(const Quadrant& q);
 
-  const SizeTree& tree_;
+  SizeTree& tree_;
   std::int64_t x_ = -1, y_ = -1;  ///< the corner of the quadrant last looked up, or one outside the root
   int depth_ = 0;                 ///< level of the node that was found for it
   std::array<std::int32_t, Quadrant::unit_level + 1> path_{};  ///< from the root down to that

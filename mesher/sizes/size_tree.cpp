@@ -39,7 +39,7 @@ std::int32_t SizeTree::root_of(const Quadrant& q) const {
   return roots_[ty * lattice().trees_x() + tx];
 }
 
-void SizeTree::expect_cut_leaves(double leaves) const {
+void SizeTree::expect_cut_leaves(double leaves) {
   constexpr double nodes_of_leaf = 4;
   nodes_.reserve(nodes_.size() + static_cast<std::size_t>(nodes_of_leaf * leaves));
 }
@@ -56,12 +56,12 @@ void SizeTree::forget() {
   segments_.shrink_to_fit();
 }
 
-bool SizeTree::is_split(std::int32_t n) const {
+bool SizeTree::is_split(std::int32_t n) {
   if (node(n).children == Node::unknown) grow(n);
   return node(n).children >= 0;
 }
 
-void SizeTree::grow(std::int32_t n) const {
+void SizeTree::grow(std::int32_t n) {
   const Node parent = node(n);
   const QuarteredSquare square(rules_.outline(), lattice(), parent.quadrant);
   if (!rules_.wants_split(sized(parent, square.box()))) {
@@ -97,7 +97,7 @@ void SizeTree::grow(std::int32_t n) const {
 
 /// Takes over what the node holds of its parent's corners; a root, of all. A corner on a lattice line touches
 /// the leaves on both its sides, so that mirror images agree.
-void SizeTree::add(Node node, const Box& box, const Node& parent) const {
+void SizeTree::add(Node node, const Box& box, const Node& parent) {
   node.corners_begin = size32(corners_);
   for (std::int32_t i = parent.corners_begin; i < parent.corners_end; ++i) {
     const std::int32_t vertex = corners_[i];

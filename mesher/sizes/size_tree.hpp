@@ -10,9 +10,9 @@
 namespace quadloop {
 
 /// The *wanted* tree: the quadrants that the rules ask to split, and the index of what lies in each. It grows
-/// as it is asked for, which no answer shows but the time it takes; so a rank holds no more of it than it
-/// looks at, and two threads must not ask at once. Questions about quadrants are asked through objects that
-/// their callers hold: SizeCursor, Gradation, LeavesAhead.
+/// as it is asked for, by functions that are not const; so a rank holds no more of it than it looks at, and
+/// no answer depends on what was asked before. Questions about quadrants are asked through objects that their
+/// callers hold, which make it grow: SizeCursor, Gradation, LeavesAhead.
 class SizeTree {
  public:
   struct Node {
@@ -45,12 +45,12 @@ class SizeTree {
   std::int32_t root_of(const Quadrant& q) const;
   /// Whether the node has children; it has got them then. References to nodes and spans of segments may be
   /// stale after it.
-  bool is_split(std::int32_t node) const;
+  bool is_split(std::int32_t node);
   const Node& node(std::int32_t n) const { return nodes_[n]; }
   std::int32_t size() const { return size32(nodes_); }
   /// Makes room for the nodes that a forest with about so many cut leaves asks for: without it all nodes are
   /// copied each time their number doubles. Room that is not filled takes no memory.
-  void expect_cut_leaves(double leaves) const;
+  void expect_cut_leaves(double leaves);
   /// Gives up all nodes but the roots, and their memory. They grow again where they are asked for: objects
   /// that ask are to be made anew.
   void forget();
@@ -65,16 +65,15 @@ class SizeTree {
     return {all.data() + begin, all.data() + end};
   }
   SizedQuadrant sized(const Node& node, const Box& box) const;
-  void grow(std::int32_t node) const;
-  void add(Node node, const Box& box, const Node& parent) const;
+  void grow(std::int32_t node);
+  void add(Node node, const Box& box, const Node& parent);
 
   SizeRules rules_;
   std::vector<std::int32_t> roots_;
-  mutable std::vector<Node> nodes_;
-  mutable std::vector<std::int32_t> segments_;
-  mutable std::vector<std::int32_t> corners_;
-  mutable std::vector<std::uint8_t>
-      passed_;  ///< of the node that grows: by segment, the quarters that it meets
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> segments_;
+  std::vector<std::int32_t> corners_;
+  std::vector<std::uint8_t> passed_;  ///< of the node that grows: by segment, the quarters that it meets
 };
 
 }  // namespace quadloop

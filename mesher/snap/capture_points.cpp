@@ -19,8 +19,8 @@ namespace {
 constexpr double usual_snap = 0.4, edge_reach = 0.34;
 /// A point with a larger turning angle captures grid vertices and edges even if it is not kept.
 constexpr double pointed_degrees = 45;
-constexpr double crossing_reach =
-    0.4;  ///< a crossing nearer to the point is merged with the point by its edge
+/// A crossing nearer to the point is merged with the point by its edge.
+constexpr double crossing_reach = 0.4;
 
 /// Finds what one kept point captures.
 class PointCapture {

@@ -4,6 +4,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
+#include "mesher/base/short_lists.hpp"
 
 namespace quadloop {
 
@@ -12,6 +13,7 @@ namespace {
 /// Numbers of a segment's crossings with the sides of the leaf: at most one inwards and one outwards.
 struct Passage {
   std::int32_t entry = -1, exit = -1;
+  bool followed = false;  ///< a piece has the segment
 };
 
 Point crossing_of_vertical(const Geometry& g, std::int32_t s, double x, double low, double high) {
@@ -55,18 +57,17 @@ Passage find_passage(const ShiftedOutline& outline, std::int32_t s, const Box& b
   return passage;
 }
 
-/// Follows the boundary from the segment at `start` until it leaves the leaf or returns; appends the vertices
-/// on the way.
-Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<const Passage> passages,
-             std::vector<char>& seen, std::size_t start, std::int32_t first_vertex,
-             std::vector<std::int32_t>& vertices) {
+/// Follows the outline from the segment at `start` to where it leaves the leaf or comes back; appends the
+/// vertices on the way.
+Piece follow(const Geometry& g, std::span<const std::int32_t> segments, std::span<Passage> passages,
+             std::size_t start, std::int32_t first_vertex, std::vector<std::int32_t>& vertices) {
   Piece piece;
   piece.first_segment = segments[start];
   piece.entry = passages[start].entry;
   piece.vertices_begin = size32(vertices) - first_vertex;
   std::size_t at = start;
   while (true) {
-    seen[at] = 1;
+    passages[at].followed = true;
     piece.exit = passages[at].exit;
     if (piece.exit >= 0) break;
     const std::int32_t vertex = g.next(segments[at]);
@@ -86,19 +87,19 @@ std::int32_t LeafTraces::add(const ShiftedOutline& outline, const Box& box,
                              std::span<const std::int32_t> segments) {
   begins_.push_back({box, size32(crossings_), size32(pieces_), size32(vertices_)});
   const std::int32_t first_crossing = size32(crossings_), first_vertex = size32(vertices_);
-  thread_local std::vector<Passage> passages;
-  thread_local std::vector<char> seen;
-  passages.clear();
+  ShortLists<512> lists;
+  std::pmr::vector<Passage> passages(lists.memory());
+  passages.reserve(segments.size());
   for (const std::int32_t s : segments)
     passages.push_back(find_passage(outline, s, box, first_crossing, crossings_));
-  seen.assign(segments.size(), 0);
+  const auto add_piece = [&](std::size_t start) {
+    pieces_.push_back(follow(outline.geometry(), segments, passages, start, first_vertex, vertices_));
+  };
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (passages[i].entry >= 0)
-      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+    if (passages[i].entry >= 0) add_piece(i);
   }
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (seen[i] == 0)
-      pieces_.push_back(follow(outline.geometry(), segments, passages, seen, i, first_vertex, vertices_));
+    if (!passages[i].followed) add_piece(i);
   }
   return size32(begins_) - 1;
 }

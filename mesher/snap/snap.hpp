@@ -22,10 +22,10 @@ struct Snap {
     friend auto operator<=>(const Absorbed&, const Absorbed&) = default;
   };
   std::vector<Absorbed> absorbed;  ///< ascending
-  std::int32_t segment =
-      -1;                 ///< segment onto which a hanging node was moved without a near crossing; else -1
-  bool on_edge = false;   ///< for an edge, not a vertex
-  bool vertical = false;  ///< the edge is vertical
+  /// Segment onto which a hanging node was moved without a near crossing; else -1.
+  std::int32_t segment = -1;
+  bool on_edge = false;                     ///< for an edge, not a vertex
+  bool vertical = false;                    ///< the edge is vertical
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 

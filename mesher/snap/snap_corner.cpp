@@ -1,13 +1,12 @@
 #include "mesher/snap/snap_corner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <memory_resource>
 #include <utility>
 
+#include "mesher/base/short_lists.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop {
@@ -90,9 +89,15 @@ struct Swallowed {
 /// The steps of the decision for one grid vertex; none has side effects.
 class CornerDecision {
  public:
+  /// `memory`: for the lists of the decision, which are short.
   CornerDecision(const Geometry& geometry, const LeafTraces& traces, const SightedCorner& corner,
-                 double share)
-      : geometry_{geometry}, traces_{traces}, corner_{corner}, sights_{corner.sights}, share_{share} {}
+                 double share, std::pmr::memory_resource* memory)
+      : geometry_{geometry},
+        traces_{traces},
+        corner_{corner},
+        sights_{corner.sights},
+        share_{share},
+        memory_{memory} {}
 
   /// Absorbs a whole run if that is a contraction, else the part of it that claims the vertex.
   std::optional<Snap> decide() const {
@@ -146,13 +151,13 @@ class CornerDecision {
   /// The runs among the crossings that claim the grid vertex. With `whole_run` also crossings nearer to it
   /// than to the far end of their edge: the vertex there is farther and never absorbs them.
   Runs runs_among(bool whole_run) const {
-    Runs runs(sights_.size(), &memory_);
+    Runs runs(sights_.size(), memory_);
     for (std::int32_t i = 0; i < size32(sights_); ++i) {
       const bool nearer = 2 * sights_[i].distance < sights_[i].edge;
       if (claims(sights_[i]) || (whole_run && nearer)) runs.add(i);
     }
-    std::pmr::vector<std::int32_t> order(runs.sights().begin(), runs.sights().end(), &memory_);
-    for (std::size_t k = 1; k < order.size(); ++k) {  // both ends of a piece are consecutive
+    std::pmr::vector<std::int32_t> order(runs.sights().begin(), runs.sights().end(), memory_);
+    for (std::size_t k = 1; k < order.size(); ++k) {  // both ends of a piece come one after the other
       const Sight& s = sights_[order[k]];
       if (on_one_piece(sights_[order[k - 1]], s) && joins_its_ends(s)) runs.join(order[k - 1], order[k]);
     }
@@ -282,7 +287,7 @@ class CornerDecision {
 
   /// A piece with both ends in the run vanishes entirely.
   Swallowed swallowed_by(const Run& run) const {
-    Swallowed swallowed(&memory_);
+    Swallowed swallowed(memory_);
     const auto swallow = [&](std::int32_t v) { swallowed.vertices.push_back(v); };
     for (const std::int32_t i : run.sights) {
       const Sight& s = sights_[i];
@@ -360,21 +365,21 @@ class CornerDecision {
   const SightedCorner& corner_;
   std::span<const Sight> sights_;
   double share_;
-  /// Memory for the short lists of a decision.
-  mutable std::array<std::byte, 1024> room_;
-  mutable std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+  std::pmr::memory_resource* memory_;
 };
 
 }  // namespace
 
 std::optional<Snap> snap_corner(const Geometry& geometry, const LeafTraces& traces,
                                 const SightedCorner& corner, double share) {
-  return CornerDecision(geometry, traces, corner, share).decide();
+  ShortLists<1024> lists;
+  return CornerDecision(geometry, traces, corner, share, lists.memory()).decide();
 }
 
 std::optional<Snap> snap_captured(const Geometry& geometry, const LeafTraces& traces,
                                   const SightedCorner& corner, double share, const CornerCapture& capture) {
-  return CornerDecision(geometry, traces, corner, share).decide(capture);
+  ShortLists<1024> lists;
+  return CornerDecision(geometry, traces, corner, share, lists.memory()).decide(capture);
 }
 
 }  // namespace quadloop

@@ -1,117 +1,160 @@
 #include "quadloop/case/adapt_settings.hpp"
 
-#include <cmath>
-
 namespace quadloop {
 
 namespace {
 
 /// A name, a list of names, { size = "h" } or { error = "e" }.
-void read_variable(const CaseTable& table, AdaptOptions& options) {
-  if (!table.has("variable")) return;
-  if (!table.is_table("variable")) {
-    options.variables = table.texts("variable");
-    if (options.variables.empty())
-      table.refuse("variable", "is empty; name what the marks are made from, as in variable = \"density\"");
-    return;
+SensorFields read_sensor_fields(const CaseTable& table, const std::string& key) {
+  using enum AdaptOptions::Source;
+  if (!table.is_table(key)) {
+    const std::vector<std::string> names = table.texts(key);
+    if (names.empty())
+      table.refuse(key, "is empty; name what the marks are made from, as in variable = \"density\"");
+    return {variables, names};
   }
-  const CaseTable field = *table.table("variable");
-  const auto size = field.text("size"), error = field.text("error");
-  field.finish();
-  if (size.has_value() == error.has_value())
-    table.refuse("variable", "must be a name, a list of names, { size = \"name\" } or { error = \"name\" }");
-  options.source = size ? AdaptOptions::Source::size : AdaptOptions::Source::error;
-  options.variables = {size ? *size : *error};
+  const CaseTable field = *table.table(key);
+  refuse_unknown_keys(field, {"size", "error"});
+  const auto size_name = field.text("size"), error_name = field.text("error");
+  if (size_name.has_value() == error_name.has_value())
+    table.refuse(key, "must be a name, a list of names, { size = \"name\" } or { error = \"name\" }");
+  return size_name ? SensorFields{size, {*size_name}} : SensorFields{error, {*error_name}};
 }
 
+ValueForm<SensorFields> sensor_fields() {
+  return {"text, a list, or a table", "\"pressure\"", read_sensor_fields};
+}
+
+ValueForm<AdaptOptions::Until> until() {
+  return {"table", "{ cl = 1e-3 }", [](const CaseTable& table, const std::string& key) {
+            AdaptOptions::Until changes;
+            until_keys().read(*table.table(key), changes);
+            if (changes.empty())
+              table.refuse(key, "is empty; give changes of a cycle, as in until = { cl = 1e-3, cd = 1e-4 }");
+            return changes;
+          }};
+}
+
+/// The same keys have other defaults and limits where they are fractions of the leaves.
 void read_thresholds(const CaseTable& table, AdaptOptions& options) {
-  if (const auto word = table.choice("threshold", words_of(AdaptOptions::threshold_words)))
-    options.threshold = *value_of(AdaptOptions::threshold_words, *word);
   const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
   if (shares) {
-    options.refine = FractionRule{}.refine;
-    options.coarsen = FractionRule{}.coarsen;
-  }
-  const Range range = shares ? Range{0, 1} : Range{-100, 100};
-  options.refine = table.number("refine", range).value_or(options.refine);
-  options.coarsen = table.number("coarsen", range).value_or(options.coarsen);
-  if (shares && options.refine + options.coarsen > 1) {
-    table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
-  }
-  if (!shares && -options.coarsen > options.refine)
+    options.refine = table.number("refine", {0, 1}).value_or(FractionRule{}.refine);
+    options.coarsen = table.number("coarsen", {0, 1}).value_or(FractionRule{}.coarsen);
+    if (options.refine + options.coarsen > 1)
+      table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
+  } else if (-options.coarsen > options.refine) {
     table.refuse("coarsen", "lets leaves be refined and coarsened at once; make it larger than -refine");
+  }
 }
 
 /// Wanted sizes instead of marks.
-void read_norm(const CaseTable& table, AdaptOptions& options) {
-  options.norm = table.number("norm", {1, 100});
-  options.growth = table.number("growth", {1, 1000, true, false});
-  if (!options.norm) {
-    if (options.growth) table.refuse("growth", "bounds the nodes of wanted sizes; it needs norm");
-    return;
-  }
+void take_norm(const CaseTable& table, AdaptOptions& options) {
+  if (!options.norm) return;
   if (options.source == AdaptOptions::Source::size)
     table.refuse("norm", "makes sizes from variables or an error; name these in variable, or leave norm out");
   if (table.has("indicator") && options.indicator != Indicator::hessian)
     table.refuse("indicator", "must be \"hessian\" with norm, or left out");
   if (table.has("threshold") && options.threshold != AdaptOptions::Threshold::nodes)
     table.refuse("threshold", "must be \"nodes\" with norm, or left out");
-  for (const char* key : {"refine", "coarsen"}) {
-    if (table.has(key))
-      table.refuse(key, "does nothing with norm: sizes follow from max_nodes; leave it out");
-  }
   options.indicator = Indicator::hessian;
   options.threshold = AdaptOptions::Threshold::nodes;
-  if (!options.max_nodes)
-    table.refuse("norm", "needs max_nodes: the number of nodes for which the error is to be least");
-}
-
-void read_until(const CaseTable& table, AdaptOptions& options) {
-  const auto until = table.table("until");
-  if (!until) return;
-  options.until = {until->number("cl", Range::positive()), until->number("cd", Range::positive()),
-                   until->number("estimate", Range::positive())};
-  until->finish();
-  if (options.until.empty())
-    table.refuse("until", "is empty; give changes of a cycle, as in until = { cl = 1e-3, cd = 1e-4 }");
-  if (options.until.estimate && !options.norm) table.refuse("until", "names the estimate, which needs norm");
 }
 
 }  // namespace
 
+const KeyTable<AdaptOptions::Until>& until_keys() {
+  static const KeyTable<AdaptOptions::Until> keys{
+      "adapt.until",
+      {key<&AdaptOptions::Until::cl>("cl", number(Range::positive()), "Change of the lift coefficient.",
+                                     {.fallback = "none"}),
+       key<&AdaptOptions::Until::cd>("cd", number(Range::positive()), "Change of the drag coefficient.",
+                                     {.fallback = "none"}),
+       key<&AdaptOptions::Until::estimate>("estimate", number(Range::positive()),
+                                           "Change of the estimated error, relative to the cycle before.",
+                                           {.fallback = "none", .needs = {{"adapt.norm"}}})}};
+  return keys;
+}
+
+const KeyTable<AdaptKeys>& adapt_keys() {
+  const std::string follow = "sizes follow from max_nodes; leave it out";
+  static const KeyTable<AdaptKeys> keys{
+      "adapt",
+      {key<&AdaptKeys::options, &AdaptOptions::cycles>(
+           "cycles", whole({0, 10000}),
+           "Number of adaptation cycles after the initial solution. The run ends earlier if a cycle flags no "
+           "cell. `--cycles` overrides it."),
+       key<&AdaptKeys::options, &AdaptOptions::passes>(
+           "passes", whole({0, 100}),
+           "Number of [initial adaptation passes](../explanation/adaptation.md#initial-passes) on partly "
+           "converged flows before cycle 0.",
+           {.needs = {{"solver.kind = \"euler\"", "the built-in solver alone can end flows early",
+                       "passes > 0"},
+                      {"solver.time = \"steady\"", "a steady flow can be ended early", "passes > 0"}}}),
+       key<&AdaptKeys::fields>("variable", sensor_fields(),
+                               "Sensor variables, or `{ size = \"h\" }` for a size field or `{ error = \"e\" "
+                               "}` for an error estimate, written by the solver.",
+                               {.fallback = "`\"density\"`"}),
+       key<&AdaptKeys::options, &AdaptOptions::indicator>(
+           "indicator", choice(indicator_words),
+           "[Indicator](../explanation/adaptation.md) of the cells to refine."),
+       key<&AdaptKeys::options, &AdaptOptions::threshold>(
+           "threshold", choice(AdaptOptions::threshold_words),
+           "Rule that selects the cells: `deviation` from the mean, a `fraction` of the cells, or the number "
+           "of `nodes` to reach.",
+           {.needs = {{"max_nodes", "it is the number of nodes to be met", "threshold = \"nodes\""}}}),
+       key<&AdaptKeys::options, &AdaptOptions::refine>(
+           "refine", number({-100, 100}),
+           "Refine above this number of standard deviations over the mean; with `threshold = \"fraction\"`, "
+           "fraction of the cells, 0 to 1 (default 0.2).",
+           {.example = "2", .needs = {{"no norm", follow}}}),
+       key<&AdaptKeys::options, &AdaptOptions::coarsen>(
+           "coarsen", number({-100, 100}),
+           "Likewise for coarsening, below the mean; as a fraction 0.1 by default.",
+           {.example = "2", .needs = {{"no norm", follow}}}),
+       key<&AdaptKeys::options, &AdaptOptions::max_nodes>(
+           "max_nodes", whole({1, 1e12}),
+           "Largest number of nodes, those of layers included. With `threshold = \"nodes\"` the mesh gets 95 "
+           "to 100 % of it.",
+           {.fallback = "none"}),
+       key<&AdaptKeys::options, &AdaptOptions::norm>(
+           "norm", number({1, 100}),
+           "Exponent p: cells get the [sizes](../explanation/adaptation.md#target-size-field) that minimise "
+           "the L^p norm of the interpolation error.",
+           {.fallback = "none",
+            .needs = {{"max_nodes", "the number of nodes for which the error is to be least"}}}),
+       key<&AdaptKeys::options, &AdaptOptions::growth>(
+           "growth", number({1, 1000, true, false}),
+           "Largest ratio of the numbers of nodes of successive meshes.",
+           {.fallback = "none", .needs = {{"norm", "it bounds the nodes of wanted sizes"}}}),
+       key<&AdaptKeys::options, &AdaptOptions::until>(
+           "until", until(),
+           "End the run when the changes between cycles are below these ([stopping "
+           "criteria](../explanation/adaptation.md#stopping-criteria)).",
+           {.fallback = "none"}),
+       key<&AdaptKeys::options, &AdaptOptions::min>("min", number(Range::positive()),
+                                                    "Smallest cell size of adaptation.",
+                                                    {.unit = "length", .fallback = "`spacing.min`"}),
+       key<&AdaptKeys::options, &AdaptOptions::facets>("facets", flag(),
+                                                       "Let cells at the points of a polygonal boundary "
+                                                       "become smaller than half of the adjacent segments."),
+       key<&AdaptKeys::options, &AdaptOptions::transfer>(
+           "transfer", choice(transfer_words),
+           "Transfer of node values; cell values are always transferred "
+           "[conservatively](../explanation/adaptation.md#solution-transfer).")}};
+  return keys;
+}
+
 std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
   const auto table = root.table("adapt");
   if (!table) return {};
-  AdaptOptions options;
-  if (const auto cycles = table->number("cycles", {0, 10000})) {
-    if (*cycles != std::floor(*cycles))
-      table->refuse("cycles", "must be a whole number: how many times the mesh is adapted");
-    options.cycles = static_cast<int>(*cycles);
-  }
-  if (const auto passes = table->number("passes", {0, 100})) {
-    if (*passes != std::floor(*passes))
-      table->refuse("passes", "must be a whole number: how many meshes are solved roughly before cycle 0");
-    options.passes = static_cast<int>(*passes);
-  }
-  read_variable(*table, options);
-  if (const auto word = table->choice("indicator", words_of(indicator_words)))
-    options.indicator = *value_of(indicator_words, *word);
-  read_thresholds(*table, options);
-  if (const auto nodes = table->number("max_nodes", {1, 1e12})) {
-    if (*nodes != std::floor(*nodes)) table->refuse("max_nodes", "must be a whole number of nodes");
-    options.max_nodes = static_cast<std::int64_t>(*nodes);
-  }
-  read_norm(*table, options);
-  read_until(*table, options);
-  if (options.threshold == AdaptOptions::Threshold::nodes && !options.max_nodes) {
-    table->refuse("threshold", "is \"nodes\", but max_nodes is missing: it is the number to be met");
-  }
-  options.min = table->number("min", Range::positive());
-  options.facets = table->flag("facets");
-  if (const auto word = table->choice("transfer", words_of(transfer_words)))
-    options.transfer = *value_of(transfer_words, *word);
-  table->finish();
-  return options;
+  AdaptKeys keys;
+  adapt_keys().read(*table, keys);
+  keys.options.source = keys.fields.source;
+  keys.options.variables = keys.fields.names;
+  take_norm(*table, keys.options);
+  if (!keys.options.norm) read_thresholds(*table, keys.options);
+  return keys.options;
 }
 
 }  // namespace quadloop

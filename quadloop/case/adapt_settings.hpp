@@ -1,11 +1,30 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "adapt/remesh/demands/adapt_options.hpp"
-#include "io/input/case_file.hpp"
+#include "quadloop/case/key_table.hpp"
 
 namespace quadloop {
+
+/// The key `variable` of [adapt].
+struct SensorFields {
+  AdaptOptions::Source source = AdaptOptions::Source::variables;
+  std::vector<std::string> names = AdaptOptions{}.variables;
+
+  friend bool operator==(const SensorFields&, const SensorFields&) = default;
+};
+
+/// The table [adapt].
+struct AdaptKeys {
+  AdaptOptions options;
+  SensorFields fields;
+};
+
+const KeyTable<AdaptKeys>& adapt_keys();
+const KeyTable<AdaptOptions::Until>& until_keys();
 
 /// The table [adapt] of a case, if it has one. Throws InputError that names key and line.
 std::optional<AdaptOptions> read_adapt_table(const CaseTable& root);

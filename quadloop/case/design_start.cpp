@@ -34,7 +34,7 @@ constexpr const char* what_from_takes =
 std::string cycle_folder(const std::string& from, std::vector<std::string>& warnings) {
   std::string last;
   for (int cycle = 0;; ++cycle) {
-    const std::string folder = fmt::format("{}/cycle_{:02}", from, cycle);
+    const std::string folder = from + "/" + cycle_name(cycle);
     if (is_there(CyclePaths{folder}.record())) {
       last = folder;
       continue;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "flow/quantities/free_stream.hpp"
-#include "io/input/case_file.hpp"
+#include "quadloop/case/key_table.hpp"
 
 namespace quadloop {
 
@@ -18,12 +18,15 @@ struct FlowSettings {
   double reference_length = 1;     ///< in the geometry's unit of length
   double density = 1, speed = 1, alpha = 0, gamma = 1.4;
   std::optional<double> pressure;
+  std::optional<double> mach;  ///< decides the speed, or agrees with it
 
   /// Dynamic; 0 where no Reynolds number is given.
   double viscosity() const { return reynolds ? density * speed * reference_length / *reynolds : 0; }
   /// Where it has a pressure, without which there are no coefficients.
   std::optional<FreeStream> stream() const;
 };
+
+const KeyTable<FlowSettings>& flow_keys();
 
 /// Nothing where the case has no such table. Throws InputError that names key and line.
 std::optional<FlowSettings> read_flow_table(const CaseTable& root);

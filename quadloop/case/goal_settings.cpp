@@ -12,69 +12,66 @@ namespace quadloop {
 namespace {
 
 /// A word, a list of words, or a table of words with the weights of their errors.
-std::vector<Goal> read_quantities(const CaseTable& table) {
+std::vector<Goal> read_quantities(const CaseTable& table, const std::string& key) {
+  const std::vector<std::string> words = words_of(Goal::words);
   std::vector<Goal> goals;
-  if (table.is_table("goal")) {
-    const CaseTable weights = *table.table("goal");
+  if (table.is_table(key)) {
+    const CaseTable weights = *table.table(key);
+    refuse_unknown_keys(weights, words);
     for (const auto& [word, quantity] : Goal::words) {
       if (const auto weight = weights.number(word, Range::positive()))
         goals.push_back({quantity, {}, {}, *weight});
     }
-    weights.finish();
   } else {
-    for (const std::string& word : table.texts("goal")) {
-      const auto quantity = value_of(Goal::words, word);
-      const auto is_same = [&](const Goal& goal) { return goal.quantity == *quantity; };
-      if (!quantity)
-        table.refuse("goal", fmt::format("names '{}'; it may be lift, drag, moment or pressure", word));
-      if (std::ranges::any_of(goals, is_same)) table.refuse("goal", fmt::format("names '{}' twice", word));
-      goals.push_back({*quantity});
+    for (const std::string& word : texts(words).read(table, key)) {
+      const Goal::Quantity quantity = *value_of(Goal::words, word);
+      if (std::ranges::count(goals, quantity, &Goal::quantity) > 0)
+        table.refuse(key, fmt::format("names '{}' twice", word));
+      goals.push_back({quantity});
     }
   }
-  if (goals.empty())
-    table.refuse("goal", "is empty; name what the flow is solved for, as in goal = \"drag\"");
+  if (goals.empty()) table.refuse(key, "is empty; name what the flow is solved for, as in goal = \"drag\"");
   return goals;
-}
-
-void refuse_what_has_no_adjoint(const CaseTable& table, bool built_in, const EulerOptions& options) {
-  if (!built_in)
-    table.refuse(
-        "goal",
-        "needs the adjoint of the built-in solver, kind = \"euler\"; a solver of your own may write an "
-        "error field of its own: adapt.variable = { error = \"name\" }");
-  if (options.viscosity > 0)
-    table.refuse("goal", "needs a flow without viscosity; leave out viscosity and reynolds, or the goal");
-  if (options.time != EulerOptions::Time::steady)
-    table.refuse("goal", "needs a steady flow; set time = \"steady\" or leave the goal out");
-  if (options.far_field == EulerOptions::FarField::vortex)
-    table.refuse(
-        "goal",
-        "needs the free stream beyond the far field; set far_field = \"uniform\", or leave the goal out");
-  if (options.mach == 0) table.refuse("goal", "is a coefficient, which needs a mach above 0");
 }
 
 }  // namespace
 
-void read_goals(const CaseTable& table, bool built_in, EulerOptions& options) {
-  if (!table.has("goal")) {
-    for (const char* const key : {"goal_on", "goal_about", "goal_adjoint"}) {
-      if (table.has(key)) table.refuse(key, "says something of a goal; it needs goal, as in goal = \"drag\"");
-    }
-    return;
+std::vector<Key<SolverSettings>> goal_keys() {
+  return {
+      key<&SolverSettings::euler, &EulerOptions::goals>(
+          "goal", ValueForm<std::vector<Goal>>{"text, a list, or a table", "\"drag\"", read_quantities},
+          "[Output functional](../explanation/adaptation.md#output-functionals-and-adjoints): `drag`, "
+          "`lift`, `moment` or `pressure`; a list of them, or a table of weights.",
+          {.fallback = "none",
+           .needs =
+               {{"kind = \"euler\"",
+                 "it takes the adjoint of the built-in solver; a solver of your own may write an error field "
+                 "of its own: adapt.variable = { error = \"name\" }"},
+                {"viscosity = 0", "the adjoint is that of a flow without viscosity"},
+                {"no reynolds", "the adjoint is that of a flow without viscosity; leave one of them out"},
+                {"time = \"steady\"", "set it, or leave the goal out"},
+                {"far_field = \"uniform\"", "set it, or leave the goal out"},
+                {"mach > 0", "it is a coefficient"}}}),
+      key<&SolverSettings::goal_on>("goal_on", texts(),
+                                    "Boundaries of the functional, with patterns: `[\"flap\", \"slat_*\"]`.",
+                                    {.fallback = "all walls", .needs = {{"goal"}}}),
+      key<&SolverSettings::goal_about>("goal_about", point(), "Reference point of a moment.",
+                                       {.fallback = "`[0, 0]`", .needs = {{"goal"}}}),
+      key<&SolverSettings::euler, &EulerOptions::adjoint_fields>(
+          "goal_adjoint", choice<bool>({{"none", false}, {"write", true}}),
+          "`write`: the adjoint solution and the derivatives of the functional with respect to node "
+          "positions are added to the variables of the flow.",
+          {.needs = {{"goal"}}})};
+}
+
+void place_goals(const CaseTable& table, SolverSettings& settings) {
+  std::vector<Goal>& goals = settings.euler.goals;
+  if (settings.goal_about && std::ranges::count(goals, Goal::Quantity::moment, &Goal::quantity) == 0)
+    table.refuse("goal_about", "is the point of a moment; add \"moment\" to goal");
+  for (Goal& goal : goals) {
+    goal.boundaries = settings.goal_on;
+    goal.about = settings.goal_about.value_or(goal.about);
   }
-  options.goals = read_quantities(table);
-  refuse_what_has_no_adjoint(table, built_in, options);
-  const std::vector<std::string> on =
-      table.has("goal_on") ? table.texts("goal_on") : std::vector<std::string>{};
-  const auto about = table.numbers("goal_about", 2);
-  const bool has_moment = std::ranges::any_of(
-      options.goals, [](const Goal& goal) { return goal.quantity == Goal::Quantity::moment; });
-  if (about && !has_moment) table.refuse("goal_about", "is the point of a moment; add \"moment\" to goal");
-  for (Goal& goal : options.goals) {
-    goal.boundaries = on;
-    if (about) goal.about = {about->at(0), about->at(1)};
-  }
-  options.adjoint_fields = table.choice("goal_adjoint", {"none", "write"}) == "write";
 }
 
 std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries) {

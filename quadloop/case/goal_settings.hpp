@@ -1,14 +1,19 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "flow/euler/model/euler_options.hpp"
-#include "io/input/case_file.hpp"
+#include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop {
 
-/// What [solver] says of goals: `goal`, `goal_on`, `goal_about`, `goal_adjoint`. Boundaries are patterns
-/// still. Throws InputError that names key and line; `built_in` tells whether the solver is the built-in one,
-/// which alone has goals. The other options must have been read.
-void read_goals(const CaseTable& table, bool built_in, EulerOptions& options);
+/// What [solver] says of goals, rows of its table.
+std::vector<Key<SolverSettings>> goal_keys();
+
+/// Gives the goals their boundaries, which are patterns still, and the point of moments. Throws InputError
+/// that names key and line.
+void place_goals(const CaseTable& table, SolverSettings& settings);
 
 /// The goals with the names of boundaries that their patterns match. Throws InputError for a pattern that
 /// matches none.

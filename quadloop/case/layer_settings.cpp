@@ -10,6 +10,8 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
+#include "quadloop/case/first_height.hpp"
 
 namespace quadloop {
 
@@ -17,76 +19,80 @@ namespace {
 
 constexpr int most_layers = 1000;
 
-int read_number_of_layers(const CaseTable& table, const std::string& key) {
-  const double count = table.number(key, {1, most_layers}).value_or(1);
-  if (count != std::floor(count)) table.refuse(key, "must be a whole number of layers");
-  return static_cast<int>(count);
+/// The flow that a y+ is asked for in.
+FlowConditions conditions_of_y_plus(const CaseTable& table, const std::string& key, const std::string& text) {
+  const auto flow = read_flow_table(table.root());
+  if (!flow)
+    table.refuse(key, fmt::format("is '{}', which needs a Reynolds number: write a table [flow] with "
+                                  "reynolds = 1e6, and reference_length unless that is 1",
+                                  text));
+  if (!flow->reynolds || *flow->reynolds < FlowSettings::least_reynolds)
+    table.refuse(key, fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
+                                  FlowSettings::least_reynolds,
+                                  flow->reynolds ? fmt::format("is {}", *flow->reynolds) : "is missing"));
+  return {*flow->reynolds, flow->reference_length};
 }
 
-void read_growth(const CaseTable& table, LayerSpec& spec) {
-  if (!table.has("growth")) return;
-  const std::vector<double> growth = table.numbers_or_one("growth", {1, 2, true, false});
+FirstHeight read_first_height(const CaseTable& table, const std::string& key) {
+  if (!table.is_text(key)) return {*table.number(key, Range::positive())};
+  constexpr std::string_view head = "yplus:";
+  const std::string text = *table.text(key);
+  double y_plus = 0;
+  const bool is_y_plus = text.starts_with(head) &&
+                         parse_real(std::string_view(text).substr(head.size()), y_plus) &&
+                         std::isfinite(y_plus) && y_plus > 0;
+  if (!is_y_plus)
+    table.refuse(key,
+                 fmt::format("is '{}', but must be a height above 0, or \"yplus:1\" with any number above "
+                             "0 in the place of 1",
+                             text));
+  return {height_of_y_plus(y_plus, conditions_of_y_plus(table, key, text)), y_plus};
+}
+
+GrowthRange read_growth(const CaseTable& table, const std::string& key) {
+  const std::vector<double> growth = table.numbers_or_one(key, {1, 2, true, false});
   if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
-    table.refuse("growth", "must be a number, or two of which the second is not less");
-  spec.growth = growth.front();
-  spec.growth_to = growth.back();
+    table.refuse(key, "must be a number, or two of which the second is not less");
+  return {growth.front(), growth.back()};
 }
 
-void read_count(const CaseTable& table, LayerSpec& spec) {
-  const auto thickness = table.number("thickness", Range::positive());
-  const bool has_count = table.has("count");
-  if (thickness && has_count)
-    table.refuse("thickness", "stands beside count, which says as much; give one of them");
-  if (!thickness && !has_count)
-    table.refuse("count", "is missing: how many layers, or with thickness how thick they are together");
-  if (!thickness) {
-    spec.count = read_number_of_layers(table, "count");
-    return;
-  }
-  if (*thickness < spec.first)
-    table.refuse("thickness",
-                 fmt::format("is {}, less than the first layer's height of {}", *thickness, spec.first));
-  spec.count = layers_within(spec, *thickness, most_layers + 1);
-  if (spec.count > most_layers)
-    table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
-}
-
-std::vector<Point> read_path(const CaseTable& table) {
+std::vector<Point> read_path(const CaseTable& table, const std::string& key) {
   std::vector<Point> path;
-  for (const std::vector<double>& point : table.pairs("path")) {
+  for (const std::vector<double>& point : table.pairs(key)) {
     path.push_back({point[0], point[1]});
     if (path.size() > 1 && path[path.size() - 2] == path.back())
-      table.refuse("path",
-                   fmt::format("has the point ({}, {}) twice in a row", path.back().x, path.back().y));
+      table.refuse(key, fmt::format("has the point ({}, {}) twice in a row", path.back().x, path.back().y));
   }
   return path;
 }
 
-double read_line_spacing(const CaseTable& table) {
-  const auto spacing = table.number("spacing", Range::positive());
-  if (!spacing) table.refuse("spacing", "is missing: the length of cells along the line");
-  return *spacing;
+ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 2]]", read_path}; }
+
+/// What the keys ask for together, of a table that they were read from.
+LayerSpec layers_of(const CaseTable& table, const LayerKeys& keys) {
+  LayerSpec spec{keys.first.height, keys.growth.low, keys.growth.high,
+                 keys.count,        keys.equal,      keys.first.y_plus};
+  if (keys.thickness) {
+    if (*keys.thickness < spec.first)
+      table.refuse("thickness", fmt::format("is {}, less than the first layer's height of {}",
+                                            *keys.thickness, spec.first));
+    spec.count = layers_within(spec, *keys.thickness, most_layers + 1);
+    if (spec.count > most_layers)
+      table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
+  }
+  if (spec.equal > spec.count)
+    table.refuse("equal",
+                 fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
+  return spec;
 }
 
-LayerLine read_wake(const CaseTable& table) {
-  LayerLine wake;
-  wake.where = table.place();
-  wake.from = table.texts("from");
-  std::erase(wake.from, "");
-  if (wake.from.empty())
-    table.refuse(
-        "from",
-        "is missing: the boundary whose edge, sharp or blunt, the wake begins at, or a list of those "
-        "that meet there");
-  if (const auto at = table.numbers("at", 2)) wake.at = Point{(*at)[0], (*at)[1]};
-  wake.path = read_path(table);
-  const auto length = table.number("length", Range::positive());
-  if (length.has_value() != wake.path.empty())
-    table.refuse("length", "or path must be given, and not both: how far the wake goes on, or where");
-  wake.length = length.value_or(0);
-  wake.spacing = read_line_spacing(table);
-  table.finish();
-  return wake;
+ValueForm<LayerSpec> layers() {
+  return {"table", "{ first = 1e-3, count = 5 }", [](const CaseTable& table, const std::string& key) {
+            LayerKeys keys;
+            const CaseTable below = *table.table(key);
+            layer_keys().read(below, keys);
+            return layers_of(below, keys);
+          }};
 }
 
 std::vector<Point> image_of(MirrorAxis axis, std::vector<Point> path) {
@@ -102,87 +108,157 @@ std::string text_of(const std::vector<Point>& path) {
 
 }  // namespace
 
-void LayerSettings::read_first_height(const CaseTable& layers, LayerSpec& spec) {
-  if (!layers.has("first"))
-    layers.refuse("first", "is missing: the height of the layer at the wall, or \"yplus:1\"");
-  if (!layers.is_text("first")) {
-    spec.first = *layers.number("first", Range::positive());
-    return;
+const KeyTable<LayerKeys>& layer_keys() {
+  static const KeyTable<LayerKeys> keys{
+      "boundary.NAME.layers",
+      {key<&LayerKeys::first>(
+           "first", ValueForm<FirstHeight>{"number, above 0, or `\"yplus:1\"`", "1e-3", read_first_height},
+           "Height of the first layer, normal to the wall, or that of an estimated y+, which requires "
+           "[`[flow]`](#flow).",
+           {.unit = "length", .required = {{"the height of the layer at the wall, or \"yplus:1\""}}}),
+       key<&LayerKeys::growth>(
+           "growth", ValueForm<GrowthRange>{"number, above 1 and at most 2, or two", "1.3", read_growth},
+           "Growth ratio of successive layers. `[1.1, 1.5]`: the ratio starts at the first value and rises, "
+           "after five layers by 0.05 per layer, to the second.",
+           {.fallback = "1.2"}),
+       key<&LayerKeys::count>("count", whole({1, most_layers}),
+                              "Number of layers. Alternative to `thickness`.",
+                              {.required = {{"how many layers, or with thickness how thick they are together",
+                                             "no thickness"}}}),
+       key<&LayerKeys::thickness>(
+           "thickness", number(Range::positive()),
+           "Total thickness: the smallest number of layers that reaches it. The last layer may exceed it.",
+           {.unit = "length", .needs = {{"no count", "which says as much; give one of them"}}}),
+       key<&LayerKeys::equal>("equal", whole({1, most_layers}),
+                              "Number of layers of the first height before the growth begins.",
+                              {.example = "2"})}};
+  return keys;
+}
+
+const KeyTable<LayerLine>& wake_keys() {
+  static const KeyTable<LayerLine> keys{
+      "wake",
+      {key<&LayerLine::from>(
+           "from", texts(),
+           "The boundary with layers at whose sharp or blunt trailing edge the wake begins; a list if "
+           "several boundaries meet there.",
+           {.example = "\"box\"",
+            .required =
+                {{"the boundary whose edge, sharp or blunt, the wake begins at, or a list of those that "
+                  "meet there"}}}),
+       key<&LayerLine::at>("at", point(),
+                           "A point near the trailing edge, if `from` has several. The nearest edge is used, "
+                           "at most 1/20 of the extent of the boundary away.",
+                           {.fallback = "none"}),
+       key<&LayerLine::length>("length", number(Range::positive()),
+                               "Length of a straight wake. Alternative to `path`.",
+                               {.unit = "length",
+                                .needs = {{"no path"}},
+                                .required = {{"how far the wake goes on, or with path where", "no path"}}}),
+       key<&LayerLine::path>("path", path(), "The points that the wake leads to."),
+       key<&LayerLine::spacing>("spacing", number(Range::positive()), "Target cell length along the line.",
+                                {.unit = "length", .required = {{"the length of cells along the line"}}})}};
+  return keys;
+}
+
+const KeyTable<LayerLineKeys>& layer_line_keys() {
+  static const KeyTable<LayerLineKeys> keys{
+      "layer_line",
+      joined<LayerLineKeys>(
+          {key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
+                                                       {.required = {{"the points of the line"}}}),
+           key<&LayerLineKeys::line, &LayerLine::spacing>(
+               "spacing", number(Range::positive()), "Target cell length along the line.",
+               {.unit = "length", .required = {{"the length of cells along the line"}}})},
+          layer_keys().keys_of<&LayerLineKeys::layers>())};
+  return keys;
+}
+
+const KeyTable<BoundaryKeys>& boundary_keys() {
+  static const KeyTable<BoundaryKeys> keys{
+      "boundary.NAME",
+      {key<&BoundaryKeys::rule, &BoundaryRule::spacing>(
+           "spacing", number(Range::positive()),
+           "Largest cell size on this boundary. An edge between two feature points (a blunt trailing edge) "
+           "also requests its own length, down to `spacing.min`.",
+           {.unit = "length", .fallback = "point spacing of the geometry"}),
+       key<&BoundaryKeys::rule, &BoundaryRule::corner_degrees>(
+           "corner", number({0, 180}), "Feature angle of this boundary.",
+           {.unit = "degrees", .fallback = "`spacing.corner`"}),
+       key<&BoundaryKeys::rule, &BoundaryRule::corner_spacing>(
+           "corner_spacing", number(Range::positive()),
+           "Largest size of cells at a sharp corner of this boundary, where it turns by more than `corner`.",
+           {.unit = "length", .fallback = "none"}),
+       key<&BoundaryKeys::rule, &BoundaryRule::condition>(
+           "bc", one_of(condition_words()), "Boundary condition for the solver.", {.fallback = "`none`"}),
+       key<&BoundaryKeys::wall>("wall", one_of(wall_words()),
+                                "Kind of wall, for formats that distinguish them (CGNS, `.mapbc`). The "
+                                "built-in solver uses `viscosity` instead.",
+                                {.fallback = "none", .needs = {{"bc = \"wall\""}}}),
+       key<&BoundaryKeys::rule, &BoundaryRule::layers>(
+           "layers", layers(),
+           "Boundary layers, `{ first = 1e-5, growth = 1.2, count = 30 }`; see below and "
+           "[layers](../explanation/layers.md).",
+           {.fallback = "none"}),
+       key<&BoundaryKeys::pressure>(
+           "pressure", number(Range::positive()), "Static back pressure divided by the free-stream pressure.",
+           {.fallback = "none: supersonic outflow, choked where subsonic", .needs = {{"bc = \"outflow\""}}}),
+       key<&BoundaryKeys::wall_temperature>(
+           "wall_temperature", number(Range::positive()),
+           "Wall temperature divided by the free-stream temperature in a viscous flow. Without viscosity it "
+           "has no effect and gives a warning.",
+           {.fallback = "adiabatic", .needs = {{"bc = \"wall\""}}})}};
+  return keys;
+}
+
+void read_boundary_tables(const CaseTable& boundaries, Settings& settings) {
+  for (const std::string& name : boundaries.keys()) {
+    const auto table = *boundaries.table(name);
+    BoundaryKeys keys;
+    boundary_keys().read(table, keys);
+    BoundaryRule& rule = keys.rule;
+    rule.pattern = name;
+    rule.where = fmt::format("{}: [{}]", table.place(), boundaries.full_name(name));
+    if (keys.wall) rule.condition = *keys.wall + "_wall";
+    if (keys.pressure) settings.solver.pressures.push_back({name, *keys.pressure});
+    if (keys.wall_temperature) settings.solver.wall_temperatures.push_back({name, *keys.wall_temperature});
+    settings.wants_y_plus = settings.wants_y_plus || (rule.layers && rule.layers->y_plus > 0);
+    settings.outline.rules.push_back(std::move(rule));
   }
-  constexpr std::string_view head = "yplus:";
-  const std::string text = *layers.text("first");
-  const bool is_y_plus = text.starts_with(head) &&
-                         parse_real(std::string_view(text).substr(head.size()), spec.y_plus) &&
-                         std::isfinite(spec.y_plus) && spec.y_plus > 0;
-  if (!is_y_plus)
-    layers.refuse("first", fmt::format("is '{}', but must be a height above 0, or \"yplus:1\" with any "
-                                       "number above 0 in the place of 1",
-                                       text));
-  if (!flow_)
-    layers.refuse("first", fmt::format("is '{}', which needs a Reynolds number: write a table [flow] with "
-                                       "reynolds = 1e6, and reference_length unless that is 1",
-                                       text));
-  used_ = true;
-  spec.first = height_of_y_plus(spec.y_plus, flow_conditions(layers));
 }
 
-FlowConditions LayerSettings::flow_conditions(const CaseTable& layers) const {
-  if (!flow_->reynolds || *flow_->reynolds < FlowSettings::least_reynolds)
-    layers.refuse("first",
-                  fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
-                              FlowSettings::least_reynolds,
-                              flow_->reynolds ? fmt::format("is {}", *flow_->reynolds) : "is missing"));
-  return {*flow_->reynolds, flow_->reference_length};
+LayerLine read_wake(const CaseTable& table) {
+  LayerLine wake;
+  wake.where = table.place();
+  wake_keys().read(table, wake);
+  std::erase(wake.from, "");
+  if (wake.from.empty()) table.refuse("from", "is empty; name the boundary that the wake begins at");
+  return wake;
 }
 
-LayerSpec LayerSettings::read(const CaseTable& layers) {
-  const LayerSpec spec = read_keys(layers);
-  layers.finish();
-  return spec;
+LayerLine read_layer_line(const CaseTable& table, Settings& settings) {
+  LayerLineKeys keys;
+  keys.line.where = table.place();
+  layer_line_keys().read(table, keys);
+  if (keys.line.path.size() < 2) table.refuse("path", "must have two points at least");
+  settings.wants_y_plus = settings.wants_y_plus || keys.layers.first.y_plus > 0;
+  keys.layers.first.y_plus = 0;  // there is no friction to follow
+  keys.line.layers = layers_of(table, keys.layers);
+  return keys.line;
 }
 
-LayerSpec LayerSettings::read_keys(const CaseTable& layers) {
-  LayerSpec spec;
-  read_first_height(layers, spec);
-  read_growth(layers, spec);
-  spec.equal = read_number_of_layers(layers, "equal");
-  read_count(layers, spec);
-  if (spec.equal > spec.count)
-    layers.refuse("equal",
-                  fmt::format("is {}, more than the {} layers that there are", spec.equal, spec.count));
-  return spec;
-}
-
-LayerLine LayerSettings::read_layer_line(const CaseTable& table) {
-  LayerLine line;
-  line.where = table.place();
-  line.path = read_path(table);
-  if (line.path.size() < 2) table.refuse("path", "must have two points at least");
-  line.spacing = read_line_spacing(table);
-  line.layers = read_keys(table);
-  line.layers->y_plus = 0;  // there is no friction to follow
-  table.finish();
-  return line;
-}
-
-std::vector<LayerLine> LayerSettings::read_lines(const CaseTable& root) {
-  std::vector<LayerLine> lines;
-  for (const CaseTable& wake : root.tables("wake")) lines.push_back(read_wake(wake));
-  for (const CaseTable& line : root.tables("layer_line")) lines.push_back(read_layer_line(line));
-  return lines;
-}
-
-std::optional<WallFlow> LayerSettings::wall_flow(const SolverSettings& solver) const {
-  if (!flow_ || !used_) return {};
+std::optional<WallFlow> wall_flow(const Settings& settings) {
+  const SolverSettings& solver = settings.solver;
+  if (!settings.flow || !settings.wants_y_plus) return {};
   if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
     return WallFlow{solver.euler.viscosity, 1};
-  return WallFlow{flow_->viscosity(), flow_->density};
+  return WallFlow{settings.flow->viscosity(), settings.flow->density};
 }
 
-Warnings LayerSettings::unused(const SolverSettings& solver) const {
-  const bool tells_stream = flow_ && flow_->pressure && solver.kind != SolverSettings::Kind::euler;
-  if (!flow_ || used_ || tells_stream) return {};
-  return {flow_->where + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
+Warnings unused_flow(const Settings& settings) {
+  const bool is_external = settings.solver.kind != SolverSettings::Kind::euler;
+  if (!settings.flow || settings.wants_y_plus || (settings.flow->pressure && is_external)) return {};
+  return {settings.flow->where + ": [flow] does nothing, as no boundary's layers have a first = \"yplus:1\""};
 }
 
 namespace {

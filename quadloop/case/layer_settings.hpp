@@ -2,51 +2,70 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "adapt/sensor/measured_friction.hpp"
-#include "io/input/case_file.hpp"
-#include "mesher/geometry/assemble/assemble.hpp"
-#include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
-#include "quadloop/case/first_height.hpp"
-#include "quadloop/case/flow_settings.hpp"
-#include "quadloop/case/solver_settings.hpp"
+#include "quadloop/case/key_table.hpp"
+#include "quadloop/case/settings.hpp"
 
 namespace quadloop {
 
-/// Reads the tables `layers` of boundaries, wakes and lines with layers, with the table [flow] that `first =
-/// "yplus:1"` stands on. Throws InputError that names key and line.
-class LayerSettings {
- public:
-  explicit LayerSettings(std::optional<FlowSettings> flow) : flow_{std::move(flow)} {}
+/// The height of the first layer, in the geometry's unit of length, and the y+ that asked for it, or 0.
+struct FirstHeight {
+  double height = 0, y_plus = 0;
 
-  LayerSpec read(const CaseTable& layers);
-
-  /// Wakes and free lines with layers.
-  std::vector<LayerLine> read_lines(const CaseTable& root);
-
-  /// What turns a solution's wall shear into wall units, if a wall's layers want a y+: by a laminar flow's
-  /// own viscosity, else by [flow].
-  std::optional<WallFlow> wall_flow(const SolverSettings& solver) const;
-
-  /// A warning where there is a table [flow], and neither layers have asked for it nor a solver has a use for
-  /// the stream that it tells; once all are read.
-  Warnings unused(const SolverSettings& solver) const;
-
- private:
-  /// The same keys of a table that may have others.
-  LayerSpec read_keys(const CaseTable& table);
-  LayerLine read_layer_line(const CaseTable& table);
-  void read_first_height(const CaseTable& layers, LayerSpec& spec);
-  FlowConditions flow_conditions(const CaseTable& layers) const;
-
-  std::optional<FlowSettings> flow_;
-  bool used_ = false;
+  friend bool operator==(const FirstHeight&, const FirstHeight&) = default;
 };
+
+struct GrowthRange {
+  double low = LayerSpec{}.growth, high = LayerSpec{}.growth_to;
+
+  friend bool operator==(const GrowthRange&, const GrowthRange&) = default;
+};
+
+/// The keys of `layers` and of a free line.
+struct LayerKeys {
+  FirstHeight first;
+  GrowthRange growth;
+  int count = 0;
+  std::optional<double> thickness;
+  int equal = 1;
+};
+
+/// The table [[layer_line]].
+struct LayerLineKeys {
+  LayerLine line;
+  LayerKeys layers;
+};
+
+/// The table [boundary.NAME].
+struct BoundaryKeys {
+  BoundaryRule rule;
+  std::optional<double> pressure, wall_temperature;
+  std::optional<std::string> wall;
+};
+
+const KeyTable<LayerKeys>& layer_keys();
+const KeyTable<LayerLine>& wake_keys();
+const KeyTable<LayerLineKeys>& layer_line_keys();
+const KeyTable<BoundaryKeys>& boundary_keys();
+
+/// Reads all [boundary.NAME], a [[wake]], a [[layer_line]]. They throw InputError that names key and line.
+void read_boundary_tables(const CaseTable& boundaries, Settings& settings);
+LayerLine read_wake(const CaseTable& table);
+LayerLine read_layer_line(const CaseTable& table, Settings& settings);
+
+/// What turns a solution's wall shear into wall units, if a wall's layers want a y+: by a laminar flow's own
+/// viscosity, else by [flow].
+std::optional<WallFlow> wall_flow(const Settings& settings);
+
+/// A warning where there is a table [flow], and neither layers nor a solver of the user's has a use for it;
+/// once all are read.
+Warnings unused_flow(const Settings& settings);
 
 /// Throws InputError, naming the line and what it lacks, unless the mirror image of each line's path is that
 /// of a line with the same settings, point by point: columns are made from its first point on. A path on the

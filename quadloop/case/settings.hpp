@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adapt/remesh/demands/adapt_options.hpp"
+#include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -13,6 +14,8 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/mesh/tree_record.hpp"
+#include "quadloop/case/flow_settings.hpp"
+#include "quadloop/case/key_table.hpp"
 #include "quadloop/case/solver_settings.hpp"
 #include "smoother/smooth_options.hpp"
 
@@ -29,6 +32,13 @@ struct GeometryInput {
   std::string unit = "none";
 };
 
+/// The files of a case and how they are placed: of each list one value for all files, or one for each.
+struct Placement {
+  std::vector<std::string> files, layers, unit;
+  std::vector<double> scale, rotate;
+  std::vector<Point> rotate_about, translate;
+};
+
 /// What one geometry file holds, as it stands there.
 struct FileExtent {
   std::string path;
@@ -41,12 +51,16 @@ struct FileExtent {
 struct FarField {
   double half_width = 0;
   std::string where;
+
+  friend bool operator==(const FarField&, const FarField&) = default;
 };
 
 /// That of a symmetric outline only the half above an axis is meshed.
 struct HalfDomain {
   MirrorAxis axis;
   std::string boundary;  ///< the name of the boundary along the axis
+
+  friend bool operator==(const HalfDomain&, const HalfDomain&) = default;
 };
 
 /// A case file as each module wants it.
@@ -54,7 +68,8 @@ struct Settings {
   std::string title;
   /// Of all keys but those that no file of a cycle depends on: dotted name, JSON.
   std::vector<std::pair<std::string, std::string>> values;
-  std::vector<GeometryInput> files;
+  Placement placement;
+  std::vector<GeometryInput> files;  ///< by the placement
   std::optional<FarField> far_field;
   bool inside = false;  ///< an airfoil without an outer boundary is meshed inside
   std::optional<HalfDomain> half;
@@ -64,17 +79,24 @@ struct Settings {
   SmoothOptions smooth;            ///< without the geometry
   std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
+  std::optional<FlowSettings> flow;
+  bool wants_y_plus = false;  ///< some layers do, which [flow] tells the height of
   SolverSettings solver;
   std::optional<FreeStream> stream;   ///< of a solver of the user's, where [flow] tells it
   std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
   /// Where the outline has changed, cells are kept as long as the worst one outside layers has this quality.
   std::optional<double> morph_to;
   std::string output_prefix;
-  std::vector<std::string> formats;
+  std::vector<std::string> formats = default_formats();
   std::vector<std::string> fields;  ///< of quantity_names(), written beside a solution
   std::int32_t partitions = 0;      ///< parts for a solver's ranks, written beside the whole; 0: none
   Warnings warnings;                ///< what the user is to be told of the case file itself
 };
+
+/// The keys above all tables, and the tables [design] and [output].
+const KeyTable<Settings>& title_keys();
+const KeyTable<Settings>& design_keys();
+const KeyTable<Settings>& output_keys();
 
 /// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws
 /// InputError that names key and line.

@@ -1,48 +1,41 @@
 #include "quadloop/case/smooth_settings.hpp"
 
-#include <cmath>
-
 namespace quadloop {
 
-namespace {
-
-/// Whether cells are to follow the solution, and how far.
-void read_targets(const CaseTable& table, Settings& settings) {
-  constexpr double usual_stretch = 8;
-  const auto stretch = table.number("stretch", {1, 100, true, false});
-  if (table.choice("targets", {"ideal", "solution"}) != "solution") {
-    if (stretch)
-      table.refuse("stretch", "bounds how thin cells get at fronts; it needs targets = \"solution\"");
-    return;
-  }
-  settings.stretch = stretch.value_or(usual_stretch);
-  if (settings.mesh.type == MeshType::metric)
-    table.refuse("targets",
-                 "does nothing with mesh.type = \"metric\", whose cells follow the solution; leave it out");
-  if (settings.mesh.quads == QuadChoice::parallel)
-    table.refuse("targets",
-                 "leaves few parallelograms, which mesh.quads = \"parallel\" wants; take "
-                 "mesh.type = \"delaunay\" in its place");
-  if (settings.smooth.sweeps == 0)
-    table.refuse("targets", "moves nodes, and sweeps = 0 moves none; leave one of them out");
+const KeyTable<SmoothKeys>& smooth_keys() {
+  const std::string follows = "targets = \"solution\"";
+  static const KeyTable<SmoothKeys> keys{
+      "smooth",
+      {key<&SmoothKeys::options, &SmoothOptions::sweeps>(
+           "sweeps", whole({0, 100000}), "Largest number of visits to each node; 0 disables smoothing."),
+       key<&SmoothKeys::options, &SmoothOptions::objective>(
+           "objective", choice(objective_words),
+           "Objective function around each node: `power`, or `thesis` for Eq. 3.4; see "
+           "[smoothing](../explanation/smoothing.md)."),
+       key<&SmoothKeys::options, &SmoothOptions::method>("method", choice(method_words),
+                                                         "Optimisation method."),
+       key<&SmoothKeys::follows_solution>(
+           "targets", choice<bool>({{"ideal", false}, {"solution", true}}),
+           "Target shapes: squares and equilateral triangles, or thin cells where `adapt.variable` has a "
+           "large curvature ([r-adaptation](../explanation/adaptation.md#r-adaptation)).",
+           {.needs = {{"mesh.type = \"hybrid\" or mesh.type = \"delaunay\"",
+                       "cells of a metric follow the solution anyway", follows},
+                      {"mesh.quads = \"all\"",
+                       "few parallelograms are left; take mesh.type = \"delaunay\" in the place of quads",
+                       follows},
+                      {"sweeps > 0", "nodes are moved by sweeps", follows}}}),
+       key<&SmoothKeys::stretch>(
+           "stretch", number({1, 100, true, false}),
+           "Largest aspect ratio created by node movement, relative to the quadtree cell.",
+           {.needs = {{follows}}})}};
+  return keys;
 }
 
-}  // namespace
-
-void read_smooth_table(const CaseTable& root, Settings& settings) {
-  const auto table = root.table("smooth");
-  if (!table) return;
-  if (const auto sweeps = table->number("sweeps", {0, 100000})) {
-    if (*sweeps != std::floor(*sweeps))
-      table->refuse("sweeps", "must be a whole number, 0 or more; 0 leaves the mesh as it is cut");
-    settings.smooth.sweeps = static_cast<int>(*sweeps);
-  }
-  if (const auto word = table->choice("objective", words_of(objective_words)))
-    settings.smooth.objective = *value_of(objective_words, *word);
-  if (const auto word = table->choice("method", words_of(method_words)))
-    settings.smooth.method = *value_of(method_words, *word);
-  read_targets(*table, settings);
-  table->finish();
+void read_smooth_table(const CaseTable& table, Settings& settings) {
+  SmoothKeys keys;
+  smooth_keys().read(table, keys);
+  settings.smooth = keys.options;
+  if (keys.follows_solution) settings.stretch = keys.stretch;
 }
 
 void require_variables_of_targets(const CaseTable& root, const Settings& settings) {

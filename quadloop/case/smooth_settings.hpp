@@ -1,13 +1,21 @@
 #pragma once
 
-#include "io/input/case_file.hpp"
+#include "quadloop/case/key_table.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
 
-/// The table [smooth]: sweeps, objective, method, and what cells are to become. That of the mesh must have
-/// been read. Throws InputError that names key and line.
-void read_smooth_table(const CaseTable& root, Settings& settings);
+/// The table [smooth].
+struct SmoothKeys {
+  SmoothOptions options;
+  bool follows_solution = false;  ///< cells do
+  double stretch = 8;             ///< as MeshInput::stretch, if they do
+};
+
+const KeyTable<SmoothKeys>& smooth_keys();
+
+/// Sweeps, objective, method, and what cells are to become. Throws InputError that names key and line.
+void read_smooth_table(const CaseTable& table, Settings& settings);
 
 /// Targets by a solution are made from second derivatives of variables: [adapt], which has been read, must
 /// name some. Throws InputError that names key and line.

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -17,49 +16,136 @@ namespace quadloop {
 
 namespace {
 
-int whole_number(const CaseTable& table, const std::string& key, int absent) {
-  const auto value = table.number(key, {0, std::numeric_limits<int>::max()});
-  if (!value) return absent;
-  if (*value != std::floor(*value)) table.refuse(key, "must be a whole number, 0 or more");
-  return static_cast<int>(*value);
+/// The name of a file in the cycle's folder.
+ValueForm<std::string> file_name() {
+  ValueForm<std::string> form = text();
+  form.read = [](const CaseTable& table, const std::string& key) {
+    const std::string name = *table.text(key);
+    if (name.empty() || name.find('/') != std::string::npos)
+      table.refuse(key, "must be the name of a file in the cycle's folder");
+    return name;
+  };
+  return form;
 }
 
-/// Viscosity may be given or asked for by a Reynolds number.
-void read_viscosity(const CaseTable& table, EulerOptions& options) {
-  const double length =
-      table.number("reference_length", Range::positive()).value_or(options.reference_length);
-  options.viscosity = table.number("viscosity", {0}).value_or(options.viscosity);
-  if (const auto reynolds = table.number("reynolds", Range::positive())) {
-    if (table.has("viscosity"))
-      table.refuse("reynolds", "stands beside viscosity, which it decides; give one of the two");
-    if (options.mach == 0) table.refuse("reynolds", "needs a mach above 0; give viscosity instead");
-    options.viscosity = options.mach * length / *reynolds;
-  }
-  options.prandtl = table.number("prandtl", Range::positive()).value_or(options.prandtl);
+/// The free stream and what is solved.
+std::vector<Key<EulerOptions>> model_keys() {
+  using enum EulerOptions::Limiter;
+  return {
+      key<&EulerOptions::mach>(
+          "mach", number({0, 100}),
+          "Free-stream Mach number. Mach 0 requires another driving force; see [free stream](#solver)."),
+      key<&EulerOptions::alpha>("alpha", number({-360, 360}), "Angle of attack.", {.unit = "degrees"}),
+      key<&EulerOptions::gamma>("gamma", number({1, 10, true, false}), "Ratio of specific heats."),
+      key<&EulerOptions::viscosity>("viscosity", number({0}),
+                                    "Dynamic viscosity in units of free-stream density, speed of sound and "
+                                    "length. Above 0: laminar flow, no-slip walls."),
+      key<&EulerOptions::prandtl>("prandtl", number(Range::positive()), "Prandtl number of a viscous flow."),
+      key<&EulerOptions::reference_length>(
+          "reference_length", number(Range::positive()),
+          "Reference length of the force coefficients, which include all walls and are in wind axes.",
+          {.unit = "length"}),
+      key<&EulerOptions::limiter>(
+          "limiter", choice<EulerOptions::Limiter>({{"venkatakrishnan", venkatakrishnan}, {"none", none}}),
+          "Limiter; `none` for flows without shocks."),
+      key<&EulerOptions::far_field>(
+          "far_field",
+          choice<EulerOptions::FarField>(
+              {{"uniform", EulerOptions::FarField::uniform}, {"vortex", EulerOptions::FarField::vortex}}),
+          "Far-field condition: the free stream, or the free stream with point-vortex correction for "
+          "subsonic flow.",
+          {.needs = {{"mach < 1", "a point vortex requires a subsonic free stream",
+                      "far_field = \"vortex\""}}}),
+      key<&EulerOptions::initial>(
+          "initial",
+          choice<EulerOptions::Initial>(
+              {{"freestream", EulerOptions::Initial::freestream}, {"vortex", EulerOptions::Initial::vortex}}),
+          "Initial state: the free stream, or an isentropic vortex in the middle of the mesh. A flow in the "
+          "mesh file has priority over both.")};
 }
 
-/// Of runs in time, and of steady ones that go on in time.
-void read_time(const CaseTable& table, EulerOptions& options) {
-  const bool accurate = table.choice("time", {"steady", "accurate"}) == "accurate";
-  if (accurate) options.time = EulerOptions::Time::accurate;
-  options.end_time = table.number("end_time", {0}).value_or(options.end_time);
-  if (accurate && !table.has("end_time"))
-    table.refuse("end_time", "is missing; time = \"accurate\" needs the time at which it ends");
-  const bool carries_on = table.choice("unsteady", {"stop", "carry_on"}) == "carry_on";
-  if (carries_on) options.unsteady = EulerOptions::Unsteady::carry_on;
-  if (carries_on && accurate)
-    table.refuse("unsteady",
-                 "does nothing with time = \"accurate\", which goes on in time anyway; leave it out");
-  if (carries_on && options.mach == 0)
-    table.refuse("unsteady", "needs a mach above 0, as its length is counted in flow-through times");
-  options.flow_throughs =
-      table.number("flow_throughs", {0, 1e6, true, false}).value_or(options.flow_throughs);
-  if (table.has("flow_throughs") && !carries_on)
-    table.refuse("flow_throughs", "does nothing without unsteady = \"carry_on\"");
-  options.time_step = table.number("time_step", Range::positive());
-  if (options.time_step && !accurate && !carries_on)
-    table.refuse("time_step",
-                 "does nothing in a steady flow; set time = \"accurate\" or unsteady = \"carry_on\"");
+/// How the flow is found, steady or in time.
+std::vector<Key<EulerOptions>> march_keys() {
+  using enum EulerOptions::Unsteady;
+  const std::string carries_on = "unsteady = \"carry_on\"";
+  return {
+      key<&EulerOptions::time>("time",
+                               choice<EulerOptions::Time>({{"steady", EulerOptions::Time::steady},
+                                                           {"accurate", EulerOptions::Time::accurate}}),
+                               "`steady`, or `accurate` up to `end_time`."),
+      key<&EulerOptions::end_time>(
+          "end_time", number({0}),
+          "End of a flow with `time = \"accurate\"`, in units of length over free-stream speed of sound.",
+          {.example = "10",
+           .required = {{"the time at which a flow with time = \"accurate\" ends", "time = \"accurate\""}}}),
+      key<&EulerOptions::average_from>(
+          "average_from", number({0}),
+          "Start of averaging: the stored flow and forces are means from then on ([unsteady "
+          "flows](../how-to/unsteady-flows.md)).",
+          {.fallback = "none",
+           .needs = {{"time = \"accurate\"", "a flow that is carried on has means over its second half"}}}),
+      key<&EulerOptions::unsteady>(
+          "unsteady", choice<EulerOptions::Unsteady>({{"stop", stop}, {"carry_on", carry_on}}),
+          "What a steady flow does that does not converge: keep the best state, or continue in time, with "
+          "means over the second half.",
+          {.needs = {{"time = \"steady\"", "an accurate flow goes on in time anyway", carries_on},
+                     {"mach > 0", "its length is counted in flow-through times", carries_on}}}),
+      key<&EulerOptions::flow_throughs>(
+          "flow_throughs", number({0, 1e6, true, false}),
+          "Duration in convective times L/U, with L the longer side of the bounding box of the walls. More "
+          "than ten million steps in total are rejected.",
+          {.needs = {{carries_on}}}),
+      key<&EulerOptions::time_step>(
+          "time_step", number(Range::positive()),
+          "Size of second-order implicit steps, in units of length over speed of sound. Default: explicit "
+          "steps.",
+          {.fallback = "none", .needs = {{"time = \"accurate\" or " + carries_on}}}),
+      key<&EulerOptions::cfl>(
+          "cfl", number(Range::positive()),
+          "Steady: initial CFL number; it grows as the residual falls. Explicit time steps use at most 0.8."),
+      key<&EulerOptions::iterations>(
+          "iterations", whole({0, std::numeric_limits<int>::max()}),
+          "Largest number of steps; steps of a flow continued in time do not count.", {.example = "50"}),
+      key<&EulerOptions::tolerance>("tolerance", number({0, 1}),
+                                    "Steady: tolerance of the density residual, relative to the larger of "
+                                    "the initial residual and that of the undisturbed free stream.")};
+}
+
+std::vector<Key<SolverSettings>> command_keys() {
+  const std::string runs = "kind = \"euler\" or kind = \"command\"";
+  const std::string own_names = "with the others both files have names of their own";
+  return {key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::arguments>(
+              "command", texts(), "Program and arguments ([interface](solver-interface.md)).",
+              {.example = "[\"flow\", \"{mesh}\"]",
+               .required = {{"kind = \"command\" needs the program to run and its arguments, as in command = "
+                             "[\"my_solver\", \"{mesh}\"]",
+                             "kind = \"command\""}}}),
+          key<&SolverSettings::command, &CommandSolver::ranks>(
+              "ranks", whole({0, std::numeric_limits<int>::max()}),
+              "Number of ranks of the program; 0: as many as quadloop.", {.example = "3"}),
+          key<&SolverSettings::command, &CommandSolver::mesh>(
+              "mesh", file_name(), "Input file of the program.",
+              {.example = "\"m.su2\"", .needs = {{runs, own_names}}}),
+          key<&SolverSettings::command, &CommandSolver::solution>(
+              "solution", file_name(), "Output file of the program.",
+              {.example = "\"s.cgns\"", .needs = {{runs, own_names}}}),
+          key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::timeout>(
+              "timeout", number(Range::positive()), "Time limit of the program.", {.unit = "seconds"}),
+          key<&SolverSettings::case_template>(
+              "template", text(),
+              "Configuration file of [SU2](../how-to/su2.md), or folder of an "
+              "[OpenFOAM](../how-to/openfoam.md) case, relative to the case file.",
+              {.fallback = "none",
+               .needs = {{"kind = \"su2\" or kind = \"openfoam\""}},
+               .required = {{"kind = \"su2\" needs the configuration to run, relative to the case file",
+                             "kind = \"su2\""},
+                            {"kind = \"openfoam\" needs the folder of a case, relative to the case file",
+                             "kind = \"openfoam\""}}})};
+}
+
+/// Steps in time, and what follows from the numbers of several keys.
+void check_times(const CaseTable& table, const EulerOptions& options) {
+  const bool accurate = options.time == EulerOptions::Time::accurate;
   if (accurate && options.time_step && options.end_time / *options.time_step > most_steps_in_time)
     table.refuse(
         "time_step",
@@ -67,34 +153,8 @@ void read_time(const CaseTable& table, EulerOptions& options) {
             "would take {:.2g} steps to the end_time {}, of which there may be {:.0f}; give {:.2g} or more",
             options.end_time / *options.time_step, options.end_time, most_steps_in_time,
             options.end_time / most_steps_in_time));
-  options.average_from = table.number("average_from", {0});
-  if (options.average_from && !accurate)
-    table.refuse("average_from",
-                 "belongs to time = \"accurate\"; a flow that is carried on has means over its second half");
   if (options.average_from && *options.average_from >= options.end_time)
     table.refuse("average_from", "must be below end_time, so that there is something to take means over");
-}
-
-void read_euler_keys(const CaseTable& table, EulerOptions& options) {
-  options.mach = table.number("mach", {0, 100}).value_or(options.mach);
-  options.alpha = table.number("alpha", {-360, 360}).value_or(options.alpha);
-  options.gamma = table.number("gamma", {1, 10, true, false}).value_or(options.gamma);
-  read_viscosity(table, options);
-  read_time(table, options);
-  options.cfl = table.number("cfl", Range::positive()).value_or(options.cfl);
-  options.iterations = whole_number(table, "iterations", options.iterations);
-  options.tolerance = table.number("tolerance", {0, 1}).value_or(options.tolerance);
-  if (table.choice("limiter", {"venkatakrishnan", "none"}) == "none")
-    options.limiter = EulerOptions::Limiter::none;
-  if (table.choice("initial", {"freestream", "vortex"}) == "vortex")
-    options.initial = EulerOptions::Initial::vortex;
-  if (table.choice("far_field", {"uniform", "vortex"}) == "vortex")
-    options.far_field = EulerOptions::FarField::vortex;
-  if (options.far_field == EulerOptions::FarField::vortex && options.mach >= 1)
-    table.refuse("far_field",
-                 fmt::format("requires a subsonic free stream; remove it at mach {}", options.mach));
-  options.reference_length =
-      table.number("reference_length", Range::positive()).value_or(options.reference_length);
 }
 
 /// A free stream at rest moves nothing by itself.
@@ -109,59 +169,39 @@ void require_driven_flow(const CaseTable& table, const SolverSettings& settings)
       "by initial = \"vortex\", the pressure of an outflow or, with viscosity, a wall_temperature");
 }
 
-/// The user's case for SU2 or OpenFOAM; mesh and solution have names of ours there.
-void read_template(const CaseTable& table, SolverSettings& settings) {
-  using enum SolverSettings::Kind;
-  settings.case_template = table.text("template").value_or("");
-  if (settings.kind != su2 && settings.kind != openfoam) {
-    if (table.has("template"))
-      table.refuse("template", "does nothing here; it belongs to kind = \"su2\" or \"openfoam\"");
-    return;
-  }
-  if (settings.case_template.empty()) {
-    table.refuse(
-        "template",
-        settings.kind == su2
-            ? "is missing; kind = \"su2\" needs the configuration to run, relative to the case file"
-            : "is missing; kind = \"openfoam\" needs the folder of a case, relative to the case file");
-  }
-  for (const char* const key : {"mesh", "solution"}) {
-    if (table.has(key)) table.refuse(key, "does nothing here: both files have names of their own");
-  }
-}
-
-void read_command_keys(const CaseTable& table, SolverSettings& settings) {
-  CommandSolver& command = settings.command;
-  command.ranks = whole_number(table, "ranks", command.ranks);
-  if (table.has("command")) command.command.arguments = table.texts("command");
-  command.mesh = table.text("mesh").value_or(command.mesh);
-  command.solution = table.text("solution").value_or(command.solution);
-  command.command.timeout = table.number("timeout", Range::positive()).value_or(command.command.timeout);
-  for (const auto& [key, name] : {std::pair{"mesh", command.mesh}, {"solution", command.solution}}) {
-    if (name.empty() || name.find('/') != std::string::npos)
-      table.refuse(key, "must be the name of a file in the cycle's folder");
-  }
-  if (settings.kind == SolverSettings::Kind::command && command.command.arguments.empty()) {
-    table.refuse("command",
-                 "is missing; kind = \"command\" needs the program to run and its arguments, as in command = "
-                 "[\"my_solver\", \"{mesh}\"]");
-  }
-}
-
 }  // namespace
 
-void read_solver_table(const CaseTable& root, SolverSettings& settings) {
-  const auto table = root.table("solver");
-  if (!table) return;
+const KeyTable<SolverSettings>& solver_keys() {
+  const Key<SolverSettings> kind =
+      key<&SolverSettings::kind>("kind", choice(SolverSettings::kind_words),
+                                 "Built-in solver, [your program](../how-to/own-solver.md), "
+                                 "[SU2](../how-to/su2.md) or [OpenFOAM](../how-to/openfoam.md).");
+  const Key<SolverSettings> reynolds = key<&SolverSettings::reynolds>(
+      "reynolds", number(Range::positive()),
+      "Alternative to `viscosity`, which becomes `mach` times `reference_length` / `reynolds`.",
+      {.fallback = "none",
+       .needs = {{"no viscosity", "which it decides; give one of the two"},
+                 {"mach > 0", "give viscosity instead"}}});
+  static const KeyTable<SolverSettings> keys{
+      "solver",
+      joined(joined({kind}, KeyTable("", model_keys()).keys_of<&SolverSettings::euler>()),
+             joined(joined({reynolds}, KeyTable("", march_keys()).keys_of<&SolverSettings::euler>()),
+                    joined(goal_keys(), command_keys())))};
+  return keys;
+}
+
+void read_solver_table(const CaseTable& table, SolverSettings& settings) {
   settings.given = true;
-  if (const auto word = table->choice("kind", words_of(SolverSettings::kind_words)))
-    settings.kind = *value_of(SolverSettings::kind_words, *word);
-  read_euler_keys(*table, settings.euler);
-  read_goals(*table, settings.kind == SolverSettings::Kind::euler, settings.euler);
-  read_command_keys(*table, settings);
-  read_template(*table, settings);
-  require_driven_flow(*table, settings);
-  table->finish();
+  solver_keys().read(table, settings);
+  EulerOptions& euler = settings.euler;
+  if (settings.reynolds) euler.viscosity = euler.mach * euler.reference_length / *settings.reynolds;
+  if (table.has("template") && settings.case_template.empty())
+    table.refuse("template", "is empty; give a path relative to the case file");
+  if (table.has("command") && settings.command.command.arguments.empty())
+    table.refuse("command", "is empty; give the program to run and its arguments");
+  check_times(table, euler);
+  place_goals(table, settings);
+  require_driven_flow(table, settings);
 }
 
 std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings) {

@@ -1,14 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "adapt/solvers/chosen_solver.hpp"
-#include "io/input/case_file.hpp"
 #include "mesher/base/word_table.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "quadloop/case/key_table.hpp"
 
 namespace quadloop {
 
@@ -32,16 +33,21 @@ struct SolverSettings {
       {{"euler", Kind::euler}, {"command", Kind::command}, {"su2", Kind::su2}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;         ///< the case has the table
-  EulerOptions euler;         ///< without the boundaries
+  bool given = false;  ///< the case has the table
+  EulerOptions euler;  ///< without the boundaries
+  std::optional<double> reynolds;
+  std::vector<std::string> goal_on = {};  ///< patterns of boundaries
+  std::optional<Point> goal_about = {};
   CommandSolver command;      ///< without the case's folder
   std::string case_template;  ///< of SU2's configuration or OpenFOAM's case, as the case has it
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };
 
-/// Reads [solver], where there is one. Throws InputError that names key and line.
-void read_solver_table(const CaseTable& root, SolverSettings& settings);
+const KeyTable<SolverSettings>& solver_keys();
+
+/// Reads [solver]. Throws InputError that names key and line.
+void read_solver_table(const CaseTable& table, SolverSettings& settings);
 
 /// A warning for each wall temperature that the built-in solver's flow does not feel, as it has no viscosity.
 std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings);

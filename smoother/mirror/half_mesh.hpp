@@ -69,7 +69,7 @@ class HalfMesh {
   std::vector<NodeId> owned_in_whole_;  ///< for each owned node of the half
   std::vector<std::int32_t> triangles_, quads_;  ///< indices in the whole of the half's cells
   std::vector<GlobalNodeId> across_;             ///< nodes of this rank's cells across the axis
-  std::vector<char> stays_;  ///< a flag for each triangle of the whole that crosses the axis
+  std::vector<char> stays_;                      ///< flags the triangles of the whole that cross the axis
 };
 
 template <class T>

@@ -15,8 +15,8 @@ constexpr nlopt::algorithm algorithm = nlopt::LN_SBPLX;
 
 constexpr int most_evaluations = 20;
 constexpr double tolerance = 1e-3;  ///< relative, of the cost
-constexpr double search_reach =
-    0.5;  ///< in mean edge lengths of the node, in both directions along each axis
+/// Search range in mean edge lengths of the node, in both directions along each axis.
+constexpr double search_reach = 0.5;
 
 struct Problem {
   const Star* star = nullptr;

@@ -32,12 +32,12 @@ class Acceptance {
   }
 
  private:
-  static constexpr double worthwhile =
-      1 - 1e-4;  ///< a smaller gain does not justify new visits to the neighbours
+  /// A smaller gain does not justify new visits to the neighbours.
+  static constexpr double worthwhile = 1 - 1e-4;
   StarCost<1> now_;
 };
 
-/// Searches a better position for a node whose star is valid.
+/// Searches for a better position for a node whose star is valid.
 class NodeSolver {
  public:
   virtual ~NodeSolver() = default;

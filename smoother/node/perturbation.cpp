@@ -21,17 +21,16 @@ bool is_own(const StarCorner& c) { return c.angle == CellAngle::all || c.angle =
 
 enum class Direction { normals, edges, axes };
 
-void find_directions(const Star& star, Point p, Direction kind, std::vector<Point>& directions) {
-  directions.clear();
-  if (kind == Direction::axes) {
-    directions = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-    return;
-  }
+std::vector<Point> directions_of(const Star& star, Point p, Direction kind) {
+  if (kind == Direction::axes) return {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  std::vector<Point> directions;
+  directions.reserve(star.corners().size());
   for (const StarCorner& c : star.corners()) {
     if (!is_own(c)) continue;
     const Point along = c.r - c.q;
     directions.push_back(unit(kind == Direction::edges ? c.q - p : Point{-along.y, along.x}));
   }
+  return directions;
 }
 
 /// The best accepted step of this length, if any.
@@ -58,7 +57,6 @@ std::optional<Point> best_step(const Star& star, Point p, Objective objective, c
 }  // namespace
 
 std::optional<Point> Perturbation::improve(const Star& star, Point p, Objective objective) {
-  thread_local std::vector<Point> directions;
   std::optional<Point> found;
   const double edge = std::sqrt(star.reference(p));
   int moves = 0;
@@ -67,8 +65,7 @@ std::optional<Point> Perturbation::improve(const Star& star, Point p, Objective 
     const Acceptance acceptance(star.cost(p, objective));
     std::optional<Point> better;
     for (const Direction kind : {Direction::normals, Direction::edges, Direction::axes}) {
-      find_directions(star, p, kind, directions);
-      better = best_step(star, p, objective, acceptance, directions, steps[step] * edge);
+      better = best_step(star, p, objective, acceptance, directions_of(star, p, kind), steps[step] * edge);
       if (better) break;
     }
     if (!better) {

@@ -33,8 +33,8 @@ class CostLimit {
  private:
   static constexpr double margin = 1e-9;  ///< far above the rounding error of J over the weighted edges
   template <std::size_t width>
-  static constexpr std::size_t corners =
-      width == 3 ? 1 : width;  ///< the corners of a triangle have the same cost
+  /// Number of corners to test: the three of a triangle have the same cost.
+  static constexpr std::size_t corners = width == 3 ? 1 : width;
   /// Whether J of the k-th corner exceeds the fraction `share` of the weighted edges.
   template <std::size_t width>
   static bool is_above(double share, const std::array<Point, width>& cell, std::size_t k) {

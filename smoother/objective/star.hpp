@@ -65,7 +65,7 @@ class Star {
 
   /// The sum of -J over inverted corners, divided by `reference`; zero if the star is valid.
   double inversion(Point p, double reference) const;
-  /// A flag for each corner that is not inverted.
+  /// Flags the corners that are not inverted.
   std::vector<char> sound_corners(Point p) const;
 
   /// The mean squared length of the edges from p, by which J is divided.

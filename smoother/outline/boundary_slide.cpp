@@ -48,7 +48,7 @@ BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
   find_rails(pinned);
 }
 
-std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) const {
+std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) {
   if (!is_outlined(edge.boundary)) return std::nullopt;
   const OutlinePath::Chord chord{place_of(edge.from, edge.boundary), place_of(edge.to, edge.boundary),
                                  point(edge.from), point(edge.to)};
@@ -136,15 +136,15 @@ bool BoundarySlide::is_straight(const Rail& rail) const {
   return dot(in, out) > 0 && std::abs(cross(in, out)) <= straight_sine * length(in) * length(out);
 }
 
-/// A rail's neighbours may be kept vertices; they are located like any other point.
-BoundarySlide::Places BoundarySlide::locate(const Rail& rail) const {
+/// The chords' ends may be kept vertices, whose places are those of any other point.
+BoundarySlide::Places BoundarySlide::locate(const Rail& rail) {
   Places places{place_of(rail.before, rail.boundary), place_of(rail.node, rail.boundary),
                 place_of(rail.after, rail.boundary)};
   if (places.at.kept) places.at = {};
   return places;
 }
 
-OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
+OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) {
   const Point p = point(node);
   const Located& last = nodes_[slot_[node]].located;
   if (last.boundary != boundary || last.point != p)
@@ -152,13 +152,12 @@ OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) const {
   return last.place;
 }
 
-/// Stores the place of a point where the node is or will be; `near`: the segments near it.
-void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary,
-                             const OutlinePath::Segments& near) const {
+/// The place of a point where the node is, or is to be; `near`: the segments near it.
+void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) {
   nodes_[slot_[node]].located = {p, outline_->locate(p, boundaries_[boundary].name, near), boundary};
 }
 
-bool BoundarySlide::may_slide(const Rail& rail) const {
+bool BoundarySlide::may_slide(const Rail& rail) {
   if (!is_outlined(rail.boundary)) return is_straight(rail);
   const Places places = locate(rail);
   if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop)
@@ -171,7 +170,7 @@ bool BoundarySlide::may_slide(const Rail& rail) const {
 }
 
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved,
-                                  Point p) const {
+                                  Point p) {
   const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
   const auto deviation = [&](const OutlinePlace& at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle),
@@ -224,7 +223,7 @@ bool BoundarySlide::keeps_even(const Rail& rail, Point to) const {
 }
 
 std::optional<Point> BoundarySlide::improve(NodeId node, const Star& star, Objective objective,
-                                            double even_up_to) const {
+                                            double even_up_to) {
   const Rail& rail = rail_of(node);
   const bool outlined = is_outlined(rail.boundary);
   const Places places = outlined ? locate(rail) : Places{};
@@ -262,7 +261,7 @@ void BoundarySlide::fetch_ahead(std::span<const NodeId> nodes, std::span<const s
   }
 }
 
-bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const {
+bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) {
   const Rail& rail = rail_of(node);
   if (!is_outlined(rail.boundary)) return false;
   const Places places = locate(rail);
@@ -275,14 +274,14 @@ bool BoundarySlide::lies_on(NodeId node, std::span<const double> heights) const 
   return !between.empty() && std::ranges::all_of(between, [&](std::int32_t s) { return heights[s] > 0; });
 }
 
-double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> heights) const {
+double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> heights) {
   const auto chord = chord_of(edge);
   if (!chord) return 0;
   const double half_way = outline_->way(chord->from, chord->to) / 2;
   return heights[outline_->moved(chord->from, half_way).segment];
 }
 
-std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) const {
+std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) {
   std::vector<Point> widths(mesh_.points().size());
   for (const HaloEdge& edge : mesh_.boundary_edges()) {
     const auto is_fixed = [&](NodeId n) { return mesh_.owns(n) && freedom_[n] == NodeFreedom::fixed; };
@@ -296,7 +295,7 @@ std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> height
 }
 
 std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star,
-                                                   std::span<const Point> fixed) const {
+                                                   std::span<const Point> fixed) {
   const Rail& rail = rail_of(node);
   const Places places = locate(rail);
   if (!places.valid()) return std::nullopt;

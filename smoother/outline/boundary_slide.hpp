@@ -29,32 +29,33 @@ class BoundarySlide {
   /// Of an owned node.
   NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
 
-  /// A better position for a sliding node, or none: by Acceptance if the star is valid, else by untangling.
-  /// Where no corner of the star costs more than `even_up_to`, the ratio of the two boundary edges stays at
-  /// most 1.5, or at most its present value.
-  std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to) const;
+  /// A better place for a sliding node, or none: by Acceptance where the star is valid, else one that
+  /// untangles. Where no corner of the star costs more than `even_up_to`, the longer edge along the boundary
+  /// becomes at most 1.5 times as long as the shorter one, or no more times than it was.
+  std::optional<Point> improve(NodeId node, const Star& star, Objective objective, double even_up_to);
 
   /// Prefetches what improve() needs for the nodes shortly after `nodes[order[k]]`.
   void fetch_ahead(std::span<const NodeId> nodes, std::span<const std::int32_t> order, std::size_t k) const;
 
-  /// Whether a sliding node and the boundary up to both its neighbours lie on segments with a height.
-  bool lies_on(NodeId node, std::span<const double> heights) const;
+  /// Whether a sliding node and the ways to both its neighbours lie on segments of the outline that have a
+  /// height.
+  bool lies_on(NodeId node, std::span<const double> heights);
 
-  /// The height of the segment at the middle of a boundary edge; 0 if it is on no segment.
-  double height_at(const HaloEdge& edge, std::span<const double> heights) const;
+  /// The height of the segment in the middle of a boundary edge; 0 where that is none of the outline.
+  double height_at(const HaloEdge& edge, std::span<const double> heights);
 
   /// The ratio of the longer to the shorter boundary edge at a sliding node.
   double unevenness(NodeId node) const { return unevenness(rail_of(node), point(node)); }
 
-  /// For each fixed node the lengths of its incoming and outgoing boundary edges with a height; 0 where there
-  /// is none, and for sliding nodes. *Collective.*
-  std::vector<Point> widths_at_fixed(std::span<const double> heights) const;
+  /// Of each node that stays where it is the lengths of the edges with a height there, that which leads to it
+  /// and that which leaves it; 0 where there is none, and for nodes that slide. *Collective.*
+  std::vector<Point> widths_at_fixed(std::span<const double> heights);
 
-  /// A position nearer to the midpoint of a sliding node's neighbours along the geometry, or none. No angle
-  /// falls below 28 degrees, or below the present smallest angle. Beside a fixed node the position aims at an
-  /// even transition to the width beyond that node, if that width is smaller; `fixed` is the result of
-  /// widths_at_fixed.
-  std::optional<Point> towards_middle(NodeId node, const Star& star, std::span<const Point> fixed) const;
+  /// A place nearer to the middle between a sliding node's neighbours along the outline, or none: no cell's
+  /// angle may fall under 28 degrees, or under the smallest one now. Beside a node that stays it is a place
+  /// nearer to the one that makes an even step to the width beyond that node, if that is smaller; `fixed` as
+  /// widths_at_fixed has it.
+  std::optional<Point> towards_middle(NodeId node, const Star& star, std::span<const Point> fixed);
 
  private:
   /// The boundary through a sliding node.
@@ -77,24 +78,24 @@ class BoundarySlide {
   void find_rails(const NodeFlags& pinned);
   void find_tight_segments(const Communicator& comm);
   bool is_tight(const Places& places) const;
-  std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge) const;
-  bool may_slide(const Rail& rail) const;
+  std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge);
+  bool may_slide(const Rail& rail);
   bool is_straight(const Rail& rail) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
-  Places locate(const Rail& rail) const;
-  OutlinePlace place_of(NodeId node, std::int32_t boundary) const;
-  void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near) const;
+  Places locate(const Rail& rail);
+  OutlinePlace place_of(NodeId node, std::int32_t boundary);
+  void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near);
   const Point& point(NodeId node) const { return mesh_.point(node); }
   const Rail& rail_of(NodeId node) const { return nodes_[slot_[node]].rail; }
   Steps steps_along(const Rail& rail, const Places& places) const;
   double unevenness(const Rail& rail, Point p) const;
   bool keeps_even(const Rail& rail, Point to) const;
-  bool keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved, Point p) const;
+  bool keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved, Point p);
 
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
-  std::vector<char> outlined_;  ///< a flag for each boundary that the geometry has
+  std::vector<char> outlined_;  ///< flags the boundaries that the geometry has
   IdVector<NodeId, NodeFreedom> freedom_;
   /// The last located point of a node and its place on the geometry, which depends on the point only.
   struct Located {
@@ -106,11 +107,11 @@ class BoundarySlide {
     Rail rail;                       ///< set where the node slides
     Located located;
   };
-  IdVector<NodeId, std::int32_t> slot_;      ///< index in nodes_ of each node at a boundary edge, else -1
-  mutable std::vector<BoundaryNode> nodes_;  ///< ascending by node, the order of the visits
-  /// Segments that a chord of another part of the geometry crosses, and the segments that such a chord
-  /// represents. Nodes on these are fixed, because chords that avoid the geometry could still cross each
-  /// other. Ascending.
+  IdVector<NodeId, std::int32_t> slot_;  ///< of each node at a boundary edge, in the following; else -1
+  std::vector<BoundaryNode> nodes_;      ///< ascending, as they are visited
+  /// Segments of the outline that a chord of another part crosses, and those that such a chord stands for:
+  /// nodes there stay, as chords that keep clear of the other parts of the outline could still meet one
+  /// another. Ascending.
   std::vector<std::int32_t> tight_segments_;
 };
 

@@ -15,8 +15,7 @@ namespace {
 constexpr double largest_share = 0.1;  ///< of an edge: larger distances mean a different geometry, not
                                        ///< rounding or another polyline of the same curve
 constexpr std::size_t most_named = 5;
-constexpr const char* cure =
-    "; give the outline as it was meshed: write it with `quadloop mesh --geometry-out`";
+constexpr const char* cure = "; give the geometry as it was meshed: `quadloop mesh --geometry-out` writes it";
 
 using Names = std::vector<std::string>;
 
@@ -39,9 +38,9 @@ Names names_of(const Boundaries& boundaries) {
 [[noreturn]] void refuse_node(const std::string& path, const std::string& boundary, Point p, double edge) {
   std::ostringstream message;
   message.precision(12);
-  message << path << ": the mesh's boundary '" << boundary << "' is not on this outline's: its node (" << p.x
-          << ", " << p.y << ") lies farther off than a tenth of its edge, which is " << edge << " long"
-          << cure;
+  message << path << ": the boundary '" << boundary
+          << "' of the mesh is not on that of the geometry: its node (" << p.x << ", " << p.y
+          << ") is farther away than a tenth of its edge, which is " << edge << " long" << cure;
   throw InputError(message.str());
 }
 
@@ -71,9 +70,9 @@ NodesOff nodes_off(const OutlinePath& outline, const Mesh& mesh, const BoundaryE
 
 std::string off_text(const std::string& path, const BoundaryEdges& boundary, const NodesOff& off) {
   std::ostringstream text;
-  text << path << ": " << off.count << " of " << boundary.edges.size() << " nodes of the mesh's boundary '"
-       << boundary.name << "' lie off the outline, by up to " << off.farthest
-       << "; they and their neighbours on it do not slide";
+  text << path << ": " << off.count << " of " << boundary.edges.size() << " nodes of the boundary '"
+       << boundary.name << "' do not lie on the geometry, by up to " << off.farthest
+       << "; they and their neighbours along it do not slide";
   return text.str();
 }
 

@@ -145,8 +145,8 @@ void NodeStars::add_cell(const std::array<NodeId, width>& cell, const CellTarget
 
 bool NodeStars::costs_more(std::size_t i, double limit) const {
   const Point p = mesh_.point(nodes_[i]);
-  const double least =
-      1 - std::sqrt(limit);  // lower limit of 1 / condition number; positive, so J must be positive too
+  // Lower limit of 1 / condition number; positive, so J must be positive too.
+  const double least = 1 - std::sqrt(limit);
   for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k) {
     const CornerForm form = corner_form(p, mesh_.point(corners_[k].q), mesh_.point(corners_[k].r));
     if (!(form.jacobian > least * weighted_edges(form, seen(k).target))) return true;

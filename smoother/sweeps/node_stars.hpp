@@ -64,7 +64,7 @@ class NodeStars {
   const SeenTarget& seen(std::size_t k) const { return seen_[seen_of_.empty() ? 0 : seen_of_[k]]; }
   void number_stars();
   struct Touched {
-    std::vector<char> cells;                ///< a flag for each cell that has a free node
+    std::vector<char> cells;                ///< flags the cells that have a free node
     std::vector<std::int32_t> near_copies;  ///< stars that share a cell with a ghost node, ascending
   };
   Touched find_starts();

@@ -8,7 +8,7 @@
 
 namespace quadloop {
 
-Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, BoundarySlide& slide,
                  const Rule& rule, const NodeFlags& bad, NodeFlags& stale)
     : comm_{comm},
       mesh_{mesh},

@@ -26,9 +26,9 @@ class Sweeper {
     bool angles = true;     ///< a move must not reduce the smallest angle
     double even_up_to = 0;  ///< largest corner cost of a star in which edges along boundaries stay even
   };
-  /// `stars`: those of the movable nodes; `bad` flags the nodes of cells above the threshold; `stale` as in
-  /// ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
-  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, const BoundarySlide& slide,
+  /// `stars` are those of the nodes that may move, `bad` flags the nodes of cells above the threshold;
+  /// `stale` as in ColouredSweeps. Mesh, stars, slide and `stale` must outlive it. *Collective.*
+  Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, BoundarySlide& slide,
           const Rule& rule, const NodeFlags& bad, NodeFlags& stale);
 
   /// Returns the number of nodes moved over all ranks. *Collective.*
@@ -45,7 +45,7 @@ class Sweeper {
   const Communicator& comm_;
   const HaloMesh& mesh_;
   const NodeStars& stars_;
-  const BoundarySlide& slide_;
+  BoundarySlide& slide_;
   Rule rule_;
   std::unique_ptr<NodeSolver> solver_;
   bool any_quads_;  ///< on any rank

@@ -75,7 +75,7 @@ class Convert(ProgramTest):
         for first, second in itertools.pairwise(("solved.mesh", "a.qmesh", "b.qmesh", "a.cgns", "a.vtu", "back.mesh")):
             self.assertEqual(self.converted(first, second), "")
         self.assertEqual(self.bytes_of("back.mesh"), self.bytes_of("solved.mesh"))
-        self.assertIn("no place for the solution", self.converted("solved.mesh", "a.su2"))
+        self.assertIn("cannot store the solution", self.converted("solved.mesh", "a.su2"))
         for first, second in itertools.pairwise(("a.su2", "a.msh", "back.mesh")):
             self.assertEqual(self.converted(first, second), "")
         self.assertEqual(self.bytes_of("back.mesh"), text.encode())
@@ -104,14 +104,14 @@ class Convert(ProgramTest):
         self.assertEqual(self.bytes_of("c.vtu"), self.bytes_of("a.vtu"))  # the solution with it
         for name in ("su2", "msh", "b8.ugrid", "lb8.ugrid"):
             self.done("extrude", "a.mesh", "-o", f"a.{name}", "--layers", "2", "--thickness", "0.5", "-q")
-            self.assertIn("no place for the solution", self.converted("c.vtu", f"c.{name}"))
+            self.assertIn("cannot store the solution", self.converted("c.vtu", f"c.{name}"))
             self.assertEqual(self.bytes_of(f"c.{name}"), self.bytes_of(f"a.{name}"))
         self.converted("c.msh", "polyMesh")
         self.done("check", "polyMesh", "-q")
         table, _ = self.done("convert", "polyMesh", "d.su2")
         self.assertRegex(table, r"(?s)prisms +\d+\n.*hexahedra +\d+\n.*wrote d.su2")
-        self.refused(1, ["polyMesh: holds a 3D mesh", "format mesh"], "convert", "polyMesh", "d.mesh")
-        self.refused(1, ["a.mesh: holds a plane mesh", "quadloop extrude"], "convert", "a.mesh", "d.b8.ugrid")
+        self.refused(1, ["polyMesh: contains a 3D mesh", "format mesh"], "convert", "polyMesh", "d.mesh")
+        self.refused(1, ["a.mesh: contains a 2D mesh", "quadloop extrude"], "convert", "a.mesh", "d.b8.ugrid")
 
     def test_a_case_of_one_cell_is_a_plane_mesh(self):
         text = self.mesh("hybrid")
@@ -143,7 +143,7 @@ class Convert(ProgramTest):
 
     def test_constants_are_lost_with_a_warning(self):
         self.write("a.mesh", TWO_BLOCKS + "#Number of constants\n1\n7\n#Number of variables\n0\n")
-        self.assertIn("solution's constants", self.converted("a.mesh", "b.vtu"))
+        self.assertIn("constants of the solution", self.converted("a.mesh", "b.vtu"))
 
     def test_conditions_are_lost_with_a_warning(self):
         self.write("a.geom", GEOMETRY)
@@ -155,7 +155,7 @@ class Convert(ProgramTest):
     def test_a_mesh_that_is_not_valid_stays_as_it_is(self):
         inverted = TWO_BLOCKS.replace("2 3 4 5\n", "5 4 3 2\n").replace("1 5 6\n", "6 5 1\n")
         self.write("a.mesh", inverted)
-        self.assertIn("is not valid, and is passed on as it is", self.converted("a.mesh", "b.mesh"))
+        self.assertIn("is not valid, and is written unchanged", self.converted("a.mesh", "b.mesh"))
         self.assertEqual(self.bytes_of("b.mesh").decode(), inverted)
 
     def test_a_format_by_name(self):

@@ -119,7 +119,7 @@ class Estimate(ProgramTest):
         cells = []
         for allowed in ("2400", "100000"):
             warnings = self.done("adapt", str(CASES / "wedge/case.toml"), "-o", allowed, "--cycles", "1", "--max-cells", allowed)[1]
-            self.assertEqual("fewer cells are refined than marked" in warnings, allowed == "2400", warnings)
+            self.assertEqual("fewer cells are refined than flagged" in warnings, allowed == "2400", warnings)
             counts = [json.loads((self.folder / allowed / f"cycle_0{k}/record.json").read_text()) for k in (0, 1)]
             cells.append([record["triangles"] + record["quads"] for record in counts])
         self.assertEqual(cells[0][0], cells[1][0])

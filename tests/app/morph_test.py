@@ -189,12 +189,12 @@ class Morph(ProgramTest):
         self.write("new.geom", lens(0.05))
         self.direction(lens())
         morph = ["morph", "in.mesh", "--geometry", "new.geom", "-o", "out.mesh"]
-        self.refused(1, ["direction.csv:2", "the outline has no point"], *morph, "--from", "body.geom", "--direction", "direction.csv")
+        self.refused(1, ["direction.csv:2", "the geometry has no point"], *morph, "--from", "body.geom", "--direction", "direction.csv")
         self.direction(lens(0.05))
         self.refused(1, ["new.geom", "--from"], *morph, "--direction", "direction.csv")
         self.write("bad.csv", "boundary,x,y,dx,dy\nbody,0,0,1\n")
         self.refused(1, ["bad.csv:2", "no row of a point"], *morph, "--from", "body.geom", "--direction", "bad.csv")
-        self.refused(2, ["go together"], *morph, "--nodal-gradient", "in.mesh")
+        self.refused(2, ["require each other"], *morph, "--nodal-gradient", "in.mesh")
         morph += ["--from", "body.geom", "--outline-gradient", "gradient.csv", "--nodal-gradient"]
         self.refused(1, ["in.mesh", "without a solution"], *morph, "in.mesh")
         self.write("far.geom", lens(0.5))
@@ -230,15 +230,15 @@ class Morph(ProgramTest):
         (self.folder / "link.geom").symlink_to("new.geom")
         for name in ("adjoint.mesh", "./adjoint.mesh", "in.mesh", "new.geom", "link.geom", "body.geom"):
             before = (self.folder / name).read_bytes()
-            self.refused(2, [name, "written over"], *morph, name)
+            self.refused(2, [name, "overwritten"], *morph, name)
             self.assertEqual((self.folder / name).read_bytes(), before)
-        self.refused(2, ["out.mesh", "written over"], *morph, "out.mesh", "-o", "out.mesh")
-        self.refused(2, ["adjoint.mesh", "written over"], *morph, "gradient.csv", "-o", "adjoint.mesh")
+        self.refused(2, ["out.mesh", "overwritten"], *morph, "out.mesh", "-o", "out.mesh")
+        self.refused(2, ["adjoint.mesh", "overwritten"], *morph, "gradient.csv", "-o", "adjoint.mesh")
         self.refused(2, ["--fields", "'a' is named twice"], *morph, "gradient.csv", "--fields", "a", "a")
 
     def test_refusals(self):
         self.write("cut.geom", lens(cut=0.9))
-        self.refused(1, ["cut.geom", "'body'", "corners where the mesh has"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")
+        self.refused(1, ["cut.geom", "'body'", "feature points and that of the mesh has"], "morph", "in.mesh", "--geometry", "cut.geom", "-o", "out.mesh")
         self.write("other.geom", lens().replace("body", "wing"))
         self.refused(1, ["other.geom", "'wing'"], "morph", "in.mesh", "--geometry", "other.geom", "-o", "out.mesh")
         self.write("far.geom", lens(camber=3.5))

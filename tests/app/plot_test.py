@@ -158,8 +158,8 @@ class Plot(unittest.TestCase):
         for cycle in (0, 1, 2, 10):
             (run / f"cycle_{cycle:02d}").mkdir(parents=True)
             (run / f"cycle_{cycle:02d}" / "record.json").write_text(f'{{\n  "cycle": {cycle},\n  "nodes": 5\n}}\n')
-        for option, said in (("--history", "no cycle tells a residual or forces; forces and the flow along walls are written where [flow]"),
-                             ("--walls", "cycle_10/mesh.walls.csv: is not there; forces")):
+        for option, said in (("--history", "no cycle tells a residual or forces; forces and wall values are written if [flow]"),
+                             ("--walls", "cycle_10/mesh.walls.csv: does not exist; forces")):
             done = self.run_plot("other", "-o", "a.png", option)
             self.assertEqual(done.returncode, 1)
             self.assertIn(said, done.stderr)
@@ -218,7 +218,7 @@ class Plot(unittest.TestCase):
         self.refused(2, "name it with --field", "a.mesh", "-o", "a.png", "--contours", "4")
         self.refused(2, "--map", "a.mesh", "-o", "a.png", "--field", "density", "--map", "jet")
         self.refused(2, "four numbers", "a.mesh", "-o", "a.png", "--window=1,2,3")
-        self.refused(2, "holds no ranks", "a.mesh", "-o", "a.png", "--colour-by", "rank")
+        self.refused(2, "contains no ranks", "a.mesh", "-o", "a.png", "--colour-by", "rank")
         self.refused(2, "--colour-by", "a.mesh", "-o", "a.png", "--colour-by", "taste")
         self.refused(2, "--field", "a.mesh", "-o", "a.png", "--colour-by", "type", "--field", "density")
         self.refused(4, "cannot be written", "a.mesh", "-o", "missing/a.png")

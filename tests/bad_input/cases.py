@@ -56,7 +56,7 @@ GEOMETRIES = [
     geometry("touches another", SQUARE.replace("1\n", "2\n", 1) + "two\n3\n4 2\n6 1\n6 3\n", "box.geom:2:", "'box'", "'two'", "(box.geom:8)", "(4, 2)"),
     geometry("same loop twice", SQUARE.replace("1\n", "2\n", 1) + "two\n4\n0 0\n4 0\n4 4\n0 4\n", "'box'", "'two'"),
     warned("warning before an error of the reader", "1\nbox\n5\n0 0\n4 0\n4 0\n4 4\n1 -1\n", "'box'", "dropped 1 point", "neither cross nor touch"),
-    warned("warning before an error of the mesher", "1\nbox\n4\n0 4\n4 4\n4 0\n0 0\n", "'box'", "wound the wrong way round", "--max-cells"),
+    warned("warning before an error of the mesher", "1\nbox\n4\n0 4\n4 4\n4 0\n0 0\n", "'box'", "had the wrong orientation", "--max-cells"),
     geometry("spike", "1\nbox\n5\n0 0\n4 0\n4 4\n4 9\n4 4\n", "'box'"),
 ]
 

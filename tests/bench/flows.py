@@ -211,7 +211,7 @@ def solve(program, flow, settings):
 
 def told_of_time(said):
     """What the program says of a flow that it carried on in time, or nothing."""
-    line = re.search(r"the residual fell by .* carried on in .*", said)
+    line = re.search(r"the residual fell by .* continued in .*", said)
     return line[0].strip() if line else ""
 
 

@@ -114,7 +114,7 @@ TEST(OutlineLosses, KeptCornersThatAreNoNodesAreCounted) {
                 square_in_one_boundary(), false, report);
   EXPECT_EQ(report.corners_lost, 1) << "(1.01, 0.4) is no corner of 30 degrees";
   ASSERT_EQ(report.warnings.size(), 2U);
-  EXPECT_NE(report.warnings[0].find("1 of 4 kept corners of the outline is no node"), std::string::npos)
+  EXPECT_NE(report.warnings[0].find("1 of 4 feature points is no node"), std::string::npos)
       << report.warnings[0];
 }
 
@@ -124,7 +124,8 @@ TEST(OutlineLosses, AShapeThatEdgesHardlyShowIsTold) {
   report_losses(world(), loops({box({0, 0}, 1, 1.2)}), square_in_one_boundary(), false, far);
   const auto told = [](const MeshReport& report) {
     return std::ranges::count_if(report.warnings, [](const std::string& warning) {
-      return warning.starts_with("boundary 'b0' near (0.5, 0.6): the mesh's edges enclose 17 percent less");
+      return warning.starts_with(
+          "boundary 'b0' near (0.5, 0.6): the boundary edges of the mesh enclose 17 percent less");
     });
   };
   EXPECT_EQ(told(far), 1);
@@ -139,10 +140,10 @@ TEST(RequireArea, TheMeshMayMissAFewHundredths) {
   const std::string refusal = test::refusal_text([&] {
     require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh);
   });
-  EXPECT_NE(refusal.find("16.7 percent off"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("differs by 16.7 percent"), std::string::npos) << refusal;
   EXPECT_NE(test::refusal_text([&] {
               require_area(world(), loops({box({0, 0}, 1, 1.2)}), 0, mesh, true);
-            }).find("while smoothing"),
+            }).find("during smoothing"),
             std::string::npos);
 }
 
@@ -184,7 +185,9 @@ TEST(CellDemands, NameEachSettingOnce) {
 
 TEST(CellDemands, SetAndLiftWhatTheyName) {
   const SizeSettings given = settings();
+  std::set<std::string> keys;
   for (const CellDemand& demand : cell_demands(given, loops({box({0, 0}, 8, 4)}))) {
+    keys.insert(demand.key);
     SizeSettings set = given, lifted = given;
     demand.set(set, 0.7);
     demand.lift(lifted);
@@ -209,6 +212,9 @@ TEST(CellDemands, SetAndLiftWhatTheyName) {
       EXPECT_EQ(set.size.sources[0].spacing, 0.3);
     }
   }
+  for (const char* key : {"spacing.max", "spacing.gap", "boundary.a.spacing (and 1 more)", "spacing.min",
+                          "spacing of the [[source]]"})
+    EXPECT_TRUE(keys.contains(key)) << key;
 }
 
 TEST(CellDemands, OfManyBoundariesTheSmallestCount) {

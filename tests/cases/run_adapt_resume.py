@@ -104,7 +104,7 @@ def check_damage(program, folder, ranks):
     lines = (made / "cycle_02" / "mesh.mesh").read_text().splitlines()
     lines[42] = " ".join(repr(float(number) + 1e-9) for number in lines[42].split())
     (made / "cycle_02" / "mesh.mesh").write_text("\n".join(lines) + "\n")
-    expect_refusal(program, 1, ["cycle_02/mesh.mesh: its nodes do not lie where", "remove the folder"], "adapt", case, "-o", made, "--resume",
+    expect_refusal(program, 1, ["cycle_02/mesh.mesh: its nodes differ in position", "remove the folder"], "adapt", case, "-o", made, "--resume",
                    "--cycles", "3", ranks=ranks)
     made = folder / "gap"
     shutil.copytree(whole, made)
@@ -124,7 +124,7 @@ def check_begin_and_end(program, folder, ranks):
     status, message = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "1", ranks=ranks)
     require(status == 0 and "holds no whole cycle" in message, f"exit status {status}: {message}")
     printed = adapt(program, case, made, ranks, ["--resume", "--cycles", "1"])
-    require("all cycles are there already" in printed and "wrote" not in printed, printed)
+    require("all cycles exist already" in printed and "wrote" not in printed, printed)
     printed = adapt(program, case, made, ranks, ["--resume", "--cycles", "2"])
     require("wrote" in printed and "cycle_02" in printed and "cycle_00" not in printed, printed)
     made = folder / "failed"
@@ -146,7 +146,7 @@ def check_lock(program, folder, ranks):
             time.sleep(0.05)
         before = states(made)
         for options in ([], ["--resume"]):
-            expect_refusal(program, 1, ["another run is at work", str(made)], "adapt", case, "-o", made, "--cycles", "0", *options, ranks=ranks)
+            expect_refusal(program, 1, ["another run is using", str(made)], "adapt", case, "-o", made, "--cycles", "0", *options, ranks=ranks)
         require(states(made) == before, "a refusal has touched the folder of a live run")
     finally:
         first.terminate()

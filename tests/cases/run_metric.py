@@ -62,7 +62,7 @@ def check_tree_alone(program, case, folder):
         told = subprocess.run([program, "mesh", case, "--tree", folder / "one" / cycle / "mesh.tree.h5", "-o", folder / "alone"],
                               capture_output=True, text=True, check=False)
         require(told.returncode == 0, told.stderr)
-        require(("without stretched cells" in told.stderr) == says, f"mesh --tree of {cycle}: {told.stderr}")
+        require(("without anisotropic cells" in told.stderr) == says, f"mesh --tree of {cycle}: {told.stderr}")
         require(told.stderr.count("warning") == int(says), f"mesh --tree of {cycle}: {told.stderr}")
 
 

@@ -165,7 +165,7 @@ def check_what_is_put_right(program, whole, folder):
     given = folder / "unbounded.mesh"
     write_native(given, mesh.nodes, [mesh.cells], {name: edges[::2] for name, edges in mesh.boundaries.items()})
     left_out = sum(len(edges) // 2 for edges in mesh.boundaries.values())
-    put_right(program, given, made, f"{left_out} edges of the outline belong to no boundary")
+    put_right(program, given, made, f"{left_out} outer edges belong to no boundary")
     listed = {node for edges in mesh.boundaries.values() for edge in edges[::2] for node in edge}
     ends = [node for edges in mesh.boundaries.values() for edge in edges[1::2] for node in edge if node in listed]
     nodes = NativeMesh(made).nodes

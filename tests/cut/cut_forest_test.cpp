@@ -126,7 +126,7 @@ std::vector<Points> frame() {
 TEST(CutForest, CoversTheDomainAndNothingElse) {
   for (const double finest : {1.0, 0.25, 0.125}) {
     for (const double snap : {0.0, 0.2, 0.4}) {
-      const CutSquare square(frame(), finest, snap);
+      CutSquare square(frame(), finest, snap);
       EXPECT_NEAR(square.area(), area_of(frame()), 1e-13 * 64) << finest << ' ' << snap;
       square.expect_states();
       const std::int64_t moved = test::world().sum(std::ssize(square.cut.moved));
@@ -136,7 +136,7 @@ TEST(CutForest, CoversTheDomainAndNothingElse) {
 }
 
 TEST(CutForest, KnowsTheLevelsThatAreWanted) {
-  const CutSquare square({{{1, 1}, {7, 1}, {7, 7}, {1, 7}}}, 0.125, 0);
+  CutSquare square({{{1, 1}, {7, 1}, {7, 7}, {1, 7}}}, 0.125, 0);
   ASSERT_EQ(std::ssize(square.cut.wanted_levels), square.graph.local_size());
   SizeCursor cursor(square.sizes);
   for (const LeafId leaf : square.graph.local())
@@ -150,7 +150,7 @@ TEST(CutForest, TakesStatesFromCoarserAndFinerNeighbours) {
     std::vector<SizeSource> sources;
     for (const double x : {1.0, 3.0, 5.0, 7.0})
       sources.push_back({SizeSource::Disc{{x + 0.11 * trial, 0.5 * trial}, 0.3}, 0.0625, {}});
-    const CutSquare square(frame(), 0.0625, 0.4, 1, sources);
+    CutSquare square(frame(), 0.0625, 0.4, 1, sources);
     EXPECT_NEAR(square.area(), area_of(frame()), 1e-13 * 64);
     square.expect_states();
   }
@@ -160,7 +160,7 @@ TEST(CutForest, AlongLatticeLines) {
   for (const double gap : {0.0, 0.5}) {
     const std::vector<Points> loops{{{1, 1}, {7, 1}, {7, 7 - gap}, {1, 7 - gap}},
                                     {{3, 3 + gap}, {3, 5}, {5 + gap, 5}, {5 + gap, 3 + gap}}};
-    const CutSquare square(loops, 0.25, 0.4);
+    CutSquare square(loops, 0.25, 0.4);
     EXPECT_NEAR(square.area(), area_of(loops), 1e-13 * 64);
     square.expect_states();
   }
@@ -178,9 +178,9 @@ Points notched_disc() {
 
 TEST(CutForest, KnowsNoUnitOfLength) {
   for (const double finest : {1.0, 0.25}) {
-    const CutSquare square({notched_disc()}, finest, 0.4);
+    CutSquare square({notched_disc()}, finest, 0.4);
     for (const double scale : {0.0625, 32.0}) {
-      const CutSquare other({notched_disc()}, finest, 0.4, scale);
+      CutSquare other({notched_disc()}, finest, 0.4, scale);
       EXPECT_EQ(other.cut.states, square.cut.states);
       EXPECT_EQ(other.cut.triangles, square.cut.triangles);
       EXPECT_EQ(other.cut.quads, square.cut.quads);
@@ -202,13 +202,13 @@ TEST(CutForest, SnapsThatWouldSwallowAThinSpikeAreTakenBack) {
   for (int trial = 0; trial < 12; ++trial) {
     const double tip = 4 + 0.31 * trial, half = 0.02 + 0.013 * trial, y = 4 + 0.007 * trial;
     const std::vector<Points> spike{{{0.5, y - 1.5}, {2, y - half}, {tip, y}, {2, y + half}, {0.5, y + 1.5}}};
-    const CutSquare thin(spike, 0.5, 0.4);
+    CutSquare thin(spike, 0.5, 0.4);
     EXPECT_NEAR(thin.area(), area_of(spike), 1e-13 * 64) << trial;
     thin.expect_states();
     EXPECT_TRUE(OpposedChords(test::world(), thin.graph, thin.cut).ends().empty());
     const std::vector<Points> slit{
         {{0.5, y - 3}, {7.5, y - 3}, {7.5, y + 3}, {0.5, y + 3}, {0.5, y + half}, {tip, y}, {0.5, y - half}}};
-    const CutSquare split(slit, 0.5, 0.4);
+    CutSquare split(slit, 0.5, 0.4);
     EXPECT_NEAR(split.area(), area_of(slit), 1e-13 * 64) << trial;
     split.expect_states();
     EXPECT_TRUE(OpposedChords(test::world(), split.graph, split.cut).ends().empty());

@@ -65,6 +65,7 @@ Site end_site(Side side) { return start_of(next(side)); }
 TEST(OpposedChords, AreFoundAcrossEverySide) {
   const Leaves leaves;
   const std::array<std::array<std::int64_t, 2>, 4> steps{{{0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
+  int pairs = 0;
   for (std::int64_t column = 0; column < 4; ++column) {
     for (std::int64_t row = 0; row < 4; ++row) {
       for (const Side side : all_sides) {
@@ -74,6 +75,7 @@ TEST(OpposedChords, AreFoundAcrossEverySide) {
           return a >= 0 && b >= 0 && a < 4 && b < 4 && (a < 2 || b < 2);
         };
         if (!is_one(column, row) || !is_one(x, y)) continue;
+        ++pairs;
         const LeafChord chord{column, row, start_of(side), end_site(side)};
         const LeafChord against{x, y, start_of(opposite(side)), end_site(opposite(side))};
         const LeafChord along{x, y, end_site(opposite(side)), start_of(opposite(side))};
@@ -89,6 +91,7 @@ TEST(OpposedChords, AreFoundAcrossEverySide) {
       }
     }
   }
+  EXPECT_EQ(pairs, 2 * 16) << "twelve squares have 16 common sides";
 }
 
 TEST(OpposedChords, TheirEndsAreToldOnce) {

@@ -212,7 +212,7 @@ TEST(Flipper, KnowsWhatIsAcross) {
   for (const bool is_open : {false, true}) {
     flipper.flip_to_delaunay(grid.points, ranked(grid.ranks), triangles,
                              is_open ? std::span<const char>(open) : std::span<const char>());
-    int outer = 0;
+    int outer = 0, inner = 0;
     for (Flipper::Edge e = 0; e < static_cast<Flipper::Edge>(3 * triangles.size()); ++e) {
       const auto node = [&](Flipper::Edge edge, int step) {
         return triangles[Flipper::triangle_of(edge)][Flipper::corner_of(edge, step)];
@@ -226,8 +226,10 @@ TEST(Flipper, KnowsWhatIsAcross) {
       EXPECT_EQ(flipper.across(other), e);
       EXPECT_EQ(node(e, 1), node(other, 2));
       EXPECT_EQ(node(e, 2), node(other, 1));
+      ++inner;
     }
     EXPECT_EQ(outer, 4 * grid.n);
+    EXPECT_EQ(outer + inner, 3 * std::ssize(triangles));
   }
 }
 

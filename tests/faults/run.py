@@ -125,7 +125,7 @@ FAULTS = [
       for number in (signal.SIGKILL, signal.SIGTERM)),
 ]
 # No line of an error that is not our own.
-FOREIGN = re.compile(r"Traceback|terminate called|[Aa]ssert|what\(\)|Segmentation fault \(|a fault of the program|AddressSanitizer|runtime error")
+FOREIGN = re.compile(r"Traceback|terminate called|[Aa]ssert|what\(\)|Segmentation fault \(|internal error|AddressSanitizer|runtime error")
 
 
 class Trial:
@@ -332,7 +332,7 @@ class Runs:
         trial = self.trial(name, Fault("none", [], 0))
         judge = Judge(trial, self.wanted[name], {})
         ends = [trial.ended(process) for process in [trial.start(trial.fault) for _ in range(2)]]
-        if sorted(status for status, _ in ends) not in ([0, 0], [0, 1]) or any(status and "another run is at work" not in said for status, said in ends):
+        if sorted(status for status, _ in ends) not in ([0, 0], [0, 1]) or any(status and "another run is using" not in said for status, said in ends):
             yield f"they end with {ends}"
         yield from judge.faults_of_repeat(0, "")
         yield from judge.faults_of_files(may_leave_temporaries=False)

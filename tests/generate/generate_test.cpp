@@ -155,7 +155,7 @@ TEST(Generate, StripsOfAbsurdSizeAreRefusedBeforeTheyAreBuilt) {
     }
     return std::string("no refusal");
   };
-  EXPECT_EQ(says().find("case.toml:7: the layers of layer_line would have 1.8e+13 cells or more"), 0U)
+  EXPECT_EQ(says().find("case.toml:7: the layers of layer_line would have at least 1.8e+13 cells"), 0U)
       << says();
   input.lines[0].spacing = 0.01;
   input.mesh.limit.cells = 1700;

@@ -113,7 +113,7 @@ TEST(LayerReport, WarnsOfLeavesThatMinKeepsAboveTheLastLayer) {
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_TRUE(warnings[0].starts_with("boundary 'floor': its last layer is 0.0338 high near ("))
       << warnings[0];
-  EXPECT_NE(warnings[0].find("wants cells of at most 0.0675 beside it, but spacing.min = 0.0678"),
+  EXPECT_NE(warnings[0].find("requires cells of at most 0.0675 beside it, but spacing.min = 0.0678"),
             std::string::npos)
       << warnings[0];
   input.mesh.size.min = 2.01 * last;
@@ -136,8 +136,8 @@ TEST(LayerReport, WarnsOfABaseWithoutLayers) {
   EXPECT_TRUE(warnings(0.05).empty());
   const std::vector<std::string> narrow = warnings(0.005);
   ASSERT_EQ(narrow.size(), 1U);
-  EXPECT_TRUE(
-      narrow[0].starts_with("case.toml:7: the blunt edge at (1, 0), where wake begins, is too narrow"))
+  EXPECT_TRUE(narrow[0].starts_with(
+      "case.toml:7: the blunt trailing edge at (1, 0), where wake begins, is too narrow"))
       << narrow[0];
   EXPECT_NE(narrow[0].find("high instead of first = 0.01"), std::string::npos) << narrow[0];
 }

@@ -64,6 +64,7 @@ TEST(ShiftedOutline, APointOfASegmentIsNotToItsLeft) {
 }
 
 TEST(ShiftedOutline, WhatMeetsABoxMeetsAQuarterOfIt) {
+  int meetings = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
     const auto points = whole_star(seed);
     if (points.size() < 3) continue;
@@ -76,15 +77,18 @@ TEST(ShiftedOutline, WhatMeetsABoxMeetsAQuarterOfIt) {
           for (const Point corner : {Point{0, 0}, Point{1, 0}, Point{0, 1}, Point{1, 1}})
             quarters += outline.meets(s, box_at(x + corner.x, y + corner.y, 1)) ? 1 : 0;
           EXPECT_EQ(outline.meets(s, box_at(x, y, 2)), quarters > 0) << "seed " << seed << " segment " << s;
+          meetings += quarters > 0 ? 1 : 0;
         }
       }
     }
   }
+  EXPECT_GT(meetings, 1000);
 }
 
 TEST(ShiftedOutline, TurnsAndMirrorsWithTheOutline) {
   const auto mirrored = [](Point p) { return Point{-p.x, p.y}; };
   const auto turned = [](Point p) { return Point{-p.y, p.x}; };
+  int meetings = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
     const auto points = whole_star(seed);
     if (points.size() < 3) continue;
@@ -108,9 +112,11 @@ TEST(ShiftedOutline, TurnsAndMirrorsWithTheOutline) {
           any_mirrored = any_mirrored || mirrored_outline.meets(s, box_at(-x - 1, y, 1));
         }
         EXPECT_EQ(any, any_mirrored) << "seed " << seed << " leaf " << x << " " << y;
+        meetings += any ? 1 : 0;
       }
     }
   }
+  EXPECT_GT(meetings, 1000);
 }
 
 TEST(CrossingHeight, IsRoundedOnceAndTheSameFromBothEnds) {

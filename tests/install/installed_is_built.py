@@ -8,8 +8,8 @@ from pathlib import Path
 build = Path(sys.argv[1]).absolute()
 copied = set()
 for script in build.rglob("cmake_install.cmake"):
-    copied.update(re.findall(rf'"{re.escape(str(build))}/(\S+?(?:\.a|/quadloop))"', script.read_text()))
-assert len(copied) > 20 and "app/quadloop" in copied, f"only {sorted(copied)} are copied"
+    copied.update(re.findall(rf'"{re.escape(str(build))}/(\S+?(?:\.a|/quadloop(?:-reader)?))"', script.read_text()))
+assert len(copied) > 20 and {"app/quadloop", "io/quadloop-reader"} <= copied, f"only {sorted(copied)} are copied"
 built = set(subprocess.check_output(["ninja", "-C", build, "-t", "query", "installed"], text=True).split())  # what it names itself
 missing = sorted(copied - built)
 if missing:

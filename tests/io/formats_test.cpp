@@ -79,10 +79,12 @@ TEST(Formats, EachReadsWhatItWrites) {
   const test::TemporaryFolder folder;
   const Mesh mesh = test::sample_mesh(5);
   const Field solution = test::sample_solution(mesh);
+  Names read;
   for (const FileFormat& format : file_formats()) {
     SCOPED_TRACE(format.name);
     const std::string path = folder.file("a." + format.name);
     OutputSet outputs(alone);
+    if (format.holds(Content::mesh) || format.holds(Content::solution)) read.push_back(format.name);
     if (format.holds(Content::mesh)) {
       format.write(outputs, MeshStream(alone, mesh, &solution), path);
       outputs.commit();
@@ -99,6 +101,7 @@ TEST(Formats, EachReadsWhatItWrites) {
       EXPECT_EQ(format.read_solution(path).solution.values, solution.values);
     }
   }
+  EXPECT_EQ(read, written_formats());
 }
 
 TEST(Formats, OfPlaneMeshesAreWritten) {

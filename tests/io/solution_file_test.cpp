@@ -202,7 +202,7 @@ TEST_P(Formats, SolutionsOfOtherMeshesAreTold) {
   flipped.triangles[0] = {mesh.triangles[0][0], mesh.triangles[0][1], mesh.triangles[1][2]};
   flipped.triangles[1] = {mesh.triangles[0][1], mesh.triangles[0][2], mesh.triangles[1][2]};
   expect_in(refusal_of([&] { require_same_mesh(read_solution(write(flipped, &solution)), mesh); }),
-            "of its triangles the one of nodes 6 7 11");
+            "its triangles contain one with the nodes 6 7 11");
   Mesh reordered = mesh;  // the same cells in another order, begun at other nodes
   std::reverse(reordered.quads.begin(), reordered.quads.end());
   for (auto& nodes : reordered.triangles) std::rotate(nodes.begin(), nodes.begin() + 1, nodes.end());

@@ -212,7 +212,7 @@ TEST(AddStrips, ALineThinnerThanTheLeavesIsRefusedByName) {
   line.layers = {0.0001, 1.3, 1.3, 4};
   const std::string message = test::refusal([&] { Made(world(), box, {line}, false, 0.003); });
   EXPECT_NE(message.find("layer_line: its layers are 0.00124 wide"), std::string::npos) << message;
-  EXPECT_NE(message.find("make spacing.min smaller"), std::string::npos) << message;
+  EXPECT_NE(message.find("reduce spacing.min"), std::string::npos) << message;
 }
 
 TEST(LayerFront, LinesThatMeetSomethingAreRefused) {
@@ -239,7 +239,7 @@ TEST(LayerFront, LinesOverABodyOrOutsideTheDomainAreRefused) {
   const Geometry g = test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},
                                        {{"speck", {{-2.99, -5}, {-3, -5.01}, {-3.01, -5}, {-3, -4.99}}}}});
   const auto says = [&](const LayerLine& line) { return test::refusal([&] { layer_front(g, {}, {line}); }); };
-  EXPECT_NE(says(free_line()).find("run over boundary speck at (-"), std::string::npos);
+  EXPECT_NE(says(free_line()).find("cover boundary speck at (-"), std::string::npos);
   LayerLine outside = free_line();
   for (Point& p : outside.path) p.x -= 10;
   EXPECT_NE(says(outside).find("lies outside of the domain, at (-"), std::string::npos);

@@ -55,20 +55,26 @@ TEST(LayerColumn, ThatIsTiltedHasItsFirstHeightNormalToTheWall) {
           {{{"floor", {{0, 0}, {4, 0}, {4, 2}}, ten_layers}, {"rest", {{8, 2}, {8, 6}, {0, 6}}}},
            {{"bar", {{3, 0.8}, {3, 1.2}, {3.4, 1.2}, {3.4, 0.8}}}}}));
   for (const Front* f : {&plain, &thinner}) {
+    int columns = 0;
     for (std::int32_t i = 0; i < f->front.line.size(); ++i) {
       if (f->front.line[i].wall.y > 0) continue;
       EXPECT_NEAR(f->column(i)[1].y, 0.02, 1e-14) << f->front.line[i].wall.x;
+      ++columns;
     }
+    EXPECT_GT(columns, 4);
   }
 }
 
 TEST(LayerColumn, InAFanHasTheFirstHeightAlongItself) {
   const Front f(test::rhombus_with_layers(ten_layers, 0.25));
+  int rays = 0;
   for (std::int32_t i = 0; i < f.front.line.size(); ++i) {
     if (f.front.line[i].shape == Station::Shape::fan) {
       EXPECT_NEAR(length(f.column(i)[1] - f.front.line[i].wall), 0.02, 1e-14) << i;
+      ++rays;
     }
   }
+  EXPECT_GT(rays, 4);
 }
 
 TEST(LayerColumn, OfReducedLengthKeepsItsCountAndItsFirstHeight) {

@@ -36,6 +36,17 @@ TEST(Field, AColumnIsOneVariableAtEachNode) {
   EXPECT_THROW(field.column(2), Fault);
 }
 
+TEST(Field, GetsMoreColumnsBehindItsOwn) {
+  Field field{{"a"}, {1, 2}, {7}};
+  append_columns(field, std::vector<std::string>{"b", "c"}, std::vector<double>{3, 4, 5, 6});
+  EXPECT_EQ(field.names, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(field.values, (std::vector<double>{1, 3, 4, 2, 5, 6}));
+  EXPECT_EQ(field.constants, (std::vector<double>{7}));
+  Field empty;
+  append_columns(empty, std::vector<std::string>{"b"}, std::vector<double>{3, 4});
+  EXPECT_EQ(empty.column(0), (std::vector<double>{3, 4}));
+}
+
 TEST(Field, SelectedVariablesAreFoundByUsualNames) {
   const Field field{{"Density", "VelocityX", "Pressure"}, {1, 2, 3, 4, 5, 6}, {9}};
   const std::vector<std::string> wanted{"p", "rho"};

@@ -117,6 +117,7 @@ TEST(DemandedSplits, NumbersAreThoseOfOneQuadrantEach) {
       EXPECT_EQ(place_of_number.emplace(number, place_of(leaf, level)).first->second, place_of(leaf, level));
     }
   }
+  EXPECT_GT(world().sum(std::ssize(place_of_number)), 300);
 }
 
 TEST(DemandedSplits, BesideOthersAreThoseOfBoth) {

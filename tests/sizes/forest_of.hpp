@@ -10,7 +10,7 @@ namespace quadloop::test {
 
 /// The leaves of all ranks that these sizes lead to. *Collective.*
 inline std::vector<Quadrant> forest_of(const DiamondSizes& sizes) {
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const LeafGraph graph = refine_forest(world(), tree);
   std::vector<Quadrant> local;
   for (const LeafId leaf : graph.local()) local.push_back(graph.leaf(leaf));

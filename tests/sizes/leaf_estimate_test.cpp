@@ -14,7 +14,7 @@ using test::LargeDiamondSizes;
 
 /// All of them, one by one.
 LeafEstimate counted(const LargeDiamondSizes& sizes) {
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   SizeCursor cursor(tree);
   LeafEstimate all;
   for (const Quadrant& q : test::forest_of(sizes)) {
@@ -28,7 +28,8 @@ LeafEstimate counted(const LargeDiamondSizes& sizes) {
 
 TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
   const LargeDiamondSizes sizes(0.06);
-  const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
+  SizeTree tree = sizes.tree();
+  const LeafEstimate estimate = estimate_leaves(tree), expected = counted(sizes);
   EXPECT_EQ(estimate.cut, expected.cut);
   EXPECT_EQ(estimate.inside, expected.inside);
   EXPECT_NEAR(estimate.outside / expected.outside, 1, 0.4);
@@ -37,7 +38,7 @@ TEST(LeafEstimate, OfFewLeavesIsTheirNumberInTheDomain) {
 
 TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
   const LargeDiamondSizes sizes(0.0015);
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const double first = estimate_leaves(tree).all();
   EXPECT_EQ(estimate_leaves(tree).all(), first) << "the tree has grown since";
 }
@@ -45,7 +46,7 @@ TEST(LeafEstimate, IsTheSameEachTimeWhateverTheTreeWasAsked) {
 TEST(LeafEstimate, IsTheSameToTheLastBitWhereRanksShareIt) {
   for (const double spacing : {0.06, 0.0015}) {
     const LargeDiamondSizes sizes(spacing);
-    const SizeTree own_tree = sizes.tree(), shared_tree = sizes.tree();
+    SizeTree own_tree = sizes.tree(), shared_tree = sizes.tree();
     const LeafEstimate own = estimate_leaves(own_tree), shared = estimate_leaves(test::world(), shared_tree);
     EXPECT_EQ(shared.cut, own.cut);
     EXPECT_EQ(shared.inside, own.inside);
@@ -60,7 +61,8 @@ TEST(LeafEstimate, IsTheSameToTheLastBitWhereRanksShareIt) {
 TEST(LeafEstimate, OfEachKindIsNearItsNumberAtEverySpacing) {
   for (const double spacing : {0.004, 0.002, 0.001}) {
     const LargeDiamondSizes sizes(spacing);
-    const LeafEstimate estimate = estimate_leaves(sizes.tree()), expected = counted(sizes);
+    SizeTree tree = sizes.tree();
+    const LeafEstimate estimate = estimate_leaves(tree), expected = counted(sizes);
     EXPECT_NEAR(estimate.cut / expected.cut, 1, 0.2);
     EXPECT_NEAR(estimate.inside / expected.inside, 1, 0.2);
     EXPECT_NEAR(estimate.outside / expected.outside, 1, 0.4);

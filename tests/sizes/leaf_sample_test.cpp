@@ -54,7 +54,7 @@ TEST(LeafSample, CountsBelowAQuadrantAndAtIt) {
 
 TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
   const LargeDiamondSizes sizes(0.06);
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const LeafSample sample = estimate_leaves(tree).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
   SizeCursor cursor(tree);
@@ -70,7 +70,8 @@ TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
 
 TEST(LeafSample, OfManyTellsHalvesAboutRight) {
   const LargeDiamondSizes sizes(0.001);
-  const LeafSample sample = estimate_leaves(sizes.tree()).sample;
+  SizeTree tree = sizes.tree();
+  const LeafSample sample = estimate_leaves(tree).sample;
   const std::vector<Quadrant> leaves = test::forest_of(sizes);
   for (const Quadrant& q : quadrants_of(1))
     EXPECT_NEAR(sample.leaves_in(q) / counted(q, leaves), 1, 0.3) << q.x << " " << q.y;

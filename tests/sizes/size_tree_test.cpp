@@ -41,7 +41,7 @@ std::vector<Quadrant> all_of_level(int level) {
 
 TEST(SizeRules, EmptyQuadrantsOfTheDomainAreSplitDownToMax) {
   const SmallDiamondSizes sizes;
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const SizeRules& rules = tree.rules();
   EXPECT_EQ(rules.coarsest_level(), 4);  // 3 / 16 <= 0.3
   EXPECT_EQ(rules.finest_level(), 8);    // 3 / 256 >= 0.01
@@ -55,7 +55,7 @@ TEST(SizeRules, EmptyQuadrantsOfTheDomainAreSplitDownToMax) {
 
 TEST(SizeRules, SegmentsAskForTheirSpacingDownToMin) {
   const SmallDiamondSizes sizes;
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const std::vector<std::int32_t> frame{0}, diamond{0, 5};
   const Quadrant q = quadrant(5, 9, 9);
   EXPECT_FALSE(tree.rules().wants_split(sizes.at(q, frame)));
@@ -67,7 +67,7 @@ TEST(SizeRules, SegmentsAskForTheirSpacingDownToMin) {
 
 TEST(SizeRules, ADemandIsGranted) {
   const SmallDiamondSizes sizes;
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   SizedQuadrant q = sizes.at(quadrant(8, 9, 9));
   q.finest_demanded = 10;
   EXPECT_TRUE(tree.rules().wants_split(q));
@@ -75,7 +75,7 @@ TEST(SizeRules, ADemandIsGranted) {
 
 TEST(SizeRules, PlainIsWhereNothingAsksForMore) {
   const SmallDiamondSizes sizes({{Box{{-0.9, -0.9}, {-0.8, -0.8}}, 0.05}});
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   const auto judged = [&](const SizedQuadrant& q) { return tree.rules().judge(q); };
   const std::vector<std::int32_t> segment{5};
   EXPECT_TRUE(judged(sizes.at(quadrant(4, 9, 9))).plain);
@@ -96,7 +96,7 @@ TEST(SizeRules, PlainIsWhereNothingAsksForMore) {
 
 TEST(SizeTree, NodesHoldWhatMeetsThem) {
   const SmallDiamondSizes sizes;
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   for (std::int32_t n = 0; n < tree.size(); ++n) {  // it grows meanwhile
     tree.is_split(n);
     const SizeTree::Node node = tree.node(n);
@@ -123,13 +123,13 @@ TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
   }
   std::shuffle(questions.begin(), questions.end(), std::mt19937_64(2));
   questions.resize(2000);
-  const SizeTree shared = sizes.tree();
+  SizeTree shared = sizes.tree();
   SizeCursor cursor(shared);
   Gradation gradation(shared);
   LeavesAhead ahead(shared, gradation);
   int split = 0, holding = 0;
   for (const Quadrant& q : questions) {
-    const SizeTree own = sizes.tree();
+    SizeTree own = sizes.tree();
     SizeCursor own_cursor(own);
     Gradation own_gradation(own);
     EXPECT_EQ(gradation.must_split(q), own_gradation.must_split(q));
@@ -166,7 +166,7 @@ TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
 
 TEST(LeavesAhead, IsMostWhereMostLeavesAre) {
   const SmallDiamondSizes sizes;
-  const SizeTree tree = sizes.tree();
+  SizeTree tree = sizes.tree();
   Gradation gradation(tree);
   LeavesAhead ahead(tree, gradation);
   const auto count = [&](const auto& self, const Quadrant& q) -> double {
@@ -215,7 +215,7 @@ Geometry star_on_lattice(std::mt19937& random, bool is_void) {
 }
 
 /// Below a node, against what outline and interior say of each quadrant alone.
-void expect_outline_at(const SizeTree& tree, const Interior& inside, std::int32_t n) {
+void expect_outline_at(SizeTree& tree, const Interior& inside, std::int32_t n) {
   const SizeTree::Node node = tree.node(n);
   const Box box = tree.lattice().box_of(node.quadrant);
   std::vector<std::int32_t> expected;
@@ -247,7 +247,7 @@ TEST(SizeTree, KnowsSegmentsAndSidesAlsoWhereVerticesLieOnTheLattice) {
     SizeOptions options;
     options.min = 0.2;
     options.max = 2;
-    const SizeTree tree(
+    SizeTree tree(
         outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
         demanded);
     expect_outline_at(tree, inside, tree.roots().front());

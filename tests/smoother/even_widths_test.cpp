@@ -33,7 +33,7 @@ std::pair<bool, std::map<std::int64_t, Point>> spread(const Communicator& comm, 
   HaloMesh halo(comm, part);
   const OutlinePath path(uneven.square);
   const NodeFlags pinned;
-  const BoundarySlide slide(comm, halo, part.boundaries, &path, pinned);
+  BoundarySlide slide(comm, halo, part.boundaries, &path, pinned);
   const bool moved = even_widths(comm, halo, slide, segments, sweeps);
   std::map<std::int64_t, Point> positions;
   for (const NodeId node : ids_below(NodeId{part.owned_nodes}))

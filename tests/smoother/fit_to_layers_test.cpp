@@ -40,7 +40,7 @@ Fitted fitted(const Communicator& comm, const LowRow& low, double height, std::i
   const OutlinePath path(low.square);
   NodeFlags pinned(part.owned_nodes, 0);
   for (const NodeId node : pinned.ids()) pinned[node] = part.global(node).value() == stays ? 1 : 0;
-  const BoundarySlide slide(comm, halo, part.boundaries, &path, pinned);
+  BoundarySlide slide(comm, halo, part.boundaries, &path, pinned);
   Fitted result;
   result.moved = fit_to_layers(comm, halo, slide, std::vector<double>{height, 0, 0, 0});
   for (const NodeId node : ids_below(NodeId{part.owned_nodes}))

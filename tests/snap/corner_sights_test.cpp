@@ -52,9 +52,11 @@ TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
 TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
   const TracedLeaves leaves(above(1.5));
   const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  int corners = 0;
   for (std::int64_t x = 0; x <= 4; ++x) {
     for (const std::int64_t y : {1, 2}) {
       if (!leaves.at_local_leaf(at(x, y))) continue;
+      ++corners;
       const auto own = seen_from(sights, at(x, y));
       EXPECT_FALSE(own.empty());
       for (const Sight& s : own) {
@@ -63,17 +65,23 @@ TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
       }
     }
   }
+  EXPECT_GE(test::world().sum(corners), 10);
 }
 
 TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
   const TracedLeaves leaves(above());
   const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  int corners = 0;
   for (std::int64_t x = 1; x <= 3; ++x) {
     if (!leaves.at_local_leaf(at(x, 1))) continue;
     const auto own = seen_from(sights, at(x, 1));
-    ASSERT_EQ(own.size(), 2U);
-    EXPECT_NE(own[0].at_entry, own[1].at_entry);
+    EXPECT_EQ(own.size(), 2U);
+    if (own.size() == 2) {
+      EXPECT_NE(own[0].at_entry, own[1].at_entry);
+    }
+    ++corners;
   }
+  EXPECT_GE(test::world().sum(corners), 3);
 }
 
 TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {

@@ -8,7 +8,7 @@ namespace quadloop {
 Eigen2 eigen_of(const Symmetric& s) {
   const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy), spread = std::hypot(half, s.xy);
   if (spread == 0) return {mean, mean, {1, 0}};
-  // Of the two expressions for the vector the one without cancellation.
+  // Uses the expression for the eigenvector without cancellation.
   const Point v = half >= 0 ? Point{half + spread, s.xy} : Point{s.xy, spread - half};
   const double size = length(v);
   return {mean + spread, mean - spread, {v.x / size, v.y / size}};
@@ -28,7 +28,7 @@ Symmetric mapped(const Symmetric& s, const Function& function) {
   return symmetric_of({function(e.larger), function(e.smaller), e.axis});
 }
 
-/// a b a, which is symmetric.
+/// The product a b a, which is symmetric.
 Symmetric framed(const Symmetric& a, const Symmetric& b) {
   const double p = a.xx * b.xx + a.xy * b.xy, q = a.xx * b.xy + a.xy * b.yy;
   const double r = a.xy * b.xx + a.yy * b.xy, t = a.xy * b.xy + a.yy * b.yy;
@@ -38,7 +38,7 @@ Symmetric framed(const Symmetric& a, const Symmetric& b) {
 }  // namespace
 
 LogMetric log_of(const Metric& m) {
-  // The smaller eigenvalue by the determinant: it may be far below the larger one.
+  // The smaller eigenvalue by the determinant, as it may be far below the larger one.
   const Eigen2 e = eigen_of(m);
   const double smaller = std::max((m.xx * m.yy - m.xy * m.xy) / e.larger, 0x1p-48 * e.larger);
   return LogMetric{symmetric_of({std::log(e.larger), std::log(smaller), e.axis})};
@@ -82,7 +82,7 @@ Metric grown(const Metric& m, Point edge, double slope) {
 }
 
 double quality_in(const Symmetric& m, Point a, Point b, Point c) {
-  constexpr double for_equilateral = 3.4641016151377544;  // 2 sqrt(3), of twice the area
+  constexpr double for_equilateral = 3.4641016151377544;  // 2 sqrt(3), multiplied by twice the area
   const double sum = squared_length(m, b - a) + squared_length(m, c - b) + squared_length(m, a - c);
   const double determinant = std::max(m.xx * m.yy - m.xy * m.xy, 0.0);
   return for_equilateral * std::sqrt(determinant) * cross(b - a, c - a) / sum;

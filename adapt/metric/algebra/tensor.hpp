@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-/// A symmetric matrix of two rows.
+/// A symmetric 2 x 2 matrix.
 struct Symmetric {
   double xx = 0, xy = 0, yy = 0;
 
@@ -19,7 +19,7 @@ struct Symmetric {
   }
 };
 
-/// Its eigenvalues, the larger first, and the unit vector that belongs to it.
+/// Eigenvalues, the larger first, and the unit eigenvector of the larger one.
 struct Eigen2 {
   double larger = 0, smaller = 0;
   Point axis{1, 0};
@@ -27,14 +27,14 @@ struct Eigen2 {
 Eigen2 eigen_of(const Symmetric& s);
 Symmetric symmetric_of(const Eigen2& e);
 
-/// A metric: a positive definite matrix in 1 / length^2, by which an edge e has the length sqrt(e^T m e). The
-/// edges of the mesh that it asks for have length 1 (Loseille and Alauzet, SIAM J. Numer. Anal. 49, 2011).
+/// A metric: a positive definite matrix in 1 / length^2, in which an edge e has the length sqrt(e^T m e). A
+/// mesh that conforms to it has edges of length 1 (Loseille and Alauzet, SIAM J. Numer. Anal. 49, 2011).
 struct Metric : Symmetric {
   constexpr Metric() : Symmetric{1, 0, 1} {}
   constexpr explicit Metric(const Symmetric& s) : Symmetric{s} {}
 };
 
-/// The logarithm of a metric: what is interpolated (Arsigny et al., Magn. Reson. Med. 56, 2006).
+/// The logarithm of a metric, used for interpolation (Arsigny et al., Magn. Reson. Med. 56, 2006).
 struct LogMetric : Symmetric {
   constexpr LogMetric() = default;
   constexpr explicit LogMetric(const Symmetric& s) : Symmetric{s} {}
@@ -42,10 +42,10 @@ struct LogMetric : Symmetric {
 LogMetric log_of(const Metric& m);
 Metric exp_of(const LogMetric& m);
 
-/// The metric that asks for edges of this length in every direction.
+/// The isotropic metric for edges of this length.
 Metric isotropic(double size);
 
-/// The square of an edge's length in one metric.
+/// The squared length of an edge in a constant metric.
 constexpr double squared_length(const Symmetric& m, Point e) {
   return m.xx * e.x * e.x + 2 * m.xy * e.x * e.y + m.yy * e.y * e.y;
 }
@@ -53,20 +53,20 @@ constexpr double squared_length(const Symmetric& m, Point e) {
 /// (Alauzet, Finite Elem. Anal. Des. 46, 2010).
 double length_between(const Metric& at_from, const Metric& at_to, Point edge);
 
-/// The square root of the determinant: nodes, about, for each unit of area.
+/// The square root of the determinant: approximately the number of nodes per unit of area.
 double density_of(const Metric& m);
 
-/// The metric of the largest ellipse within both, by simultaneous reduction: no larger sizes than either asks
-/// for in any direction.
+/// The metric of the largest ellipse within both, by simultaneous reduction: sizes are at most those of
+/// either metric in any direction.
 Metric intersection(const Metric& a, const Metric& b);
 
-/// The metric that one at a distance `edge` allows here, where sizes may grow by `slope` for each unit of
-/// length: between growing in the plane, which makes it rounder, and in the metric (Alauzet 2010, mixed
+/// The metric that `m`, at a distance `edge`, allows here if sizes may grow by `slope` per unit of length: a
+/// mean of growth in physical space, which reduces anisotropy, and in metric space (Alauzet 2010, mixed
 /// space).
 Metric grown(const Metric& m, Point edge, double slope);
 
-/// How near a triangle is to the equilateral one in a metric: 4 sqrt(3) area / (sum of squared edges), both
-/// in it; 1 at best, 0 and less where it is flat or turned over.
+/// Quality of a triangle in a metric: 4 sqrt(3) area / (sum of squared edges), both in the metric; 1 for an
+/// equilateral triangle, 0 or less for a flat or inverted one.
 double quality_in(const Symmetric& m, Point a, Point b, Point c);
 
 }  // namespace quadloop

@@ -9,10 +9,10 @@ namespace quadloop {
 
 namespace {
 
-/// A triangle of this quality is good enough, whatever stood there before.
+/// A triangle of this quality is always acceptable.
 constexpr double good = 0.5;
 
-/// Whether triangles at the node lie beyond the tile's rim.
+/// Whether some triangles at the node are outside the tile.
 bool on_rim(const TileMesh& mesh, std::int32_t n) {
   return std::ranges::any_of(mesh.star(n), [&](std::int32_t t) {
     const auto k = static_cast<std::size_t>(mesh.corner(t, n));
@@ -22,21 +22,23 @@ bool on_rim(const TileMesh& mesh, std::int32_t n) {
   });
 }
 
-/// A node of a boundary goes along it alone: a-b is one of its two edges there. A hole of three edges stays.
+/// A boundary node may only move along its boundary: a-b must be one of its two boundary edges. A hole with
+/// three edges is kept.
 bool may_go(const TileMesh& mesh, std::int32_t gone, const TileMesh::Edge& edge) {
   if (mesh.freedom(gone) == TileMesh::Freedom::fixed) return false;
   if (mesh.freedom(gone) == TileMesh::Freedom::free) return true;
   if (edge.side.boundary < 0) return false;
   const auto [before, after] = mesh.neighbours_on_wall(gone);
   if (before == after || mesh.edge(before, after)) return false;
-  if (on_rim(mesh, before) && on_rim(mesh, after)) return false;  // a third edge of the hole may be hidden
+  // A third edge of the hole may be outside the tile.
+  if (on_rim(mesh, before) && on_rim(mesh, after)) return false;
   const Walls& walls = mesh.walls();
   Walls::Chord whole = mesh.chord(before, after, edge.side.boundary);
   const OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);
   return at.valid() && walls.may_change(whole) && walls.may_join(whole, at, mesh.point(gone));
 }
 
-/// Nodes joined to both ends must be those of the edge's triangles alone.
+/// The only nodes joined to both ends must be those of the edge's triangles.
 bool keeps_topology(const TileMesh& mesh, std::int32_t gone, std::int32_t stays, const TileMesh::Edge& edge) {
   const auto of_one = mesh.neighbours(gone), of_other = mesh.neighbours(stays);
   std::vector<std::int32_t> both;
@@ -44,7 +46,7 @@ bool keeps_topology(const TileMesh& mesh, std::int32_t gone, std::int32_t stays,
   return both.size() == (edge.right < 0 ? 1U : 2U) && mesh.star(gone).size() > both.size();
 }
 
-/// The worst triangle after the join; none where it may not be.
+/// The worst quality after the collapse; none if it is not allowed.
 std::optional<double> worst_after(const TileMesh& mesh, std::int32_t gone, std::int32_t stays,
                                   double longest) {
   double worst = 1;
@@ -62,8 +64,8 @@ std::optional<double> worst_after(const TileMesh& mesh, std::int32_t gone, std::
   return worst;
 }
 
-/// The triangles beside the edge go; what was beyond one across the edge from `stays` is then beyond the one
-/// that takes its place.
+/// Removes the triangles beside the edge; the neighbour across the edge not containing `stays` becomes the
+/// neighbour of the triangle that replaces it.
 void join(TileMesh& mesh, std::int32_t gone, std::int32_t stays, const TileMesh::Edge& edge) {
   struct Kept {
     std::int32_t apex;

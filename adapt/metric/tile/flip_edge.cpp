@@ -6,7 +6,7 @@
 namespace quadloop {
 
 bool flip_edge(TileMesh& mesh, std::int32_t from, std::int32_t to) {
-  constexpr double gain = 1.001;  // so that rounding flips nothing back and forth
+  constexpr double gain = 1.001;  // prevents repeated flips by rounding
   const auto edge = mesh.edge(from, to);
   if (!edge || edge->side.locked || edge->right < 0) return false;
   const auto [a, b, left, right, side] = *edge;

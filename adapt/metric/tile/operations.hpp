@@ -4,21 +4,21 @@
 
 namespace quadloop {
 
-/// Each changes a tile's mesh where that is sound and leads nearer to the metric, or leaves it. Triangles
-/// stay positive, exactly. Returns whether it has changed it.
+/// Each operation changes a tile's mesh if this is valid and improves its conformity to the metric; otherwise
+/// it does nothing. Triangles remain positive by exact tests. Returns whether the mesh was changed.
 
-/// Divides an edge in its middle, one of a boundary at the middle of its way along the outline.
+/// Divides an edge at its midpoint, a boundary edge at the midpoint of its part of the geometry.
 bool split_edge(TileMesh& mesh, std::int32_t a, std::int32_t b);
 
-/// Joins the ends of an edge at one of them, where no edge becomes longer than `longest` in the metric and no
-/// triangle worse than it may be.
+/// Collapses an edge to one of its ends, if no edge becomes longer than `longest` in the metric and no
+/// triangle becomes too bad.
 bool collapse_edge(TileMesh& mesh, std::int32_t a, std::int32_t b, double longest);
 
-/// Turns an edge into the other diagonal of its two triangles, where the worse of both becomes better.
+/// Flips an edge if the worse of the two triangles improves.
 bool flip_edge(TileMesh& mesh, std::int32_t a, std::int32_t b);
 
-/// Moves a node to where its edges have equal lengths, one that slides along the outline. The worst triangle
-/// round it does not become worse.
+/// Moves a node to equalise its edge lengths in the metric; a boundary node slides along the geometry. The
+/// worst triangle around it does not get worse.
 bool relax_node(TileMesh& mesh, std::int32_t n);
 
 }  // namespace quadloop

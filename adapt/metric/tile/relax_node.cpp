@@ -8,9 +8,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::array<double, 4> relaxation_shares{0.8, 0.4, 0.2, 0.1};  ///< of the way to the place aimed at
+/// Fractions of the distance to the target position.
+constexpr std::array<double, 4> relaxation_shares{0.8, 0.4, 0.2, 0.1};
 
-/// The star of a node that is elsewhere: what its worst triangle is, and the sum of what each lacks.
+/// The star of a node at another position: its worst quality, and the sum of the quality deficits.
 struct StarQuality {
   double worst = 1, lack = 0;
 };
@@ -29,8 +30,8 @@ std::optional<StarQuality> star_quality(const TileMesh& mesh, std::int32_t n, Po
   return found;
 }
 
-/// The metric at a place in the star, between those at the nodes of the triangle that holds it; that of the
-/// node where none does (on curved walls).
+/// The metric at a point in the star, interpolated in the triangle that contains it; that of the node if none
+/// does (on curved walls).
 LogMetric metric_at(const TileMesh& mesh, std::int32_t n, Point at) {
   for (const std::int32_t t : mesh.star(n)) {
     const auto& nodes = mesh.triangle(t).nodes;
@@ -44,7 +45,7 @@ LogMetric metric_at(const TileMesh& mesh, std::int32_t n, Point at) {
   return mesh.node(n).metric;
 }
 
-/// Where all edges at the node would have length 1, on the mean, but for a common factor.
+/// The mean position at which the edges at the node would have equal lengths in the metric.
 Point aim(const TileMesh& mesh, std::int32_t n) {
   const Point p = mesh.point(n);
   const std::vector<std::int32_t> around = mesh.neighbours(n);

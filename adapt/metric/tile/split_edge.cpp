@@ -11,7 +11,7 @@ namespace {
 /// No new edge is shorter than this in the metric.
 constexpr double least_new_length = 0.5;
 
-/// Where an edge is divided.
+/// The point at which an edge is divided.
 struct Division {
   Point at;
   LogMetric metric;
@@ -40,8 +40,8 @@ std::int32_t third_node(const TileMesh& mesh, std::int32_t t, const TileMesh::Ed
   return -1;
 }
 
-/// Beside an edge that must stay, however long it is in the metric, more and more nodes would come to lie on
-/// it.
+/// Prevents more and more nodes accumulating beside an edge that must not change, however long it is in the
+/// metric.
 bool keeps_quality(const TileMesh& mesh, std::int32_t t, const std::array<std::int32_t, 3>& corners,
                    const Division& division) {
   constexpr double poor = 0.2;
@@ -68,7 +68,7 @@ bool is_sound(const TileMesh& mesh, const TileMesh::Edge& edge, const Division& 
   return keeps_quality(mesh, t, {a, b, c}, division);
 }
 
-/// A triangle becomes two, with the node m in the middle of its edge from corner k to the next.
+/// Divides a triangle into two at node m on its edge from corner k to the next.
 void divide(TileMesh& mesh, std::int32_t t, std::size_t k, std::int32_t m) {
   const TileTriangle whole = mesh.triangle(t);
   const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;

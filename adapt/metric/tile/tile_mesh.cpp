@@ -31,7 +31,7 @@ int TileMesh::corner(std::int32_t t, std::int32_t n) const {
   return nodes[0] == n ? 0 : nodes[1] == n ? 1 : nodes[2] == n ? 2 : -1;
 }
 
-/// Edges with one triangle that are of no boundary.
+/// Locks edges with one triangle that are on no boundary.
 void TileMesh::lock_rim() {
   for (TileTriangle& t : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -51,8 +51,8 @@ void TileMesh::lock_walls() {
   }
 }
 
-/// A node is free where no edge at it is locked or of a boundary; it slides where two edges of one boundary
-/// meet that are not locked.
+/// A node is free if no edge at it is locked or on a boundary. It slides if it has exactly two boundary
+/// edges, of the same boundary and not locked, and is no kept point. Otherwise it is fixed.
 void TileMesh::set_freedom(std::int32_t n) {
   int on_wall = 0;
   std::int32_t boundary = -1;

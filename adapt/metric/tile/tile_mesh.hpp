@@ -10,15 +10,15 @@
 
 namespace quadloop {
 
-/// A node of a tile by its number over all ranks; below 0: it is new.
+/// A node of a tile with its global number; negative for a new node.
 struct TileNode {
   std::int64_t id = -1;
   Point point;
   LogMetric metric;
 };
 
-/// Of an edge from a triangle's corner to the next: the boundary that it is of, below 0: none; whether it
-/// must stay as it is.
+/// An edge from a triangle's corner to the next: its boundary (negative: none), and whether it must not
+/// change.
 struct TileSide {
   std::int32_t boundary = -1;
   bool locked = false;
@@ -26,11 +26,11 @@ struct TileSide {
 
 struct TileTriangle {
   std::array<std::int32_t, 3> nodes;  ///< counter-clockwise
-  std::array<TileSide, 3> sides;      ///< side k leads from node k to the next
+  std::array<TileSide, 3> sides;      ///< side k runs from node k to the next
 };
 
-/// A part of a triangulation that changes node by node; what lies at its rim, where triangles beyond it are
-/// not at hand, stays. Nodes and triangles keep their indices; those that are gone are marked.
+/// A part of a triangulation that is modified. Its border, where triangles are on other tiles, does not
+/// change. Nodes and triangles keep their indices; removed ones are marked.
 class TileMesh {
  public:
   enum class Freedom : char { free, slides, fixed };
@@ -46,23 +46,23 @@ class TileMesh {
   Point point(std::int32_t n) const { return nodes_[n].point; }
   const Metric& metric(std::int32_t n) const { return metrics_[n]; }
   Freedom freedom(std::int32_t n) const { return freedom_[n]; }
-  /// The triangles round a node; none for one that is gone.
+  /// The triangles around a node; empty for a removed node.
   const std::vector<std::int32_t>& star(std::int32_t n) const { return stars_[n]; }
   const Walls& walls() const { return walls_; }
 
   double edge_length(std::int32_t a, std::int32_t b) const {
     return length_between(metrics_[a], metrics_[b], point(b) - point(a));
   }
-  /// In the mean of the metrics of three nodes, with them at such places.
+  /// Quality in the mean metric of three nodes, with the nodes at these positions.
   double quality(const std::array<std::int32_t, 3>& nodes, const std::array<Point, 3>& at) const;
   double quality(const std::array<std::int32_t, 3>& nodes) const {
     return quality(nodes, {point(nodes[0]), point(nodes[1]), point(nodes[2])});
   }
   double quality(std::int32_t t) const { return quality(triangles_[t].nodes); }
-  /// The least of a node's star.
+  /// The smallest quality in a node's star.
   double worst_round(std::int32_t n) const;
 
-  /// An edge with the triangles on either side: `left` has it from a to b. Below 0: there is none.
+  /// An edge with its adjacent triangles: `left` has it from a to b. Negative: there is none.
   struct Edge {
     std::int32_t a = -1, b = -1, left = -1, right = -1;
     TileSide side;
@@ -70,9 +70,9 @@ class TileMesh {
   std::optional<Edge> edge(std::int32_t a, std::int32_t b) const;
   /// Each edge once, in the order of triangles.
   std::vector<std::array<std::int32_t, 2>> edges() const;
-  /// The edge as its boundary has it, from a to b.
+  /// The chord of the geometry for the edge from a to b.
   Walls::Chord chord(std::int32_t a, std::int32_t b, std::int32_t boundary) const;
-  /// Both neighbours of a node that slides, before and after it.
+  /// The neighbours of a sliding node along its boundary: previous, next.
   std::array<std::int32_t, 2> neighbours_on_wall(std::int32_t n) const;
   std::int32_t boundary_of(std::int32_t n) const { return boundaries_[n]; }
   std::vector<std::int32_t> neighbours(std::int32_t n) const;
@@ -81,12 +81,12 @@ class TileMesh {
   void move_node(std::int32_t n, Point p, const LogMetric& metric);
   void add_triangle(const TileTriangle& triangle);
   void remove_triangle(std::int32_t t);
-  /// Puts another node in the place of one.
+  /// Replaces one node of a triangle by another.
   void replace_node(std::int32_t t, std::int32_t from, std::int32_t to);
 
   void set_side(std::int32_t a, std::int32_t b, const TileSide& side);
 
-  /// The index of a node in a triangle; below 0: it is none of its nodes.
+  /// The index of a node in a triangle; negative if it is not a node of the triangle.
   int corner(std::int32_t t, std::int32_t n) const;
 
  private:
@@ -98,7 +98,7 @@ class TileMesh {
   std::vector<TileNode> nodes_;
   std::vector<Metric> metrics_;
   std::vector<Freedom> freedom_;
-  std::vector<std::int32_t> boundaries_;  ///< of nodes that slide
+  std::vector<std::int32_t> boundaries_;  ///< of sliding nodes
   std::vector<std::vector<std::int32_t>> stars_;
   std::vector<TileTriangle> triangles_;
   std::vector<char> standing_;

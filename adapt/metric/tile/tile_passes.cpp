@@ -17,7 +17,7 @@ struct MeasuredEdge {
   friend auto operator<=>(const MeasuredEdge&, const MeasuredEdge&) = default;
 };
 
-/// Those for which `holds(length)`, the shortest first.
+/// Edges for which `holds(length)`, the shortest first.
 template <class Holds>
 std::vector<MeasuredEdge> measured(const TileMesh& mesh, const Holds& holds) {
   std::vector<MeasuredEdge> found;

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-/// How much was done.
+/// Counts of operations.
 struct TileChanges {
   std::int64_t splits = 0, collapses = 0, flips = 0, moves = 0;
 
@@ -20,9 +20,9 @@ struct TileChanges {
   }
 };
 
-/// Splits edges longer than sqrt(2) in the metric, the longest first, collapses those shorter than 1 /
-/// sqrt(2), flips, and moves nodes, in turn: a few times, so that no triangle becomes more than some 4^2 at
-/// once. The result depends on the tile's nodes and triangles in their order alone.
+/// Splits edges longer than sqrt(2) in the metric, the longest first, collapses edges shorter than 1 /
+/// sqrt(2), flips edges and moves nodes, several times in turn; one call divides a triangle into at most
+/// about 4^2. The result depends only on the tile's nodes and triangles in their order.
 TileChanges adapt_tile(TileMesh& mesh);
 
 }  // namespace quadloop

@@ -6,9 +6,10 @@ namespace quadloop {
 
 namespace {
 
-/// Of the shorter chord: so far the outline may stray from chords, as it may in cutting.
+/// Allowed deviation of the geometry from chords, as a fraction of the shorter chord; the same as in cutting.
 constexpr double stray_share = 0.15;
-/// A chord that stands for a part of the outline longer than so many times itself is left alone.
+/// A chord is not changed if the part of the geometry that it represents is more than this many times as
+/// long.
 constexpr double longest_way = 20;
 
 }  // namespace

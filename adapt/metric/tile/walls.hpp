@@ -9,16 +9,17 @@
 
 namespace quadloop {
 
-/// What nodes on the outline may do when a mesh is adapted: the rules of BoundarySlide, for nodes that come
-/// and go as well.
+/// Rules for nodes on the geometry when a mesh is adapted: those of BoundarySlide, extended to added and
+/// removed nodes.
 class Walls {
  public:
-  /// The mesh's boundaries by their names. Of segments with a height in `front_heights` (one for each segment
-  /// of the outline, or none) edges and nodes stay: they carry layers. `outline` must outlive them.
+  /// `boundaries`: names of the mesh's boundaries. Edges and nodes on segments with a height in
+  /// `front_heights` (one per segment of the geometry, or empty) do not change, as layers are attached there.
+  /// `outline` must outlive it.
   Walls(const OutlinePath& outline, std::vector<std::string> boundaries, std::vector<double> front_heights)
       : outline_{outline}, boundaries_{std::move(boundaries)}, heights_{std::move(front_heights)} {}
 
-  /// From now on edges are divided alone: nodes stay where they are.
+  /// From now on nodes are kept and edges are only divided.
   void keep_nodes() { keeps_nodes_ = true; }
 
   OutlinePlace place_of(Point p, std::int32_t boundary) const {
@@ -31,10 +32,10 @@ class Walls {
   }
 
   using Chord = OutlinePath::Chord;
-  /// Whether an edge of the boundary may be divided, or joined with the next one: both ends lie on the same
-  /// loop of the outline, the way between them is that of the chord, and no layers stand on it.
+  /// Whether a boundary edge may be divided or joined with the next one: both its ends are on the same loop
+  /// of the geometry, the part between them is that of the chord, and no layers are attached to it.
   bool may_change(const Chord& chord) const;
-  /// The place in the middle of the way that a chord stands for.
+  /// The midpoint of the part of the geometry that a chord represents.
   OutlinePlace middle_of(const Chord& chord) const {
     return outline_.moved(chord.from, 0.5 * outline_.way(chord.from, chord.to));
   }
@@ -42,10 +43,11 @@ class Walls {
   double way(OutlinePlace from, OutlinePlace to) const { return outline_.way(from, to); }
   Point point_at(OutlinePlace place) const { return outline_.point_at(place); }
 
-  /// Whether the chords a-p and p-b may stand for the way from a to b, where a-b, or a-q and q-b, did.
+  /// Whether the chords a-p and p-b may represent the part from a to b instead of a-b (may_divide), or
+  /// instead of a-q and q-b (may_slide).
   bool may_divide(const Chord& whole, OutlinePlace at, Point p) const;
   bool may_slide(const Chord& whole, OutlinePlace at, Point p, OutlinePlace before, Point q) const;
-  /// Whether the chord a-b may, where a-p and p-b did.
+  /// Whether the chord a-b may replace a-p and p-b.
   bool may_join(const Chord& whole, OutlinePlace at, Point p) const;
 
  private:

@@ -21,6 +21,7 @@ struct AdaptOptions {
     std::optional<double> estimate = {};  ///< relative to the cycle before
 
     bool empty() const { return !cl && !cd && !estimate; }
+    friend bool operator==(const Until&, const Until&) = default;
   };
   /// What marks are made from: differences of variables, or a field that the solver wrote for it.
   enum class Source { variables, size, error };

@@ -14,9 +14,9 @@ namespace quadloop {
 
 namespace {
 
-/// Absolute hessians at owned nodes and copies.
+/// Absolute Hessians at owned nodes and ghost copies.
 struct NodeHessians {
-  IdVector<NodeId, Hessian> outside;  ///< of the cells that are not in layers
+  IdVector<NodeId, Hessian> outside;  ///< from the cells that are not in layers
   IdVector<NodeId, Hessian> in_layers;
 };
 
@@ -48,7 +48,7 @@ class Recovery {
  private:
   using OfNodes = IdVector<NodeId, Moments>;
 
-  /// Values at nodes, also of other ranks' cells.
+  /// Values at the nodes of the halo mesh.
   IdVector<NodeId, double> node_values() const {
     IdVector<NodeId, double> values(field_.values);
     values.resize(halo_.points().size());
@@ -56,8 +56,8 @@ class Recovery {
     return values;
   }
 
-  /// About each owned node, of the points in the cells that touch it, and the values that they are counted
-  /// from.
+  /// Moments about each owned node of the points in the cells that touch it; values are relative to the
+  /// node's value.
   OfNodes first_ring() {
     OfNodes moments(mesh_.owned_nodes);
     if (at_ == ValuesAt::nodes) {
@@ -76,7 +76,7 @@ class Recovery {
     return moments;
   }
 
-  /// The same of values of cells: they are counted from that of the first cell at the node.
+  /// Same for cell values, which are relative to the value of the first cell at the node.
   void add_cells(OfNodes& moments) {
     std::vector<CellShape> shapes;
     halo_.for_each_cell([&](const auto& nodes) {
@@ -105,18 +105,17 @@ class Recovery {
 
   IdVector<NodeId, Hessian> outside_layers() {
     const OfNodes first = first_ring();
-    // Centroids are one a cell: at corners of the domain two rings of cells may be four.
+    // One centroid per cell: at corners of the domain two rings may contain only four cells.
     OfNodes all = at_ == ValuesAt::nodes
                       ? with_neighbours(first, first, 0x1p-12)
                       : with_neighbours(first, with_neighbours(first, first, 0x1p-6), 0x1p-6);
-    const double rounding = 256 * field_.rounding;  // the fit adds to it
+    const double rounding = 256 * field_.rounding;  // the fit increases it
     IdVector<NodeId, Hessian> found;
     for (const Moments& moments : all) found.push_back(absolute(moments.hessian(rounding)));
     return found;
   }
 
-  /// Those of `own` and, so much as heavy, those that the nodes in the cells round each node have of
-  /// `around`.
+  /// Adds to `own`, with this weight, the moments in `around` of the nodes in the cells around each node.
   OfNodes with_neighbours(const OfNodes& own, OfNodes around, double weight) const {
     around.resize(halo_.points().size());
     halo_.exchange().update(around);
@@ -164,7 +163,7 @@ class Recovery {
     return found;
   }
 
-  /// 0 at the ends of rows.
+  /// Returns 0 at the ends of rows.
   Hessian along_row(NodeId node, const IdVector<NodeId, Row>& rows,
                     const IdVector<NodeId, double>& values) const {
     const auto [one, other] = rows[node].neighbours;
@@ -184,7 +183,7 @@ class Recovery {
   const ScaledField& field_;
   ValuesAt at_;
   HaloMesh halo_;
-  LayerPlaces places_;  ///< also of other ranks' cells; empty where there are no layers
+  LayerPlaces places_;  ///< includes cells of other ranks; empty if there are no layers
   IdVector<NodeId, double> bases_;
 };
 
@@ -198,7 +197,7 @@ Hessian absolute(const Hessian& h) {
   const double mean = 0.5 * (h.xx + h.yy), spread = std::hypot(0.5 * (h.xx - h.yy), h.xy);
   if (mean >= spread) return h;
   if (-mean >= spread) return -1.0 * h;
-  // One of either sign: mean + spread > 0 > mean - spread.
+  // Eigenvalues of opposite sign: mean + spread > 0 > mean - spread.
   const double slope = mean / spread, shift = (spread - mean) * (spread + mean) / spread;
   return {slope * h.xx + shift, slope * h.xy, slope * h.yy + shift};
 }

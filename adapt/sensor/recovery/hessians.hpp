@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// A symmetric matrix: second derivatives, in 1 / length^2.
+/// A symmetric 2 x 2 matrix of second derivatives, in 1 / length^2.
 struct Hessian {
   double xx = 0, xy = 0, yy = 0;
 
@@ -31,31 +31,32 @@ double largest_eigenvalue(const Hessian& h);
 /// e^T h e.
 double along(const Hessian& h, Point e);
 
-/// Where values of a variable stand.
+/// Location of a variable's values.
 enum class ValuesAt { nodes, cells };
 
-/// Absolute hessians at the nodes of a cell.
+/// Absolute Hessians at the nodes of a cell.
 struct CellHessian {
   Hessian mean;
-  double largest = 0;  ///< eigenvalue at any of the nodes
+  double largest = 0;  ///< largest eigenvalue at any of the nodes
 };
 
-/// For each of this rank's cells, triangles, then quads, what there is at its nodes. At a node it is that of
-/// the quadratic which fits, by least squares, the values round the node: those of the cells that touch it,
-/// and, much less heavy, of the cells that touch these (of values of cells three rings). So it is exact for
-/// quadratics, at walls, between leaves of different sizes, on triangles and quads; of values of cells, which
-/// count at the centroids, but for the difference between a mean and the value there. What the points do not
-/// tell (across a channel of one cell) is 0.
+/// For each local cell (triangles, then quadrilaterals) the Hessians at its nodes. The Hessian at a node is
+/// that of the quadratic fitted by least squares to the values around it: values in the cells that touch the
+/// node and, with a much smaller weight, in the cells that touch these (for cell values three rings). So it
+/// is exact for quadratics, at walls, between leaves of different sizes, on triangles and quadrilaterals.
+/// Cell values are located at the centroids; there it is exact up to the difference between mean and point
+/// value. Derivatives that the points do not determine (across a channel of one cell) are 0.
 ///
-/// Layers do not count there: nodes of their front are fitted from outside alone. In layers of walls it is
-/// the second derivative along the rows alone, as no split makes them thinner, and 0 in strips and in layers
-/// of values of cells. What may be the rounding of the variable is 0. `field` has a value for each owned node
-/// and copy, or for each cell. The same bits on any number of ranks. *Collective.*
+/// Cells in layers are excluded: nodes on the outer edge of layers are fitted from outside only. In wall
+/// layers the Hessian is the second derivative along the rows only, as splitting does not make the rows
+/// thinner; it is 0 in strips and, for cell values, in layers. Values within the rounding of the variable
+/// count as 0. `field` has a value for each owned node and ghost copy, or for each cell. The same bits on any
+/// number of ranks. *Collective.*
 std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
                                        ValuesAt at);
 
-/// The absolute hessians that cell_hessians() recovers at the nodes, from outside of layers: at owned nodes
-/// and copies; 0 within layers. `field` has a value for each of these. *Collective.*
+/// The absolute Hessians that cell_hessians() recovers at owned nodes and ghost copies from the cells outside
+/// layers; 0 within layers. `field` has a value for each of these nodes. *Collective.*
 std::vector<Hessian> node_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field);
 
 }  // namespace quadloop

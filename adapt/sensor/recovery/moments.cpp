@@ -25,7 +25,7 @@ struct NormalEquations {
   std::array<std::array<double, unknowns>, unknowns> matrix{};
   std::array<double, unknowns> right{};
 
-  /// Each unknown in the unit that makes its diagonal entry 1; those that nothing depends on stay.
+  /// Scales each unknown so that its diagonal entry is 1; unknowns with zero diagonal are unchanged.
   std::array<double, unknowns> scale() {
     std::array<double, unknowns> units{};
     for (std::size_t i = 0; i < unknowns; ++i) units[i] = matrix[i][i] > 0 ? 1 / std::sqrt(matrix[i][i]) : 0;
@@ -36,9 +36,9 @@ struct NormalEquations {
     return units;
   }
 
-  /// By elimination; an unknown that those before it leave nothing of is 0.
+  /// Solves by elimination; an unknown that depends linearly on the previous ones is 0.
   std::array<double, unknowns> solution() {
-    constexpr double nothing = 1e-12;  // of 1: the points do not tell it
+    constexpr double nothing = 1e-12;  // relative to 1: the points do not determine the unknown
     for (std::size_t k = 0; k < unknowns; ++k) {
       if (matrix[k][k] <= nothing) continue;
       for (std::size_t i = k + 1; i < unknowns; ++i) {

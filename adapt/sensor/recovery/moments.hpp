@@ -8,18 +8,18 @@
 
 namespace quadloop {
 
-/// Sums over points about a place: of dx^a dy^b for a + b <= 4, and of q dx^a dy^b for a + b <= 2, q being
-/// the value at the point less one that belongs to the place. All that a least-squares fit of a quadratic
-/// needs, and whoever knows them about one place knows them about any other.
+/// Moments of points about a place: sums of dx^a dy^b for a + b <= 4, and of q dx^a dy^b for a + b <= 2,
+/// where q is the value at the point minus a reference value of the place. They define the least-squares fit
+/// of a quadratic, and can be converted to moments about any other place.
 class Moments {
  public:
   void add(Point from_place, double value);
-  /// Those of `other`, made about a place that lies `offset` from this one and whose value is larger by
-  /// `rise`, `weight` times.
+  /// Adds the moments `other`, taken about a place at `offset` from this one with a reference value larger by
+  /// `rise`, multiplied by `weight`.
   void add(const Moments& other, Point offset, double rise, double weight);
 
-  /// The second derivatives of the quadratic that fits the points best; one that they do not tell is 0. Those
-  /// that lift the quadratic by less than `rounding` over the points' distance are 0.
+  /// The second derivatives of the best-fitting quadratic; 0 for a derivative that the points do not
+  /// determine, or that changes the quadratic by less than `rounding` over the points' distance.
   Hessian hessian(double rounding) const;
 
  private:

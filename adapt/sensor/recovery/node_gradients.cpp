@@ -13,8 +13,8 @@ struct Integral {
   Point gradient;
 };
 
-/// Of one cell, from its outline: the field is linear along each edge. Counted from the first node, so that a
-/// constant field has no gradient at all and little is lost far from the origin.
+/// Integral over one cell by its boundary, with the field linear along each edge. Values are relative to the
+/// first node, so that a constant field has exactly zero gradient and precision is kept far from the origin.
 template <class Nodes>
 Integral integral_over(const Nodes& nodes, const HaloMesh& halo, const IdVector<NodeId, double>& values) {
   const auto value = [&](NodeId node) { return values[node] - values[nodes[0]]; };
@@ -40,7 +40,7 @@ std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
   halo.exchange().update(halo_values);
 
   IdVector<NodeId, Integral> round_node(mesh.owned_nodes);
-  halo.for_each_cell([&](const auto& nodes) {  // in global order, so that ranks add up alike
+  halo.for_each_cell([&](const auto& nodes) {  // in global order, so that all ranks sum alike
     const Integral cell = integral_over(nodes, halo, halo_values);
     for (const NodeId node : nodes) {
       if (!mesh.owns(node)) continue;
@@ -55,7 +55,7 @@ std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
     gradients.push_back(sum.area > 0 ? (1 / sum.area) * sum.gradient : Point{});
   gradients.resize(halo.points().size());
   halo.exchange().update(gradients);
-  gradients.resize(mesh.points.size());  // the mesh's own copies come before the halo's
+  gradients.resize(mesh.points.size());  // the mesh's own ghost copies come before those of the halo
   return gradients;
 }
 

@@ -12,13 +12,13 @@ namespace quadloop {
 
 namespace {
 
-/// What is wrong with a value, and what to do; nullptr if nothing.
+/// The fault of a value and its remedy; nullptr if there is none.
 const char* fault_of(double value, FieldSign sign) {
   if (!std::isfinite(value)) return "which is not finite; correct the solution";
   if (sign == FieldSign::not_negative && value < 0)
     return "but an error is never negative; correct what the solver writes";
   if (sign == FieldSign::positive && value <= 0)
-    return "but a wanted size is larger than 0; correct what the solver writes";
+    return "but a target size must be above 0; correct what the solver writes";
   return nullptr;
 }
 
@@ -41,7 +41,7 @@ void check_variable(const Mesh& mesh, const Field& field, std::size_t variable, 
   }
 }
 
-/// Of one kind of cells, triangles or quads; a cell's place is its first corner.
+/// Checks one kind of cells, triangles or quadrilaterals; a cell's place is its first corner.
 template <class Cells>
 void check_cells(const Mesh& mesh, const Cells& cells, const CellValues& values, std::size_t first_row,
                  std::int64_t first_number, std::size_t variable, FieldSign sign) {
@@ -57,10 +57,8 @@ void check_cells(const Mesh& mesh, const Cells& cells, const CellValues& values,
 
 void check_field(const Communicator& comm, const Mesh& mesh, const Field& field, FieldSign sign) {
   for (std::size_t variable = 0; variable < field.width(); ++variable) {
-    comm.together([&] {  // nodes are numbered in the order of ranks, so that the lowest rank that throws has
-                         // the first node
-      check_variable(mesh, field, variable, sign);
-    });
+    // Nodes are numbered in rank order, so the lowest rank that throws has the first node.
+    comm.together([&] { check_variable(mesh, field, variable, sign); });
   }
   if (field.cells.width() == 0) return;
   const CellOwners owners(comm, mesh);
@@ -86,8 +84,8 @@ ScaledField scaled_by_range(const Communicator& comm, std::vector<double> values
   largest = comm.maximum(largest);
   constexpr double share = 0x1p-44;
   const double size = std::max(std::abs(smallest), std::abs(largest));
-  const double half_range = 0.5 * largest - 0.5 * smallest;  // the whole one may overflow
-  scaled.constant = !(half_range > 0.5 * share * size);      // holds where there are no nodes too
+  const double half_range = 0.5 * largest - 0.5 * smallest;  // the full range may overflow
+  scaled.constant = !(half_range > 0.5 * share * size);      // also true if there are no nodes
   for (double& value : scaled.values)
     value = scaled.constant ? 0 : (0.5 * value - 0.5 * smallest) / half_range;
   scaled.rounding = scaled.constant ? 0 : share * (0.5 * size / half_range);

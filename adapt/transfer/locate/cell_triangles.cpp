@@ -14,7 +14,7 @@ int turn_of(const Mesh& mesh, const std::array<NodeId, 3>& nodes) {
   return orientation(mesh.point(nodes[0]), mesh.point(nodes[1]), mesh.point(nodes[2]));
 }
 
-/// Along the diagonal from corner `first` to the opposite one.
+/// Splits along the diagonal from corner `first` to the opposite one.
 std::array<std::array<NodeId, 3>, 2> halves(const std::array<NodeId, 4>& quad, std::size_t first) {
   const auto at = [&](std::size_t k) { return quad[(first + k) % 4]; };
   return {{{at(0), at(1), at(2)}, {at(2), at(3), at(0)}}};
@@ -24,7 +24,7 @@ bool are_counter_clockwise(const Mesh& mesh, const std::array<std::array<NodeId,
   return turn_of(mesh, triangles[0]) > 0 && turn_of(mesh, triangles[1]) > 0;
 }
 
-/// That of the highest tie_rank().
+/// The corner of the highest tie_rank().
 std::size_t highest_corner(Point centre, const std::array<Point, 4>& corners) {
   struct Rank {
     double farther, nearer, x, y;
@@ -54,7 +54,7 @@ struct Split {
   bool are_counter_clockwise = true;
 };
 
-/// What split_quad() says, and whether the halves are as they should be.
+/// The halves of a quad, and whether they are as they should be.
 Split split_of(const Mesh& mesh, Point centre, const std::array<NodeId, 4>& quad) {
   const std::array<Point, 4> corners = corners_of(mesh, quad);
   if (is_rectangle(corners)) return {halves(quad, farthest_corner(centre, corners))};
@@ -81,7 +81,8 @@ Box box_of_cell(const Mesh& mesh, const Cells& cells, std::size_t cell) {
   return box;
 }
 
-/// Of each kind of cells those that `for_each_wanted(cells, visit)` visits. *Collective.*
+/// Appends the triangles of the cells that `for_each_wanted(cells, visit)` visits, for each kind of cells.
+/// *Collective.*
 template <class ForEachWanted>
 void append_all(const Communicator& comm, const Mesh& mesh, Point centre,
                 const ForEachWanted& for_each_wanted, std::vector<CellTriangle>& triangles) {
@@ -102,11 +103,6 @@ void append_all(const Communicator& comm, const Mesh& mesh, Point centre,
 
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh) {
   return box_over_ranks(comm, mesh.points).centre();
-}
-
-std::array<std::array<NodeId, 3>, 2> split_quad(const Mesh& mesh, Point centre,
-                                                const std::array<NodeId, 4>& quad) {
-  return split_of(mesh, centre, quad).halves;
 }
 
 TrianglesOfCell parts_of(const Mesh& mesh, Point, const std::array<NodeId, 3>& triangle) {

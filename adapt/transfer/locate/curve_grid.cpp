@@ -13,7 +13,7 @@ namespace {
 
 constexpr int all_bits = 32;
 
-/// Rounded down, and so in the order of the coordinates.
+/// Rounds down, which keeps the order of the coordinates.
 std::uint32_t step_at(double offset, double scale) {
   const double step = offset * scale;
   if (!(step > 0)) return 0;

@@ -9,7 +9,7 @@
 namespace quadloop {
 
 /// A grid of 2^32 by 2^32 steps over a box, numbered along a Morton curve. Rounding to steps keeps the order
-/// of coordinates; a point outside the box counts as the nearest one of its rim.
+/// of coordinates; a point outside the box is mapped to the nearest one on its border.
 class CurveGrid {
  public:
   struct Corner {
@@ -19,7 +19,7 @@ class CurveGrid {
   struct Steps {
     Corner low, high;
   };
-  /// 2^bits steps a side, beginning at a multiple of that, and so one stretch of the curve.
+  /// A square of 2^bits steps, aligned to a multiple of its size, and so a contiguous range of the curve.
   struct Square {
     Corner begin;
     int bits = 0;
@@ -31,21 +31,21 @@ class CurveGrid {
   };
 
   CurveGrid() = default;
-  /// Over the box of all ranks' points. *Collective.*
+  /// Over the bounding box of all ranks' points. *Collective.*
   CurveGrid(const Communicator& comm, std::span<const Point> points);
 
   std::uint64_t key_of(Point p) const { return key_at(corner_of(p)); }
   Steps steps_of(const Box& box) const { return {corner_of(box.low), corner_of(box.high)}; }
 
   static std::uint64_t key_at(Corner corner);
-  /// The smallest square that holds these steps. The curve passes them between the keys of their two corners.
+  /// The smallest square that contains these steps. Their keys lie between the keys of its two corners.
   static Square square_around(const Steps& steps);
 
  private:
   Corner corner_of(Point p) const;
 
   Point low_;
-  double scale_ = 0;  ///< steps in a unit of length
+  double scale_ = 0;  ///< steps per unit of length
 };
 
 }  // namespace quadloop

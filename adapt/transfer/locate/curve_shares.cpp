@@ -16,7 +16,7 @@ CurveShares::CurveShares(const Communicator& comm, std::span<const Point> in_gri
   set_splits(comm, in_grid, more);
 }
 
-/// Cuts at the quantiles of a sample: every so many-th point of all ranks.
+/// Splits at the quantiles of a regular sample of all ranks' points.
 void CurveShares::set_splits(const Communicator& comm, std::span<const Point> points,
                              std::span<const Point> more) {
   const std::int64_t own = points.size() + more.size();

@@ -8,19 +8,19 @@
 
 namespace quadloop {
 
-/// The plane in one piece for each rank: stretches of a Morton curve with about equally many of the points
-/// given. Who has what depends on the number of ranks; nothing of a result may.
+/// Partition of the plane among the ranks: ranges of a Morton curve with about equal numbers of the given
+/// points. It depends on the number of ranks; results must not.
 class CurveShares {
  public:
-  /// `points` are this rank's; the first list gives the grid. *Collective.*
+  /// The points are local ones; the first list defines the grid. *Collective.*
   CurveShares(const Communicator& comm, std::span<const Point> in_grid, std::span<const Point> more);
 
   const CurveGrid& grid() const { return grid_; }
 
-  /// The rank whose piece holds a point.
+  /// The rank whose part contains a point.
   int rank_of(Point p) const { return rank_of_key(grid_.key_of(p)); }
 
-  /// The ranks whose pieces meet a box, ascending, in a list that is used again.
+  /// The ranks whose parts meet a box, ascending; reuses the list.
   void ranks_meeting(const Box& box, std::vector<int>& ranks) const;
 
  private:
@@ -29,7 +29,7 @@ class CurveShares {
   void descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square, std::vector<int>& ranks) const;
 
   CurveGrid grid_;
-  std::vector<std::uint64_t> splits_;  ///< the first key of each rank but the first
+  std::vector<std::uint64_t> splits_;  ///< first key of each rank except rank 0
 };
 
 }  // namespace quadloop

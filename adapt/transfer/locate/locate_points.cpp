@@ -10,16 +10,16 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t few = 8;  ///< points or triangles that are no longer shared out
-constexpr int deepest = 100;    ///< ends the halving of points that cannot be told apart
+constexpr std::size_t few = 8;  ///< number of points or triangles that is not subdivided
+constexpr int deepest = 100;    ///< ends the subdivision of coincident points
 
 bool contains(const std::array<Point, 3>& corners, Point p) {
   const auto& [a, b, c] = corners;
   return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
 }
 
-/// Points and triangles together are shared out to ever smaller boxes, those of the points that are left,
-/// until the few are tried with each other.
+/// Distributes points and triangles together to ever smaller bounding boxes of the remaining points, until
+/// the few are tested with each other.
 class Search {
  public:
   Search(const TrianglePiece& piece, std::span<const Point> points)
@@ -51,7 +51,7 @@ class Search {
     std::int32_t index = 0;
   };
 
-  /// The points against candidates_[first ...], those that met the box above this one.
+  /// Searches the points against candidates_[first ...], whose boxes meet the parent box.
   void share_out(std::span<Asked> asked, std::size_t first, int depth) {
     if (asked.empty()) return;
     Box box;
@@ -61,7 +61,7 @@ class Search {
     std::size_t end = begin;
     for (std::size_t i = first; i < begin; ++i) {
       const std::int32_t candidate = candidates_[i];
-      candidates_[end] = candidate;  // taken back unless its box meets this one
+      candidates_[end] = candidate;  // removed again unless its box meets this one
       end += boxes_[candidate].meets(box) ? 1 : 0;
     }
     candidates_.resize(end);
@@ -101,10 +101,10 @@ class Search {
   std::int64_t number_of(std::int32_t triangle) const { return piece_.triangles[triangle].number; }
 
   const TrianglePiece& piece_;
-  std::vector<Asked> asked_;              ///< in the order of the boxes that they are shared out to
+  std::vector<Asked> asked_;              ///< in the order of the boxes
   std::vector<Box> boxes_;                ///< of the triangles, one for both halves of a rectangle
-  std::vector<std::int32_t> first_;       ///< of each box its first triangle, and the number of all
-  std::vector<std::int32_t> candidates_;  ///< a stack: each depth's boxes after those of the depth above
+  std::vector<std::int32_t> first_;       ///< first triangle of each box, then the total number
+  std::vector<std::int32_t> candidates_;  ///< a stack: the boxes of each depth follow those of its parent
   std::vector<std::int32_t> found_;
 };
 

@@ -8,9 +8,8 @@
 
 namespace quadloop {
 
-/// For each point the index of the triangle that it lies in, its rim included, by exact predicates; of
-/// several the one with the lowest number; -1 where there is none. The triangles are counter-clockwise. O((n
-/// + m) log n).
+/// For each point the index of the triangle that contains it, border included, by exact predicates; the
+/// lowest number of several; -1 if there is none. The triangles must be counter-clockwise. O((n + m) log n).
 std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points);
 
 }  // namespace quadloop

@@ -9,14 +9,15 @@
 
 namespace quadloop {
 
-/// A boundary edge on the rank that has it: the index counts through the mesh's boundaries in order.
+/// A place on a boundary edge, on the rank that has the edge; the index counts through the mesh's boundaries
+/// in order.
 struct BoundaryPlace {
   std::int32_t rank = 0, edge = 0;
   double parameter = 0;  ///< along the edge, 0 at its first node
 };
 
-/// The boundary edges of all ranks, on each of them (they are few beside the cells), and which is the
-/// nearest.
+/// The boundary edges of all ranks, copied to each rank (they are few compared with the cells), with a search
+/// for the nearest one.
 class NearestBoundary {
  public:
   /// *Collective.*
@@ -25,7 +26,7 @@ class NearestBoundary {
   NearestBoundary(const NearestBoundary&) = delete;
   NearestBoundary& operator=(const NearestBoundary&) = delete;
 
-  /// Of edges as near the one with the lowest number: numbers run through the boundaries in order, within one
+  /// The lowest-numbered of equally near edges; numbers run through the boundaries in order, and within one
   /// through the ranks.
   BoundaryPlace nearest(Point p) const;
 

@@ -10,9 +10,9 @@ constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
 constexpr CurveGrid::Square whole_grid{{}, 32};
 constexpr int coarse_bits = 11, above_coarse = 32 - coarse_bits;  // 2048 by 2048 coarse squares
 constexpr int word_bits = 64;
-constexpr std::uint32_t most_coarse = 32;  ///< in a row, of those that are looked at one by one
+constexpr std::uint32_t most_coarse = 32;  ///< number of coarse squares per row that are tested one by one
 
-/// The first, third, fifth ... bit of a key, side by side: the inverse of spread_bits().
+/// Extracts every second bit of a key, beginning with the first: the inverse of spread_bits().
 std::uint64_t every_other_bit(std::uint64_t key) {
   std::uint64_t bits = key & 0x5555555555555555ULL;
   bits = (bits | bits >> 1) & 0x3333333333333333ULL;
@@ -37,7 +37,7 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
   std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) {
     return a.first != b.first ? a.first < b.first : a.last > b.last;
   });
-  for (const Stretch& stretch : own) {  // squares lie in each other or apart
+  for (const Stretch& stretch : own) {  // squares are nested or disjoint
     if (stretches_.empty() || stretches_.back().last < stretch.first) stretches_.push_back(stretch);
   }
   mark_occupied();
@@ -67,7 +67,7 @@ bool PointCells::is_occupied(const CurveGrid::Steps& coarse) const {
   return false;
 }
 
-/// `keys` are those in the square, ascending.
+/// `keys`: those in the square, ascending.
 void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
                        std::vector<Stretch>& stretches) {
   if (keys.empty()) return;
@@ -84,7 +84,7 @@ void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Squ
   }
 }
 
-/// The first that does not end before the key.
+/// The first range that does not end before the key.
 const PointCells::Stretch* PointCells::next(std::uint64_t key) const {
   const auto found = std::partition_point(stretches_.begin(), stretches_.end(),
                                           [key](const Stretch& stretch) { return stretch.last < key; });
@@ -96,7 +96,7 @@ bool PointCells::meet(const Box& box) const {
   const CurveGrid::Steps coarse{{steps.low.x >> above_coarse, steps.low.y >> above_coarse},
                                 {steps.high.x >> above_coarse, steps.high.y >> above_coarse}};
   const std::uint32_t across = std::max(coarse.high.x - coarse.low.x, coarse.high.y - coarse.low.y);
-  if (across < most_coarse) {  // several squares of about the box's size tell enough of it
+  if (across < most_coarse) {  // a few squares of about the box's size cover it
     const bool is_met = is_occupied(coarse);
     if (!is_met || across > 0) return is_met;
   }

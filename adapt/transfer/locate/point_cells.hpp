@@ -11,18 +11,18 @@
 
 namespace quadloop {
 
-/// Where points lie, in squares of the grid that hold a few of them each; every rank has all ranks' squares,
-/// at most some 65 000.
+/// The distribution of points, as grid squares with a few points each; every rank has all ranks' squares, at
+/// most about 65 000.
 class PointCells {
  public:
-  /// `points` are this rank's. The grid must outlive the cells. *Collective.*
+  /// `points` are local. The grid must outlive the cells. *Collective.*
   PointCells(const Communicator& comm, const CurveGrid& grid, std::span<const Point> points);
 
-  /// False only where the box, its rim included, holds none of the points.
+  /// False only if the box, border included, contains none of the points.
   bool meet(const Box& box) const;
 
-  /// Calls `visit(i)` for each `i` below `count` of which `box_of(i)` meets them. What lies beside each other
-  /// should follow each other: a row of boxes is asked for as one before it is looked through.
+  /// Calls `visit(i)` for each `i` below `count` whose `box_of(i)` meets the squares. Neighbouring boxes
+  /// should be consecutive: rows of boxes are tested together first.
   template <class BoxOf, class Visit>
   void for_each_met(std::size_t count, const BoxOf& box_of, const Visit& visit) const {
     std::array<Box, 32> row;
@@ -42,7 +42,7 @@ class PointCells {
   }
 
  private:
-  /// A stretch of the curve, its last step included.
+  /// A range of the curve, its last step included.
   struct Stretch {
     std::uint64_t first = 0, last = 0;
   };
@@ -55,8 +55,8 @@ class PointCells {
   bool is_occupied(const CurveGrid::Steps& coarse) const;
 
   const CurveGrid* grid_;
-  std::vector<Stretch> stretches_;  ///< one after another, without overlaps
-  /// A bit for each of the coarse squares, of which most boxes meet few, row by row.
+  std::vector<Stretch> stretches_;  ///< consecutive, without overlaps
+  /// A bit for each coarse square, row by row; most boxes meet few of these.
   std::vector<std::uint64_t> occupied_;
 };
 

@@ -12,24 +12,24 @@ namespace quadloop {
 namespace {
 
 constexpr std::int32_t behind = 16, ahead = 32;  ///< as refined leaves change the order
-constexpr std::size_t step = ahead;              ///< of the landmarks: what is removed at once may be longer
+constexpr std::size_t step = ahead;  ///< distance of landmarks; more points may be removed at once
 
-/// Every so many-th of a list.
+/// Every `step`-th point of a list.
 std::vector<Point> landmarks(std::span<const Point> known) {
   std::vector<Point> marks;
   for (std::size_t i = 0; i < known.size(); i += step) marks.push_back(known[i]);
   return marks;
 }
 
-/// Scatters numbers over all 64 bits, no two to the same.
+/// A one-to-one hash to 64 bits.
 std::uint64_t scattered(GlobalNodeId node) {
   std::uint64_t bits = static_cast<std::uint64_t>(node.value()) * 0x9e3779b97f4a7c15U;
   bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93U;
   return bits ^ (bits >> 32);
 }
 
-/// Adds for each corner of a cell the node after it and takes away the one before: round a node whose cells
-/// close a circle that cancels.
+/// Adds for each corner of a cell the next node and subtracts the previous one; the sum vanishes at a node
+/// that is surrounded by cells.
 template <std::size_t corners>
 void add_turns(const Mesh& mesh, const std::array<NodeId, corners>& cell,
                IdVector<NodeId, std::uint64_t>& turns) {
@@ -39,13 +39,13 @@ void add_turns(const Mesh& mesh, const std::array<NodeId, corners>& cell,
     turns[cell[k]] += bits[(k + 1) % corners] - bits[(k + corners - 1) % corners];
 }
 
-/// What an owned node misses of the circle round it; 0 inside the mesh. *Collective.*
+/// The remaining sum at each owned node; 0 inside the mesh. *Collective.*
 IdVector<NodeId, std::uint64_t> open_turns(const Communicator& comm, const Mesh& mesh) {
   IdVector<NodeId, std::uint64_t> turns(mesh.points.size(), 0);
   for (const auto& cell : mesh.triangles) add_turns(mesh, cell, turns);
   for (const auto& cell : mesh.quads) add_turns(mesh, cell, turns);
   struct Part {
-    NodeId node;  ///< on its owner
+    NodeId node;  ///< number on its owner
     std::uint64_t turns;
   };
   const NodeOwners owners(comm, mesh.first_node);
@@ -65,7 +65,7 @@ std::vector<std::int32_t> find_in_order(std::span<const Point> known, std::span<
   const std::vector<Point> marks = landmarks(known);
   const PointTable landmark(marks);
   const auto count = static_cast<std::int32_t>(known.size());
-  std::int32_t next = 0;  // up to here known points have been found
+  std::int32_t next = 0;  // position after the last known point found
   const auto nearby = [&](Point p) {
     for (std::int32_t i = next; i < std::min(count, next + ahead); ++i) {
       if (known[i] == p) return i;

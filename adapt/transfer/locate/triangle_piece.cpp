@@ -21,7 +21,7 @@ std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& com
   return by_rank;
 }
 
-/// Numbers the nodes of some triangles in the order in which they appear; the numbers that they had.
+/// Renumbers the nodes of some triangles in the order in which they appear; returns their old numbers.
 std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, IdVector<NodeId, NodeId>& new_id_of) {
   std::vector<NodeId> nodes;
   for (CellTriangle& triangle : triangles) {

@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// Triangles of any ranks, with nodes of their own numbering.
+/// Triangles from any ranks, with their own node numbering.
 struct TrianglePiece {
   IdVector<NodeId, Point> points;
   Field field;
@@ -21,7 +21,7 @@ struct TrianglePiece {
   }
 };
 
-/// From all ranks the triangles that meet this rank's part of the plane, with the values at their nodes.
+/// The triangles of all ranks that meet this rank's part of the plane, with the values at their nodes.
 /// *Collective.*
 TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
                            const Field& field, std::span<const CellTriangle> triangles);

@@ -21,7 +21,7 @@ BrokenField without_values(const Mesh& mesh, std::size_t width, std::span<const 
   return broken;
 }
 
-/// Of one cell: the mean gradient of its nodes that have one, limited at each of them.
+/// The gradient of one cell: the mean gradient of its nodes that have one, limited at each node.
 template <class Nodes>
 Point limited_gradient(const Mesh& mesh, const Nodes& nodes, Point from_first, double mean,
                        const std::vector<AroundNode>& around) {

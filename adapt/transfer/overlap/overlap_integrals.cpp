@@ -15,8 +15,8 @@ namespace {
 
 using Triangle = std::array<Point, 3>;
 
-/// Overlaps that are this much smaller than the smaller triangle may come from rounding: their values bound
-/// nothing.
+/// Overlaps smaller than this fraction of the smaller triangle may be rounding errors; their values do not
+/// affect the range.
 constexpr double sliver = 1e-12;
 
 Box box_of_triangle(const Triangle& triangle) {
@@ -25,7 +25,7 @@ Box box_of_triangle(const Triangle& triangle) {
   return box;
 }
 
-/// Triangles and what goes with them, sent to all ranks whose pieces of the plane they meet.
+/// Sends triangles and their data to all ranks whose parts of the plane they meet.
 class ToShares {
  public:
   ToShares(const Communicator& comm, const CurveShares& shares, std::span<const Triangle> triangles)
@@ -57,7 +57,7 @@ class ToShares {
   Exchange exchange_;
 };
 
-/// An area and values as they are added up; the row of doubles that travels.
+/// Partial sums of area and values; sent as a row of doubles.
 struct Sum {
   double area = 0;
   std::vector<CoveredValue> values;
@@ -79,10 +79,10 @@ struct Sum {
   static constexpr CoveredValue nothing{0, {}, none, -none};
 };
 
-/// Part of what lies over a new triangle, on its way to the rank that has it.
+/// Header of a contribution to a new triangle, sent to the rank that owns the triangle.
 struct PartHeader {
-  std::int64_t item = 0;    ///< the new triangle, as its rank counts
-  std::int64_t number = 0;  ///< of the old triangle; 0 where all that lie over the new one are together
+  std::int64_t item = 0;    ///< the new triangle, by its local index on its rank
+  std::int64_t number = 0;  ///< of the old triangle; 0 if the contributions of all are summed
   double area = 0;
 };
 
@@ -98,7 +98,7 @@ struct Parts {
   }
 };
 
-/// The old triangles that meet this rank's piece of the plane.
+/// The old triangles that meet this rank's part of the plane.
 class OldPiece {
  public:
   /// *Collective.*
@@ -114,7 +114,7 @@ class OldPiece {
     tree_ = BoxTree(boxes);
   }
 
-  /// What lies over a new triangle in this rank's piece of the plane.
+  /// Adds the contributions to a new triangle within this rank's part of the plane.
   void cut(const Triangle& triangle, std::int64_t item, int rank, Parts& parts) {
     const Box box = box_of_triangle(triangle);
     shares_.ranks_meeting(box, meeting_);
@@ -134,7 +134,7 @@ class OldPiece {
   }
 
  private:
-  /// By their numbers.
+  /// In the order of their numbers.
   const std::vector<std::int32_t>& meeting(const Box& box) {
     candidates_.clear();
     tree_.for_each_meeting(box, [&](std::int32_t old) { candidates_.push_back(old); });
@@ -146,7 +146,7 @@ class OldPiece {
     return shares_.rank_of({std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)}) == rank_;
   }
 
-  /// The old triangle's values over the overlap, into row_.
+  /// Writes the old triangle's integrals over the overlap to row_.
   void fill(std::size_t old, const Triangle& cut, const TriangleOverlap& overlap, double smaller_area) {
     const auto& [a, b, c] = field_.triangles[old];
     const Point first = b - a, second = c - a, off = overlap.centroid + (cut[0] - a);
@@ -175,7 +175,8 @@ class OldPiece {
   std::vector<CoveredValue> row_;
 };
 
-/// All parts of this rank's new triangles, added up by the numbers of the old ones. *Collective.*
+/// Sums the contributions to this rank's new triangles in the order of the old triangles' numbers.
+/// *Collective.*
 OverlapIntegrals add_up(const Communicator& comm, const Parts& parts, std::size_t width,
                         std::size_t triangles) {
   const Exchange exchange(comm, parts.ranks);

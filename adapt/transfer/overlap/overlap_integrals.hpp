@@ -9,32 +9,32 @@
 
 namespace quadloop {
 
-/// Of a triangle, by its corners in counter-clockwise order.
+/// Area of a triangle with counter-clockwise corners.
 constexpr double area_of(const std::array<Point, 3>& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
 
 /// Integrals of one variable over the part of a triangle that another mesh covers.
 struct CoveredValue {
   double integral = 0;
-  Point slope;                       ///< the gradient's integral
-  double smallest = 0, largest = 0;  ///< at the corners of the triangles that cover it
+  Point slope;                       ///< integral of the gradient
+  double smallest = 0, largest = 0;  ///< at the corners of the covering triangles
 };
 
-/// What an old field has over each of this rank's new triangles.
+/// Integrals of an old field over each local new triangle.
 struct OverlapIntegrals {
   std::size_t width = 0;
-  std::vector<double> areas;         ///< covered, of each triangle
-  std::vector<CoveredValue> values;  ///< of each triangle `width` of them; nothing where the area is 0
+  std::vector<double> areas;         ///< covered area of each triangle
+  std::vector<CoveredValue> values;  ///< `width` entries for each triangle; undefined where the area is 0
 
   const CoveredValue& value(std::size_t triangle, std::size_t variable) const {
     return values[triangle * width + variable];
   }
 };
 
-/// By cutting each new triangle with all old ones that it meets: the common refinement of both meshes
+/// Intersects each new triangle with all old ones that it meets: the common refinement of both meshes
 /// (supermesh) of Farrell, Piggott, Pain, Gorman and Wilson, "Conservative interpolation between unstructured
-/// meshes via supermesh construction", Comput. Methods Appl. Mech. Engrg. 198 (2009). A pair is cut on the
-/// rank whose piece of the plane holds the lower left corner of what their boxes have in common; sums go by
-/// the numbers of the old triangles: the same bits on any number of ranks. *Collective.*
+/// meshes via supermesh construction", Comput. Methods Appl. Mech. Engrg. 198 (2009). A pair is intersected
+/// on the rank whose part of the plane contains the lower left corner of the intersection of their boxes.
+/// Sums are ordered by the numbers of the old triangles: the same bits on any number of ranks. *Collective.*
 OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurveShares& shares,
                                     const BrokenField& old_field,
                                     std::span<const std::array<Point, 3>> new_triangles);

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// At most six corners, and a seventh while rounding has its way.
+/// At most six corners; rounding may temporarily add a seventh.
 struct Polygon {
   std::array<Point, 12> corners;
   std::size_t count = 0;
@@ -19,9 +19,9 @@ struct Polygon {
   }
 };
 
-/// Where an edge whose ends have these heights over a line, of different signs, crosses it, as a fraction of
-/// the edge. The signs are exact and the heights rounded: those of an edge that lies on the line within
-/// rounding may be equal, and any of its points is on the line then.
+/// The fraction of an edge at which it crosses a line, for ends whose heights over the line have different
+/// signs. The signs are exact and the heights rounded: if the edge lies on the line within rounding the
+/// heights may be equal; any of its points is then valid.
 double crossing_fraction(double height_from, double height_to) {
   const double fall = height_from - height_to;
   return fall == 0 ? 0.5 : std::clamp(height_from / fall, 0.0, 1.0);
@@ -44,7 +44,7 @@ Polygon left_part(const Polygon& polygon, Point a, Point b) {
 }  // namespace
 
 TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array<Point, 3>& by) {
-  const Point origin = clipped[0];  // differences of near points lose nothing
+  const Point origin = clipped[0];  // relative coordinates keep precision
   Polygon polygon;
   for (const Point p : clipped) polygon.add(p - origin);
   for (std::size_t k = 0; k < 3 && polygon.count > 0; ++k)

@@ -6,15 +6,15 @@
 
 namespace quadloop {
 
-/// What two triangles have in common.
+/// The intersection of two triangles.
 struct TriangleOverlap {
   double area = 0;
-  Point centroid;  ///< from the first corner of the triangle that is cut: far from the origin nothing is lost
+  Point centroid;  ///< relative to the first corner of `clipped`, to keep precision far from the origin
 };
 
-/// Of two counter-clockwise triangles: `clipped` cut by the three lines of `by` (Sutherland and Hodgman,
-/// 1974). On which side a corner lies is told exactly, so that triangles which only touch have nothing in
-/// common; areas are right to rounding, also far from the origin.
+/// Intersects two counter-clockwise triangles: clips `clipped` by the three lines of `by` (Sutherland and
+/// Hodgman, 1974). Sides are decided by exact predicates, so that triangles which only touch have no overlap;
+/// areas are accurate to rounding, also far from the origin.
 TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array<Point, 3>& by);
 
 }  // namespace quadloop

@@ -26,6 +26,8 @@ struct Goal {
   std::vector<std::string> boundaries = {};
   Point about = {};   ///< of a moment
   double weight = 1;  ///< of its error beside those of other goals
+
+  friend bool operator==(const Goal&, const Goal&) = default;
 };
 
 }  // namespace quadloop

@@ -154,11 +154,11 @@ void DualMesh::collect_faces() {
                          [&](const DualEdge& edge, const auto& at) { return key_of(edge) < at; });
     const Point from = halo_.point(e.from), to = halo_.point(e.to);
     if (found == edges_.end() || key_of(*found) != wanted)
-      refuse_edge("boundary edge", from, to, "belongs to no cell; mesh it anew");
+      refuse_edge("boundary edge", from, to, "belongs to no cell; generate the mesh again");
     char& open = open_[found - edges_.begin()];
     if (open == 0) {
       refuse_edge("boundary edge", from, to,
-                  "has cells on both sides or is there twice, and the flow solver takes one domain alone; "
+                  "has cells on both sides or occurs twice, but the flow solver requires a single domain; "
                   "mesh without it");
     }
     const Point outward = turned(to - from);
@@ -170,7 +170,7 @@ void DualMesh::collect_faces() {
   for (std::size_t i = 0; i < edges_.size(); ++i) {
     if (open_[i] != 0) {
       refuse_edge("edge", point(edges_[i].low), point(edges_[i].high),
-                  "has a cell on one side alone but is on no boundary; give the mesh a boundary there");
+                  "has a cell on one side only but is on no boundary; add a boundary there");
     }
   }
 }

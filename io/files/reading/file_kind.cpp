@@ -16,7 +16,7 @@ namespace quadloop {
 namespace {
 
 constexpr const char* save_as = "save the mesh as .vtu, .msh (Gmsh), .su2 or .cgns";
-constexpr const char* is_geometry = "it holds a geometry; a mesh is wanted here";
+constexpr const char* is_geometry = "it contains a geometry; a mesh is required here";
 
 /// A kind whose files begin so, after blanks; or have the text anywhere in their first bytes.
 struct Signature {

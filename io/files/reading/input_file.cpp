@@ -130,7 +130,8 @@ void InputPieces::append_next(std::string& text) {
 void InputPieces::read_all(char* into, std::size_t size) {
   while (size > 0) {
     const std::size_t got = file_->read(into, size, path_);
-    if (got == 0) throw InputError(path_ + ": ends while it is read; it may be under way of being written");
+    if (got == 0)
+      throw InputError(path_ + ": ended while it was being read; another program may still be writing it");
     into += got;
     size -= got;
     bytes_left_ -= std::min(bytes_left_, got);

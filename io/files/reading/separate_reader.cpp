@@ -2,19 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <new>
+#include <filesystem>
 #include <optional>
 
 #include "io/files/reading/input_file.hpp"
@@ -25,78 +24,81 @@ namespace quadloop {
 namespace {
 
 constexpr const char* cure = "; take it from a copy, or write it anew";
-constexpr int too_much_memory = -1;  // sent in place of an exit status
 
 /// What reading a file may cost: generous for every whole one, also for thousands of boundaries (20 s for 100
 /// MB) and packed arrays.
 struct Allowance {
-  rlim_t seconds;  ///< of the processor; ten times as much by the clock
-  rlim_t bytes;
+  std::uint64_t seconds;  ///< of the processor; ten times as much by the clock
+  std::uint64_t bytes;
 };
 
-Allowance allowance_for(rlim_t file_size) {
-  return {5 + file_size / (rlim_t{1} << 19), (rlim_t{1} << 28) + 64 * file_size};
-}
-
-rlim_t size_of_file(const std::string& path) {
+Allowance allowance_for(const std::string& path) {
   require_input_file(path);
   struct stat about {};
   if (::stat(path.c_str(), &about) != 0) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  return about.st_size;
+  const std::uint64_t size = about.st_size;
+  return {5 + size / (std::uint64_t{1} << 19), (std::uint64_t{1} << 28) + 64 * size};
 }
 
-/// Bytes of memory that this process may write to, as RLIMIT_DATA counts them.
-rlim_t own_data() {
-  std::ifstream file("/proc/self/statm");
-  std::array<rlim_t, 6> pages{};
-  for (rlim_t& number : pages) file >> number;
-  return file ? pages[5] * ::sysconf(_SC_PAGESIZE) : 0;
-}
-
-void limit(int what, rlim_t value) {
-  const rlimit both{value, value};
-  ::setrlimit(static_cast<__rlimit_resource>(what), &both);
-}
-
-/// Crashes end the child and nothing else, in silence: handlers and outputs are the parent's.
-void become_separate(const Allowance& allowance) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM, SIGINT, SIGTERM})
-    ::signal(signal, SIG_DFL);
-  ::signal(SIGPIPE, SIG_IGN);
-  const int nowhere = ::open("/dev/null", O_RDWR);
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, descriptor);
-  std::atexit([] {
-    ::_exit(EXIT_FAILURE);
-  });  // libcgns calls exit() where memory runs out; what MPI and others left for the end is not the child's
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, allowance.seconds);
-  ::alarm(static_cast<unsigned>(10 * allowance.seconds));
-  if (const rlim_t data = own_data(); data > 0) limit(RLIMIT_DATA, data + allowance.bytes);
-}
-
-void send_error(PipeWriter& pipe, int status, std::string message) {
-  pass(pipe, status);
-  pass(pipe, message);
-}
-
-[[noreturn]] void run_child(int descriptor, const Allowance& allowance,
-                            const std::function<void(PipeWriter&)>& produce) {
-  become_separate(allowance);
-  PipeWriter pipe(descriptor);
-  try {
-    produce(pipe);
-  } catch (const Error& error) {
-    send_error(pipe, static_cast<int>(error.status()), error.what());
-  } catch (const std::bad_alloc&) {
-    send_error(pipe, too_much_memory, "");
-  } catch (const std::exception& error) {
-    send_error(pipe, static_cast<int>(ExitStatus::fault), error.what());
+/// Where the variable of the environment says; else beside the program, in the build, where it is installed.
+std::string find_reader(const std::string& path) {
+  std::vector<std::string> places;
+  if (const char* named = std::getenv("QUADLOOP_READER"); named != nullptr) {
+    places.emplace_back(named);
+  } else {
+    std::error_code unknown;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    if (!unknown) places.push_back((program.parent_path() / QUADLOOP_READER_BESIDE).lexically_normal());
+    places.insert(places.end(), {QUADLOOP_READER_BUILT, QUADLOOP_READER_INSTALLED});
   }
-  pipe.flush();
-  ::_exit(EXIT_SUCCESS);
+  for (const std::string& place : places) {
+    if (::access(place.c_str(), X_OK) == 0) return place;
+  }
+  throw InputError(fmt::format("{}: cannot be read: the program that reads such files is not at {}; install "
+                               "quadloop again, or set QUADLOOP_READER to the path of quadloop-reader",
+                               path, fmt::join(places, ", nor at ")));
 }
 
-/// The child, which is waited for however its parent goes on.
+/// What a spawned process begins with.
+class SpawnSettings {
+ public:
+  /// `output` becomes the reader's descriptor; of the others it has none. Its signals are those of a new
+  /// program.
+  explicit SpawnSettings(int output) {
+    posix_spawn_file_actions_init(&files_);
+    posix_spawn_file_actions_adddup2(&files_, output, ReaderProtocol::descriptor);
+    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      posix_spawn_file_actions_addopen(&files_, standard, "/dev/null", O_RDWR, 0);
+    posix_spawn_file_actions_addclosefrom_np(&files_, ReaderProtocol::descriptor + 1);
+    sigset_t all, none;
+    sigfillset(&all);
+    sigemptyset(&none);
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setsigdefault(&attributes_, &all);
+    posix_spawnattr_setsigmask(&attributes_, &none);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&files_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  /// 0, or an errno.
+  int start(const std::vector<std::string>& arguments, pid_t& id) const {
+    std::vector<char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    return ::posix_spawn(&id, pointers[0], &files_, &attributes_, pointers.data(), environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t files_;
+  posix_spawnattr_t attributes_;
+};
+
+/// The reader, which is waited for however the program goes on.
 class Child {
  public:
   explicit Child(pid_t id) : id_{id} {}
@@ -122,7 +124,7 @@ class Child {
 [[noreturn]] void refuse_ending(const std::string& path, int wait_status, const Allowance& allowance) {
   const int signal = WIFSIGNALED(wait_status) ? WTERMSIG(wait_status) : 0;
   if (signal == SIGXCPU || signal == SIGKILL || signal == SIGALRM) {
-    throw InputError(fmt::format("{}: is damaged: reading it came to no end within {} seconds{}", path,
+    throw InputError(fmt::format("{}: is damaged: reading it did not end within {} seconds{}", path,
                                  allowance.seconds, cure));
   }
   const std::string how = signal != 0 ? fmt::format("crashed ({})", ::strsignal(signal)) : "gave up";
@@ -131,7 +133,7 @@ class Child {
 
 [[noreturn]] void rethrow(const std::string& path, int status, const std::string& message,
                           const Allowance& allowance) {
-  if (status == too_much_memory) {
+  if (status == ReaderProtocol::too_much_memory) {
     throw InputError(fmt::format(
         "{}: is damaged: reading it takes more than {} MB of memory, which its size does not explain{}", path,
         allowance.bytes >> 20, cure));
@@ -140,47 +142,57 @@ class Child {
   throw Error(static_cast<ExitStatus>(status), message);
 }
 
-/// What the child has to say, up to its end.
-void take(PipeReader& pipe, const std::string& path, const Allowance& allowance,
-          const std::function<void(PipeReader&)>& receive) {
+/// What the reader has to say, up to its end. `has_begun` tells whether it has said anything.
+void take(PipeReader& pipe, const std::string& path, const std::string& reader, const Allowance& allowance,
+          const std::function<void(PipeReader&)>& receive, bool& has_begun) {
+  std::uint64_t begin = 0, end = 0;
   int status = 0;
+  pass(pipe, begin);
+  has_begun = true;
+  if (begin != ReaderProtocol::begin)
+    throw InputError(path + ": cannot be read: " + reader +
+                     " is of another version than this program; install quadloop again");
   pass(pipe, status);
-  if (status == 0) {
-    receive(pipe);
-    return;
-  }
   std::string message;
-  pass(pipe, message);
-  rethrow(path, status, message, allowance);
+  status == ReaderProtocol::done ? receive(pipe) : pass(pipe, message);
+  pass(pipe, end);
+  if (end != ReaderProtocol::end)
+    throw InputError(path + ": is damaged: what was read from it did not come through" + cure);
+  if (status != ReaderProtocol::done) rethrow(path, status, message, allowance);
 }
 
 }  // namespace
 
 namespace detail {
 
-void run_separately(const std::string& path, const std::function<void(PipeWriter&)>& produce,
-                    const std::function<void(PipeReader&)>& receive) {
-  const Allowance allowance = allowance_for(size_of_file(path));
+void run_reader(const std::string& kind, const std::string& path, const std::vector<std::string>& more,
+                const std::function<void(PipeReader&)>& receive) {
+  const Allowance allowance = allowance_for(path);
+  const std::string reader = find_reader(path);
+  std::vector<std::string> arguments{reader, std::to_string(allowance.seconds),
+                                     std::to_string(allowance.bytes), kind, path};
+  arguments.insert(arguments.end(), more.begin(), more.end());
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw InputError(path + ": cannot be read: no pipe: " + std::strerror(errno));
-  const pid_t id = ::fork();
-  if (id == 0) {
-    ::close(ends[0]);
-    run_child(ends[1], allowance, produce);
-  }
-  const int failure = errno;
+  pid_t id = 0;
+  const int failure = SpawnSettings(ends[1]).start(arguments, id);
   ::close(ends[1]);
-  if (id < 0) {
+  if (failure != 0) {
     ::close(ends[0]);
-    throw InputError(path + ": cannot be read: no process can be started for it: " + std::strerror(failure));
+    throw InputError(path + ": cannot be read: " + reader + " cannot be started: " + std::strerror(failure));
   }
   Child child(id);
-  PipeReader pipe(ends[0]);  // closed before the child is waited for, which then has nobody to write to
+  PipeReader pipe(ends[0]);  // closed before the reader is waited for, which then has nobody to write to
+  bool has_begun = false;
   try {
-    take(pipe, path, allowance, receive);
+    take(pipe, path, reader, allowance, receive, has_begun);
   } catch (const PipeEnded&) {
-    refuse_ending(path, child.wait_status(), allowance);
+    const int status = child.wait_status();
+    if (!has_begun && WIFEXITED(status))
+      throw InputError(fmt::format("{}: cannot be read: {} ended at once, with status {}; install quadloop again",
+                                   path, reader, WEXITSTATUS(status)));
+    refuse_ending(path, status, allowance);
   }
 }
 

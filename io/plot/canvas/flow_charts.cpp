@@ -92,7 +92,7 @@ Chart wall_chart(const PlotTable& walls, const std::string& column, const std::o
   const std::vector<std::string> names = walls.words("boundary");
   const std::vector<double> along = walls.numbers("s"), x = walls.numbers("x"),
                             values = walls.numbers(column);
-  if (names.empty()) throw InputError(walls.path + ": holds no wall");
+  if (names.empty()) throw InputError(walls.path + ": contains no wall");
   Chart chart{{"x"}, {{{column, false, column == "Cp"}, {}}}};
   ChartPanel& panel = chart.panels[0];
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -71,7 +71,7 @@ class TrianglesBefore {
   std::vector<std::int32_t> starts_;  ///< start in around_ for each node
   std::vector<std::int32_t> around_;  ///< indices of triangles
   std::vector<Point> centroids_;
-  std::vector<char> stays_;  ///< a flag for each triangle that exists again
+  std::vector<char> stays_;  ///< flags the triangles that exist again
 };
 
 }  // namespace

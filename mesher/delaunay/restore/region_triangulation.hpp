@@ -11,8 +11,8 @@ namespace quadloop {
 
 /// A triangle that did not exist before.
 struct MadeTriangle {
-  std::int64_t near =
-      0;  ///< number of the nearest removed triangle (by centroid) among those with its first node
+  /// Number of the nearest removed triangle (by centroid) among those with its first node.
+  std::int64_t near = 0;
   std::array<GlobalNodeId, 3> nodes;  ///< smallest first
   std::array<Point, 3> points;
   std::int32_t block = 0;

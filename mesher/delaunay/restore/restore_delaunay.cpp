@@ -13,8 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr int first_rings =
-    2;  ///< number of rings fetched at once; more are fetched where circumcircles reach farther
+/// Number of rings fetched at once; more are fetched where circumcircles reach farther.
+constexpr int first_rings = 2;
 
 using Known = StarHalo::Known;
 

@@ -26,7 +26,7 @@ std::string turned_text(const Outline& outline, const OutlineLoop& loop, const L
   const std::string& name = outline.names[loop.boundary.front().value()];
   const Point p = loop.points.front();
   std::string text = fmt::format(
-      "boundary '{}': the loop from ({}, {}) wound the wrong way round and was turned", name, p.x, p.y);
+      "boundary '{}': the loop from ({}, {}) had the wrong orientation and was reversed", name, p.x, p.y);
   if (nesting.depth == 0)
     text +=
         "; nothing encloses it, so the domain is its inside (to mesh the outside, set geometry.far_field = "
@@ -46,7 +46,7 @@ void orient(Outline& outline, const std::vector<LoopNesting>& nestings, Warnings
   }
   if (turned > most_named)
     warnings.push_back(
-        fmt::format("{} more loops wound the wrong way round and were turned", turned - most_named));
+        fmt::format("{} more loops had the wrong orientation and were reversed", turned - most_named));
 }
 
 const std::string& name_of(const Outline& outline, std::size_t loop) {

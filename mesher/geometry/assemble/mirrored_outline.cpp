@@ -63,7 +63,7 @@ std::string advice_beside_axis(const std::vector<Chain>& chains, Point p, Mirror
     return std::ranges::any_of(chain.points, [&](Point q) { return gap(q, image) <= 1e-6 * size; });
   };
   if (std::ranges::none_of(chains, has_it)) return {};
-  return fmt::format("; its middle is at {} = {:.17g}: move that onto the axis by geometry.translate",
+  return fmt::format("; its line of symmetry is at {} = {:.17g}: move it onto the axis by geometry.translate",
                      axis == MirrorAxis::x ? "y" : "x", middle);
 }
 
@@ -73,12 +73,11 @@ std::string advice_beside_axis(const std::vector<Chain>& chains, Point p, Mirror
   double nearest = std::numeric_limits<double>::infinity();
   for (const Chain& other : chains)
     for (const Point q : other.points) nearest = std::min(nearest, length(q - image));
-  throw InputError(
-      fmt::format("{}: boundary {}: the point ({}, {}) has no mirror image at ({}, {}), where mesh.mirror = "
-                  "\"{}\" wants one; the nearest point is {:.3g} away; make the outline symmetric, or take "
-                  "the key out{}",
-                  chain.source, chain.name, p.x, p.y, image.x, image.y, name_of(axis), nearest,
-                  advice_beside_axis(chains, p, axis, box)));
+  throw InputError(fmt::format(
+      "{}: boundary {}: the point ({}, {}) has no mirror image at ({}, {}), which mesh.mirror = \"{}\" "
+      "requires; the nearest point is {:.3g} away; make the geometry symmetric, or remove the key{}",
+      chain.source, chain.name, p.x, p.y, image.x, image.y, name_of(axis), nearest,
+      advice_beside_axis(chains, p, axis, box)));
 }
 
 Box box_of(const std::vector<Chain>& chains) {
@@ -119,8 +118,8 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
   }
   if (moved > 0) {
     warnings.push_back(
-        fmt::format("{} points of the outline moved by rounding, onto the mirror images of others in the "
-                    "{}-axis or onto it",
+        fmt::format("{} points of the geometry were moved by a rounding error, onto mirror images of others "
+                    "about the {}-axis or onto it",
                     moved, name_of(axis)));
   }
 }
@@ -150,8 +149,8 @@ std::vector<Segment> segments_by_ends(const Geometry& geometry) {
 [[noreturn]] void refuse_segment(const Geometry& geometry, const Segment& s, MirrorAxis axis,
                                  const std::string& fault) {
   throw InputError(fmt::format(
-      "boundary {}: {} the part from ({}, {}) to ({}, {}) in the {}-axis, where mesh.mirror "
-      "wants the whole outline mirrored; make it symmetric, or take the key out",
+      "boundary {}: {} the part from ({}, {}) to ({}, {}) about the {}-axis, but mesh.mirror requires a "
+      "symmetric geometry; make it symmetric, or remove the key",
       geometry.boundary(s.boundary).name, fault, s.from.x, s.from.y, s.to.x, s.to.y, name_of(axis)));
 }
 
@@ -170,14 +169,12 @@ IdVector<BoundaryId, BoundaryId> require_mirror_images(const Geometry& geometry,
     if (!known.valid()) known = image->boundary;
     if (known != image->boundary)
       refuse_segment(geometry, s, axis,
-                     fmt::format("'{}' and another boundary hold the mirror images of it; one is that of",
+                     fmt::format("its mirror image belongs to two boundaries; '{}' has that of",
                                  geometry.boundary(image->boundary).name));
     if (!asks_for_the_same(geometry.boundary(s.boundary), geometry.boundary(image->boundary)))
-      refuse_segment(
-          geometry, s, axis,
-          fmt::format("'{}', which asks for another spacing, corner or other layers, is the mirror "
-                      "image of",
-                      geometry.boundary(image->boundary).name));
+      refuse_segment(geometry, s, axis,
+                     fmt::format("'{}', with another spacing, corner or other layers, is the mirror image of",
+                                 geometry.boundary(image->boundary).name));
   }
   return image_of_boundary;
 }

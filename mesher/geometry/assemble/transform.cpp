@@ -49,7 +49,7 @@ Box box_without_far_field(const std::vector<Chain>& chains, const std::string& w
   for (const Chain& chain : chains) {
     if (chain.name == "farfield") {
       throw InputError(
-          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); take the setting out, or "
+          fmt::format("{}: the geometry already has a boundary 'farfield' ({}); remove the setting, or "
                       "rename the boundary",
                       where, chain.source));
     }

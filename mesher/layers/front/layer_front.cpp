@@ -199,7 +199,7 @@ void OuterOutline::add_front_of(const LayerStrip& strip) {
   }
 }
 
-/// Whether the segment, of a boundary without layers, begins at a wall and is covered by its last column.
+/// Whether a segment of a boundary without layers begins at the end of a wall with layers.
 bool OuterOutline::begins_below(std::int32_t s) const {
   return first_of_segment_[g_.previous(s)] != WallLine::none;
 }
@@ -339,12 +339,11 @@ std::vector<Meeting> meetings_of_strips(const LayerFront& front) {
                            : boundary == front.strip_boundary()
                                ? "those of " + strip_at(front, nearest.other).name
                                : "boundary " + front.outer.boundary(boundary).name;
-  throw InputError(
-      fmt::format("{}the layers of {}, which begins at ({:.6g}, {:.6g}), meet {} at ({:.6g}, {:.6g}), {:.3g} "
-                  "from there; make it shorter, lead it elsewhere, or ask for fewer or thinner layers or a "
-                  "smaller spacing along it",
-                  strip.place, strip.name, begin.x, begin.y, what, nearest.at.x, nearest.at.y,
-                  length(nearest.at - begin)));
+  throw InputError(fmt::format(
+      "{}the layers of {}, which begins at ({:.6g}, {:.6g}), meet {} at ({:.6g}, {:.6g}), {:.3g} from there; "
+      "shorten it, change its path, or use fewer or thinner layers or a smaller spacing along it",
+      strip.place, strip.name, begin.x, begin.y, what, nearest.at.x, nearest.at.y,
+      length(nearest.at - begin)));
 }
 
 /// Checks that the fronts of strips touch neither anything else nor themselves.
@@ -393,8 +392,7 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
   const Point p = g.point(begin);
   const LayerStrip& strip = strip_at(front, nearest_front(front, parent, p, true));
   throw InputError(
-      fmt::format("{}the layers of {} run over boundary {} at ({}, {}); lead it elsewhere, or make it "
-                  "shorter",
+      fmt::format("{}the layers of {} cover boundary {} at ({}, {}); change its path, or shorten it",
                   strip.place, strip.name, g.boundary(g.boundary_of(begin)).name, p.x, p.y));
 }
 
@@ -404,16 +402,16 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
   const Point p = front.outer.point(begin);
   const LayerStrip& strip = strip_at(front, begin);
   if (!is_in_domain(front.line.geometry(), p))
-    throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); lead it elsewhere",
-                                 strip.place, strip.name, p.x, p.y));
+    throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); change its path", strip.place,
+                                 strip.name, p.x, p.y));
   const std::int32_t around = nearest_front(front, parent, p, false);
   const BoundaryId boundary = front.outer.boundary_of(around);
   const std::string whose = boundary == front.strip_boundary()
                                 ? strip_at(front, around).name
                                 : "boundary " + front.outer.boundary(boundary).name;
-  throw InputError(
-      fmt::format("{}{} lies within the layers of {}, at ({}, {}); lead it elsewhere, or make those thinner",
-                  strip.place, strip.name, whose, p.x, p.y));
+  throw InputError(fmt::format(
+      "{}{} lies within the layers of {}, at ({}, {}); change its path, or make those layers thinner",
+      strip.place, strip.name, whose, p.x, p.y));
 }
 
 /// Checks that every loop of the outer geometry has the domain to its left: no body and no line lies within

@@ -42,8 +42,8 @@ struct LayerFront {
   void keep(const std::vector<std::int32_t>& stations);
 };
 
-constexpr double leaf_over_last_layer =
-    2;  ///< largest size of leaves beside the front, in heights of the last layer
+/// Largest size of leaves beside the front, in heights of the last layer.
+constexpr double leaf_over_last_layer = 2;
 
 /// Size of the smallest leaves that fit the last layers, on walls and beside lines, if all layers have their
 /// requested thickness; infinity without layers. Throws InputError as place_lines() does.

@@ -47,7 +47,8 @@ class WakeWall {
       if (found == walls.by_name.end()) refuse_unknown(name, said);
       const BoundaryId boundary = found->second;
       if (!g.boundary(boundary).layers)
-        throw InputError(fmt::format("{}: boundary '{}' has no layers to go on; give it some", said, name));
+        throw InputError(fmt::format(
+            "{}: boundary '{}' has no layers that a wake could continue; add layers to it", said, name));
       if (has(boundary)) continue;
       boundaries_.push_back(boundary);
       segments_.insert(segments_.end(), walls.segments[boundary].begin(), walls.segments[boundary].end());
@@ -147,26 +148,26 @@ Edge edge_near(const Geometry& g, const std::vector<Edge>& edges, Point at, doub
   };
   const Edge nearest = *std::ranges::min_element(edges, {}, distance);
   if (distance(nearest) <= reach) return nearest;
-  throw InputError(fmt::format(
-      "{}: at = [{}, {}] lies {:.3g} from the nearest edge, and must not lie farther from it than {:.3g}; "
-      "there are edges at {}",
-      said, at.x, at.y, distance(nearest), reach, places_of(g, edges)));
+  throw InputError(
+      fmt::format("{}: at = [{}, {}] is {:.3g} from the nearest trailing edge, more than the {:.3g} allowed; "
+                  "there are trailing edges at {}",
+                  said, at.x, at.y, distance(nearest), reach, places_of(g, edges)));
 }
 
 Edge edge_of(const Geometry& g, const WakeWall& wall, const LayerLine& line, const std::string& said) {
   const double reach = reach_of_edges(g, wall);
   const std::vector<Edge> edges = edges_of(g, wall, reach);
   if (edges.empty())
-    throw InputError(fmt::format(
-        "{}: there is no edge, sharp (a turn of more than 120 degrees) or blunt (two of more than "
-        "50 close together); where several boundaries meet at it, name them all: from = [\"a\", "
-        "\"b\"]",
-        said));
+    throw InputError(
+        fmt::format("{}: no trailing edge found: a sharp one turns by more than 120 degrees, a blunt one has "
+                    "two corners of more than 50 degrees close together; if several boundaries meet there, "
+                    "name them all: from = [\"a\", \"b\"]",
+                    said));
   if (line.at) return edge_near(g, edges, *line.at, reach, said);
   if (edges.size() == 1) return edges[0];
-  throw InputError(
-      fmt::format("{}: there are {} edges, at {}; name the one at which the wake begins: at = [x, y]", said,
-                  edges.size(), places_of(g, edges)));
+  throw InputError(fmt::format(
+      "{}: there are {} trailing edges, at {}; select the one at which the wake begins: at = [x, y]", said,
+      edges.size(), places_of(g, edges)));
 }
 
 /// A placed line with name and place only; `number`: its number among `all` of its kind, from 1.
@@ -196,15 +197,16 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, Pl
   const Boundary &before = g.boundary(g.boundary_of(g.previous(first))),
                  &after = g.boundary(g.boundary_of(last));
   if (before.layers->count != after.layers->count)
-    throw InputError(fmt::format("{}: boundary {} asks for {} layers and {} for {}; give them one count",
+    throw InputError(fmt::format("{}: boundary {} has {} layers and {} has {}; give both the same count",
                                  said(placed, line), before.name, before.layers->count, after.name,
                                  after.layers->count));
 }
 
 [[noreturn]] void refuse_second(const PlacedLine& wake, const std::string& first) {
-  throw InputError(fmt::format(
-      "{}{} begins at the edge at ({}, {}), and so does {}; an edge has one wake: leave one of them out",
-      wake.place, wake.name, wake.path[0].x, wake.path[0].y, first));
+  throw InputError(
+      fmt::format("{}{} begins at the trailing edge at ({}, {}), and so does {}; a trailing edge has one "
+                  "wake: remove one of them",
+                  wake.place, wake.name, wake.path[0].x, wake.path[0].y, first));
 }
 
 }  // namespace

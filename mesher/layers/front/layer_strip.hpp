@@ -38,9 +38,9 @@ struct LayerStrip {
   int base_layers() const { return static_cast<int>(base_lines.size()); }
   std::vector<Point> front;  ///< boundary of the strip: along the left, around the end, back along the right;
                              ///< for a free line also around its beginning, else between the root's columns
-  std::vector<double>
-      spacing;  ///< requested cell size outside, for each segment of `front`; for a strip with a root one
-                ///< more, at the beginning, for the segment before the first point
+  /// Requested cell size outside, for each segment of `front`; for a strip with a root one more, at the
+  /// beginning, for the segment before the first point.
+  std::vector<double> spacing;
   /// Indices in `front` of the corners at the end (left, right) and at the beginning of a free line (right,
   /// left).
   std::array<std::size_t, 4> corners{};

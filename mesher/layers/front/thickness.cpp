@@ -18,10 +18,9 @@ namespace {
 constexpr double share_of_end = 0.9;  // of the straight part of the boundary on which a run ends
 constexpr double shrink = 0.85, steepest = 0.35;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
-constexpr double share_of_gap =
-    0.36;  // with it the columns of two facing walls, with their clearance, just do not meet
-constexpr double own_reach =
-    4;  // length of wall, in thicknesses, within which a column's own wall is no obstacle
+// Fraction of a gap: the columns of two facing walls, with their clearance, just do not meet.
+constexpr double share_of_gap = 0.36;
+constexpr double own_reach = 4;  // thicknesses of wall within which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {
@@ -350,9 +349,8 @@ class Fitting {
     const auto at = std::ranges::find(meets_, 1) - meets_.begin();
     const Station& station = line_[size32(std::vector<char>(at))];
     throw InputError(
-        fmt::format("boundary {} near ({}, {}): its layers meet others however thin they are made; ask for "
-                    "thinner layers there "
-                    "or give the place a boundary of its own without layers",
+        fmt::format("boundary {} near ({}, {}): its layers meet others even if they are made very thin; use "
+                    "thinner layers, or make that part a separate boundary without layers",
                     line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name,
                     station.wall.x, station.wall.y));
   }

@@ -9,8 +9,8 @@ namespace quadloop {
 namespace {
 
 constexpr double stations_per_thickness = 8;
-constexpr double even_thicknesses =
-    8;  // number of thicknesses from either end of a segment within which stations are evenly spaced
+// Number of thicknesses from either end of a segment within which stations are evenly spaced.
+constexpr double even_thicknesses = 8;
 constexpr double cosine_of_concave = 0.96592582628906831;  // a corner that turns in by more than 15 degrees
 constexpr int fan_halvings = 4;
 

@@ -54,7 +54,8 @@ std::string cell_difference(const std::string& kind, const std::vector<std::arra
   std::string nodes;
   for (const NodeId node : *other) nodes += (nodes.empty() ? "" : " ") + std::to_string(node.value() + 1);
   return fmt::format(
-      "of its {} the one of nodes {} is not the mesh's; it is a solution of another mesh; solve on this one",
+      "its {} contain one with the nodes {}, which the mesh does not have; it is a solution of another mesh; "
+      "solve on this one",
       kind, nodes);
 }
 

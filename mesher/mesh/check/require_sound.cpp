@@ -26,8 +26,8 @@ namespace {
 
 [[noreturn]] void report_unsound(const std::string& what, Point place) {
   throw Fault(
-      fmt::format("the mesh that was made is not valid, and nothing is written: {} at ({}, {}); please "
-                  "report it with the case",
+      fmt::format("the generated mesh is not valid, and nothing is written: {} at ({}, {}); please report it "
+                  "with the case",
                   what, place.x, place.y));
 }
 

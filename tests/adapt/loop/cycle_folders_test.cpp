@@ -66,7 +66,7 @@ TEST(CycleFolders, ResumingCountsWholeCyclesAndDropsTheOneUnderWay) {
   run.emplace(world(), temporary.file("run"));  // the lock goes with the earlier one
   EXPECT_NE(test::refusal_text([&] {
               CycleFolders(world(), temporary.file("run")).open(false);
-            }).find("--resume goes on"),
+            }).find("--resume continues"),
             std::string::npos);
   EXPECT_EQ(run->open(true), 2);
   EXPECT_FALSE(fs::exists(run->under_way(2)));
@@ -90,7 +90,7 @@ TEST(CycleFolders, AMissingCycleIsNamed) {
   });
   const std::string refusal =
       test::refusal_text([&] { CycleFolders(world(), temporary.file("run")).open(true); });
-  EXPECT_NE(refusal.find("cycle_01: is missing, but cycle_02 is there"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("cycle_01: is missing, but cycle_02 exists"), std::string::npos) << refusal;
 }
 
 TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
@@ -99,7 +99,7 @@ TEST(CycleFolders, TwoRunsDoNotShareAFolder) {
   run.open(false);
   EXPECT_NE(test::refusal_text([&] {
               CycleFolders(world(), temporary.file("run")).open(true);
-            }).find("another run is at work"),
+            }).find("another run is using"),
             std::string::npos);
 }
 
@@ -117,7 +117,7 @@ TEST(CycleFolders, AFirstCycleIsResumedAsItWasBegun) {
   };
   begin("0123456789abcdef base/mesh.mesh");
   for (const char* other : {"", "fedcba9876543210 base/mesh.mesh"})
-    EXPECT_NE(refusal_to_resume(temporary, other).find("begun with --from, by base/mesh.mesh"),
+    EXPECT_NE(refusal_to_resume(temporary, other).find("started with --from, by base/mesh.mesh"),
               std::string::npos)
         << other;
   {
@@ -125,7 +125,7 @@ TEST(CycleFolders, AFirstCycleIsResumedAsItWasBegun) {
     EXPECT_EQ(run.open(true, "0123456789abcdef elsewhere/mesh.mesh"), 0);  // the same mesh
   }
   begin("");  // anew, with a mesh of its own
-  EXPECT_NE(refusal_to_resume(temporary, "0123456789abcdef base").find("begun without --from"),
+  EXPECT_NE(refusal_to_resume(temporary, "0123456789abcdef base").find("started without --from"),
             std::string::npos);
   CycleFolders run(world(), temporary.file("run"));
   EXPECT_EQ(run.open(true), 0);
@@ -161,7 +161,8 @@ TEST(Resume, SettingsThatMayChangeAreWarnedOfAndOthersRefused) {
     require_same_run(world(), temporary.path(),
                      record_with({{"adapt.refine", "2"}, {"solver.iterations", "9"}}));
   });
-  EXPECT_NE(refused.find("is of another case: adapt.refine was 1, is now 2;"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("belongs to another case: adapt.refine was 1, is now 2;"), std::string::npos)
+      << refused;
 }
 
 TEST(Resume, AnotherOutlineIsRefused) {
@@ -171,7 +172,9 @@ TEST(Resume, AnotherOutlineIsRefused) {
   CycleRecord now = record_with(settings);
   now.geometry_digest = 8;
   now.case_digest = run_digest(settings, 8);
-  EXPECT_NE(test::refusal_text([&] { require_same_run(world(), temporary.path(), now); }).find("the outline"),
+  EXPECT_NE(test::refusal_text([&] {
+              require_same_run(world(), temporary.path(), now);
+            }).find("the geometry in the files"),
             std::string::npos);
 }
 
@@ -180,10 +183,9 @@ TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
   const auto refusal = [&] {
     return test::refusal_text([&] { require_same_run(world(), temporary.path(), record_with({})); });
   };
-  EXPECT_NE(refusal().find("is missing or cannot be read; bring the file back"), std::string::npos)
-      << refusal();
+  EXPECT_NE(refusal().find("is missing or cannot be read; restore the file"), std::string::npos) << refusal();
   write(temporary.file("record.json"), "{");
-  EXPECT_NE(refusal().find("is no whole record of a cycle; bring"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("is not a complete record of a cycle; restore"), std::string::npos) << refusal();
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST(StretchMesh, TellsHowManyNodesTheCaseTakesAtLeast) {
   const std::int64_t nodes = nodes_of(made.result.mesh);
   ASSERT_GT(nodes, 60);
   ASSERT_EQ(made.report.warnings.size(), 1U);
-  const std::string &told = made.report.warnings[0], words = "give at least ";
+  const std::string &told = made.report.warnings[0], words = "set at least ";
   ASSERT_NE(told.find(words), std::string::npos) << told;
   const std::int64_t least = std::stoll(told.substr(told.find(words) + words.size()));
   EXPECT_GT(least, nodes);

@@ -136,7 +136,7 @@ TEST(Plan, SaysWhenCaseAndGeometryPassTheCap) {
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved_front(world(), input));
   EXPECT_EQ(plan.refined, 0);
   ASSERT_FALSE(plan.warnings.empty());
-  EXPECT_NE(plan.warnings[0].find("adapt.max_nodes allows 20"), std::string::npos) << plan.warnings[0];
+  EXPECT_NE(plan.warnings[0].find("adapt.max_nodes is 20"), std::string::npos) << plan.warnings[0];
 }
 
 TEST(Plan, SaysWhyTheMeshStays) {
@@ -230,7 +230,7 @@ TEST(OwnMesh, CountsNodesAndCells) {
     require_own_mesh(world(), solved, "a.mesh", "a.tree.h5");
     FAIL();
   } catch (const InputError& fault) {
-    EXPECT_TRUE(std::string(fault.what()).starts_with("a.mesh: is of another mesh than a.tree.h5: "))
+    EXPECT_TRUE(std::string(fault.what()).starts_with("a.mesh: belongs to another mesh than a.tree.h5: "))
         << fault.what();
   }
 }
@@ -274,7 +274,7 @@ TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
     }
     return {};
   };
-  const std::string refused = refusal(100), words = "give at least ";
+  const std::string refused = refusal(100), words = "set at least ";
   ASSERT_NE(refused.find(words), std::string::npos) << refused;
   const std::int64_t least = std::stoll(refused.substr(refused.find(words) + words.size()));
   EXPECT_GT(least, 200);

@@ -95,6 +95,12 @@ TEST(Morton, InterleavesTheBits) {
   for (int bit = 0; bit < 32; ++bit) EXPECT_EQ(spread_bits(1U << bit), std::uint64_t{1} << 2 * bit);
 }
 
+TEST(StageTimes, OfOneNameAreAddedUp) {
+  const StageSeconds sums = added_up({{"write", 1}, {"solve", 2}, {"write", 4}});
+  EXPECT_EQ(sums, (StageSeconds{{"write", 5}, {"solve", 2}}));
+  EXPECT_TRUE(added_up({}).empty());
+}
+
 TEST(StageTimes, StandInTheirOrder) {
   StageTimes times, more;
   times.end();  // none is under way

@@ -104,8 +104,8 @@ def check_refusals(program, folder):
             (foam / "system" / "controlDict").write_text(CONTROL.replace(old, new))
         return change
 
-    expect("dangling", ["constant/old", "link to nothing"], lambda foam: (foam / "constant" / "old").symlink_to("nowhere"))
-    expect("circle", ["constant/self", "stands in itself"], lambda foam: (foam / "constant" / "self").symlink_to(foam / "constant"))
+    expect("dangling", ["constant/old", "broken link"], lambda foam: (foam / "constant" / "old").symlink_to("nowhere"))
+    expect("circle", ["constant/self", "contains it"], lambda foam: (foam / "constant" / "self").symlink_to(foam / "constant"))
     expect("no_application", ["controlDict", "names no application"], control("application   standInFoam;", ""))
     expect("binary", ["controlDict: writeFormat is binary"], control("writeFormat   ascii", "writeFormat binary"))
     expect("compressed", ["controlDict: writeCompression is on"], control("writeCompression off", "writeCompression yes"))

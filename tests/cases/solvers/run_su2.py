@@ -109,7 +109,7 @@ def check_resume(program, folder):
     with open(folder / "resumed" / "flow.cfg", "a") as config:
         config.write("CFL_NUMBER= 3\n")
     status, said = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "3")
-    told = "the file 'flow.cfg' of solver.template has changed; the cycles up to cycle_02 stay as they are"
+    told = "the file 'flow.cfg' of solver.template has changed; the cycles up to cycle_02 remain unchanged"
     require(status == 0 and told in said, f"another configuration: {status} {said}")
     require((made / "cycle_01" / "record.json").read_text() == before, "a whole cycle has changed")
     digests = [json.loads((made / f"cycle_{k:02d}" / "record.json").read_text())["template_digest"] for k in range(4)]

@@ -1,8 +1,7 @@
 // The cause of an end of OpenFOAM's, of a log's end.
-#include "flow/command/log_tail.hpp"
-
 #include <gtest/gtest.h>
 
+#include "flow/command/log_tail.hpp"
 #include "tests/flow/command/solver_scripts.hpp"
 
 namespace quadloop {

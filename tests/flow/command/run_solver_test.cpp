@@ -69,7 +69,7 @@ TEST(RunSolver, SignalIsNamed) {
                     "was killed by signal 11 (Segmentation fault); it wrote nothing to its log, " +
                         folder.file("solver.log")));
   EXPECT_TRUE(holds(failure(folder.script("kill -9 $$"), folder),
-                    "was killed by signal 9 (Killed), by somebody or for want of memory"));
+                    "was killed by signal 9 (Killed), by a user or because memory ran out"));
 }
 
 TEST(RunSolver, TimeIsLimited) {

@@ -38,7 +38,7 @@ TEST(EulerSolver, SaysWhatTheSolverSays) {
   EXPECT_EQ(flow.solution.constants,
             (std::vector<double>{6, result.time, 0.4, 2, result.cl, result.cd, result.residual}));
   ASSERT_GE(flow.notes.size(), 3U);
-  EXPECT_TRUE(flow.notes.back().starts_with("iteration 6: residual ")) << flow.notes.back();
+  EXPECT_TRUE(flow.notes.back().starts_with("step 6: residual ")) << flow.notes.back();
   ASSERT_EQ(flow.warnings.size(), 1U) << "six steps are too few";
   EXPECT_TRUE(flow.warnings[0].starts_with("cycle 3: ")) << flow.warnings[0];
 }

@@ -94,14 +94,14 @@ TEST(Shortfall, SaysWhatHelps) {
   const auto says = [&](const char* what) {
     return shortfall(result, options).find(what) != std::string::npos;
   };
-  EXPECT_TRUE(says("raise solver.iterations"));
+  EXPECT_TRUE(says("increase solver.iterations"));
   result.stalled = true;
-  EXPECT_TRUE(says("raise solver.tolerance"));
-  EXPECT_FALSE(says("raise solver.iterations"));
+  EXPECT_TRUE(says("increase solver.tolerance"));
+  EXPECT_FALSE(says("increase solver.iterations"));
   result.kept_iteration = 120;
   result.last_residual = 0.1;
   EXPECT_TRUE(says("fell to 1.00e-04 at step 120 and then rose to 1.00e-01; the flow at step 120 is kept"));
-  EXPECT_FALSE(says("raise solver.iterations"));
+  EXPECT_FALSE(says("increase solver.iterations"));
 }
 
 }  // namespace

@@ -66,11 +66,11 @@ TEST(UnsteadyFlow, IsOneLine) {
   flow.carried_on = true;
   flow.steps = flow.unsolved = 1;
   flow.implicit = true;
-  begins("carried on in 1 implicit step to time 8.5; means from time 1.7 on");
-  EXPECT_NE(line_of(flow).find("; 1 of them not solved to the tolerance"), std::string::npos);
+  begins("continued in 1 implicit step to time 8.5; means from time 1.7 on");
+  EXPECT_NE(line_of(flow).find("; 1 of them did not converge to the tolerance"), std::string::npos);
   flow.steady_steps = 100;
   flow.steady_residual = 1e-3;
-  begins("the residual fell by 3.0 orders in 100 steps: the flow is taken as unsteady; carried on in 1");
+  begins("the residual fell by 3.0 orders in 100 steps: the flow is classified as unsteady; continued in 1");
   flow.steady_residual = 2;
   begins("the residual rose by 0.3 orders in 100 steps: ");
   flow.steady_residual = 1.01;

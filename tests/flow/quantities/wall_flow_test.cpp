@@ -145,12 +145,15 @@ TEST(WallFlow, OfCellsGoesByTheLengthsOfTheEdges) {
   whole.boundaries[1].edges.push_back({node(4), node(0)});
   const Mesh mesh = scatter_mesh(world(), whole, own_order(whole));
   const Field flow = wall_flow(world(), mesh, in_cells(mesh), dense_stream(0), {"south"}, "it");
+  int on_wall = 0;
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     const Point at = mesh.points[i];
     if (at.y > 0) continue;
     const double x = at.x == 0 ? 0.5 : at.x == 7 ? 5 : at.x;  // at the ends the cell's own
     EXPECT_NEAR(flow.row(NodeId{i})[2], 1 + 2 * x - 0.5, 1e-14) << at.x;
+    ++on_wall;
   }
+  EXPECT_EQ(world().sum(on_wall), 4);
 }
 
 TEST(WallFlow, HasTheSameBitsHoweverTheMeshIsSpread) {

@@ -70,7 +70,7 @@ TEST(MirroredOutline, OneBesideTheAxisIsToBeMoved) {
     for (Point& p : chain.points) p.y += 0.5;
   Warnings warnings;
   const std::string text = refusal([&] { fit_to_mirror(chains, MirrorAxis::x, warnings); });
-  EXPECT_NE(text.find("its middle is at y = 0.5: move that onto the axis by geometry.translate"),
+  EXPECT_NE(text.find("its line of symmetry is at y = 0.5: move it onto the axis by geometry.translate"),
             std::string::npos)
       << text;
 }
@@ -80,7 +80,7 @@ TEST(MirroredOutline, BoundariesMayBeEachOthersImages) {
   AssembleOptions finer_above;
   finer_above.rules.push_back({"upper", 0.1, {}, {}, "case"});
   const std::string text = refusal([&] { require_mirror_images(outline(finer_above), MirrorAxis::x); });
-  EXPECT_NE(text.find("asks for another spacing"), std::string::npos) << text;
+  EXPECT_NE(text.find("with another spacing"), std::string::npos) << text;
 }
 
 TEST(MirroredOutline, EverySegmentHasItsImage) {
@@ -99,7 +99,7 @@ TEST(MirroredOutline, AnImageIsOneBoundary) {
   chains[2].points = {{-1, -0.5}, {0, -1}};
   const std::string text =
       refusal([&] { require_mirror_images(assemble(chains, {}, warnings), MirrorAxis::x); });
-  EXPECT_NE(text.find("hold the mirror images of it"), std::string::npos) << text;
+  EXPECT_NE(text.find("belongs to two boundaries"), std::string::npos) << text;
 }
 
 /// A box round a wedge on the axis, whose blunt end the axis cuts in the middle, and round a pair beside it.

@@ -6,8 +6,8 @@
 
 #include <set>
 
-#include "io/cgns/cgns_faces.hpp"
 #include "io/cgns/cgns_exponents.hpp"
+#include "io/cgns/cgns_faces.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
@@ -89,7 +89,9 @@ TEST(CgnsNames, ConditionsComeBack) {
 }
 
 using Face = CgnsFaces::Face;
-constexpr Face edge(std::int32_t number) { return {number, number + 1, FileBoundary::no_node, FileBoundary::no_node}; }
+constexpr Face edge(std::int32_t number) {
+  return {number, number + 1, FileBoundary::no_node, FileBoundary::no_node};
+}
 
 TEST(CgnsFaces, AreTakenOnceEach) {
   CgnsFaces faces;

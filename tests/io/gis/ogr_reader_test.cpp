@@ -39,6 +39,24 @@ std::string collection(const std::string& features) {
   return R"({"type":"FeatureCollection","features":[)" + features + "]}";
 }
 
+TEST_F(OgrReader, RefusesADrawingThatEndsWithinASection) {
+  const auto said = [&](const std::string& text) -> std::string {
+    try {
+      read("d.dxf", text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string open = "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n1\n0\n";
+  EXPECT_NE(said(open + "EOF\n").find("d.dxf:17: section ENTITIES does not end with ENDSEC"),
+            std::string::npos)
+      << said(open + "EOF\n");
+  EXPECT_NE(said(open + "SECTION\n2\nOBJECTS\n0\nENDSEC\n0\nEOF\n").find("does not end"), std::string::npos);
+  EXPECT_NE(said(open + "ENDSEC\nzero\nEOF\n").find("d.dxf:19: a group code is expected"), std::string::npos);
+  EXPECT_EQ(said(open + "ENDSEC\n0\nEOF\n"), "");
+}
+
 TEST_F(OgrReader, ReadsLinesAndPolygonsOfGeojson) {
   const std::string line = feature(R"("name":"coast line")", "LineString", "[[0,0],[1,0],[1,1]]");
   const std::string loop = feature(R"("boundary":"island")", "LineString", "[[5,5],[6,5],[6,6],[5,5]]");

@@ -49,7 +49,7 @@ TEST_F(AirfoilDat, PassesOverTextAfterThePoints) {
     expect_airfoil(airfoil_name + points + "\nWortmann, 1978\nt/c = 12 percent\n",
                    {"2 rows beside the name that are no points of the airfoil", "'Wortmann, 1978'"});
     expect_airfoil(airfoil_name + points + "12 percent thick\n",
-                   {"1 row beside the name", "'12 percent thick'", "was passed over"});
+                   {"1 row beside the name", "'12 percent thick'", "was ignored"});
     expect_airfoil(airfoil_name + points + "x t\n0.5 0.12\n0.7 0.08\n", {"3 rows", "'x t'"});
     expect_airfoil(airfoil_name + points + "\x1a\n", {});
     expect_airfoil(airfoil_name + points + "\n\n \t\r\n", {});

@@ -127,13 +127,13 @@ TEST(CleanUp, RepeatedElementsStandOnce) {
   f.add_edge("again", 1, 0);
   drop_repeated(f.mesh, "a.msh");
   EXPECT_EQ(f.mesh.quads.size(), 2U);
-  EXPECT_EQ(f.mesh.cell_to_block[1], (std::vector<std::int32_t>{0, 1})) << "the first was taken";
+  EXPECT_EQ(f.mesh.cell_to_block[1], (std::vector<std::int32_t>{0, 1})) << "the first was used";
   EXPECT_EQ(f.mesh.boundaries[0].faces.size(), 1U);
   EXPECT_TRUE(f.mesh.boundaries[1].faces.empty());
   EXPECT_EQ(f.mesh.warnings,
             (std::vector<std::string>{
-                "a.msh: 1 elements are in the groups 'a' and 'b'; they are taken for 'a'",
-                "a.msh: 1 elements are in the groups 'wall' and 'again'; they are taken for 'wall'"}));
+                "a.msh: 1 elements are in the groups 'a' and 'b'; they are assigned to 'a'",
+                "a.msh: 1 elements are in the groups 'wall' and 'again'; they are assigned to 'wall'"}));
 }
 
 TEST(CleanUp, OfRepeatedElementsThoseOfTheSmallestGroupStay) {

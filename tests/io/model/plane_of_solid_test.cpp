@@ -91,7 +91,7 @@ TEST(PlaneOfSolid, RefusesWhatIsNoPlane) {
   EXPECT_FALSE(is_one_cell_thick(solid));
   solid = house('z');
   solid.points[9].x += 1e-3;
-  expect_refusal(solid, "is not drawn out along z");
+  expect_refusal(solid, "is not extruded along z");
   solid.points[9].x = 1.5 + 1e-8;  // as writers of few digits leave it
   EXPECT_NO_THROW(plane_of_solid(solid, "m"));
   solid = house('z');

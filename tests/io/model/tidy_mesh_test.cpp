@@ -80,8 +80,8 @@ TEST(TidyMesh, TurnsCellsAndBoundaryEdges) {
   tidy_mesh(loaded, "m.mesh");
   expect_same(loaded.mesh, square().mesh);
   ASSERT_EQ(loaded.warnings.size(), 2U);
-  EXPECT_EQ(loaded.warnings[0], "m.mesh: 6 cells ran clockwise and were turned");
-  EXPECT_EQ(loaded.warnings[1], "m.mesh: 1 boundary edges had their cell to the right and were turned");
+  EXPECT_EQ(loaded.warnings[0], "m.mesh: 6 cells ran clockwise and were reversed");
+  EXPECT_EQ(loaded.warnings[1], "m.mesh: 1 boundary edges had their cell to the right and were reversed");
 }
 
 TEST(TidyMesh, InvertedCellsStay) {
@@ -107,7 +107,7 @@ TEST(TidyMesh, EdgesOfNoBoundaryBecomeOne) {
   ASSERT_EQ(loaded.warnings.size(), 2U);
   EXPECT_EQ(loaded.warnings[0], "m.mesh: 1 boundaries without edges were left out");
   EXPECT_EQ(loaded.warnings[1],
-            "m.mesh: 5 edges of the outline belong to no boundary; they are the boundary \"boundary_2\" now");
+            "m.mesh: 5 outer edges belong to no boundary; they form the boundary \"boundary_2\" now");
 }
 
 TEST(TidyMesh, AMeshWithoutBoundariesGetsOne) {

@@ -242,7 +242,7 @@ TEST(MshReader, TakesAnElementOfTwoGroupsOnce) {
   expect_house(loaded);
   ASSERT_EQ(loaded.warnings.size(), 3U);  // the last is on the node of no cell
   EXPECT_NE(
-      loaded.warnings[0].find("1 elements are in the groups 'ground floor' and 'walls'; they are taken for "
+      loaded.warnings[0].find("1 elements are in the groups 'ground floor' and 'walls'; they are assigned to "
                               "'ground floor'"),
       std::string::npos)
       << loaded.warnings[0];
@@ -268,7 +268,7 @@ TEST(MshReader, TakesTheSmallestOfSeveralGroups) {
   ASSERT_EQ(both.warnings.size(), 1U);
   EXPECT_NE(
       both.warnings[0].find("m.msh: curve 2 is in the physical groups 'walls' and 'ground floor' and is "
-                            "taken for 'ground floor', the smallest; likewise 1 more curves"),
+                            "assigned to 'ground floor', the smallest; likewise 1 more curves"),
       std::string::npos)
       << both.warnings[0];
 }
@@ -281,10 +281,11 @@ TEST(MshReader, NamesTheGroupsThatItLeavesOut) {
   const std::string inner =
       replaced(replaced(replaced(probe, "Names\n4", "Names\n5"), "1 7 ", "1 9 \"fracture\"\n1 7 "),
                "ments\n8", "ments\n9");
-  EXPECT_NE(check.of(replaced(inner, "$EndEl", "9 1 2 9 4 40 30\n$EndEl"))
-                .warnings.back()
-                .find("1 edges between two cells are no boundary and were left out: those of 'fracture'"),
-            std::string::npos);
+  EXPECT_NE(
+      check.of(replaced(inner, "$EndEl", "9 1 2 9 4 40 30\n$EndEl"))
+          .warnings.back()
+          .find("1 edges between two cells are not boundary edges and were left out: those of 'fracture'"),
+      std::string::npos);
 }
 
 TEST(MshReader, ReadsNodesWithParameters) {
@@ -323,7 +324,7 @@ TEST(MshReader, RefusesBadRowsByLine) {
 }
 
 TEST(MshReader, RefusesWhatItDoesNotKnow) {
-  check.expect_refusal(replaced(old_house, "7 3 2 9 1", "7 4 2 9 1"), "m.msh: ", "holds a 3D mesh");
+  check.expect_refusal(replaced(old_house, "7 3 2 9 1", "7 4 2 9 1"), "m.msh: ", "contains a 3D mesh");
   check.expect_refusal(replaced(old_house, "8 2 2 9 1", "8 9 2 9 1"), "m.msh:28: ", "ElementOrder = 1");
   check.expect_refusal(replaced(new_house, "2 1 3 1", "2 1 16 1"),
                        "m.msh:45: ", "16 (quadrilateral of second order");

@@ -156,7 +156,7 @@ TEST_F(BinaryFile, BoundariesOfOneNameBecomeOne) {
 
 TEST_F(BinaryFile, RefusesWhatIsNoSuchFile) {
   const std::string bytes = written(two_blocks());
-  expect_refusal("", "m.qmesh: does not begin", "of another kind");
+  expect_refusal("", "m.qmesh: does not begin", "another kind of file");
   expect_refusal("#Number of grid points\n", "m.qmesh: does not begin", "");
   expect_refusal(with_line(bytes, "mesh 1\n", "mesh 2\n"), "m.qmesh: does not begin", "");
   expect_refusal(with_line(bytes, "224\n", "949\n"), "m.qmesh:2: ", "damaged");

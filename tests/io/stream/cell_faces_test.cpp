@@ -1,5 +1,6 @@
 // Each face once, with the cells on its two sides: those that an extruded mesh streams on several ranks are
-// those that are found in the same mesh, held; also where a file numbers cells by block. Which plane meshes are taken.
+// those that are found in the same mesh, held; also where a file numbers cells by block. Which plane meshes
+// are taken.
 #include <gtest/gtest.h>
 #include <mpi.h>
 

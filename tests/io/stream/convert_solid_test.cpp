@@ -136,7 +136,7 @@ TEST(ConvertSolid, CellsThatAreInsideOutAreTurned) {
   std::ofstream(path)
       << "NDIME= 3\nNELEM= 1\n13 0 1 2 3 4 5\nNPOIN= 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n";
   const std::optional<FileMesh> mesh = test::read_solid(path);
-  ASSERT_EQ(mesh->warnings, std::vector<std::string>{path + ": 1 cell was inside out and turned"});
+  ASSERT_EQ(mesh->warnings, std::vector<std::string>{path + ": 1 cell was inside out and reversed"});
   EXPECT_EQ(mesh->prisms, (std::vector<std::array<std::int32_t, 6>>{{0, 1, 2, 3, 4, 5}}));
 }
 
@@ -162,7 +162,7 @@ TEST(ConvertSolid, OfSeveralGroupsOfGmshTheSmallestIsTaken) {
   EXPECT_TRUE(check_solid(*mesh).faults.empty());
   EXPECT_EQ(mesh->warnings,
             (std::vector<std::string>{
-                path + ": 1 elements are in the groups 'inlet' and 'skin'; they are taken for 'inlet'",
+                path + ": 1 elements are in the groups 'inlet' and 'skin'; they are assigned to 'inlet'",
                 path + ": physical groups of points and curves are left out: 'probe'"}));
 }
 

@@ -79,8 +79,8 @@ TEST(WholeTree, LeavesFollowEachOtherAlongTheCurve) {
   expect_fault("does not follow", [](auto& all) { all.insert(all.begin() + 5, all[5]); });
   expect_fault("does not follow", [](auto& all) { all.erase(all.begin() + 6); });  // the tree ends early
   expect_fault("does not follow", [](auto& all) { all.erase(all.begin()); });
-  expect_fault("have 1 trees, where 2", [](auto& all) { all.pop_back(); });
-  expect_fault("have 1 whole trees, where 2", [](auto& all) {
+  expect_fault("have 1 trees, but 2", [](auto& all) { all.pop_back(); });
+  expect_fault("have 1 whole trees, but 2", [](auto& all) {
     all.back() = leaf(1, 0, 0);
     all.back().tree_x = 1;
   });
@@ -90,17 +90,17 @@ TEST(WholeTree, EachLeafIsPossible) {
   expect_fault("is in none of the trees", [](auto& all) { all[7].tree_x = 2; });
   expect_fault("is in none of the trees", [](auto& all) { all[0].tree_y = -1; });
   expect_fault("has an impossible level", [](auto& all) { all[1].level = -1; });
-  expect_fault("lies beside the lattice", [](auto& all) { all[1].x += 1; });
-  expect_fault("is coarser than its wanted level 3", [](auto& all) { all[1].wanted = 3; });
+  expect_fault("is not on the grid", [](auto& all) { all[1].x += 1; });
+  expect_fault("is coarser than its target level 3", [](auto& all) { all[1].wanted = 3; });
   expect_fault("has splits below itself ('adapted' is 0x4)", [](auto& all) { all[1].adapted = 4; });
   expect_fault("below 0", [](auto& all) { all[1].triangles = -1; });
   expect_fault("is outside the domain, but has cells", [](auto& all) { all[1].block = 0; });
 }
 
 TEST(WholeTree, CellsAreAsManyAsAreSaid) {
-  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.quads = 9; }).find("have 8 quadrilaterals, where 9"),
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.quads = 9; }).find("have 8 quadrilaterals, but 9"),
             std::string::npos);
-  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.triangles = 1; }).find("have 0 triangles, where 1"),
+  EXPECT_NE(fault_of(leaves(), [](TreeAttributes& a) { a.triangles = 1; }).find("have 0 triangles, but 1"),
             std::string::npos);
 }
 

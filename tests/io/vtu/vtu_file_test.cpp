@@ -187,7 +187,7 @@ TEST(VtuReader, TakesBoundariesFromPhysicalGroups) {
     EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 2U);
     EXPECT_EQ(loaded.mesh.boundaries[1].name, "boundary_7");
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("the cell data 'gmsh:physical' tell its boundaries apart"),
+    EXPECT_NE(loaded.warnings[0].find("the cell data 'gmsh:physical' distinguish its boundaries"),
               std::string::npos);
   }
 }
@@ -198,8 +198,9 @@ TEST(VtuReader, WarnsWhereNothingTellsBoundariesApart) {
   const LoadedMesh loaded = check.of(with_lines(same));
   EXPECT_EQ(loaded.mesh.boundaries.size(), 1U);
   ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_NE(loaded.warnings[0].find("no cell data tell its boundaries apart, they are one; where 'medit:ref' "
-                                    "numbers them, call these cell data 'boundary'"),
+  EXPECT_NE(loaded.warnings[0].find(
+                "no cell data distinguish its boundaries; they form one boundary; where 'medit:ref' "
+                "numbers them, call these cell data 'boundary'"),
             std::string::npos)
       << loaded.warnings[0];
 }

@@ -80,13 +80,16 @@ TEST(ColumnsOnWall, AnEndLiesOnItsSideAndTheOthersLeanWithIt) {
 
 TEST(ColumnsOnWall, SpreadAtAConvexCornerWithTheirOwnLength) {
   const Columned step(test::step_with_layers(four_layers));
+  int corners = 0;
   for (std::int32_t i = 0; i < step.line.size(); ++i) {
     if (step.line[i].wall != Point{4, 2}) continue;
+    ++corners;
     EXPECT_LT(step.columns.length[i], 0.57) << "no horn at the corner, which would be 0.707 long";
     EXPECT_NEAR(step.columns.direction[i].x, -std::sqrt(0.5), 1e-12);
     EXPECT_LT(step.columns.direction[i + 1].x, -0.05) << "its turn is spread over the wall";
     EXPECT_GT(step.columns.direction[i + 1].x, step.columns.direction[i].x);
   }
+  EXPECT_EQ(corners, 1);
 }
 
 TEST(ColumnsOnWall, RiseVisiblyEverywhereAndNeverCrossTheirNeighbours) {
@@ -126,12 +129,15 @@ TEST(ColumnsOnWall, AtACornerTheyDoNotStandOutFromThoseBesideIt) {
 
 TEST(ColumnsOnWall, AFansRaysHaveTheThicknessForTheirLength) {
   const Columned body(test::rhombus_with_layers(four_layers, 0.25));
+  int rays = 0;
   for (std::int32_t i = 0; i < body.line.size(); ++i) {
     if (body.line[i].shape == Station::Shape::fan) {
+      ++rays;
       EXPECT_EQ(body.columns.length[i], 0.5);
       EXPECT_EQ(body.columns.direction[i], body.line[i].direction);
     }
   }
+  EXPECT_GT(rays, 4);
 }
 
 TEST(ColumnsOnWall, FittedAgainAreThoseFittedAtOnce) {

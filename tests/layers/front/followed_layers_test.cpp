@@ -90,11 +90,15 @@ TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
   // of an earlier mesh, whose lower side lies nearer to the upper one of this body than its own upper side
   const MeasuredWall wall{{{-2, 1e-3}, {2, 1e-3}, 100, 100}, {{2, 0}, {-2, 0}, 150, 150}};
   const Followed f(test::rhombus_with_layers(wanted_layers, 1e-4), wall);
+  int above = 0, below = 0;
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const Point place = f.line[i].wall;
     if (std::abs(place.x) > 1) continue;  // at the edges both sides meet
     EXPECT_DOUBLE_EQ(f.layers[i].first, place.y > 0 ? 0.02 : 2.0 / 150) << place.x;
+    ++(place.y > 0 ? above : below);
   }
+  EXPECT_GT(above, 0);
+  EXPECT_GT(below, 0);
 }
 
 TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
@@ -112,14 +116,23 @@ TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
   const Geometry floor = test::floor_with_layers(wanted_layers);
   const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
   const LayerFront front = layer_front(floor, {}, {}, wall);
-  double before = 0;
+  const auto last_layer = [&](std::int32_t i) {
+    const std::vector<double> heights =
+        column_heights(front.line.spec(i), 2 / (100 + 7.5 * front.line[i].wall.x), wanted_thickness).reached;
+    return heights.back() - heights[heights.size() - 2];
+  };
+  double first = 0, last = 0;
+  std::int32_t edges = 0;
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
     EXPECT_EQ(front.thickness[i], front.line.asked(i));
-    const double leaf = front.outer.spacing_of(i);
-    if (i + 1 == front.line.size()) continue;
-    EXPECT_GE(leaf, before) << "thinner first layers grow faster, so that the last ones are higher";
-    before = leaf;
+    const std::int32_t next = front.line.next(i);
+    if (next == WallLine::none) continue;
+    last = std::min(leaf_over_last_layer * std::min(last_layer(i), last_layer(next)), floor.spacing_of(0));
+    if (edges++ == 0) first = last;
+    EXPECT_NEAR(front.outer.spacing_of(i), last, 1e-9 * last) << front.line[i].wall.x;
   }
+  EXPECT_EQ(edges, front.line.size() - 1);
+  EXPECT_GT(last, 1.05 * first) << "thinner first layers grow faster, so that the last ones are higher";
 }
 
 }  // namespace

@@ -192,7 +192,7 @@ TEST(LayerFront, NoLineGoesRoundABody) {
   LayerLine thick = line_at({{-2, 0}, {2, 0}});
   thick.layers = test::equal_layers(1, 4);
   const std::string message = test::refusal([&] { layer_front(mote, {}, {thick}); });
-  EXPECT_EQ(message.find("case.toml:9: the layers of layer_line run over boundary mote at ("), 0U) << message;
+  EXPECT_EQ(message.find("case.toml:9: the layers of layer_line cover boundary mote at ("), 0U) << message;
 }
 
 TEST(LayerFront, TheLastColumnTakesThePlaceOfPointsOnTheBoundaryBelowIt) {

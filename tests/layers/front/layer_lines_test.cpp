@@ -42,17 +42,17 @@ TEST(PlaceLines, AWakeBeginsAtTheEdgeNearestToItsPlace) {
                         {{"dart", {{-2, 0}, {0, 0.5}, {2, 0.05}, {2, -0.05}, {0, -0.5}}, ten_layers}}});
   LayerLine wake = wake_of("dart");
   EXPECT_EQ(test::refusal([&] { place_lines(g, {wake}); }),
-            "wake, from = \"dart\": there are 2 edges, at (-2, 0), (2, 0); name the one at which the wake "
+            "wake, from = \"dart\": there are 2 trailing edges, at (-2, 0), (2, 0); select the one at which "
+            "the wake "
             "begins: at = [x, y]");
   wake.at = Point{2.1, 0.1};
   EXPECT_EQ(place_lines(g, {wake})[0].path[0], (Point{2, 0})) << "the base";
   wake.at = Point{-1.9, 0.1};
   EXPECT_EQ(place_lines(g, {wake})[0].path[0], (Point{-2, 0}));
   wake.at = Point{1.7, 0.1};
-  EXPECT_EQ(
-      test::refusal([&] { place_lines(g, {wake}); }),
-      "wake, from = \"dart\": at = [1.7, 0.1] lies 0.304 from the nearest edge, and must not lie farther "
-      "from it than 0.2; there are edges at (-2, 0), (2, 0)");
+  EXPECT_EQ(test::refusal([&] { place_lines(g, {wake}); }),
+            "wake, from = \"dart\": at = [1.7, 0.1] is 0.304 from the nearest trailing edge, more than "
+            "the 0.2 allowed; there are trailing edges at (-2, 0), (2, 0)");
 }
 
 TEST(PlaceLines, ABluntEdgesWakeBeginsInTheMiddleOfItsBase) {
@@ -121,7 +121,7 @@ TEST(PlaceLines, OneEdgeHasOneWake) {
   second.where = "case.toml:9";
   EXPECT_EQ(test::refusal([&] {
               place_lines(wedge(0.1), {wake_of("wedge"), second});
-            }).find("case.toml:9: wake_2 begins at the edge at (2, 0), and so does wake_1"),
+            }).find("case.toml:9: wake_2 begins at the trailing edge at (2, 0), and so does wake_1"),
             0U);
 }
 
@@ -132,7 +132,7 @@ TEST(PlaceLines, AWakeNeedsAnEdgeOfABoundaryWithLayers) {
   };
   says(wedge(0.1), "wing", "the geometry has no boundary 'wing'; it has: ");
   says(wedge(0.1, std::nullopt), "wedge", "has no layers");
-  says(wedge(0.8), "wedge", "there is no edge");
+  says(wedge(0.8), "wedge", "no trailing edge found");
 }
 
 }  // namespace

@@ -112,15 +112,20 @@ TEST(FitThickness, FrontsThatPassEachOtherKeepRoomForCellsToo) {
 TEST(FitThickness, KeepsAwayFromBoundariesWithoutLayers) {
   const Fitted f(test::outline_of({{{"floor", {{0, 0}}, four_layers}, {"rest", {{8, 0}, {8, 4}, {0, 4}}}},
                                    {{"bar", {{3, 0.5}, {3, 1}, {5, 1}, {5, 0.5}}}}}));
+  int below = 0, beside = 0;
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const double x = f.line[i].wall.x;
     if (3 <= x && x <= 5) {
       EXPECT_LT(f.fitting.thickness[i], 0.3) << x;
+      ++below;
     }
     if (x < 1 || x > 7) {
       EXPECT_EQ(f.fitting.thickness[i], 0.5) << x;
+      ++beside;
     }
   }
+  EXPECT_GT(below, 0);
+  EXPECT_GT(beside, 0);
 }
 
 TEST(FitThickness, ChangesByAtMostAThirdOfTheWay) {
@@ -140,9 +145,11 @@ TEST(FitThickness, StripsArePositiveAndFrontsMeetNothing) {
         test::step_with_layers(test::equal_layers(1.8, 4)), notch(0.3, 1), notch(0.3, 3), notch(0.1, 1)}) {
     const Fitted f(g);
     const auto& front = f.fitting.front;
+    int strips = 0;
     for (std::int32_t i = 0; i < f.line.size(); ++i) {
       const std::int32_t j = f.line.next(i);
       if (j == WallLine::none) continue;
+      ++strips;
       const Point a = f.line[i].wall, b = f.line[j].wall;
       EXPECT_GT(orientation(b, front[j], front[i]), 0) << i;
       if (a != b) {
@@ -154,6 +161,7 @@ TEST(FitThickness, StripsArePositiveAndFrontsMeetNothing) {
         EXPECT_FALSE(segments_meet(front[i], front[j], front[k], front[l])) << i << ' ' << k;
       }
     }
+    EXPECT_GT(strips, 3);
   }
 }
 

@@ -93,8 +93,8 @@ TEST(WallRuns, BoundariesThatMeetHaveOneCount) {
   };
   EXPECT_EQ(wall_runs(floors(thicker))[0].layers, (std::vector<BoundaryId>{BoundaryId{0}, BoundaryId{1}}));
   EXPECT_EQ(test::refusal([&] { wall_runs(floors(more)); }),
-            "boundaries one and two meet at (2, 0), but one asks for 4 layers and the other for 5; give them "
-            "one count");
+            "boundaries one and two meet at (2, 0), but one has 4 layers and the other 5; give both "
+            "the same count");
 }
 
 TEST(WallRuns, ADirectionTurnsRoundToTheLastBit) {

@@ -122,8 +122,9 @@ TEST_F(Case, SharesHaveDefaultsAndLimitsOfTheirOwn) {
 
 TEST_F(Case, ContradictionsAreRefused) {
   EXPECT_NE(refused("refine = 0.5\ncoarsen = -0.6\n").find("make it larger than -refine"), std::string::npos);
-  EXPECT_NE(refused("threshold = \"nodes\"\n").find("max_nodes is missing"), std::string::npos);
-  EXPECT_NE(refused("max_nodes = 10.5\n").find("must be a whole number of nodes"), std::string::npos);
+  EXPECT_NE(refused("threshold = \"nodes\"\n").find("needs max_nodes; it is the number of nodes to be met"),
+            std::string::npos);
+  EXPECT_NE(refused("max_nodes = 10.5\n").find("must be a whole number, not 10.5"), std::string::npos);
   EXPECT_NE(refused("cycles = 1.5\n").find("must be a whole number"), std::string::npos);
   EXPECT_NE(refused("min = 0\n"), "");
   EXPECT_NE(refused("cycle = 3\n").find("unknown key 'adapt.cycle'"), std::string::npos);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "quadloop/case/settings.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
@@ -53,6 +55,19 @@ TEST_F(FlowSettingsTest, IsNoneWithoutAPressureAndForTheBuiltInSolver) {
   EXPECT_FALSE(built_in.stream);
   ASSERT_EQ(built_in.warnings.size(), 1U);
   EXPECT_NE(built_in.warnings[0].find("[flow] does nothing"), std::string::npos) << built_in.warnings[0];
+}
+
+TEST_F(FlowSettingsTest, AMachNumberDecidesTheSpeed) {
+  const std::string gas = command + "[flow]\nreynolds = 5e3\npressure = 2.5\ndensity = 1.4\nmach = 0.5\n";
+  const double sound = std::sqrt(1.4 * 2.5 / 1.4);
+  EXPECT_DOUBLE_EQ(read(gas).stream->speed, 0.5 * sound);
+  EXPECT_DOUBLE_EQ(read(gas).stream->viscosity, 1.4 * 0.5 * sound / 5e3);
+  EXPECT_EQ(read(gas + "speed = 0.79\n").stream->speed, 0.79) << "they agree";
+  EXPECT_EQ(read(command + "[flow]\nreynolds = 5e3\nmach = 0.5\n").flow->speed, 0.5);
+  expect_refused(gas + "speed = 1\n",
+                 "'flow.mach' is 0.5, but speed, density, pressure and gamma make 0.6325");
+  expect_refused("[flow]\nreynolds = 5e3\nmach = 0.5\nspeed = 1\n", "'flow.mach' needs pressure or no speed");
+  expect_refused("[flow]\npressure = 0\nmach = 0.5\n", "'flow.mach' needs pressure > 0 or no pressure");
 }
 
 TEST_F(FlowSettingsTest, RefusesWhatNoFlowHas) {

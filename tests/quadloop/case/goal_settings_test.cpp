@@ -50,12 +50,12 @@ TEST_F(GoalSettingsTest, AreAWordAListOrWeights) {
 }
 
 TEST_F(GoalSettingsTest, RefusesWhatHasNoMeaning) {
-  expect_refused("goal = \"range\"\n", "it may be lift, drag, moment or pressure");
+  expect_refused("goal = \"range\"\n", "must be one of: lift, drag, moment, pressure");
   expect_refused("goal = [\"lift\", \"lift\"]\n", "'lift' twice");
   expect_refused("goal = []\n", "is empty");
   expect_refused("goal = { lift = 0 }\n", "goal.lift");
   expect_refused("goal = { thrust = 1 }\n", "goal.thrust");
-  expect_refused("goal_on = [\"box\"]\n", "it needs goal");
+  expect_refused("goal_on = [\"box\"]\n", "needs goal");
   expect_refused("goal = \"lift\"\ngoal_about = [0, 0]\n", "add \"moment\"");
   expect_refused("goal = \"lift\"\ngoal_adjoint = \"show\"\n", "goal_adjoint");
 }
@@ -67,7 +67,7 @@ TEST_F(GoalSettingsTest, RefusesFlowsWithoutAnAdjoint) {
   expect_refused("goal = \"lift\"\nreynolds = 5000\n", "without viscosity");
   expect_refused("goal = \"lift\"\ntime = \"accurate\"\nend_time = 1\n", "steady");
   expect_refused("goal = \"lift\"\nfar_field = \"vortex\"\n", "far_field = \"uniform\"");
-  expect_refused("goal = \"lift\"\nmach = 0\n", "mach above 0");
+  expect_refused("goal = \"lift\"\nmach = 0\n", "needs mach > 0, but mach = 0");
 }
 
 TEST_F(GoalSettingsTest, PatternsBecomeNames) {

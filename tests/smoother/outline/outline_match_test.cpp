@@ -52,7 +52,7 @@ TEST(OutlineMatch, RefusesNodesOffByMoreThanATenthOfAnEdge) {
   const double tenth = 0.1 / 8;
   const std::string said = refused(square("wall", "far", {0, 1.01 * tenth}));
   EXPECT_NE(said.find("boundary 'wall'"), std::string::npos) << said;
-  EXPECT_NE(said.find("node (0, 0) lies farther off than a tenth of its edge, which is 0.125 long"),
+  EXPECT_NE(said.find("node (0, 0) is farther away than a tenth of its edge, which is 0.125 long"),
             std::string::npos)
       << said;
   EXPECT_EQ(refused(square("wall", "far", {0, 0.99 * tenth})), "nothing");
@@ -64,7 +64,7 @@ TEST(OutlineMatch, CountsNodesThatAreNearAlone) {
   ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(
       warnings[0].find(
-          "o.geom: 9 of 16 nodes of the mesh's boundary 'wall' lie off the outline, by up to 0.0078125;"),
+          "o.geom: 9 of 16 nodes of the boundary 'wall' do not lie on the geometry, by up to 0.0078125;"),
       0U)
       << warnings[0];
 }

@@ -171,7 +171,7 @@ TEST(SizePlan, SaysWhenCaseAndGeometryPassTheCap) {
       plan_adaptation(world(), input, sizes_for(20), solved(world(), input, circular_front));
   EXPECT_EQ(plan.refined, 0);
   ASSERT_FALSE(plan.warnings.empty());
-  EXPECT_NE(plan.warnings[0].find("adapt.max_nodes allows 20"), std::string::npos) << plan.warnings[0];
+  EXPECT_NE(plan.warnings[0].find("adapt.max_nodes is 20"), std::string::npos) << plan.warnings[0];
 }
 
 TEST(SizePlan, KeepsToWhatIsAllowedAndSaysSo) {

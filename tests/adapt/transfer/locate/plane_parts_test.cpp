@@ -96,6 +96,7 @@ TEST(NearestBoundary, AgreesWithTryingAllEdges) {
   const Mesh whole = grid_mesh(), part = scatter_mesh(world(), whole, test::shuffled_order(whole, 3));
   const NearestBoundary boundary(world(), part);
   const auto own = boundary_edges_of(part);
+  int answers = 0;
   for (int i = 0; i < 200; ++i) {
     const Point p{1 + 2 * scattered(8, i, 0), 0.5 + scattered(8, i, 1)};
     const BoundaryPlace found = boundary.nearest(p);
@@ -108,7 +109,9 @@ TEST(NearestBoundary, AgreesWithTryingAllEdges) {
     const auto place = place_on_segment(p, part.point(from), part.point(to));
     EXPECT_EQ(place.squared_distance, best);
     EXPECT_EQ(place.parameter, found.parameter);
+    ++answers;
   }
+  EXPECT_EQ(world().sum(answers), 200) << "one rank for each point";
 }
 
 TEST(NearestBoundary, AllRanksFindTheSame) {

@@ -311,7 +311,7 @@ TEST(CarryOn, FallsBackToTheSteadyFlow) {
   EXPECT_EQ(fallen.history.size(), kept.history.size());
   const std::string said = shortfall(fallen, options);
   for (const char* const words :
-       {"could not be carried on in time", "at (", "try a smaller cfl", "flow of step "})
+       {"could not be continued in time", "at (", "try a smaller cfl", "flow of step "})
     EXPECT_NE(said.find(words), std::string::npos) << said;
 }
 
@@ -349,7 +349,7 @@ TEST(MarchInTime, TellsOfStepsThatWereNotSolvedWithoutMeansToo) {
   EXPECT_EQ(result.unsolved, 2);
   const std::vector<std::string> lines = shortfalls(result, options);
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("2 of 2 implicit steps in time were not solved"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("2 of 2 implicit time steps did not converge"), std::string::npos) << lines[0];
   options.average_from = 0;
   const EulerResult means = solve_euler(alone, mesh, options, start);
   ASSERT_TRUE(means.unsteady);
@@ -373,7 +373,7 @@ TEST(CarryOn, RefusesStepsWithoutEnd) {
   EXPECT_NE(refusal(options).find("time_step of 0.062"), std::string::npos) << refusal(options);
   options.time_step = {};
   options.flow_throughs = 1e6;
-  EXPECT_NE(refusal(options).find("lower solver.flow_throughs"), std::string::npos) << refusal(options);
+  EXPECT_NE(refusal(options).find("reduce solver.flow_throughs"), std::string::npos) << refusal(options);
   options = carried();
   options.unsteady = EulerOptions::Unsteady::stop;
   options.time = EulerOptions::Time::accurate;

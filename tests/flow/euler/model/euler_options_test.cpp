@@ -55,7 +55,7 @@ TEST(EulerOptions, CarryOnWhatMoves) {
               o.mach = 0;
               o.unsteady = EulerOptions::Unsteady::carry_on;
             }),
-            "mach is 0, but must be above 0 for a flow that is carried on in time");
+            "mach is 0, but must be above 0 for a flow that is continued in time");
 }
 
 TEST(EulerOptions, NameTheBoundary) {

@@ -137,10 +137,13 @@ TEST(ViscousTerms, OfCouettesFlowBalanceInLayers) {
   const auto part = viscous_part(mesh, [](Point p) {
     return State{1.4 * 0.7 / (1 + 0.4 * 0.72 * p.y * (1 - p.y) / 2), p.y, 0, 0.7};
   });
+  int inner = 0;
   for (std::int32_t node = 0; node < 49; ++node) {
     if (!grid.inner(node)) continue;
     for (const double value : part[node]) EXPECT_NEAR(value, 0, 1e-14) << node;
+    ++inner;
   }
+  EXPECT_EQ(inner, 25);
 }
 
 TEST(NoSlip, HoldsVelocityAndTemperature) {

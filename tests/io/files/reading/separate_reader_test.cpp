@@ -1,7 +1,8 @@
-// Values through a pipe, from a child that may fail; paths of inputs and outputs; staging folders. On one
+// Values through a pipe, from a program that may fail; paths of inputs and outputs; staging folders. On one
 // rank alone.
 #include "io/files/reading/separate_reader.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -110,53 +111,118 @@ TEST(ValuePipe, EndsWhereTheValuesDo) {
   EXPECT_THROW(pass(reader, result), PipeEnded);
 }
 
+/// A script in the place of quadloop-reader.
 struct ReadSeparately : testing::Test {
-  ReadSeparately() { test::write_bytes(path, "some bytes"); }
-  std::string by(const std::function<std::string()>& read) const {
-    return read_separately<std::string>(path, read);
+  ReadSeparately() {
+    test::write_bytes(path, "some bytes");
+    write_numbers("begin", std::vector<std::uint64_t>{ReaderProtocol::begin});
+    write_numbers("end", std::vector<std::uint64_t>{ReaderProtocol::end});
+  }
+  ~ReadSeparately() override { ::unsetenv("QUADLOOP_READER"); }
+
+  template <class Number>
+  void write_numbers(const std::string& name, std::vector<Number> numbers) const {
+    test::write_bytes(folder.file(name), std::string(reinterpret_cast<const char*>(numbers.data()),
+                                                     numbers.size() * sizeof(Number)));
+  }
+  /// What such a reader sends first, but for a text.
+  void write_status(int status, std::uint64_t length) const {
+    write_numbers("status", std::vector<int>{status});
+    write_numbers("length", std::vector<std::uint64_t>{length});
+  }
+  std::string read_by(const std::string& script) const {
+    const std::string program = folder.file("reader");
+    test::write_bytes(program, "#!/bin/sh\ncd '" + folder.path() + "'\n" + script + "\n");
+    fs::permissions(program, fs::perms::owner_all);
+    ::setenv("QUADLOOP_READER", program.c_str(), 1);
+    return read_separately<std::string>("cgns", path, {"more"});
+  }
+  std::string refusal_of(const std::string& script) const {
+    return test::refusal_text<Error>([&] { read_by(script); });
   }
   TemporaryFolder folder;
   std::string path = folder.file("a.cgns");
 };
 
-TEST_F(ReadSeparately, GivesWhatTheChildHasRead) {
-  int here = 0;
-  const std::string text = by([&] {
-    here = 1;  // in the child alone
-    return test::bytes_of(path);
-  });
-  EXPECT_EQ(text, "some bytes");
-  EXPECT_EQ(here, 0);
+TEST_F(ReadSeparately, GivesWhatTheReaderSends) {
+  write_status(0, 10);
+  EXPECT_EQ(read_by("cat begin status length \"$4\" end >&3"), "some bytes");
+  write_status(0, 4);  // what it is asked for, and nothing but its three standard files and the pipe
+  const int ours = ::open("/dev/null", O_RDONLY), also_ours = ::dup(ours);
+  EXPECT_EQ(read_by("test \"$3 $5\" = 'cgns more' && test \"$(ls /proc/self/fd | wc -l)\" -le 5 && "
+                    "(cat begin status length; printf good; cat end) >&3"),
+            "good");
+  ::close(ours);
+  ::close(also_ours);
 }
 
-TEST_F(ReadSeparately, AnErrorOfTheChildIsThrownHere) {
-  EXPECT_EQ(
-      test::refusal_text<Error>([&] { by([]() -> std::string { throw InputError("line 3 is wrong"); }); }),
-      "line 3 is wrong");
+TEST_F(ReadSeparately, AnErrorOfTheReaderIsThrownHere) {
+  write_status(static_cast<int>(ExitStatus::bad_input), 5);
+  const std::string script = "(cat begin status length; printf wrong; cat end) >&3";
+  EXPECT_EQ(refusal_of(script), "wrong");
+  write_status(static_cast<int>(ExitStatus::output_failed), 5);
   try {
-    by([]() -> std::string { throw OutputError("full"); });
+    read_by(script);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), ExitStatus::output_failed);
   }
+  write_status(ReaderProtocol::too_much_memory, 5);
+  EXPECT_TRUE(says(refusal_of(script), "a.cgns: is damaged: reading it takes more than 256 MB of memory"));
 }
 
 TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
-  const auto crashed = test::refusal_text<Error>([&] {
-    by([]() -> std::string {
-      ::raise(SIGSEGV);
-      return {};
-    });
-  });
+  const std::string crashed = refusal_of("cat begin >&3; kill -SEGV $$");
   EXPECT_TRUE(says(crashed, "a.cgns: is damaged: the library that reads it crashed (")) << crashed;
-  const auto ended = test::refusal_text<Error>([&] { by([]() -> std::string { std::exit(0); }); });
+  const std::string ended = refusal_of("cat begin >&3; exit 0");
   EXPECT_TRUE(says(ended, "a.cgns: is damaged: the library that reads it gave up")) << ended;
+  const std::string slow = refusal_of("cat begin >&3; kill -XCPU $$");
+  EXPECT_TRUE(says(slow, "a.cgns: is damaged: reading it came to no end within 5 seconds")) << slow;
+  write_status(0, 10);
+  const std::string wrong = refusal_of("cat begin status length a.cgns begin >&3");
+  EXPECT_TRUE(says(wrong, "a.cgns: is damaged: what was read from it did not come through")) << wrong;
 }
 
-TEST_F(ReadSeparately, AMissingFileIsRefusedBeforeAnyChild) {
-  EXPECT_TRUE(
-      says(test::refusal_text<Error>([&] { read_separately<int>(folder.file("none"), [] { return 1; }); }),
-           "cannot be opened"));
+TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
+  ::setenv("QUADLOOP_READER", "/nowhere/reader", 1);
+  const std::string missing =
+      test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  EXPECT_TRUE(says(missing, "a.cgns: cannot be read: the program that reads such files is not at "
+                            "/nowhere/reader; install quadloop again, or set QUADLOOP_READER"))
+      << missing;
+  const std::string ended = refusal_of("exit 127");
+  EXPECT_TRUE(says(ended, "/reader ended at once, with status 127; install quadloop again")) << ended;
+  const std::string other = refusal_of("cat end begin >&3");
+  EXPECT_TRUE(says(other, "/reader is of another version than this program")) << other;
+}
+
+TEST_F(ReadSeparately, IsDoneByTheProgramOfThisBuild) {
+  const std::string refused = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  EXPECT_TRUE(says(refused, "a.cgns: the CGNS library refuses: ")) << refused;
+  const std::string no_tree =
+      test::refusal_text<Error>([&] { read_separately<std::string>("tree", path, {"0", "1"}); });
+  EXPECT_TRUE(says(no_tree, "a.cgns: cannot be opened, or is no HDF5 file")) << no_tree;
+}
+
+TEST_F(ReadSeparately, AMissingFileIsRefusedBeforeAnyReader) {
+  EXPECT_TRUE(says(test::refusal_text<Error>([&] { read_separately<int>("cgns", folder.file("none")); }),
+                   "cannot be opened"));
+}
+
+TEST(PassedMesh, IsRefusedWhereItNamesWhatItHasNot) {
+  FileMesh mesh;
+  mesh.points.resize(3);
+  add_cell<CellKind::triangle>(mesh, std::array{0, 1, 2}, mesh.block_named("a"));
+  EXPECT_NO_THROW(require_consistent(mesh, "m"));
+  FileMesh other = mesh;
+  other.triangles[0][2] = 3;
+  EXPECT_THROW(require_consistent(other, "m"), InputError);
+  other = mesh;
+  other.cell_to_block[0][0] = 1;
+  EXPECT_THROW(require_consistent(other, "m"), InputError);
+  other = mesh;
+  other.solution.emplace().names = {"p"};
+  EXPECT_THROW(require_consistent(other, "m"), InputError);
 }
 
 TEST(InputFile, WhatIsNoFileIsRefused) {

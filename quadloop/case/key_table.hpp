@@ -1,0 +1,212 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "io/input/case_file.hpp"
+#include "mesher/base/word_table.hpp"
+#include "mesher/geometry/point.hpp"
+
+namespace quadloop {
+
+/// What a key requires of other keys. A condition is one of these, or several with " or " between them:
+///
+///     rotate                        the key is given
+///     no viscosity                  it is not
+///     kind = "su2"                  its value in the case, or else its default
+///     mach > 0, mach < 1
+///
+/// A name without a dot is that of a key of the same table; others are dotted names: solver.time = "steady".
+struct KeyNeed {
+  std::string condition;
+  std::string remedy = {};
+  std::string when = {};  ///< the condition under which it is required; empty: always
+};
+
+/// Where a key must be given: under a condition, or always where that is empty.
+struct KeyRequired {
+  std::string what;  ///< the key gives, for the message
+  std::string when = {};
+};
+
+/// One row of the table of keys, as users read it.
+struct KeyText {
+  std::string unit = {};
+  std::string fallback = {};  ///< the default in words, where it is not a value of its own
+  std::string example = {};   ///< a valid value that is not the default, as TOML
+  std::vector<KeyNeed> needs = {};
+  std::vector<KeyRequired> required = {};
+
+  // key() fills in the rest:
+  std::string name = {};
+  std::string meaning = {};  ///< sentences, with code and links in Markdown
+  std::string value = {};    ///< type and range in words
+  std::string initial = {};  ///< the default as JSON; empty: none, or one in words
+};
+
+/// All rows of one table. Its name is that in the file, with NAME for what the user chooses:
+/// "boundary.NAME.layers"; empty for the keys above all tables.
+struct TableText {
+  std::string name;
+  std::vector<KeyText> keys;
+};
+
+/// How the value of a key is read, described and shown.
+template <class Value>
+struct ValueForm {
+  std::string text;                                                     ///< "number, above 0"
+  std::string example;                                                  ///< as KeyText::example
+  std::function<Value(const CaseTable&, const std::string& key)> read;  ///< throws InputError
+  std::function<std::string(const Value&)> show = {};  ///< as JSON, empty for none; without it there is none
+};
+
+ValueForm<double> number(const Range& range = {});
+ValueForm<std::int64_t> whole(const Range& range);
+ValueForm<bool> flag();
+ValueForm<std::string> text();
+ValueForm<std::string> one_of(const std::vector<std::string>& words);
+/// One text or a list of them; of the words, if there are any.
+ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words = {});
+ValueForm<Point> point();
+
+/// "`a`, `b` or `c`".
+std::string words_in_text(const std::vector<std::string>& words);
+
+/// A word for each of some values.
+template <class Value>
+ValueForm<Value> choice(std::vector<std::pair<const char*, Value>> values) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : values) words.emplace_back(word);
+  const auto read = [values, words](const CaseTable& table, const std::string& key) {
+    const std::string chosen = table.known_word(key, *table.text(key), words);
+    return values[std::ranges::find(words, chosen) - words.begin()].second;
+  };
+  const auto show = [values](const Value& shown) {
+    for (const auto& [word, value] : values) {
+      if (value == shown) return "\"" + std::string(word) + "\"";
+    }
+    return std::string();
+  };
+  return {words_in_text(words), "\"" + words.back() + "\"", read, show};
+}
+template <class Value, std::size_t count>
+ValueForm<Value> choice(const WordTable<Value, count>& values) {
+  return choice(std::vector<std::pair<const char*, Value>>(values.begin(), values.end()));
+}
+
+/// A row with the member of the options that it sets.
+template <class Target>
+struct Key {
+  KeyText text;
+  std::function<void(const CaseTable&, Target&)> read;        ///< where the table has the key
+  std::function<bool(const Target&, const Target&)> differs;  ///< in what it sets
+};
+
+template <class Member>
+struct OwnerOf;
+template <class Value, class Owner>
+struct OwnerOf<Value Owner::*> {
+  using Type = Owner;
+};
+template <class Member>
+struct InOptional {
+  using Type = Member;
+};
+template <class Value>
+struct InOptional<std::optional<Value>> {
+  using Type = Value;
+};
+
+/// The member at the end of a path of pointers to members.
+template <auto... path, class Target>
+auto& member_of(Target& target) {
+  return (target.*....*path);
+}
+
+/// The row of a key whose value the member at the end of the path takes.
+template <auto first, auto... path, class Value>
+auto key(const std::string& name, ValueForm<Value> form, const std::string& meaning, KeyText text = {}) {
+  using Target = typename OwnerOf<decltype(first)>::Type;
+  const Target usual{};
+  const auto& member = member_of<first, path...>(usual);
+  using Member = std::remove_cvref_t<decltype(member)>;
+  using Taken = typename InOptional<Member>::Type;
+  text.name = name;
+  text.meaning = meaning;
+  text.value = form.text;
+  if (text.example.empty()) text.example = form.example;
+  if constexpr (std::is_constructible_v<Value, const Taken&>) {
+    const std::optional<Taken> initial = member;
+    if (form.show && initial) text.initial = form.show(static_cast<Value>(*initial));
+  }
+  const auto read = [name, form](const CaseTable& table, Target& target) {
+    member_of<first, path...>(target) = static_cast<Taken>(form.read(table, name));
+  };
+  const auto differs = [](const Target& a, const Target& b) {
+    return !(member_of<first, path...>(a) == member_of<first, path...>(b));
+  };
+  return Key<Target>{std::move(text), read, differs};
+}
+
+/// Throws InputError for the first key of the table that is none of these names, with the nearest known key.
+void refuse_unknown_keys(const CaseTable& table, const std::vector<std::string>& names);
+
+/// Throws InputError for a key that is required and missing, and for one without what it requires.
+void require_needs(const CaseTable& table, const TableText& text);
+
+/// The keys of one table, and the options that they are read into.
+template <class Target>
+class KeyTable {
+ public:
+  KeyTable(std::string name, std::vector<Key<Target>> keys)
+      : text_{std::move(name), {}}, keys_{std::move(keys)} {
+    for (const Key<Target>& key : keys_) text_.keys.push_back(key.text);
+  }
+
+  const TableText& text() const { return text_; }
+  const std::vector<Key<Target>>& keys() const { return keys_; }
+
+  /// Throws InputError with place, key and remedy.
+  void read(const CaseTable& table, Target& target) const {
+    std::vector<std::string> names;
+    for (const KeyText& key : text_.keys) names.push_back(key.name);
+    refuse_unknown_keys(table, names);
+    for (const Key<Target>& key : keys_) {
+      if (table.has(key.text.name)) key.read(table, target);
+    }
+    require_needs(table, text_);
+  }
+
+  /// The same rows for a struct that has the options as a member.
+  template <auto member>
+  auto keys_of() const {
+    using Whole = typename OwnerOf<decltype(member)>::Type;
+    std::vector<Key<Whole>> lifted;
+    for (const Key<Target>& key : keys_) {
+      lifted.push_back({key.text,
+                        [read = key.read](const CaseTable& t, Whole& whole) { read(t, whole.*member); },
+                        [differs = key.differs](const Whole& a, const Whole& b) {
+                          return differs(a.*member, b.*member);
+                        }});
+    }
+    return lifted;
+  }
+
+ private:
+  TableText text_;
+  std::vector<Key<Target>> keys_;
+};
+
+/// Rows of several tables, or of a table and some more.
+template <class Target>
+std::vector<Key<Target>> joined(std::vector<Key<Target>> first, const std::vector<Key<Target>>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace quadloop

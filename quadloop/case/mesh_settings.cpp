@@ -1,0 +1,291 @@
+#include "quadloop/case/mesh_settings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "io/input/length_units.hpp"
+#include "mesher/base/error.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// What one file has of the values: one stands for all files, else there is one for each.
+template <class Value, class Set>
+void share_out(const CaseTable& table, const std::string& key, const std::vector<Value>& values,
+               std::vector<GeometryInput>& files, const Set& set) {
+  if (values.size() > 1 && values.size() != files.size())
+    table.refuse(key,
+                 fmt::format("is a list of {}, but there are {} files; give one value, or one for each file",
+                             values.size(), files.size()));
+  for (std::size_t i = 0; i < files.size() && !values.empty(); ++i)
+    set(files[i], values[values.size() == 1 ? 0 : i]);
+}
+
+ValueForm<std::vector<double>> one_or_several(const Range& range, const std::string& text) {
+  return {text, "2", [range](const CaseTable& table, const std::string& key) {
+            return table.numbers_or_one(key, range);
+          }};
+}
+
+ValueForm<std::vector<Point>> points_or_one() {
+  return {"`[x, y]`, or a list", "[3, 4]", [](const CaseTable& table, const std::string& key) {
+            std::vector<Point> points;
+            for (const auto& pair : table.pairs(key)) points.push_back({pair[0], pair[1]});
+            return points;
+          }};
+}
+
+std::vector<std::string> unit_words() {
+  std::vector<std::string> words = length_unit_names();
+  words.insert(words.begin(), {"none", "file"});
+  return words;
+}
+
+ValueForm<FarField> far_field() {
+  return {"number, above 0", "20", [](const CaseTable& table, const std::string& key) {
+            return FarField{*table.number(key, Range::positive()),
+                            fmt::format("{}: 'geometry.far_field'", table.place(key))};
+          }};
+}
+
+/// The numbers of a shape. No geometry reaches beyond 1e100.
+std::vector<double> shape_numbers(const CaseTable& table, const std::string& key, std::size_t count) {
+  return *table.numbers(key, count, {-1e100, 1e100});
+}
+
+/// The half above or beside the axis that mesh.mirror names.
+ValueForm<HalfDomain> half_domain() {
+  return {"text", "\"axis\"", [](const CaseTable& table, const std::string& key) {
+            const std::string name = *table.text(key);
+            const bool is_word =
+                std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != 127; });
+            if (name.empty() || name.front() == '#' || !is_word)
+              table.refuse(key,
+                           "is no name for a boundary; name the one along the axis by a word without blanks");
+            return HalfDomain{
+                table.has("mirror") && table.text("mirror") == "y" ? MirrorAxis::y : MirrorAxis::x, name};
+          }};
+}
+
+ValueForm<RootOptions> root_squares() {
+  return {"`[x0, y0, edge, columns, rows]`", "[-1, -1, 2, 3, 4]",
+          [](const CaseTable& table, const std::string& key) {
+            const std::vector<double> r = *table.numbers(key, 5);
+            const auto is_count = [](double n) { return n == std::floor(n) && n >= 1 && n <= 1024; };
+            if (!(r[2] > 0) || !is_count(r[3]) || !is_count(r[4]))
+              table.refuse(
+                  key,
+                  "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and "
+                  "whole numbers of trees from 1 to 1024");
+            return RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
+          }};
+}
+
+}  // namespace
+
+const KeyTable<Settings>& geometry_keys() {
+  static const KeyTable<Settings> keys{
+      "geometry",
+      {key<&Settings::placement, &Placement::files>(
+           "file", texts(),
+           "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.geojson`, `.shp`, `.gpkg` "
+           "([formats](formats.md)).",
+           {.example = "\"box.geom\"", .required = {{"name the outline, as in file = \"outline.geom\""}}}),
+       key<&Settings::placement, &Placement::scale>(
+           "scale", one_or_several(Range::positive(), "number, above 0, or a list"),
+           "Scale factor of the coordinates, about the origin.", {.fallback = "1"}),
+       key<&Settings::placement, &Placement::rotate>(
+           "rotate", one_or_several({}, "number, or a list"),
+           "Rotation after scaling, counter-clockwise, about `rotate_about`. An angle of attack of 9 degrees "
+           "is `rotate = -9`.",
+           {.unit = "degrees", .fallback = "0"}),
+       key<&Settings::placement, &Placement::rotate_about>(
+           "rotate_about", points_or_one(),
+           "Centre of rotation, for example the hinge of a flap, in scaled coordinates.",
+           {.fallback = "the origin", .needs = {{"rotate", "the angle in degrees"}}}),
+       key<&Settings::placement, &Placement::translate>(
+           "translate", points_or_one(), "Translation after the rotation.", {.fallback = "`[0, 0]`"}),
+       key<&Settings::placement, &Placement::layers>(
+           "layers", texts(),
+           "Layers to read from a drawing or a map, with wildcards `*` and `?`. All: of a drawing, those "
+           "that are neither off nor frozen.",
+           {.fallback = "all"}),
+       key<&Settings::outline, &AssembleOptions::join>(
+           "join", number({0, 0.1, true, false}),
+           "Tolerance for joining the ends of chains, as a fraction of the extent. A warning counts the "
+           "joints."),
+       key<&Settings::placement, &Placement::unit>(
+           "unit", texts(unit_words()),
+           "Unit of the coordinates, which are converted to metres; see [units](#units).",
+           {.fallback = "`\"none\"`"}),
+       key<&Settings::outline, &AssembleOptions::unite_islands>(
+           "overlap", choice<bool>({{"error", false}, {"union", true}}),
+           "`union`: islands that overlap or share edges are merged, see below."),
+       key<&Settings::far_field>("far_field", far_field(),
+                                 "Half width of a generated square boundary `farfield`, centred on the "
+                                 "bounding box of all other boundaries.",
+                                 {.unit = "length"}),
+       key<&Settings::inside>("inside", flag(),
+                              "Mesh the inside of an airfoil (`.dat`) without outer boundary. Without this "
+                              "key such a case is an error."),
+       key<&Settings::mesh, &MeshOptions::may_vanish>("vanish",
+                                                      choice<bool>({{"error", false}, {"allow", true}}),
+                                                      "Treatment of a named boundary whose loops are all "
+                                                      "smaller than `spacing.min`: an error, or drop it.")}};
+  return keys;
+}
+
+const KeyTable<Settings>& spacing_keys() {
+  static const KeyTable<Settings> keys{
+      "spacing",
+      {key<&Settings::min>(
+           "min", number(Range::positive()),
+           "No quadtree cell is split into cells smaller than this; see [available sizes](#available-sizes).",
+           {.unit = "length",
+            .fallback = "half the smallest requested size; smaller where `gap` requires it"}),
+       key<&Settings::max>("max", number(Range::positive()), "Largest cell size.",
+                           {.unit = "length", .fallback = "a sixteenth of the domain"}),
+       key<&Settings::mesh, &MeshOptions::size, &SizeOptions::gradation>(
+           "gradation", number({1, 2, true, false}),
+           "Growth limit g: at distance d from a cell of prescribed size h', the size is at most h' + "
+           "(g-1)d/2."),
+       key<&Settings::mesh, &MeshOptions::size, &SizeOptions::curvature>(
+           "curvature", number({0, 180, true, false}),
+           "Largest turning angle of the boundary per cell; feature points are excluded.",
+           {.unit = "degrees", .fallback = "off"}),
+       key<&Settings::mesh, &MeshOptions::size, &SizeOptions::gap>(
+           "gap", number({0, 1000, true, false}),
+           "Number of cells across the gap between two facing boundaries.", {.fallback = "off"}),
+       key<&Settings::outline, &AssembleOptions::default_corner_degrees>(
+           "corner", number({0, 180}),
+           "Feature angle: a point where the boundary turns by more becomes a node of the mesh; 180 keeps "
+           "none.",
+           {.unit = "degrees"})}};
+  return keys;
+}
+
+const KeyTable<SizeSource>& source_keys() {
+  const auto box = [](const CaseTable& table, const std::string& key) {
+    const auto b = shape_numbers(table, key, 4);
+    if (!(b[0] < b[1] && b[2] < b[3])) table.refuse(key, "must be [x0, x1, y0, y1] with x0 < x1 and y0 < y1");
+    return Box{{b[0], b[2]}, {b[1], b[3]}};
+  };
+  const auto disc = [](const CaseTable& table, const std::string& key) {
+    const auto d = shape_numbers(table, key, 3);
+    if (!(d[2] > 0)) table.refuse(key, "must be [x, y, radius] with a radius above 0");
+    return SizeSource::Disc{{d[0], d[1]}, d[2]};
+  };
+  const auto line = [](const CaseTable& table, const std::string& key) {
+    const auto l = shape_numbers(table, key, 4);
+    return SizeSource::Line{{l[0], l[1]}, {l[2], l[3]}};
+  };
+  static const KeyTable<SizeSource> keys{
+      "source",
+      {key<&SizeSource::shape>("box", ValueForm<Box>{"`[x0, x1, y0, y1]`", "[0, 1, 2, 3]", box},
+                               "A rectangle. A source has one of `box`, `disc` and `line`."),
+       key<&SizeSource::shape>("disc", ValueForm<SizeSource::Disc>{"`[x, y, radius]`", "[1, 2, 0.5]", disc},
+                               "A disc."),
+       key<&SizeSource::shape>(
+           "line", ValueForm<SizeSource::Line>{"`[x0, y0, x1, y1]`", "[1, 2, 3, 2]", line}, "A line."),
+       key<&SizeSource::spacing>(
+           "spacing", number(Range::positive()), "Cells that intersect the shape are no larger than this.",
+           {.unit = "length", .required = {{"the size of cells that meet the shape"}}})}};
+  return keys;
+}
+
+const KeyTable<Settings>& mesh_keys() {
+  static const KeyTable<Settings> keys{
+      "mesh",
+      {key<&Settings::mesh, &MeshOptions::type>(
+           "type",
+           choice<MeshType>({{"hybrid", MeshType::hybrid},
+                             {"delaunay", MeshType::delaunay},
+                             {"metric", MeshType::metric}}),
+           "Cells: quadrilaterals and triangles, or constrained Delaunay triangles, or triangles stretched "
+           "by the solution; see [cell types](#cell-types).",
+           {.example = "\"delaunay\""}),
+       key<&Settings::mesh, &MeshOptions::quads>(
+           "quads", choice<QuadChoice>({{"all", QuadChoice::all}, {"parallel", QuadChoice::parallel}}),
+           "`parallel`: keep parallelograms only and divide the other quadrilaterals; see [cell "
+           "types](#cell-types)."),
+       key<&Settings::mesh, &MeshOptions::mirror>(
+           "mirror", choice<MirrorAxis>({{"x", MirrorAxis::x}, {"y", MirrorAxis::y}}),
+           "Make the mesh exactly symmetric about this axis ([symmetric "
+           "meshes](../how-to/symmetric-meshes.md)).",
+           {.fallback = "none",
+            .needs =
+                {{"half",
+                  "no mesh of type = \"metric\" is kept symmetric; mesh one half of it: add half = \"axis\"",
+                  "type = \"metric\""}}}),
+       key<&Settings::half>("half", half_domain(),
+                            "Mesh only the half above the x axis (right of the y axis); the value names the "
+                            "boundary along the axis.",
+                            {.fallback = "none", .needs = {{"mirror", "of what it is the half"}}}),
+       key<&Settings::mesh, &MeshOptions::size, &SizeOptions::root>(
+           "root", root_squares(),
+           "Lower left corner, edge and number of the root squares, for meshes that must share one "
+           "background grid.",
+           {.fallback = "from the geometry"}),
+       key<&Settings::mesh, &MeshOptions::snap>("snap", number({0, 0.5, false, true}),
+                                                "Snap tolerance as a fraction of the local cell size: grid "
+                                                "vertices within it are moved onto the boundary.")}};
+  return keys;
+}
+
+void read_geometry_table(const CaseTable& table, const std::string& case_path, Settings& settings) {
+  geometry_keys().read(table, settings);
+  const Placement& given = settings.placement;
+  std::vector<GeometryInput>& files = settings.files;
+  const auto folder = std::filesystem::path(case_path).parent_path();
+  for (const std::string& file : given.files)
+    files.push_back({(folder / file).string(),
+                     fmt::format("{}: 'geometry.file'", table.place("file")),
+                     {},
+                     given.layers});
+  if (files.empty()) table.refuse("file", "is empty; name the outline, as in file = \"outline.geom\"");
+  if (!given.layers.empty() && std::ranges::none_of(given.files, has_layers_of_drawings))
+    table.refuse("layers", "chooses layers of drawings and maps, but no file is one");
+  share_out(table, "scale", given.scale, files,
+            [](auto& file, double scale) { file.transform.scale = scale; });
+  share_out(table, "rotate", given.rotate, files,
+            [](auto& file, double turn) { file.transform.rotate_degrees = turn; });
+  share_out(table, "rotate_about", given.rotate_about, files,
+            [](auto& file, Point p) { file.transform.rotate_about = p; });
+  share_out(table, "translate", given.translate, files,
+            [](auto& file, Point p) { file.transform.translate = p; });
+  share_out(table, "unit", given.unit, files, [](auto& file, const std::string& unit) { file.unit = unit; });
+}
+
+void read_spacing_table(const CaseTable& table, Settings& settings) {
+  spacing_keys().read(table, settings);
+  if (settings.min && settings.max && *settings.min > *settings.max)
+    table.refuse("min", fmt::format("is {}, but must not be above spacing.max, which is {}", *settings.min,
+                                    *settings.max));
+}
+
+SizeSource read_source(const CaseTable& table) {
+  SizeSource source;
+  source.where = table.place();
+  source_keys().read(table, source);
+  if (int{table.has("box")} + int{table.has("disc")} + int{table.has("line")} != 1)
+    throw InputError(table.place() +
+                     ": a [[source]] needs exactly one of box = [x0, x1, y0, y1], disc = [x, y, radius], "
+                     "line = [x0, y0, x1, y1]");
+  return source;
+}
+
+void read_mesh_table(const CaseTable& table, Settings& settings) {
+  mesh_keys().read(table, settings);
+  if (!settings.half) return;
+  settings.mesh.mirror.reset();  // the half is no image of itself
+  settings.outline.rules.insert(
+      settings.outline.rules.begin(),
+      {settings.half->boundary, {}, {}, "symmetry", table.place("half"), false, true});
+}
+
+}  // namespace quadloop

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "quadloop/case/key_table.hpp"
+#include "quadloop/case/settings.hpp"
+
+namespace quadloop {
+
+/// The tables [geometry], [spacing], [[source]] and [mesh].
+const KeyTable<Settings>& geometry_keys();
+const KeyTable<Settings>& spacing_keys();
+const KeyTable<SizeSource>& source_keys();
+const KeyTable<Settings>& mesh_keys();
+
+/// Read them. All throw InputError that names key and line.
+void read_geometry_table(const CaseTable& table, const std::string& case_path, Settings& settings);
+void read_spacing_table(const CaseTable& table, Settings& settings);
+SizeSource read_source(const CaseTable& table);
+void read_mesh_table(const CaseTable& table, Settings& settings);
+
+}  // namespace quadloop

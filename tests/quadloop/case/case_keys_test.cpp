@@ -1,0 +1,195 @@
+// Every key of a case file: it is read, it changes what it says, and it is described.
+#include "quadloop/case/case_keys.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "mesher/base/error.hpp"
+#include "quadloop/case/adapt_settings.hpp"
+#include "quadloop/case/layer_settings.hpp"
+#include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/smooth_settings.hpp"
+#include "tests/io/input/temporary_file.hpp"
+
+namespace quadloop {
+namespace {
+
+/// Where a table stands in the case of this test.
+std::string place_of(const std::string& table) {
+  const std::map<std::string, std::string> places{{"boundary.NAME", "boundary.box"},
+                                                  {"boundary.NAME.layers", "boundary.box.layers"},
+                                                  {"source", "source.0"},
+                                                  {"wake", "wake.0"},
+                                                  {"layer_line", "layer_line.0"}};
+  const auto found = places.find(table);
+  return found == places.end() ? table : found->second;
+}
+
+const TableText& table_named(const std::string& name) {
+  return *std::ranges::find(case_tables(), name, &TableText::name);
+}
+
+/// Assignments under which a key is accepted: its example, and what its row says that it requires.
+class Accepted {
+ public:
+  void set(const TableText& table, const std::string& key, const std::string& value = "") {
+    const auto row = std::ranges::find(table.keys, key, &KeyText::name);
+    ASSERT_NE(row, table.keys.end()) << table.name << "." << key;
+    const std::string dotted = (table.name.empty() ? "" : place_of(table.name) + ".") + key;
+    if (!values_.emplace(dotted, value.empty() ? row->example : value).second) return;
+    for (const KeyNeed& need : row->needs) satisfy(need.condition, table);
+    for (const KeyText& other : table.keys) {
+      for (const KeyRequired& required : other.required) {
+        if (is_asked(required.when, table)) set(table, other.name);
+      }
+    }
+  }
+
+  std::vector<std::string> assignments() const {
+    std::vector<std::string> all;
+    for (const auto& [key, value] : values_) all.push_back(key + "=" + value);
+    return all;
+  }
+
+ private:
+  bool is_asked(const std::string& when, const TableText& table) const {
+    const auto value_of = [&](const std::string& key) {
+      const auto found = values_.find(place_of(table.name) + "." + key);
+      return found == values_.end() ? std::string() : found->second;
+    };
+    if (when.starts_with("no ")) return value_of(when.substr(3)).empty();
+    const auto sign = when.find(" = ");
+    return when.empty() || value_of(when.substr(0, sign)) == when.substr(sign + 3);
+  }
+
+  void satisfy(const std::string& condition, const TableText& table) {
+    if (condition.starts_with("no ") || condition.find_first_of("<>") != std::string::npos) return;
+    const std::string first = condition.substr(0, condition.find(" or "));
+    const auto sign = first.find(" = "), dot = first.substr(0, sign).find('.');
+    const std::string value = sign == std::string::npos ? "" : first.substr(sign + 3);
+    if (dot == std::string::npos)
+      set(table, first.substr(0, sign), value);
+    else
+      set(table_named(first.substr(0, dot)),
+          first.substr(dot + 1, sign == std::string::npos ? sign : sign - dot - 1), value);
+  }
+
+  std::map<std::string, std::string> values_;
+};
+
+class CaseKeys : public ::testing::Test {
+ protected:
+  /// Reads a case with the key and what it requires, as a whole and into its own target alone.
+  template <class Target>
+  void expect_effect(const KeyTable<Target>& table, const Key<Target>& key) {
+    const std::string name = table.text().name + "." + key.text.name;
+    Accepted accepted;
+    if (name == "solver.goal_about") accepted.set(table.text(), "goal", "\"moment\"");
+    if (name == "geometry.layers") accepted.set(table.text(), "file", "\"box.dxf\"");
+    if (name == "source.spacing") accepted.set(table.text(), "box");
+    accepted.set(table.text(), key.text.name);
+    accepted.set(table_named("geometry"), "file");
+    std::string tables;
+    for (const char* const list : {"source", "wake", "layer_line"})
+      if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
+    const std::string path = folder_.write("case.toml", tables);
+    EXPECT_NO_THROW(read_settings(path, accepted.assignments())) << name;
+    CaseTable below = read_case(path, accepted.assignments());
+    for (std::string rest = place_of(table.text().name); !rest.empty();) {
+      const std::string first = rest.substr(0, rest.find('.'));
+      rest.erase(0, first.size() + 1);
+      const bool is_list = rest == "0";
+      below = is_list ? below.tables(first).at(0) : *below.table(first);
+      if (is_list) rest.clear();
+    }
+    Target target;
+    ASSERT_TRUE(below.has(key.text.name)) << name;
+    key.read(below, target);
+    EXPECT_TRUE(key.differs(target, Target{})) << name << " changes nothing";
+    ++keys_;
+  }
+  template <class Target>
+  void expect_effects(const KeyTable<Target>& table) {
+    for (const Key<Target>& key : table.keys()) expect_effect(table, key);
+    ++tables_;
+  }
+
+  test::InputFolder folder_;
+  std::size_t keys_ = 0, tables_ = 0;
+};
+
+TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
+  expect_effects(title_keys());
+  expect_effects(geometry_keys());
+  expect_effects(spacing_keys());
+  expect_effects(boundary_keys());
+  expect_effects(layer_keys());
+  expect_effects(wake_keys());
+  expect_effects(layer_line_keys());
+  expect_effects(flow_keys());
+  expect_effects(source_keys());
+  expect_effects(mesh_keys());
+  expect_effects(smooth_keys());
+  expect_effects(adapt_keys());
+  expect_effects(until_keys());
+  expect_effects(design_keys());
+  expect_effects(solver_keys());
+  expect_effects(output_keys());
+  EXPECT_EQ(tables_, case_tables().size()) << "each table is tried";
+  EXPECT_GT(keys_, 100U);
+}
+
+TEST_F(CaseKeys, EachIsDescribedOnce) {
+  for (const TableText& table : case_tables()) {
+    for (const KeyText& key : table.keys) {
+      EXPECT_EQ(std::ranges::count(table.keys, key.name, &KeyText::name), 1) << table.name << "." << key.name;
+      EXPECT_TRUE(key.meaning.ends_with(".")) << table.name << "." << key.name;
+      const std::string name = table.name.empty() ? key.name : table.name + "." + key.name;
+      EXPECT_NE(key_help(name).find(name + ": "), std::string::npos) << key_help(name);
+    }
+  }
+}
+
+TEST_F(CaseKeys, HelpFindsKeysAndTables) {
+  EXPECT_EQ(
+      key_help("spacing.max"),
+      "spacing.max: number, above 0 (length); default: a sixteenth of the domain\n    Largest cell size.\n");
+  EXPECT_EQ(key_help("max"), key_help("spacing.max"));
+  EXPECT_EQ(key_help("boundary.wing.bc"), key_help("boundary.NAME.bc"));
+  EXPECT_TRUE(key_help("boundary.a.b.layers.count").starts_with("boundary.NAME.layers.count: whole number"));
+  EXPECT_TRUE(key_help("source.0.spacing").starts_with("source.spacing: "));
+  EXPECT_TRUE(key_help("[smooth]").starts_with("[smooth]\n  sweeps "));
+  EXPECT_TRUE(key_help("boundary.wing").starts_with("[boundary.NAME]\n"));
+  EXPECT_NE(key_help("").find("[output]\n  prefix "), std::string::npos);
+  EXPECT_EQ(key_help("boundary.a.layers.first").find('`'), std::string::npos);
+}
+
+TEST_F(CaseKeys, HelpNamesTheNearestKey) {
+  const auto guess = [](const std::string& topic) {
+    try {
+      return key_help(topic);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(
+      guess("spacing.maxi"),
+      "'spacing.maxi' is no key and no table of a case file; do you mean 'spacing.max'? See 'quadloop help'");
+  EXPECT_NE(guess("gradatoin").find("'spacing.gradation'?"), std::string::npos);
+  EXPECT_NE(guess("qqqqqq").find("no table of a case file; see"), std::string::npos);
+}
+
+TEST_F(CaseKeys, TheReferenceHasARowForEachKey) {
+  const std::string text = key_reference();
+  const auto has = [&](const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << part; };
+  has("<!-- keys of boundary.NAME -->\n| key | value | default | meaning |\n");
+  has("| `half` | text | none | Mesh only the half above the x axis");
+  has("Requires `mirror`. |");
+  has("| `bc` | `wall`, `farfield`, `inflow`, `outflow`, `symmetry`, `interface` or `none` | `none` |");
+  has("Required with `time = \"accurate\"`. |");
+}
+
+}  // namespace
+}  // namespace quadloop
