@@ -72,8 +72,7 @@ Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
     }
     if (longest > most_stretched * shortest) ++stretched;
   };
-  for (const auto& nodes : mesh.triangles) look_at(nodes);
-  for (const auto& nodes : mesh.quads) look_at(nodes);
+  mesh.for_each_cell(look_at);
   if (stretched == 0) return {};
   return {fmt::format(
       "{}: {} cells have an aspect ratio above {:g}; smoothing makes layers among them uniform, unless a "

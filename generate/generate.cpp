@@ -31,8 +31,9 @@ bool keeps_parallelograms(const MeshOptions& mesh) {
 }
 
 std::function<TieRank(Point)> order_of_nodes(const MeshInput& input, int finest_level) {
-  return [lattice = choose_root(input.geometry, input.mesh.size.root), finest_level,
-          mirror = input.mesh.mirror](Point p) { return tie_rank(lattice, finest_level, p, mirror); };
+  return [lattice = input.lattice(), finest_level, mirror = input.mesh.mirror](Point p) {
+    return tie_rank(lattice, finest_level, p, mirror);
+  };
 }
 
 /// The same for the cells of layers, but where the mesh is to be its own mirror image nodes rank as their
@@ -57,14 +58,6 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
   }
 }
 
-/// Moved nodes leave some parallelograms skew; those are divided too. *Collective.*
-void keep_parallelograms(const Communicator& comm, const std::function<TieRank(Point)>& rank,
-                         MeshResult& result) {
-  split_skew_quads(result.mesh, result.tree.leaves, rank);
-  result.tree.attributes.triangles = comm.sum(std::ssize(result.mesh.triangles));
-  result.tree.attributes.quads = comm.sum(std::ssize(result.mesh.quads));
-}
-
 /// A flag for each owned node; the nodes are sorted.
 NodeFlags owned_among(const std::vector<GlobalNodeId>& nodes, const Mesh& mesh) {
   NodeFlags flags(mesh.owned_nodes, 0);
@@ -81,7 +74,9 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   options.keep_slots = !has_triangles_alone(input.mesh.type);
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
-  if (keeps_parallelograms(input.mesh)) keep_parallelograms(comm, order_of_nodes(input, finest), result);
+  if (keeps_parallelograms(input.mesh)) {  // moved nodes leave some skew; those are divided too
+    split_skew_quads(result.mesh, result.tree.leaves, order_of_nodes(input, finest));
+  }
   log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
                           report.moves, report.free_nodes, report.sweeps, report.worst_cost_after,
                           report.worst_cost_before));
@@ -104,11 +99,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   if (front.has_strips())
     add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   name_layers(input.geometry, result.mesh);
-  TreeAttributes& a = result.tree.attributes;
-  a.geometry_digest = input.geometry.digest();
-  a.nodes = comm.sum(result.mesh.owned_nodes);
-  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
-  a.quads = comm.sum(std::ssize(result.mesh.quads));
+  result.tree.attributes.geometry_digest = input.geometry.digest();
 }
 
 /// A mesh that is not smoothed yet. *Collective.*
@@ -150,7 +141,7 @@ class OutsideMesh {
         demanded_{demanded},
         splits_{demanded},
         front_{front},
-        lattice_{choose_root(input.geometry, input.mesh.size.root)},
+        lattice_{input.lattice()},
         outer_{outside(input, front)} {}
 
   GeneratedMesh made(const MeshChange& wanted) {
@@ -279,6 +270,7 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   require_sound(comm, result.mesh);
   generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);
+  count_entries(comm, result);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

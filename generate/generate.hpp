@@ -27,6 +27,9 @@ struct MeshInput {
   /// Where cells are to follow the solution on the last mesh: so many times thinner at most than the tree
   /// makes them (adapt/targets).
   std::optional<double> stretch = {};
+
+  /// That of the whole domain, on which the mesh outside layers is made too.
+  Lattice lattice() const { return choose_root(geometry, mesh.size.root); }
 };
 
 /// A smoothed mesh and its tree record, complete but for what a file adds.

@@ -65,7 +65,7 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
   MeshInput outer = input;
   outer.geometry = front.outer;
   outer.smooth.front_heights = front.last_heights;
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  const Lattice lattice = input.lattice();
   outer.mesh.size.root = RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(),
                                      lattice.trees_y(), lattice.box().high};
   return outer;

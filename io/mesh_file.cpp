@@ -84,7 +84,7 @@ MeshContent content_of(const Boundaries& boundaries) {
   MeshContent content;
   for (const auto& boundary : boundaries) {
     content.boundary_names.push_back(boundary.name);
-    content.has_conditions = content.has_conditions || boundary.condition != "none";
+    content.has_conditions = content.has_conditions || boundary.condition != BoundaryCondition::none;
   }
   return content;
 }

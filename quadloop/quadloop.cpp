@@ -49,7 +49,7 @@ void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field
     throw InputError(fmt::format("the field has {} values on rank {}, but {} variables at {} nodes",
                                  field.values.size(), comm.rank(), field.width(), mesh.owned_nodes));
   });
-  const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
+  const std::size_t cells = mesh.cell_count();
   comm.together([&] {
     if (field.cells.values.size() == field.cells.width() * cells) return;
     throw InputError(fmt::format("the field has {} cell values on rank {}, but {} variables in {} cells",
@@ -85,7 +85,7 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
   const MeshInput& input = mesh_input(of);
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  const Lattice lattice = input.lattice();
   SmoothOptions options = smooth_options_for(input, lattice.finest_level(input.mesh.size.min));
   if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
   keep_layers(comm, mesh, options);

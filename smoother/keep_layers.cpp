@@ -38,8 +38,7 @@ NodeFlags nodes_of_stretched(const Communicator& comm, const Mesh& mesh) {
     if (!is_stretched(mesh, cell)) return;
     for (const NodeId node : cell) nodes.push_back(mesh.global(node));
   };
-  for (const auto& cell : mesh.triangles) look_at(cell);
-  for (const auto& cell : mesh.quads) look_at(cell);
+  mesh.for_each_cell(look_at);
   flag_at_owners(comm, NodeOwners(comm, mesh.first_node), nodes, flags);
   return flags;
 }

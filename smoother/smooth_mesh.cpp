@@ -34,14 +34,7 @@ constexpr double even_at_first = 0.3, even_later = 1.1;
 /// A sweep with this many times fewer moves than the busiest one ends a round.
 constexpr std::int64_t few = 100;
 
-template <class AnyMesh, std::size_t width>
-std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
-  std::array<Point, width> points;
-  for (std::size_t k = 0; k < width; ++k) points[k] = mesh.point(nodes[k]);
-  return points;
-}
-
-/// Fast path: most cells are squares, whose cost is exactly 0.
+/// Most cells are whole leaves, whose cost is 0 to the last bit.
 bool is_square(const std::array<Point, 4>& p) {
   return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x &&
          p[1].x - p[0].x == p[2].y - p[1].y && p[0].x < p[1].x;

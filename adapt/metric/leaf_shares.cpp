@@ -122,10 +122,7 @@ void share_among_leaves(const Communicator& comm, const Lattice& lattice, const 
   }
   for (LeafRecord& leaf : leaves) leaf.block = leaf.triangles > 0 ? 1 : 0;
   result.mesh = joined(comm, triangles, mesh.boundaries);
-  TreeAttributes& a = result.tree.attributes;
-  a.nodes = comm.sum(std::int64_t{result.mesh.owned_nodes});
-  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
-  a.quads = 0;
+  count_entries(comm, result);
 }
 
 }  // namespace quadloop

@@ -40,8 +40,7 @@ double WantedMetric::integral(const std::vector<Metric>& metrics) const {
     for (const NodeId node : nodes) density += density_of(metrics[node.value()]);
     terms.push_back(areas_[terms.size()] * density / static_cast<double>(nodes.size()));
   };
-  for (const auto& nodes : mesh_.triangles) add(nodes);
-  for (const auto& nodes : mesh_.quads) add(nodes);
+  mesh_.for_each_cell(add);
   return reproducible_sum(comm_, terms);
 }
 

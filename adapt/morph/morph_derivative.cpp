@@ -74,7 +74,8 @@ std::vector<LinearMotion> MorphDerivative::rates(std::span<const Point> of_point
 }
 
 std::vector<Point> MorphDerivative::velocity(std::span<const Point> of_points) const {
-  QUADLOOP_REQUIRE(of_points.size() == points_, "each point of the outline moves somehow");
+  QUADLOOP_REQUIRE(of_points.size() == points_, "each point of the outline moves somehow", of_points.size(),
+                   points_);
   const std::vector<LinearMotion> of_motions = rates(of_points);
   const HaloMesh& mesh = motion_.before();
   const InverseDistance field = motion_.field(reach_, [&](std::int32_t foot) { return of_motions[foot]; });

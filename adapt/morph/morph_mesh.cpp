@@ -70,8 +70,7 @@ class Morph {
       if (quality_at(cell, now) >= quality_kept * quality_at(cell, before)) return;
       for (const NodeId node : cell) nodes.push_back(mesh.global(node));
     };
-    for (const auto& cell : mesh.triangles) look_at(cell);
-    for (const auto& cell : mesh.quads) look_at(cell);
+    mesh.for_each_cell(look_at);
     NodeFlags near(halo_.points().size(), 0);
     flag_at_owners(comm_, NodeOwners(comm_, mesh.first_node), nodes, near);
     grow(halo_, near, smoothed_rings);
@@ -86,8 +85,7 @@ class Morph {
       const double quality = quality_at(nodes, [&](NodeId node) { return mesh.point(node); });
       worst = std::min(worst, std::pair(quality, mesh.point(nodes[0])));
     };
-    for (const auto& nodes : mesh.triangles) look_at(nodes);
-    for (const auto& nodes : mesh.quads) look_at(nodes);
+    mesh.for_each_cell(look_at);
     struct Found {
       double quality;
       Point place;
@@ -104,8 +102,7 @@ class Morph {
       const double quality = quality_at(nodes, [&](NodeId node) { return mesh.point(node); });
       if (quality <= 0 || !is_layer_cell(motion_.places(), nodes)) worst = std::min(worst, quality);
     };
-    for (const auto& nodes : mesh.triangles) look_at(nodes);
-    for (const auto& nodes : mesh.quads) look_at(nodes);
+    mesh.for_each_cell(look_at);
     return comm_.minimum(worst);
   }
 

@@ -67,7 +67,7 @@ class NodeSearch {
 };
 
 int finest_level(const MeshInput& input, const AdaptOptions& options) {
-  const Lattice lattice = choose_root(input.geometry, input.mesh.size.root);
+  const Lattice lattice = input.lattice();
   return options.min ? lattice.finest_level(*options.min, "adapt.min")
                      : lattice.finest_level(input.mesh.size.min);
 }

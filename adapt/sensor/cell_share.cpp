@@ -21,11 +21,13 @@ CellShare::CellShare(const Communicator& comm, std::int64_t held, std::int64_t w
     : first_held_{firsts_of_ranks(comm, held)}, first_wanted_{firsts_of_ranks(comm, wanted)} {}
 
 std::vector<double> CellShare::bring(const Communicator& comm, std::span<const double> held) const {
-  QUADLOOP_REQUIRE(all_held() == all_wanted(), "the cells held are not the cells wanted");
+  QUADLOOP_REQUIRE(all_held() == all_wanted(), "the cells held are not the cells wanted", all_held(),
+                   all_wanted());
   const std::size_t self = comm.rank();
   const std::int64_t begin = first_held_[self], end = first_held_[self + 1];
-  QUADLOOP_REQUIRE(std::ssize(held) == end - begin, "there must be one value for each cell");
-  if (first_held_ == first_wanted_) return {held.begin(), held.end()};  // true on all ranks or on none
+  QUADLOOP_REQUIRE(std::ssize(held) == end - begin, "there must be one value for each cell", held.size(),
+                   begin, end);
+  if (first_held_ == first_wanted_) return {held.begin(), held.end()};  // on every rank
   std::vector<int> ranks;
   for (int rank = 0; rank < comm.size(); ++rank) {
     const std::size_t r = rank;

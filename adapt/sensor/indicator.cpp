@@ -66,7 +66,7 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const TellingEdg
 std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
                                    std::span<const LeafRecord> leaves, const Field& field, Indicator kind) {
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
-  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
+  std::vector<double> of_cells(mesh.cell_count(), 0);
   check_field(comm, mesh, field, FieldSign::any);
   const Field shared = with_copies(comm, mesh, field);
   const TellingEdges edges(comm, mesh);
@@ -90,7 +90,7 @@ std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
   check_field(comm, mesh, error, FieldSign::not_negative);
   if (error.cells.width() > 0) return cells_of_leaves.largest(comm, error.cells.column(0));
   const std::vector<double> values = with_copies(comm, mesh, error).column(0);
-  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(), 0);
+  std::vector<double> of_cells(mesh.cell_count(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
     double& value = of_cells[cell];
     value = std::max(value, values[from.value()]);

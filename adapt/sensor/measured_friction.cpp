@@ -106,8 +106,7 @@ class CellsAtWalls {
                const WallFlow& flow)
       : mesh_{mesh}, cells_{cells}, friction_{cells.names}, flow_{flow} {
     for (const WallEdge& edge : edges) points_.emplace(edge.nodes, edge.points);
-    for (const auto& cell : mesh.triangles) add(cell);
-    for (const auto& cell : mesh.quads) add(cell);
+    mesh.for_each_cell([&](const auto& cell) { add(cell); });
   }
   const std::vector<CellAtEdge>& found() const { return found_; }
 
@@ -166,8 +165,7 @@ class CellHeights {
  public:
   CellHeights(const Mesh& mesh, const std::vector<WallEdge>& edges) : mesh_{mesh} {
     for (const WallEdge& edge : edges) points_.emplace(edge.nodes, edge.points);
-    for (const auto& cell : mesh.triangles) add(cell);
-    for (const auto& cell : mesh.quads) add(cell);
+    mesh.for_each_cell([&](const auto& cell) { add(cell); });
   }
   const std::vector<HeightAbove>& heights() const { return heights_; }
 

@@ -25,7 +25,8 @@ OrderedValues::OrderedValues(const Communicator& comm, std::span<const LeafRecor
   std::vector<double> unordered;
   unordered.reserve(values.size());
   comm.together([&] {
-    QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
+    QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf",
+                     leaves.size(), values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!has_cells(leaves[i])) continue;
       QUADLOOP_REQUIRE(std::isfinite(values[i]) && values[i] >= 0,
@@ -60,9 +61,9 @@ std::int64_t OrderedValues::count_up_to(double bound) const {
 }
 
 double OrderedValues::kth_smallest(std::int64_t k) const {
-  QUADLOOP_REQUIRE(1 <= k && k <= count_, "there is no such value");
-  // Bit patterns of non-negative doubles are integers in the same order, so bisection of an interval of them
-  // ends at the exact value.
+  QUADLOOP_REQUIRE(1 <= k && k <= count_, "there is no such value", k, count_);
+  // The bits of doubles that are not negative are integers in the same order, so halving an interval of them
+  // ends at the very value.
   auto low = std::bit_cast<std::uint64_t>(smallest_), high = std::bit_cast<std::uint64_t>(largest_);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
@@ -76,7 +77,7 @@ double OrderedValues::kth_smallest(std::int64_t k) const {
 }
 
 std::int64_t OrderedValues::count_of_share(double share) const {
-  QUADLOOP_REQUIRE(0 <= share && share <= 1, "a share must be from 0 to 1");
+  QUADLOOP_REQUIRE(0 <= share && share <= 1, "a share must be from 0 to 1", share);
   return std::llround(share * static_cast<double>(count_));
 }
 

@@ -66,7 +66,8 @@ Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values,
 
 std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values,
                               const Thresholds& thresholds) {
-  QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf");
+  QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf", leaves.size(),
+                   values.size());
   std::vector<Mark> marks(leaves.size(), Mark::keep);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (!has_cells(leaves[i])) continue;

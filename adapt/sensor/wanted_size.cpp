@@ -16,8 +16,7 @@ std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::
   check_field(comm, mesh, size, FieldSign::positive);
   if (size.cells.width() > 0) return cells_of_leaves.smallest(comm, size.cells.column(0));
   const std::vector<double> values = with_copies(comm, mesh, size).column(0);
-  std::vector<double> of_cells(mesh.triangles.size() + mesh.quads.size(),
-                               std::numeric_limits<double>::infinity());
+  std::vector<double> of_cells(mesh.cell_count(), std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
     double& value = of_cells[cell];
     value = std::min(value, values[from.value()]);
@@ -32,7 +31,8 @@ int level_for_size(double tree_edge, double size) {
 }
 
 std::vector<Mark> mark_by_size(const TreeRecord& tree, std::span<const double> sizes) {
-  QUADLOOP_REQUIRE(sizes.size() == tree.leaves.size(), "there must be one size for each leaf");
+  QUADLOOP_REQUIRE(sizes.size() == tree.leaves.size(), "there must be one size for each leaf", sizes.size(),
+                   tree.leaves.size());
   std::vector<Mark> marks;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];

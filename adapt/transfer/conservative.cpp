@@ -82,7 +82,7 @@ class CellSums {
         corners_{corners_of(side)} {}
 
   std::vector<CornerSums> of(std::size_t variable) const {
-    std::vector<CornerSums> sums(side_.mesh.triangles.size() + side_.mesh.quads.size());
+    std::vector<CornerSums> sums(side_.mesh.cell_count());
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const double covered = integrals_.areas[i];
       if (!(covered > touching * area_of(corners_[i]))) continue;
@@ -139,8 +139,7 @@ CarriedCells carry_cells(const Communicator& comm, const CurveShares& shares, co
   const std::vector<Corners> corners = corners_of(new_side);
   const OverlapIntegrals integrals = integrate_overlaps(comm, shares, old_field, corners);
   const CellOwners owners(comm, new_side.mesh);
-  const std::size_t count = new_side.mesh.triangles.size() + new_side.mesh.quads.size(),
-                    width = cells.width();
+  const std::size_t count = new_side.mesh.cell_count(), width = cells.width();
   std::vector<double> areas(count, 0), covered(count, 0);
   std::vector<CoveredValue> sums(count * width);
   for (std::size_t i = 0; i < corners.size(); ++i) {

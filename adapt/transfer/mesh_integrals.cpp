@@ -24,8 +24,7 @@ class CellTerms {
   /// Mesh, field and columns must outlive it.
   CellTerms(const Mesh& mesh, Point centre, const Field& field, std::span<const Column> columns)
       : mesh_{mesh}, centre_{centre}, field_{field}, columns_{columns}, terms_(columns.size()) {
-    for (std::vector<double>& of_column : terms_)
-      of_column.reserve(mesh.triangles.size() + mesh.quads.size());
+    for (std::vector<double>& of_column : terms_) of_column.reserve(mesh.cell_count());
   }
 
   void add(const std::array<NodeId, 3>& triangle) { add(parts_of(mesh_, centre_, triangle)); }
@@ -80,8 +79,7 @@ class CellTerms {
 std::vector<double> integrals(const Communicator& comm, const Mesh& mesh, Point centre, const Field& field,
                               std::span<const Column> columns) {
   CellTerms cells(mesh, centre, field, columns);
-  for (const auto& triangle : mesh.triangles) cells.add(triangle);
-  for (const auto& quad : mesh.quads) cells.add(quad);
+  mesh.for_each_cell([&](const auto& triangle) { cells.add(triangle); });
   std::vector<double> sums;
   for (const std::vector<double>& of_column : cells.terms())
     sums.push_back(reproducible_sum(comm, of_column));

@@ -31,8 +31,7 @@ Point worst_place(const Mesh& mesh) {
     worst = cost;
     place = 1.0 / size32(nodes) * sum;
   };
-  for (const auto& nodes : mesh.triangles) look_at(nodes);
-  for (const auto& nodes : mesh.quads) look_at(nodes);
+  mesh.for_each_cell(look_at);
   return place;
 }
 

@@ -34,7 +34,7 @@ void take_start(const DualMesh& dual, const Field& start, const std::vector<std:
                 std::vector<State>& states) {
   const Field given = selected(start, names, "the starting state");
   const std::size_t owned = dual.owned_nodes();
-  QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node");
+  QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node", given.values.size(), owned);
   for (std::size_t node = 0; node < owned; ++node)
     std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
 }

@@ -34,7 +34,8 @@ void append_quantities(std::vector<std::string>& variables, std::vector<double>&
     const auto row = std::span<const double>(values).subspan(at, variables.size());
     for (const std::size_t k : kept) all.push_back(row[k]);
     for (const std::string& name : names) {
-      QUADLOOP_REQUIRE(name == mach_name || name == pressure_coefficient_name, "a quantity that is known");
+      QUADLOOP_REQUIRE(name == mach_name || name == pressure_coefficient_name, "a quantity that is known",
+                       name);
       all.push_back(name == mach_name ? columns.mach(row, stream.gamma)
                                       : pressure_coefficient(columns.pressure(row), stream));
     }

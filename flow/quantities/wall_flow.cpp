@@ -38,7 +38,8 @@ struct Walls {
     for (const BoundaryEdges& boundary : mesh.boundaries) {
       const bool is_wall = std::ranges::find(names, boundary.name) != names.end();
       asked.push_back(is_wall ? 1 : 0);
-      rough.push_back(is_wall && stream.viscosity > 0 && boundary.condition != "inviscid_wall" ? 1 : 0);
+      rough.push_back(
+          is_wall && stream.viscosity > 0 && boundary.condition != BoundaryCondition::inviscid_wall ? 1 : 0);
     }
   }
   std::vector<char> asked, rough;  ///< rough: with friction
@@ -216,7 +217,7 @@ Field from_cells(const Communicator& comm, const Mesh& mesh, const CellValues& c
 std::vector<std::string> walls_of(const Mesh& mesh) {
   std::vector<std::string> walls;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    if (is_wall(boundary.condition)) walls.push_back(boundary.name);
+    if (boundary.condition.is_wall()) walls.push_back(boundary.name);
   }
   return walls;
 }

@@ -33,10 +33,10 @@ std::string range_text(cgsize_t first, cgsize_t last) {
 /// The boundary conditions of families by their names; "none" for a family that says nothing.
 class CgnsFamilies {
  public:
-  std::string condition_of(const File& file, const std::string& family) {
+  BoundaryCondition condition_of(const File& file, const std::string& family) {
     if (!conditions_) read(file);
     const auto found = conditions_->find(family);
-    return found == conditions_->end() ? "none" : found->second;
+    return found == conditions_->end() ? BoundaryCondition::none : found->second;
   }
 
  private:
@@ -55,7 +55,7 @@ class CgnsFamilies {
     }
   }
 
-  std::optional<std::unordered_map<std::string, std::string>> conditions_;
+  std::optional<std::unordered_map<std::string, BoundaryCondition>> conditions_;
 };
 
 /// Rows of cells of each kind.
@@ -205,7 +205,7 @@ class ZoneReader {
     return element - first;
   }
 
-  FileBoundary& boundary_named(const std::string& name, const std::string& condition) {
+  FileBoundary& boundary_named(const std::string& name, BoundaryCondition condition) {
     const std::size_t before = mesh_.boundaries.size();
     FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(name)];
     if (mesh_.boundaries.size() > before) boundary.condition = condition;
@@ -217,7 +217,7 @@ class ZoneReader {
     file_.check(cg_nbocos(file_.id(), 1, zone_, &count));
     for (int boundary = 1; boundary <= count; ++boundary) read_boundary(boundary);
     faces_.for_each_left([&](const std::string& section, const auto& face) {
-      boundary_named(section, "none").faces.push_back(face);
+      boundary_named(section, BoundaryCondition::none).faces.push_back(face);
     });
   }
 
@@ -273,7 +273,7 @@ class ZoneReader {
   }
 
   /// Of the condition that was gone to. One of type FamilySpecified has its type with the family.
-  std::string condition_of(BCType_t type) {
+  BoundaryCondition condition_of(BCType_t type) {
     std::array<char, 660> family{};
     if (type != FamilySpecified || cg_famname_read(family.data()) != CG_OK) return condition_of_cgns(type);
     return families_.condition_of(file_, family.data());

@@ -27,11 +27,23 @@ constexpr std::array<std::pair<const char*, const char*>, 10> known_variables{{{
                                                                                {"y_momentum", "MomentumY"},
                                                                                {"z_momentum", "MomentumZ"}}};
 
-/// The number of a BCType_t by its name.
-int type_named(std::string_view name) {
-  const auto* const found = std::find(std::begin(BCTypeName), std::end(BCTypeName), name);
-  return found == std::end(BCTypeName) ? BCTypeUserDefined : static_cast<int>(found - std::begin(BCTypeName));
-}
+/// Of each condition the first type is what is written.
+constexpr std::array<std::pair<BoundaryCondition, BCType_t>, 15> condition_types{
+    {{BoundaryCondition::wall, BCWall},
+     {BoundaryCondition::viscous_wall, BCWallViscous},
+     {BoundaryCondition::viscous_wall, BCWallViscousHeatFlux},
+     {BoundaryCondition::viscous_wall, BCWallViscousIsothermal},
+     {BoundaryCondition::inviscid_wall, BCWallInviscid},
+     {BoundaryCondition::farfield, BCFarfield},
+     {BoundaryCondition::inflow, BCInflow},
+     {BoundaryCondition::inflow, BCInflowSubsonic},
+     {BoundaryCondition::inflow, BCInflowSupersonic},
+     {BoundaryCondition::inflow, BCTunnelInflow},
+     {BoundaryCondition::outflow, BCOutflow},
+     {BoundaryCondition::outflow, BCOutflowSubsonic},
+     {BoundaryCondition::outflow, BCOutflowSupersonic},
+     {BoundaryCondition::outflow, BCTunnelOutflow},
+     {BoundaryCondition::symmetry, BCSymmetryPlane}}};
 
 /// Cut at a character, not inside one of several bytes (UTF-8).
 std::string shortened(const std::string& name, std::size_t length) {
@@ -95,41 +107,29 @@ std::string variable_name_of_cgns(const std::string& name) {
   return name;
 }
 
-int cgns_condition(const std::string& condition) {
-  for (const auto& [word, cgns_type] : boundary_conditions) {
-    if (condition == word) return type_named(cgns_type);
+int cgns_condition(BoundaryCondition condition) {
+  for (const auto& [known, type] : condition_types) {
+    if (condition == known) return type;
   }
   return BCTypeUserDefined;
 }
 
-std::string cgns_family_condition(const std::string& condition) {
-  const bool has_type = cgns_condition(condition) != BCTypeUserDefined || condition == "none";
-  return has_type ? "FamBC" : condition;
+std::string cgns_family_condition(BoundaryCondition condition) {
+  const bool has_type =
+      cgns_condition(condition) != BCTypeUserDefined || condition == BoundaryCondition::none;
+  return has_type ? "FamBC" : condition.word();
 }
 
-std::string condition_of_cgns_family(int type, const std::string& name) {
-  const bool is_word =
-      std::ranges::any_of(boundary_conditions, [&](const BoundaryCondition& c) { return name == c.word; });
-  return type == BCTypeUserDefined && is_word ? name : condition_of_cgns(type);
+BoundaryCondition condition_of_cgns_family(int type, const std::string& name) {
+  const auto named = BoundaryCondition::named(name);
+  return type == BCTypeUserDefined && named ? *named : condition_of_cgns(type);
 }
 
-/// Types that a word of ours names come before those that it merely comprises.
-std::string condition_of_cgns(int type) {
-  if (type == BCTypeUserDefined) return "none";
-  for (const auto& [word, cgns_type] : boundary_conditions) {
-    if (type == type_named(cgns_type)) return word;
+BoundaryCondition condition_of_cgns(int type) {
+  for (const auto& [condition, known] : condition_types) {
+    if (type == known) return condition;
   }
-  switch (type) {
-    case BCWallViscousHeatFlux:
-    case BCWallViscousIsothermal: return "viscous_wall";
-    case BCInflowSubsonic:
-    case BCInflowSupersonic:
-    case BCTunnelInflow: return "inflow";
-    case BCOutflowSubsonic:
-    case BCOutflowSupersonic:
-    case BCTunnelOutflow: return "outflow";
-    default: return "none";
-  }
+  return BoundaryCondition::none;
 }
 
 }  // namespace quadloop

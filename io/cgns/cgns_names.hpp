@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/boundary_conditions.hpp"
+
 namespace quadloop {
 
 /// Name of the descriptor that keeps the own name of a boundary or a variable where CGNS could not hold it.
@@ -13,7 +15,7 @@ inline constexpr const char* layers_descriptor = "Layers";
 inline constexpr const char* strips_descriptor = "Strips";
 
 /// The name of a family's boundary condition: one that CGNS has no type for stands there as a word.
-std::string cgns_family_condition(const std::string& condition);
+std::string cgns_family_condition(BoundaryCondition condition);
 
 /// For each name one that CGNS can hold: at most 32 characters, no '/', none twice and none that the zone or
 /// the base already uses. The same names always give the same answer.
@@ -27,9 +29,9 @@ std::string variable_name_of_cgns(const std::string& name);
 std::vector<std::string> cgns_variable_renames(const std::vector<std::string>& names);
 
 /// The number of the BCType_t for Boundary::condition, and back ("none" for what has no word of ours).
-int cgns_condition(const std::string& condition);
-std::string condition_of_cgns(int type);
+int cgns_condition(BoundaryCondition condition);
+BoundaryCondition condition_of_cgns(int type);
 /// The same for the condition of a family, which may have one of our words as its name.
-std::string condition_of_cgns_family(int type, const std::string& name);
+BoundaryCondition condition_of_cgns_family(int type, const std::string& name);
 
 }  // namespace quadloop

@@ -121,7 +121,7 @@ CgnsNodes::Node CgnsNodes::group(const Node& parent, const std::string& name, co
 void CgnsNodes::put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type,
                                    const std::string& text) const {
   std::array<char, name_size> padded{};
-  QUADLOOP_REQUIRE(text.size() < padded.size(), "a CGNS name of more than 32 characters");
+  QUADLOOP_REQUIRE(text.size() < padded.size(), "a CGNS name of more than 32 characters", text);
   text.copy(padded.data(), text.size());
   const Hdf5Handle attribute =
       checked(H5Acreate2(node.id(), name, type.id(), scalar_.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);

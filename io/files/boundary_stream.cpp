@@ -42,7 +42,8 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : com
 BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead)
     : BoundaryStream(comm, mesh) {
   instead_ = std::move(instead);
-  QUADLOOP_REQUIRE(std::ssize(instead_) == own_before_.back(), "numbers for each boundary edge");
+  QUADLOOP_REQUIRE(std::ssize(instead_) == own_before_.back(), "numbers for each boundary edge",
+                   instead_.size(), own_before_.back());
 }
 
 void BoundaryStream::run(const Begin& begin, const Put& put) const {

@@ -144,9 +144,9 @@ class FluentWriter {
     return faces_->is_interface(n) ? fluent_interior : fluent_number(outer_condition(n));
   }
   /// An interface that has no other side here is no interface there.
-  std::string outer_condition(std::size_t n) const {
-    const std::string& condition = stream_.patches()[n].condition;
-    return condition == "interface" ? "none" : condition;
+  BoundaryCondition outer_condition(std::size_t n) const {
+    const BoundaryCondition condition = stream_.patches()[n].condition;
+    return condition == BoundaryCondition::interface ? BoundaryCondition::none : condition;
   }
 
   void write_names() {
@@ -159,7 +159,7 @@ class FluentWriter {
     for (std::size_t n = 0; n < names.size(); ++n)
       text +=
           fluent_zone_name(zone_of_patch(n),
-                           fluent_word(faces_->is_interface(n) ? "interface" : outer_condition(n)), names[n]);
+                           fluent_word(faces_->is_interface(n) ? BoundaryCondition::interface : outer_condition(n)), names[n]);
     file_.write(text);
   }
 

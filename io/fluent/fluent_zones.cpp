@@ -11,28 +11,28 @@ namespace quadloop {
 namespace {
 
 struct FluentZone {
-  const char* condition;
+  BoundaryCondition condition;
   std::int64_t number;
   const char* word;
 };
 
 /// Of each condition the first is what is written.
-constexpr std::array<FluentZone, 14> zones{{{"wall", 3, "wall"},
-                                            {"farfield", 9, "pressure-far-field"},
-                                            {"inflow", 10, "velocity-inlet"},
-                                            {"inflow", 4, "pressure-inlet"},
-                                            {"inflow", 20, "mass-flow-inlet"},
-                                            {"outflow", 5, "pressure-outlet"},
-                                            {"outflow", 36, "outflow"},
-                                            {"symmetry", 7, "symmetry"},
-                                            {"symmetry", 37, "axis"},
-                                            {"interface", fluent_interior, "interior"},
-                                            {"interface", 24, "interface"},
-                                            {"viscous_wall", 3, "wall"},
-                                            {"inviscid_wall", 3, "wall"},
-                                            {"none", 3, "wall"}}};
+constexpr std::array<FluentZone, 14> zones{{{BoundaryCondition::wall, 3, "wall"},
+                                            {BoundaryCondition::farfield, 9, "pressure-far-field"},
+                                            {BoundaryCondition::inflow, 10, "velocity-inlet"},
+                                            {BoundaryCondition::inflow, 4, "pressure-inlet"},
+                                            {BoundaryCondition::inflow, 20, "mass-flow-inlet"},
+                                            {BoundaryCondition::outflow, 5, "pressure-outlet"},
+                                            {BoundaryCondition::outflow, 36, "outflow"},
+                                            {BoundaryCondition::symmetry, 7, "symmetry"},
+                                            {BoundaryCondition::symmetry, 37, "axis"},
+                                            {BoundaryCondition::interface, fluent_interior, "interior"},
+                                            {BoundaryCondition::interface, 24, "interface"},
+                                            {BoundaryCondition::viscous_wall, 3, "wall"},
+                                            {BoundaryCondition::inviscid_wall, 3, "wall"},
+                                            {BoundaryCondition::none, 3, "wall"}}};
 
-const FluentZone& zone_for(const std::string& condition) {
+const FluentZone& zone_for(BoundaryCondition condition) {
   for (const FluentZone& zone : zones) {
     if (condition == zone.condition) return zone;
   }
@@ -41,14 +41,14 @@ const FluentZone& zone_for(const std::string& condition) {
 
 }  // namespace
 
-std::int64_t fluent_number(const std::string& condition) { return zone_for(condition).number; }
-std::string fluent_word(const std::string& condition) { return zone_for(condition).word; }
+std::int64_t fluent_number(BoundaryCondition condition) { return zone_for(condition).number; }
+std::string fluent_word(BoundaryCondition condition) { return zone_for(condition).word; }
 
-std::string condition_of_fluent(std::int64_t number) {
+BoundaryCondition condition_of_fluent(std::int64_t number) {
   for (const FluentZone& zone : zones) {
     if (number == zone.number) return zone.condition;
   }
-  return "none";
+  return BoundaryCondition::none;
 }
 
 std::string fluent_zone_name(std::int64_t zone, const std::string& word, const std::string& name) {

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
+
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
@@ -12,11 +15,11 @@ inline constexpr std::int64_t fluent_interior = 2;
 inline constexpr const char* fluent_inner_zone = "interior-faces";
 
 /// Fluent's number for Boundary::condition, and the word that goes with it: a wall where nothing is said.
-std::int64_t fluent_number(const std::string& condition);
-std::string fluent_word(const std::string& condition);
+std::int64_t fluent_number(BoundaryCondition condition);
+std::string fluent_word(BoundaryCondition condition);
 
 /// The way back; "none" for a number that has no word of ours.
-std::string condition_of_fluent(std::int64_t number);
+BoundaryCondition condition_of_fluent(std::int64_t number);
 
 /// A section that names a zone: "(45 (2 fluid domain)())".
 std::string fluent_zone_name(std::int64_t zone, const std::string& word, const std::string& name);

@@ -235,9 +235,10 @@ class FoamReader {
       patch.faces.insert(patch.faces.end(), polygon->second.pieces.begin(), polygon->second.pieces.end());
   }
 
-  static std::string condition_of(std::string_view type) {
-    if (type == "wall") return "wall";
-    return type.starts_with("symmetry") || type == "empty" ? "symmetry" : "none";
+  static BoundaryCondition condition_of(std::string_view type) {
+    if (type == "wall") return BoundaryCondition::wall;
+    return type.starts_with("symmetry") || type == "empty" ? BoundaryCondition::symmetry
+                                                           : BoundaryCondition::none;
   }
 
   /// A face of more than four points, and the pieces of its cell on it.

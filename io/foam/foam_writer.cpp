@@ -29,9 +29,9 @@ std::string foam_head(const std::string& type, const std::string& object, const 
 }
 
 /// The type of a patch for Boundary::condition.
-std::string foam_patch_type(const std::string& condition) {
-  if (is_wall(condition)) return "wall";
-  return condition == "symmetry" ? condition : "patch";
+std::string foam_patch_type(BoundaryCondition condition) {
+  if (condition.is_wall()) return "wall";
+  return condition == BoundaryCondition::symmetry ? "symmetry" : "patch";
 }
 
 /// A face takes room for one number more than it has nodes.

@@ -14,6 +14,7 @@ namespace quadloop {
 struct CaseTable::Data {
   std::string file;
   toml::table root;
+  std::vector<std::string> warnings;
   std::map<std::string, std::string> assigned;  ///< dotted key -> the assignment that set it
 
   /// The place of a dotted key whose node (if there is one) is given.

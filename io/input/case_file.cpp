@@ -272,6 +272,12 @@ std::string CaseTable::full_name(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
+void CaseTable::warn(const std::string& key, const std::string& message) const {
+  data_->warnings.push_back(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
+}
+
+const std::vector<std::string>& CaseTable::warnings() const { return data_->warnings; }
+
 void CaseTable::refuse(const std::string& key, const std::string& message) const {
   throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
 }

@@ -68,6 +68,9 @@ class CaseTable {
   std::string json(const std::string& key) const;
   /// The dotted name of a key.
   std::string full_name(const std::string& key) const;
+  /// Notes a warning of the file, which begins with the place of the key as a refusal does.
+  void warn(const std::string& key, const std::string& message) const;
+  const std::vector<std::string>& warnings() const;  ///< those of all tables
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
 
  private:

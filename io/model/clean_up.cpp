@@ -164,7 +164,7 @@ void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
 
 void add_outer_boundary(Mesh& mesh) {
   const EdgeTable table(mesh);
-  BoundaryEdges outer{"boundary", "none", {}};
+  BoundaryEdges outer{"boundary", {}, {}};
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     if (table.cell_left_of(to, from) < 0) outer.edges.push_back({from, to});
   });

@@ -18,7 +18,8 @@ struct FileBoundary {
   static constexpr std::int32_t no_node = -1;
   using Face = std::array<std::int32_t, 4>;  ///< nodes in turn; no_node after the last of an edge or triangle
 
-  std::string name, condition = "none";
+  std::string name;
+  BoundaryCondition condition = {};
   std::vector<Face> faces;
   bool is_empty = false;     ///< an end of a plane mesh that is one cell thick ("empty" in OpenFOAM)
   bool is_periodic = false;  ///< its nodes have partners on another boundary ("cyclic" in OpenFOAM)
@@ -54,7 +55,7 @@ struct FileMesh {
   /// The index of the boundary, or block, of this name, which is added if there is none.
   std::int32_t boundary_named(const std::string& name) {
     const auto [number, is_new] = boundary_numbers.entry_of(name);
-    if (is_new) boundaries.push_back({name, "none", {}});
+    if (is_new) boundaries.push_back({name, {}, {}});
     return number;
   }
   std::int32_t block_named(const std::string& name) {

@@ -32,7 +32,7 @@ std::vector<EdgeOfCell> sorted_edges(const Mesh& mesh) {
 }
 
 ParitySets pieces_of(const Mesh& mesh) {
-  ParitySets pieces(mesh.triangles.size() + mesh.quads.size());
+  ParitySets pieces(mesh.cell_count());
   const std::vector<EdgeOfCell> sides = sorted_edges(mesh);
   for (auto first = sides.begin(); first != sides.end();) {
     const auto end =
@@ -56,13 +56,12 @@ double twice_area(const Mesh& mesh, const std::array<NodeId, 4>& nodes) {
 template <class AnyMesh, class Visit>
 void for_each_plane_cell(AnyMesh& mesh, const Visit& visit) {
   std::size_t cell = 0;
-  for (auto& nodes : mesh.triangles) visit(nodes, cell++);
-  for (auto& nodes : mesh.quads) visit(nodes, cell++);
+  mesh.for_each_cell([&](auto& nodes) { visit(nodes, cell++); });
 }
 
 /// For each root twice the signed area of its piece, run as the root runs now.
 std::vector<double> areas_of(const Mesh& mesh, ParitySets& pieces) {
-  std::vector<double> areas(mesh.triangles.size() + mesh.quads.size(), 0);
+  std::vector<double> areas(mesh.cell_count(), 0);
   for_each_plane_cell(mesh, [&](const auto& nodes, std::size_t cell) {
     const auto [root, opposed] = pieces.member_of(cell);
     const double area = twice_area(mesh, nodes);

@@ -14,8 +14,7 @@ namespace {
 /// Calls `visit(node)` for the nodes of all cells, and of all boundary edges.
 template <class Visit>
 void for_each_named_node(Mesh& mesh, const Visit& visit) {
-  for (auto& nodes : mesh.triangles) std::for_each(nodes.begin(), nodes.end(), visit);
-  for (auto& nodes : mesh.quads) std::for_each(nodes.begin(), nodes.end(), visit);
+  mesh.for_each_cell([&](auto& nodes) { std::for_each(nodes.begin(), nodes.end(), visit); });
   for (BoundaryEdges& boundary : mesh.boundaries) {
     for (auto& edge : boundary.edges) std::for_each(edge.begin(), edge.end(), visit);
   }
@@ -100,7 +99,7 @@ std::size_t add_missing_boundary(Mesh& mesh, const EdgeTable& table) {
   for (const BoundaryEdges& boundary : mesh.boundaries)
     named.insert(named.end(), boundary.edges.begin(), boundary.edges.end());
   std::sort(named.begin(), named.end());
-  BoundaryEdges missing{free_name(mesh), "none", {}};
+  BoundaryEdges missing{free_name(mesh), {}, {}};
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
     const bool outer = table.cell_left_of(to, from) < 0;
     if (outer && !std::binary_search(named.begin(), named.end(), std::array{from, to}))

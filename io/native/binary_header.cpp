@@ -107,12 +107,11 @@ class HeaderParser {
     return value;
   }
 
-  std::string condition() {
+  BoundaryCondition condition() {
     const std::string_view text = word();
-    const auto known = std::ranges::find(boundary_conditions, text, &BoundaryCondition::word);
-    if (known == boundary_conditions.end())
-      refuse(fmt::format("'{}' is no boundary condition", text.substr(0, longest_quote)));
-    return std::string(text);
+    const auto known = BoundaryCondition::named(text);
+    if (!known) refuse(fmt::format("'{}' is no boundary condition", text.substr(0, longest_quote)));
+    return *known;
   }
 
   void require_limits() const {
@@ -169,8 +168,7 @@ std::string text_of(const BinaryHeader& header) {
   for (const auto& [name, triangles, quads] : header.blocks)
     lines += fmt::format("block {} {} {}\n", triangles, quads, one_line(name));
   for (const auto& [name, condition, edges, layers] : header.boundaries) {
-    lines +=
-        fmt::format("boundary {} {} {}\n", edges, condition.empty() ? "none" : condition, one_line(name));
+    lines += fmt::format("boundary {} {} {}\n", edges, condition.word(), one_line(name));
     if (layers.count > 0) lines += "layers " + text_of_layers(layers) + "\n";
   }
   if (header.constants > 0) lines += fmt::format("constants {}\n", header.constants);

@@ -16,7 +16,8 @@ struct BinaryHeader {
     std::int64_t triangles = 0, quads = 0;
   };
   struct BoundaryHead {
-    std::string name, condition;
+    std::string name;
+    BoundaryCondition condition;
     std::int64_t edges = 0;
     WallLayers layers = {};
   };

@@ -141,7 +141,7 @@ class BinaryReader {
 
   void read_solution() {
     Field solution;
-    const std::size_t cells = loaded_.mesh.triangles.size() + loaded_.mesh.quads.size();
+    const std::size_t cells = loaded_.mesh.cell_count();
     solution.constants = read_reals(header_.constants);
     if (const std::size_t at = first_not_finite(solution.constants); at < solution.constants.size())
       throw InputError(fmt::format("{}: constant {} is not finite", path_, at));

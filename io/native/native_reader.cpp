@@ -90,7 +90,7 @@ class NativeReader {
     auto& boundaries = loaded_.mesh.boundaries;
     const auto [index, is_new] = boundary_names_.entry_of(name);
     if (is_new) {
-      boundaries.push_back({name, "none", std::move(edges), layers});
+      boundaries.push_back({name, {}, std::move(edges), layers});
     } else {
       auto& same = boundaries[index].edges;
       same.insert(same.end(), edges.begin(), edges.end());
@@ -142,7 +142,7 @@ class NativeReader {
       solution.values = read_values(solution.names, loaded_.mesh.points.size(), "node");
     }
     if (at_cells()) {
-      const std::size_t cells = loaded_.mesh.triangles.size() + loaded_.mesh.quads.size();
+      const std::size_t cells = loaded_.mesh.cell_count();
       solution.cells.names = read_names("cell variables");
       solution.cells.values = read_values(solution.cells.names, cells, "cell");
     }

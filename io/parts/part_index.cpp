@@ -27,7 +27,10 @@ void read_boundary(TextScanner& scan, PartIndex& index) {
   BoundaryEdges boundary;
   const std::int64_t layers = read_count(scan, "layers");
   boundary.layers = {static_cast<std::int32_t>(layers), scan.real("the thickness of layers")};
-  boundary.condition = scan.token("a boundary condition");
+  const std::string word(scan.token("a boundary condition"));
+  const auto condition = BoundaryCondition::named(word);
+  if (!condition) scan.refuse(fmt::format("'{}' is no boundary condition", word));
+  boundary.condition = *condition;
   boundary.name = scan.rest_of_line();
   if (boundary.name.empty()) scan.refuse("a boundary has no name");
   index.boundaries.push_back(std::move(boundary));
@@ -66,7 +69,7 @@ void write_part_index(OutputSet& outputs, const PartIndex& index, const std::str
   for (std::size_t b = 0; b < index.boundaries.size(); ++b) {
     const BoundaryEdges& boundary = index.boundaries[b];
     text += fmt::format("{} {} {} {} {}\n", index.edges[b], boundary.layers.count, boundary.layers.thickness,
-                        boundary.condition.empty() ? "none" : boundary.condition, boundary.name);
+                        boundary.condition.word(), boundary.name);
   }
   for (const StripLayers& strip : index.strips) text += comments_of(strip);
   OutputFile file(outputs.stage(path));

@@ -168,7 +168,7 @@ FieldValues field_values(const LoadedMesh& loaded, const std::string& field) {
                                guess_for(field, all)));
 }
 
-std::size_t cell_count(const Mesh& mesh) { return mesh.triangles.size() + mesh.quads.size(); }
+std::size_t cell_count(const Mesh& mesh) { return mesh.cell_count(); }
 
 std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell) {
   if (cell < mesh.triangles.size()) return mesh.triangles[cell];

@@ -23,7 +23,8 @@ MeshStream::MeshStream(const Communicator& comm, const ExtrudedMesh& mesh) : com
   const std::int64_t triangles = comm.sum(std::ssize(mesh.plane.triangles)),
                      quads = comm.sum(std::ssize(mesh.plane.quads));
   for (const std::string& end : {mesh.back, mesh.front})
-    patches_.push_back({end, "symmetry", 0, triangles, quads, mesh.axis == ExtrusionAxis::y ? 'y' : 'z'});
+    patches_.push_back(
+        {end, BoundaryCondition::symmetry, 0, triangles, quads, mesh.axis == ExtrusionAxis::y ? 'y' : 'z'});
   if (mesh.solution == nullptr) return;
   for (const ExtrudedVariable& variable : extruded_variables(mesh.solution->names, mesh.axis)) {
     variables_.push_back(variable.name);
@@ -65,7 +66,7 @@ void MeshStream::take_extruded(const ExtrudedMesh& mesh) {
 }
 
 MeshStream::MeshStream(const Communicator& comm, const FileMesh& mesh) : comm_{comm}, held_{&mesh} {
-  QUADLOOP_REQUIRE(comm.size() == 1, "a 3D mesh that is held is written by one rank");
+  QUADLOOP_REQUIRE(comm.size() == 1, "a 3D mesh that is held is written by one rank", comm.size());
   counts_.nodes = std::ssize(mesh.points);
   for_each_kind([&]<CellKind kind>() {
     counts_.of_kind[static_cast<std::size_t>(kind)] = std::ssize(cells_of<kind>(mesh));

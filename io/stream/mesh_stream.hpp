@@ -18,7 +18,8 @@ namespace quadloop {
 
 /// A boundary of a mesh on its way into a file.
 struct StreamedPatch {
-  std::string name, condition;
+  std::string name;
+  BoundaryCondition condition = {};
   std::int64_t edges = 0;                 ///< of a plane mesh
   std::int64_t triangles = 0, quads = 0;  ///< of a 3D mesh
   char axis = ' ';                        ///< the one that it is normal to: 'x', 'y', 'z', where it is known

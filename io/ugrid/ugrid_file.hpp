@@ -40,8 +40,8 @@ std::vector<std::string> mapbc_names(const std::vector<std::string>& names);
 
 /// The number of FUN3D's boundary condition for Boundary::condition, 0 where nothing is said; `axis` is that
 /// to which the patch is normal ('x', 'y', 'z'), where it is known. And back, "none" for any other.
-int mapbc_condition(const std::string& condition, char axis = ' ');
-std::string condition_of_mapbc(int number);
+int mapbc_condition(BoundaryCondition condition, char axis = ' ');
+BoundaryCondition condition_of_mapbc(int number);
 
 /// Reads such a file on the calling rank alone; patches without a .mapbc are "patch_1" and so on. What
 /// follows the mesh is passed over, with a warning. Throws InputError.

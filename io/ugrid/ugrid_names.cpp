@@ -13,13 +13,14 @@ namespace {
 
 /// FUN3D's: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
 /// pressure, tangency.
-constexpr std::array<std::pair<const char*, int>, 7> conditions{{{"wall", 4000},
-                                                                 {"farfield", 5000},
-                                                                 {"inflow", 7011},
-                                                                 {"outflow", 7012},
-                                                                 {"symmetry", 3000},
-                                                                 {"viscous_wall", 4000},
-                                                                 {"inviscid_wall", 3000}}};
+constexpr std::array<std::pair<BoundaryCondition, int>, 7> conditions{
+    {{BoundaryCondition::wall, 4000},
+     {BoundaryCondition::farfield, 5000},
+     {BoundaryCondition::inflow, 7011},
+     {BoundaryCondition::outflow, 7012},
+     {BoundaryCondition::symmetry, 3000},
+     {BoundaryCondition::viscous_wall, 4000},
+     {BoundaryCondition::inviscid_wall, 3000}}};
 constexpr int symmetry_x = 6661;  // and y, z after it: the plane normal to the axis
 
 }  // namespace
@@ -61,20 +62,21 @@ std::map<std::int32_t, MapbcPatch> read_mapbc(const std::string& path) {
   return patches;
 }
 
-int mapbc_condition(const std::string& condition, char axis) {
-  if (condition == "symmetry" && axis >= 'x' && axis <= 'z') return symmetry_x + (axis - 'x');
-  for (const auto& [word, number] : conditions) {
-    if (condition == word) return number;
+int mapbc_condition(BoundaryCondition condition, char axis) {
+  if (condition == BoundaryCondition::symmetry && axis >= 'x' && axis <= 'z')
+    return symmetry_x + (axis - 'x');
+  for (const auto& [known, number] : conditions) {
+    if (condition == known) return number;
   }
   return 0;
 }
 
-std::string condition_of_mapbc(int number) {
-  if (number >= symmetry_x && number < symmetry_x + 3) return "symmetry";
-  for (const auto& [word, known] : conditions) {
-    if (number == known) return word;
+BoundaryCondition condition_of_mapbc(int number) {
+  if (number >= symmetry_x && number < symmetry_x + 3) return BoundaryCondition::symmetry;
+  for (const auto& [condition, known] : conditions) {
+    if (number == known) return condition;
   }
-  return "none";
+  return BoundaryCondition::none;
 }
 
 }  // namespace quadloop

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace quadloop {
 
@@ -56,9 +58,22 @@ class Fault : public Error {
   explicit Fault(const std::string& message) : Error(ExitStatus::fault, message) {}
 };
 
-/// Throws a Fault with the place where `condition` does not hold. For what only a mistake of ours can break.
-void require(bool condition, const char* message, const char* file, int line);
+/// A value as the message of a Fault gives it.
+struct FaultValue {
+  template <class Number>
+  requires std::is_arithmetic_v<Number> FaultValue(Number number) : text(std::to_string(number)) {}
+  FaultValue(const std::string& value) : text(value) {}
+  FaultValue(const char* value) : text(value) {}
+  std::string text;
+};
 
-#define QUADLOOP_REQUIRE(condition, message) ::quadloop::require((condition), (message), __FILE__, __LINE__)
+/// Throws a Fault with the place, the values by their names in the source, separated by commas, and the rank.
+[[noreturn]] void fail(const char* file, int line, const char* message, const char* names,
+                       std::initializer_list<FaultValue> values);
+
+/// QUADLOOP_REQUIRE(condition, message, values...): a Fault where the condition does not hold, in every
+/// build. For what only a mistake of ours can break. The values are computed where it fails alone.
+#define QUADLOOP_REQUIRE(condition, message, ...) \
+  ((condition) ? void() : ::quadloop::fail(__FILE__, __LINE__, (message), #__VA_ARGS__, {__VA_ARGS__}))
 
 }  // namespace quadloop

@@ -42,7 +42,8 @@ using BoundaryId = Id<struct BoundaryTag, std::int32_t>;
 template <class List>
 constexpr std::int32_t size32(const List& list) {
   const std::size_t size = list.size();
-  QUADLOOP_REQUIRE(size <= std::numeric_limits<std::int32_t>::max(), "more entries than ids on one rank");
+  QUADLOOP_REQUIRE(size <= std::numeric_limits<std::int32_t>::max(), "more entries than ids on one rank",
+                   size);
   return static_cast<std::int32_t>(size);
 }
 

@@ -23,11 +23,19 @@ std::vector<std::string> words_of(const WordTable<Value, count>& table) {
 
 /// The value that a word stands for; none where it is not in the table.
 template <class Value, std::size_t count>
-std::optional<Value> value_of(const WordTable<Value, count>& table, std::string_view word) {
+constexpr std::optional<Value> value_of(const WordTable<Value, count>& table, std::string_view word) {
   for (const auto& [known, value] : table) {
     if (word == known) return value;
   }
   return std::nullopt;
+}
+
+/// The first word for a value, which must be in the table.
+template <class Value, std::size_t count>
+constexpr const char* word_of(const WordTable<Value, count>& table, Value value) {
+  std::size_t i = 0;
+  while (table[i].second != value) ++i;
+  return table[i].first;
 }
 
 }  // namespace quadloop

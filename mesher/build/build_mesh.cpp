@@ -48,9 +48,7 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   if (root_box(a).high != lattice.box().high) a.root_far = lattice.box().high;
   a.gradation = options.size.gradation;
   a.geometry_digest = geometry.digest();
-  a.nodes = comm.sum(result.mesh.owned_nodes);
-  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
-  a.quads = comm.sum(std::ssize(result.mesh.quads));
+  count_entries(comm, result);
 }
 
 /// Of a large mesh that is the first of its run it is worth a line; of a very large one with its cause, which
@@ -71,6 +69,13 @@ void tell(const MeshEstimate& estimate, const Geometry& geometry, const MeshOpti
 }
 
 }  // namespace
+
+void count_entries(const Communicator& comm, MeshResult& result) {
+  TreeAttributes& a = result.tree.attributes;
+  a.nodes = comm.sum(result.mesh.owned_nodes);
+  a.triangles = comm.sum(std::ssize(result.mesh.triangles));
+  a.quads = comm.sum(std::ssize(result.mesh.quads));
+}
 
 MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options,
                       const DemandedSplits& demanded) {

@@ -88,6 +88,9 @@ struct MeshResult {
   MeshReport report;
 };
 
+/// Sets what the tree says of the numbers of nodes and cells over all ranks. *Collective.*
+void count_entries(const Communicator& comm, MeshResult& result);
+
 /// Meshes the domain of `geometry`: the mesh is a function of geometry, options and what adaptation has
 /// demanded of the tree. *Collective.* Throws InputError where the geometry cannot be meshed with these
 /// options, TooManyCells where they ask for more than options.limit.

@@ -131,7 +131,8 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
   const std::vector<double> wanted = outline_shares(geometry, centre);
   const std::vector<char> whole = encloses_area(geometry);
   const std::vector<std::vector<double>> shares = shares_of_area(mesh, centre);
-  QUADLOOP_REQUIRE(shares.size() == wanted.size(), "a mesh has its outline's boundaries");
+  QUADLOOP_REQUIRE(shares.size() == wanted.size(), "a mesh has its outline's boundaries", shares.size(),
+                   wanted.size());
   std::int64_t edges = 0;
   for (const std::vector<double>& list : shares) edges += std::ssize(list);
   const double farthest = geometry.box().width() + geometry.box().height();
@@ -158,7 +159,8 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
   const Point centre = geometry.box().centre();
   const std::vector<std::vector<double>> meshed = shares_of_area(mesh, centre);
   const std::vector<double> wanted = outline_shares(geometry, centre);
-  QUADLOOP_REQUIRE(meshed.size() == wanted.size(), "a mesh has its outline's boundaries");
+  QUADLOOP_REQUIRE(meshed.size() == wanted.size(), "a mesh has its outline's boundaries", meshed.size(),
+                   wanted.size());
   std::size_t worst = 0;
   double most = -1;
   for (std::size_t b = 0; b < meshed.size(); ++b) {

@@ -62,7 +62,7 @@ class ShortEdges {
     const std::int32_t loop = g_.loop_of(base.first), segments = segments_in(base);
     const BoundaryId boundary = g_.boundary_of(base.first);
     const bool is_needed = segments_of_[boundary] <= segments ||
-                           g_.boundary(boundary).condition == "interface" ||
+                           g_.boundary(boundary).condition == BoundaryCondition::interface ||
                            g_.loop_start(loop + 1) - g_.loop_start(loop) < 4 + segments;
     if (is_needed || !leaves_outline_simple(base)) return false;
     segments_of_[boundary] -= segments;

@@ -242,7 +242,8 @@ void Forest::refine(const std::function<bool(const Quadrant&)>& split, int deepe
 }
 
 void Forest::split_marked(const std::vector<char>& marked) {
-  QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf");
+  QUADLOOP_REQUIRE(std::ssize(marked) == local_leaves(), "one mark for each local leaf", marked.size(),
+                   local_leaves());
   std::size_t next = 0;
   int children = 0;  // remaining children of the last marked leaf
   const auto split = [&](const Quadrant&) {

@@ -1,45 +1,61 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "mesher/base/word_table.hpp"
+
 namespace quadloop {
 
-/// A boundary condition by name, as used in case files and in the program's own files.
-struct BoundaryCondition {
-  const char* word;
-  const char* cgns_type;  ///< the BCType_t in CGNS (SIDS)
+/// What happens at a boundary, as case files and meshes tell a solver. What a solver can use of it is its own
+/// matter (`flow/euler/model/flow_model`).
+class BoundaryCondition {
+ public:
+  enum Kind : std::uint8_t {
+    none,  ///< not said
+    wall,
+    viscous_wall,  ///< these two: a wall of which more is said
+    inviscid_wall,
+    farfield,
+    inflow,
+    outflow,
+    symmetry,
+    interface  ///< between two domains
+  };
+
+  constexpr BoundaryCondition() = default;
+  constexpr BoundaryCondition(Kind kind) : kind_{kind} {}
+  /// From one of `words` that stands in the source; another one does not compile.
+  consteval BoundaryCondition(const char* word) : kind_{*value_of(words, word)} {}
+  /// From a word that is read; none for one that is not among `words`.
+  static std::optional<BoundaryCondition> named(std::string_view word) { return value_of(words, word); }
+
+  constexpr Kind kind() const { return kind_; }
+  /// How case files and our own files name it.
+  constexpr const char* word() const { return word_of(words, kind_); }
+  bool is_wall() const { return kind_ == wall || kind_ == viscous_wall || kind_ == inviscid_wall; }
+
+  friend constexpr bool operator==(const BoundaryCondition&, const BoundaryCondition&) = default;
+
+  /// All of them, in the order in which messages list them.
+  static constexpr WordTable<Kind, 9> words{{{"wall", wall},
+                                             {"viscous_wall", viscous_wall},
+                                             {"inviscid_wall", inviscid_wall},
+                                             {"farfield", farfield},
+                                             {"inflow", inflow},
+                                             {"outflow", outflow},
+                                             {"symmetry", symmetry},
+                                             {"interface", interface},
+                                             {"none", none}}};
+  /// Those of a case's key `wall`, which says more of a wall; its key `bc` takes all others.
+  static constexpr WordTable<Kind, 2> wall_words{{{"viscous", viscous_wall}, {"inviscid", inviscid_wall}}};
+
+ private:
+  Kind kind_ = none;
 };
-
-/// All names, in the order in which messages list them. The conditions that a solver supports are defined by
-/// the solver (`flow/euler/model/flow_model`).
-inline constexpr std::array<BoundaryCondition, 9> boundary_conditions{{
-    {"wall", "BCWall"},
-    {"viscous_wall", "BCWallViscous"},  // more specific kinds of wall, this and the next
-    {"inviscid_wall", "BCWallInviscid"},
-    {"farfield", "BCFarfield"},
-    {"inflow", "BCInflow"},
-    {"outflow", "BCOutflow"},
-    {"symmetry", "BCSymmetryPlane"},
-    {"interface", "UserDefined"},  // between two domains
-    {"none", "UserDefined"},       // not specified
-}};
-
-inline bool is_wall(std::string_view condition) {
-  return condition == "wall" || condition == "viscous_wall" || condition == "inviscid_wall";
-}
-
-/// The values of the key `bc` in case files. The kind of wall is given by the key `wall`: wall_words, with
-/// "_wall" appended.
-inline std::vector<std::string> condition_words() {
-  std::vector<std::string> words;
-  for (const BoundaryCondition& condition : boundary_conditions) {
-    if (!std::string_view(condition.word).ends_with("_wall")) words.emplace_back(condition.word);
-  }
-  return words;
-}
-inline std::vector<std::string> wall_words() { return {"viscous", "inviscid"}; }
 
 }  // namespace quadloop

@@ -110,7 +110,8 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
       points_{std::move(points)},
       loop_starts_{std::move(loop_starts)},
       segment_boundary_{std::move(segment_boundary)} {
-  QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex");
+  QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex",
+                   segment_boundary_.size(), points_.size());
   flags_.resize(points_.size());
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
@@ -205,7 +206,7 @@ std::uint64_t Geometry::digest() const {
   Digest digest;
   for (const Boundary& b : boundaries_) {
     digest.add(b.name);
-    digest.add(b.condition);
+    digest.add(b.condition.word());
     digest.add(b.spacing);
     digest.add(b.corner_degrees);
     if (b.corner_spacing > 0)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/base/ids.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -26,10 +27,10 @@ struct Chain {
 /// A boundary: its mesh settings, and its boundary condition for solvers.
 struct Boundary {
   std::string name;
-  double spacing = 0;          ///< requested length of edges along it; 0: the geometry's own point spacing
-  double corner_degrees = 30;  ///< a point with a larger turning angle is kept as a node; 180 keeps none
-  std::string condition = "none";  ///< one of boundary_conditions
-  double corner_spacing = 0;       ///< requested cell size at its sharp corners; 0: none
+  double spacing = 0;          ///< length wanted along it; 0: the geometry's own point spacing
+  double corner_degrees = 30;  ///< a point that turns by more is kept as a node; 180 keeps none
+  BoundaryCondition condition = {};
+  double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
   std::optional<LayerSpec> layers = {};
 };
 

@@ -102,7 +102,8 @@ void GrownMesh::place_nodes(const std::function<void(NodeId, std::vector<Point>&
     points.push_back(mesh_.point(node));
     append_behind(node, points);
   }
-  QUADLOOP_REQUIRE(size32(points) == owned_nodes_, "as many nodes as are numbered");
+  QUADLOOP_REQUIRE(size32(points) == owned_nodes_, "as many nodes as are numbered", points.size(),
+                   owned_nodes_);
   for (std::size_t i = mesh_.owned_nodes; i < mesh_.points.size(); ++i)
     copies_.emplace(after_[NodeId{static_cast<std::int32_t>(i)}], mesh_.points[i]);
   mesh_.copies.clear();

@@ -11,7 +11,7 @@ namespace quadloop {
 namespace {
 
 std::vector<double> column_of(const std::vector<double>& rows, std::size_t width, std::size_t variable) {
-  QUADLOOP_REQUIRE(variable < width, "a field has a column for each of its variables");
+  QUADLOOP_REQUIRE(variable < width, "a field has a column for each of its variables", variable, width);
   std::vector<double> column;
   column.reserve(rows.size() / width);
   for (std::size_t i = variable; i < rows.size(); i += width) column.push_back(rows[i]);

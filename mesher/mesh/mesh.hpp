@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/base/id_vector.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -23,7 +24,7 @@ struct WallLayers {
 /// The edges of one named boundary on this rank, each walked with the domain to its left.
 struct BoundaryEdges {
   std::string name;
-  std::string condition;  ///< as Boundary::condition
+  BoundaryCondition condition = {};
   std::vector<std::array<NodeId, 2>> edges;
   WallLayers layers = {};
 };
@@ -104,7 +105,28 @@ struct Mesh {
   GlobalNodeId global(NodeId node) const {
     return owns(node) ? GlobalNodeId{first_node + node.value()} : copies[node.value() - owned_nodes];
   }
+  std::size_t cell_count() const { return triangles.size() + quads.size(); }
+
+  /// Calls `visit(nodes)` for each cell, an array of three or four nodes: triangles, then quads.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    for (const auto& nodes : triangles) visit(nodes);
+    for (const auto& nodes : quads) visit(nodes);
+  }
+  template <class Visit>
+  void for_each_cell(const Visit& visit) {
+    for (auto& nodes : triangles) visit(nodes);
+    for (auto& nodes : quads) visit(nodes);
+  }
 };
+
+/// Where the nodes of a cell of a Mesh or a HaloMesh are.
+template <class AnyMesh, std::size_t width>
+std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
+  std::array<Point, width> corners;
+  for (std::size_t i = 0; i < width; ++i) corners[i] = mesh.point(nodes[i]);
+  return corners;
+}
 
 /// Numbers of nodes and cells over all ranks.
 struct MeshCounts {

@@ -136,18 +136,20 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
 
 /// The root's boundaries on every rank, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
-  std::vector<std::string> words;
+  std::vector<std::string> names;
+  std::vector<BoundaryCondition> conditions;
   std::vector<WallLayers> layers;
   for (const BoundaryEdges& boundary : whole.boundaries) {
-    words.push_back(boundary.name);
-    words.push_back(boundary.condition);
+    names.push_back(boundary.name);
+    conditions.push_back(boundary.condition);
     layers.push_back(boundary.layers);
   }
-  words = broadcast_words(comm, words);
+  names = broadcast_words(comm, names);
+  comm.broadcast(conditions);
   comm.broadcast(layers);
   std::vector<BoundaryEdges> boundaries;
   for (std::size_t i = 0; i < layers.size(); ++i)
-    boundaries.push_back({words[2 * i], words[2 * i + 1], {}, layers[i]});
+    boundaries.push_back({names[i], conditions[i], {}, layers[i]});
   return boundaries;
 }
 

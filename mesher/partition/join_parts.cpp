@@ -78,8 +78,7 @@ void PartJoiner::put_values(const MeshPart& part, const std::string& shown) {
   if (parts_ == 0 && part.field) {
     field = Field{part.field->names, {}, part.field->constants, {part.field->cells.names, {}}};
     field->values.resize(whole_.mesh.points.size() * field->width());
-    field->cells.values.resize((whole_.mesh.triangles.size() + whole_.mesh.quads.size()) *
-                               field->cells.width());
+    field->cells.values.resize((whole_.mesh.cell_count()) * field->cells.width());
   }
   const bool alike =
       field.has_value() == part.field.has_value() &&

@@ -254,7 +254,7 @@ class PartMaker {
     }
     const std::string name = part_name(side.neighbour);
     if (boundaries.size() == to.edges.size() || boundaries.back().name != name)
-      boundaries.push_back({name, "interface", {}, {}});
+      boundaries.push_back({name, BoundaryCondition::interface, {}, {}});
     boundaries.back().edges.push_back(local(to, side.nodes));
   }
 

@@ -133,7 +133,7 @@ std::vector<Place> places_of(const Communicator& comm, const Mesh& mesh) {
     return static_cast<std::uint32_t>(side > 0 ? std::clamp((at - low) / side, 0.0, 1.0) * last : 0);
   };
   std::vector<Place> places;
-  places.reserve(mesh.triangles.size() + mesh.quads.size());
+  places.reserve(mesh.cell_count());
   const auto append = [&](const auto& cells, std::int64_t number) {
     for (const auto& nodes : cells) {
       Point middle{0, 0};
@@ -170,7 +170,7 @@ CellParts along_curve(const Communicator& comm, const Mesh& mesh, const PartWeig
 }  // namespace
 
 CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t parts) {
-  QUADLOOP_REQUIRE(parts > 0, "a mesh is divided into no parts");
+  QUADLOOP_REQUIRE(parts > 0, "a mesh is divided into no parts", parts);
   const std::int64_t triangles = comm.sum(std::ssize(mesh.triangles)),
                      quads = comm.sum(std::ssize(mesh.quads)), cells = triangles + quads;
   if (cells < parts)

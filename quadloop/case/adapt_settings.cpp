@@ -25,11 +25,11 @@ ValueForm<SensorFields> sensor_fields() {
   return {"text, a list, or a table", "\"pressure\"", read_sensor_fields};
 }
 
-ValueForm<AdaptOptions::Until> until() {
+ValueForm<UntilKeys> until() {
   return {"table", "{ cl = 1e-3 }", [](const CaseTable& table, const std::string& key) {
-            AdaptOptions::Until changes;
+            UntilKeys changes;
             until_keys().read(*table.table(key), changes);
-            if (changes.empty())
+            if (changes == UntilKeys{})
               table.refuse(key, "is empty; give changes of a cycle, as in until = { cl = 1e-3, cd = 1e-4 }");
             return changes;
           }};
@@ -63,16 +63,16 @@ void take_norm(const CaseTable& table, AdaptOptions& options) {
 
 }  // namespace
 
-const KeyTable<AdaptOptions::Until>& until_keys() {
-  static const KeyTable<AdaptOptions::Until> keys{
+const KeyTable<UntilKeys>& until_keys() {
+  static const KeyTable<UntilKeys> keys{
       "adapt.until",
-      {key<&AdaptOptions::Until::cl>("cl", number(Range::positive()), "Change of the lift coefficient.",
-                                     {.fallback = "none"}),
-       key<&AdaptOptions::Until::cd>("cd", number(Range::positive()), "Change of the drag coefficient.",
-                                     {.fallback = "none"}),
-       key<&AdaptOptions::Until::estimate>("estimate", number(Range::positive()),
-                                           "Change of the estimated error, relative to the cycle before.",
-                                           {.fallback = "none", .needs = {{"adapt.norm"}}})}};
+      {key<&UntilKeys::cl>("cl", number(Range::positive()), "Change of the lift coefficient.",
+                           {.fallback = "none"}),
+       key<&UntilKeys::cd>("cd", number(Range::positive()), "Change of the drag coefficient.",
+                           {.fallback = "none"}),
+       key<&UntilKeys::estimate>("estimate", number(Range::positive()),
+                                 "Change of the estimated error, relative to the cycle before.",
+                                 {.fallback = "none", .needs = {{"adapt.norm"}}})}};
   return keys;
 }
 
@@ -127,11 +127,10 @@ const KeyTable<AdaptKeys>& adapt_keys() {
            "growth", number({1, 1000, true, false}),
            "Largest ratio of the numbers of nodes of successive meshes.",
            {.fallback = "none", .needs = {{"norm", "it bounds the nodes of wanted sizes"}}}),
-       key<&AdaptKeys::options, &AdaptOptions::until>(
-           "until", until(),
-           "End the run when the changes between cycles are below these ([stopping "
-           "criteria](../explanation/adaptation.md#stopping-criteria)).",
-           {.fallback = "none"}),
+       key<&AdaptKeys::until>("until", until(),
+                              "End the run when the changes between cycles are below these ([stopping "
+                              "criteria](../explanation/adaptation.md#stopping-criteria)).",
+                              {.fallback = "none"}),
        key<&AdaptKeys::options, &AdaptOptions::min>("min", number(Range::positive()),
                                                     "Smallest cell size of adaptation.",
                                                     {.unit = "length", .fallback = "`spacing.min`"}),
@@ -152,6 +151,7 @@ std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
   adapt_keys().read(*table, keys);
   keys.options.source = keys.fields.source;
   keys.options.variables = keys.fields.names;
+  keys.options.until = {keys.until.cl, keys.until.cd, keys.until.estimate};
   take_norm(*table, keys.options);
   if (!keys.options.norm) read_thresholds(*table, keys.options);
   return keys.options;

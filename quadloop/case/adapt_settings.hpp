@@ -17,14 +17,22 @@ struct SensorFields {
   friend bool operator==(const SensorFields&, const SensorFields&) = default;
 };
 
+/// The table `until` of [adapt].
+struct UntilKeys {
+  std::optional<double> cl, cd, estimate;
+
+  friend bool operator==(const UntilKeys&, const UntilKeys&) = default;
+};
+
 /// The table [adapt].
 struct AdaptKeys {
   AdaptOptions options;
   SensorFields fields;
+  UntilKeys until;
 };
 
 const KeyTable<AdaptKeys>& adapt_keys();
-const KeyTable<AdaptOptions::Until>& until_keys();
+const KeyTable<UntilKeys>& until_keys();
 
 /// The table [adapt] of a case, if it has one. Throws InputError that names key and line.
 std::optional<AdaptOptions> read_adapt_table(const CaseTable& root);

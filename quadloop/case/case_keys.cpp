@@ -37,7 +37,7 @@ std::string sentences_of(const KeyText& key) {
     const bool excludes = need.condition.starts_with("no ");
     const std::string subject = need.when.empty() ? "" : fmt::format("With `{}`: ", need.when);
     text += excludes ? fmt::format(" {}Not with `{}`.", subject, need.condition.substr(3))
-                     : fmt::format(" {}Requires `{}`.", subject,
+                     : fmt::format(" {}{} `{}`.", subject, need.warns ? "Only with" : "Requires",
                                    std::regex_replace(need.condition, std::regex(" or "), "` or `"));
   }
   for (const KeyRequired& required : key.required)

@@ -12,22 +12,20 @@ namespace quadloop {
 namespace {
 
 /// A word, a list of words, or a table of words with the weights of their errors.
-std::vector<Goal> read_quantities(const CaseTable& table, const std::string& key) {
+GoalWeights read_quantities(const CaseTable& table, const std::string& key) {
   const std::vector<std::string> words = words_of(Goal::words);
-  std::vector<Goal> goals;
+  GoalWeights goals;
   if (table.is_table(key)) {
     const CaseTable weights = *table.table(key);
     refuse_unknown_keys(weights, words);
     for (const auto& [word, quantity] : Goal::words) {
-      if (const auto weight = weights.number(word, Range::positive()))
-        goals.push_back({quantity, {}, {}, *weight});
+      if (const auto weight = weights.number(word, Range::positive())) goals.emplace_back(quantity, *weight);
     }
   } else {
     for (const std::string& word : texts(words).read(table, key)) {
-      const Goal::Quantity quantity = *value_of(Goal::words, word);
-      if (std::ranges::count(goals, quantity, &Goal::quantity) > 0)
-        table.refuse(key, fmt::format("names '{}' twice", word));
-      goals.push_back({quantity});
+      const std::pair goal{*value_of(Goal::words, word), 1.0};
+      if (std::ranges::count(goals, goal) > 0) table.refuse(key, fmt::format("names '{}' twice", word));
+      goals.push_back(goal);
     }
   }
   if (goals.empty()) table.refuse(key, "is empty; name what the flow is solved for, as in goal = \"drag\"");
@@ -38,8 +36,8 @@ std::vector<Goal> read_quantities(const CaseTable& table, const std::string& key
 
 std::vector<Key<SolverSettings>> goal_keys() {
   return {
-      key<&SolverSettings::euler, &EulerOptions::goals>(
-          "goal", ValueForm<std::vector<Goal>>{"text, a list, or a table", "\"drag\"", read_quantities},
+      key<&SolverSettings::goals>(
+          "goal", ValueForm<GoalWeights>{"text, a list, or a table", "\"drag\"", read_quantities},
           "[Output functional](../explanation/adaptation.md#output-functionals-and-adjoints): `drag`, "
           "`lift`, `moment` or `pressure`; a list of them, or a table of weights.",
           {.fallback = "none",
@@ -65,13 +63,12 @@ std::vector<Key<SolverSettings>> goal_keys() {
 }
 
 void place_goals(const CaseTable& table, SolverSettings& settings) {
-  std::vector<Goal>& goals = settings.euler.goals;
-  if (settings.goal_about && std::ranges::count(goals, Goal::Quantity::moment, &Goal::quantity) == 0)
+  const Point about = settings.goal_about.value_or(Point{});
+  for (const auto& [quantity, weight] : settings.goals)
+    settings.euler.goals.push_back({quantity, settings.goal_on, about, weight});
+  if (settings.goal_about &&
+      std::ranges::count(settings.euler.goals, Goal::Quantity::moment, &Goal::quantity) == 0)
     table.refuse("goal_about", "is the point of a moment; add \"moment\" to goal");
-  for (Goal& goal : goals) {
-    goal.boundaries = settings.goal_on;
-    goal.about = settings.goal_about.value_or(goal.about);
-  }
 }
 
 std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries) {

@@ -11,8 +11,8 @@ namespace quadloop {
 /// What [solver] says of goals, rows of its table.
 std::vector<Key<SolverSettings>> goal_keys();
 
-/// Gives the goals their boundaries, which are patterns still, and the point of moments. Throws InputError
-/// that names key and line.
+/// Makes the goals with their boundaries, which are patterns still, and the point of moments. Throws
+/// InputError that names key and line.
 void place_goals(const CaseTable& table, SolverSettings& settings);
 
 /// The goals with the names of boundaries that their patterns match. Throws InputError for a pattern that

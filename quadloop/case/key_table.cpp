@@ -93,17 +93,15 @@ bool holds(const std::string& text, const CaseTable& table, const TableText& key
          });
 }
 
-[[noreturn]] void refuse_without(const KeyNeed& need, const std::string& key, const CaseTable& table,
-                                 const TableText& keys) {
+/// What is wrong with a key whose need is not met.
+std::string fault_without(const KeyNeed& need, const CaseTable& table, const TableText& keys) {
   const Condition first = alternatives_of(need.condition).front();
   const std::string remedy = need.remedy.empty() ? "" : "; " + need.remedy;
   if (first.sign == "no")
-    table.refuse(
-        key, fmt::format("stands beside {}{}", first.name, remedy.empty() ? "; give one of them" : remedy));
+    return fmt::format("stands beside {}{}", first.name, remedy.empty() ? "; give one of them" : remedy);
   const std::string value = first.sign.empty() ? "" : NamedKey(first.name, table, keys).value();
-  table.refuse(key,
-               fmt::format("needs {}{}{}", need.condition,
-                           value.empty() ? "" : fmt::format(", but {} = {}", first.name, value), remedy));
+  return fmt::format("needs {}{}{}", need.condition,
+                     value.empty() ? "" : fmt::format(", but {} = {}", first.name, value), remedy);
 }
 
 /// A key of another table with this name.
@@ -147,13 +145,6 @@ ValueForm<std::string> text() {
           [](const std::string& value) { return value.empty() ? "" : json_of(value); }};
 }
 
-ValueForm<std::string> one_of(const std::vector<std::string>& words) {
-  return {words_in_text(words), json_of(words.back()),
-          [words](const CaseTable& table, const std::string& key) {
-            return table.known_word(key, *table.text(key), words);
-          }};
-}
-
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words) {
   const auto read = [words](const CaseTable& table, const std::string& key) {
     const std::vector<std::string> values = table.texts(key);
@@ -192,8 +183,10 @@ void require_needs(const CaseTable& table, const TableText& keys) {
       continue;
     }
     for (const KeyNeed& need : key.needs) {
-      if (holds(need.when, table, keys) && !holds(need.condition, table, keys))
-        refuse_without(need, key.name, table, keys);
+      if (!holds(need.when, table, keys) || holds(need.condition, table, keys)) continue;
+      const std::string fault = fault_without(need, table, keys);
+      if (!need.warns) table.refuse(key.name, fault);
+      table.warn(key.name, "does nothing: it " + fault);
     }
   }
 }

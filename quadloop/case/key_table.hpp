@@ -26,6 +26,7 @@ struct KeyNeed {
   std::string condition;
   std::string remedy = {};
   std::string when = {};  ///< the condition under which it is required; empty: always
+  bool warns = false;     ///< the key is accepted without it, with a warning that it has no effect
 };
 
 /// Where a key must be given: under a condition, or always where that is empty.
@@ -69,7 +70,6 @@ ValueForm<double> number(const Range& range = {});
 ValueForm<std::int64_t> whole(const Range& range);
 ValueForm<bool> flag();
 ValueForm<std::string> text();
-ValueForm<std::string> one_of(const std::vector<std::string>& words);
 /// One text or a list of them; of the words, if there are any.
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words = {});
 ValueForm<Point> point();
@@ -156,7 +156,7 @@ auto key(const std::string& name, ValueForm<Value> form, const std::string& mean
 /// Throws InputError for the first key of the table that is none of these names, with the nearest known key.
 void refuse_unknown_keys(const CaseTable& table, const std::vector<std::string>& names);
 
-/// Throws InputError for a key that is required and missing, and for one without what it requires.
+/// Throws InputError for a key that is required and missing, and for one without what it requires, or warns.
 void require_needs(const CaseTable& table, const TableText& text);
 
 /// The keys of one table, and the options that they are read into.
@@ -202,11 +202,12 @@ class KeyTable {
   std::vector<Key<Target>> keys_;
 };
 
-/// Rows of several tables, or of a table and some more.
+/// The rows of several tables.
 template <class Target>
-std::vector<Key<Target>> joined(std::vector<Key<Target>> first, const std::vector<Key<Target>>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
+std::vector<Key<Target>> joined(const std::vector<std::vector<Key<Target>>>& tables) {
+  std::vector<Key<Target>> all;
+  for (const std::vector<Key<Target>>& keys : tables) all.insert(all.end(), keys.begin(), keys.end());
+  return all;
 }
 
 }  // namespace quadloop

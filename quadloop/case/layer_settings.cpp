@@ -165,13 +165,27 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
   static const KeyTable<LayerLineKeys> keys{
       "layer_line",
       joined<LayerLineKeys>(
-          {key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
-                                                       {.required = {{"the points of the line"}}}),
-           key<&LayerLineKeys::line, &LayerLine::spacing>(
-               "spacing", number(Range::positive()), "Target cell length along the line.",
-               {.unit = "length", .required = {{"the length of cells along the line"}}})},
-          layer_keys().keys_of<&LayerLineKeys::layers>())};
+          {{key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
+                                                        {.required = {{"the points of the line"}}}),
+            key<&LayerLineKeys::line, &LayerLine::spacing>(
+                "spacing", number(Range::positive()), "Target cell length along the line.",
+                {.unit = "length", .required = {{"the length of cells along the line"}}})},
+           layer_keys().keys_of<&LayerLineKeys::layers>()})};
   return keys;
+}
+
+/// The values of the key `bc`: all conditions except those of the key `wall`.
+std::vector<std::pair<const char*, BoundaryCondition>> values_of_bc() {
+  std::vector<std::pair<const char*, BoundaryCondition>> values(BoundaryCondition::words.begin(),
+                                                                BoundaryCondition::words.end());
+  std::erase_if(values, [](const auto& value) {
+    return value.second.is_wall() && value.second != BoundaryCondition::wall;
+  });
+  return values;
+}
+
+std::vector<std::pair<const char*, BoundaryCondition>> values_of_wall() {
+  return {BoundaryCondition::wall_words.begin(), BoundaryCondition::wall_words.end()};
 }
 
 const KeyTable<BoundaryKeys>& boundary_keys() {
@@ -190,8 +204,8 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "Largest size of cells at a sharp corner of this boundary, where it turns by more than `corner`.",
            {.unit = "length", .fallback = "none"}),
        key<&BoundaryKeys::rule, &BoundaryRule::condition>(
-           "bc", one_of(condition_words()), "Boundary condition for the solver.", {.fallback = "`none`"}),
-       key<&BoundaryKeys::wall>("wall", one_of(wall_words()),
+           "bc", choice(values_of_bc()), "Boundary condition for the solver.", {.fallback = "`none`"}),
+       key<&BoundaryKeys::wall>("wall", choice(values_of_wall()),
                                 "Kind of wall, for formats that distinguish them (CGNS, `.mapbc`). The "
                                 "built-in solver uses `viscosity` instead.",
                                 {.fallback = "none", .needs = {{"bc = \"wall\""}}}),
@@ -205,9 +219,10 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            {.fallback = "none: supersonic outflow, choked where subsonic", .needs = {{"bc = \"outflow\""}}}),
        key<&BoundaryKeys::wall_temperature>(
            "wall_temperature", number(Range::positive()),
-           "Wall temperature divided by the free-stream temperature in a viscous flow. Without viscosity it "
-           "has no effect and gives a warning.",
-           {.fallback = "adiabatic", .needs = {{"bc = \"wall\""}}})}};
+           "Wall temperature divided by the free-stream temperature in a viscous flow.",
+           {.fallback = "adiabatic",
+            .needs = {{"bc = \"wall\""},
+                      {"solver.viscosity > 0 or solver.reynolds", "", "solver.kind = \"euler\"", true}}})}};
   return keys;
 }
 
@@ -219,7 +234,7 @@ void read_boundary_tables(const CaseTable& boundaries, Settings& settings) {
     BoundaryRule& rule = keys.rule;
     rule.pattern = name;
     rule.where = fmt::format("{}: [{}]", table.place(), boundaries.full_name(name));
-    if (keys.wall) rule.condition = *keys.wall + "_wall";
+    if (keys.wall) rule.condition = *keys.wall;
     if (keys.pressure) settings.solver.pressures.push_back({name, *keys.pressure});
     if (keys.wall_temperature) settings.solver.wall_temperatures.push_back({name, *keys.wall_temperature});
     settings.wants_y_plus = settings.wants_y_plus || (rule.layers && rule.layers->y_plus > 0);

@@ -46,7 +46,7 @@ struct LayerLineKeys {
 struct BoundaryKeys {
   BoundaryRule rule;
   std::optional<double> pressure, wall_temperature;
-  std::optional<std::string> wall;
+  std::optional<BoundaryCondition> wall;
 };
 
 const KeyTable<LayerKeys>& layer_keys();

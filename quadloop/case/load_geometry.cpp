@@ -60,7 +60,7 @@ void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
     warnings.push_back(
         fmt::format("mesh.half: boundary '{}' (bc {}) is in the half left out; its mirror image '{}' "
                     "(bc {}) stands for it",
-                    left_out.name, left_out.condition, image.name, image.condition));
+                    left_out.name, left_out.condition.word(), image.name, image.condition.word()));
   }
 }
 

@@ -53,9 +53,14 @@ ValueForm<FarField> far_field() {
           }};
 }
 
-/// The numbers of a shape. No geometry reaches beyond 1e100.
-std::vector<double> shape_numbers(const CaseTable& table, const std::string& key, std::size_t count) {
-  return *table.numbers(key, count, {-1e100, 1e100});
+/// A shape's numbers, of which `is_good` tells whether they are one. No geometry reaches beyond 1e100.
+ValueForm<std::vector<double>> shape(const std::string& text, const std::string& example, std::size_t count,
+                                     const std::string& wanted, bool (*is_good)(const std::vector<double>&)) {
+  return {text, example, [=](const CaseTable& table, const std::string& key) {
+            const std::vector<double> numbers = *table.numbers(key, count, {-1e100, 1e100});
+            if (!is_good(numbers)) table.refuse(key, "must be " + wanted);
+            return numbers;
+          }};
 }
 
 /// The half above or beside the axis that mesh.mirror names.
@@ -69,20 +74,6 @@ ValueForm<HalfDomain> half_domain() {
                            "is no name for a boundary; name the one along the axis by a word without blanks");
             return HalfDomain{
                 table.has("mirror") && table.text("mirror") == "y" ? MirrorAxis::y : MirrorAxis::x, name};
-          }};
-}
-
-ValueForm<RootOptions> root_squares() {
-  return {"`[x0, y0, edge, columns, rows]`", "[-1, -1, 2, 3, 4]",
-          [](const CaseTable& table, const std::string& key) {
-            const std::vector<double> r = *table.numbers(key, 5);
-            const auto is_count = [](double n) { return n == std::floor(n) && n >= 1 && n <= 1024; };
-            if (!(r[2] > 0) || !is_count(r[3]) || !is_count(r[4]))
-              table.refuse(
-                  key,
-                  "must be [x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and "
-                  "whole numbers of trees from 1 to 1024");
-            return RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
           }};
 }
 
@@ -169,30 +160,25 @@ const KeyTable<Settings>& spacing_keys() {
   return keys;
 }
 
-const KeyTable<SizeSource>& source_keys() {
-  const auto box = [](const CaseTable& table, const std::string& key) {
-    const auto b = shape_numbers(table, key, 4);
-    if (!(b[0] < b[1] && b[2] < b[3])) table.refuse(key, "must be [x0, x1, y0, y1] with x0 < x1 and y0 < y1");
-    return Box{{b[0], b[2]}, {b[1], b[3]}};
-  };
-  const auto disc = [](const CaseTable& table, const std::string& key) {
-    const auto d = shape_numbers(table, key, 3);
-    if (!(d[2] > 0)) table.refuse(key, "must be [x, y, radius] with a radius above 0");
-    return SizeSource::Disc{{d[0], d[1]}, d[2]};
-  };
-  const auto line = [](const CaseTable& table, const std::string& key) {
-    const auto l = shape_numbers(table, key, 4);
-    return SizeSource::Line{{l[0], l[1]}, {l[2], l[3]}};
-  };
-  static const KeyTable<SizeSource> keys{
+const KeyTable<SourceKeys>& source_keys() {
+  using Numbers = std::vector<double>;
+  static const KeyTable<SourceKeys> keys{
       "source",
-      {key<&SizeSource::shape>("box", ValueForm<Box>{"`[x0, x1, y0, y1]`", "[0, 1, 2, 3]", box},
-                               "A rectangle. A source has one of `box`, `disc` and `line`."),
-       key<&SizeSource::shape>("disc", ValueForm<SizeSource::Disc>{"`[x, y, radius]`", "[1, 2, 0.5]", disc},
-                               "A disc."),
-       key<&SizeSource::shape>(
-           "line", ValueForm<SizeSource::Line>{"`[x0, y0, x1, y1]`", "[1, 2, 3, 2]", line}, "A line."),
-       key<&SizeSource::spacing>(
+      {key<&SourceKeys::box>(
+           "box",
+           shape("`[x0, x1, y0, y1]`", "[0, 1, 2, 3]", 4, "[x0, x1, y0, y1] with x0 < x1 and y0 < y1",
+                 [](const Numbers& b) { return b[0] < b[1] && b[2] < b[3]; }),
+           "A rectangle. A source has one of `box`, `disc` and `line`."),
+       key<&SourceKeys::disc>(
+           "disc",
+           shape("`[x, y, radius]`", "[1, 2, 0.5]", 3, "[x, y, radius] with a radius above 0",
+                 [](const Numbers& d) { return d[2] > 0; }),
+           "A disc."),
+       key<&SourceKeys::line>("line",
+                              shape("`[x0, y0, x1, y1]`", "[1, 2, 3, 2]", 4, "[x0, y0, x1, y1]",
+                                    [](const Numbers&) { return true; }),
+                              "A line."),
+       key<&SourceKeys::spacing>(
            "spacing", number(Range::positive()), "Cells that intersect the shape are no larger than this.",
            {.unit = "length", .required = {{"the size of cells that meet the shape"}}})}};
   return keys;
@@ -226,10 +212,19 @@ const KeyTable<Settings>& mesh_keys() {
                             "Mesh only the half above the x axis (right of the y axis); the value names the "
                             "boundary along the axis.",
                             {.fallback = "none", .needs = {{"mirror", "of what it is the half"}}}),
-       key<&Settings::mesh, &MeshOptions::size, &SizeOptions::root>(
-           "root", root_squares(),
+       key<&Settings::root>(
+           "root",
+           shape(
+               "`[x0, y0, edge, columns, rows]`", "[-1, -1, 2, 3, 4]", 5,
+               "[x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and whole numbers of "
+               "trees from 1 to 1024",
+               [](const std::vector<double>& r) {
+                 const auto is_count = [](double n) { return n == std::floor(n) && n >= 1 && n <= 1024; };
+                 return r[2] > 0 && is_count(r[3]) && is_count(r[4]);
+               }),
            "Lower left corner, edge and number of the root squares, for meshes that must share one "
-           "background grid.",
+           "background "
+           "grid.",
            {.fallback = "from the geometry"}),
        key<&Settings::mesh, &MeshOptions::snap>("snap", number({0, 0.5, false, true}),
                                                 "Snap tolerance as a fraction of the local cell size: grid "
@@ -269,23 +264,27 @@ void read_spacing_table(const CaseTable& table, Settings& settings) {
 }
 
 SizeSource read_source(const CaseTable& table) {
-  SizeSource source;
-  source.where = table.place();
-  source_keys().read(table, source);
-  if (int{table.has("box")} + int{table.has("disc")} + int{table.has("line")} != 1)
+  SourceKeys keys;
+  source_keys().read(table, keys);
+  const auto& [box, disc, line, spacing] = keys;
+  if (int{!box.empty()} + int{!disc.empty()} + int{!line.empty()} != 1)
     throw InputError(table.place() +
                      ": a [[source]] needs exactly one of box = [x0, x1, y0, y1], disc = [x, y, radius], "
                      "line = [x0, y0, x1, y1]");
-  return source;
+  if (!box.empty()) return {Box{{box[0], box[2]}, {box[1], box[3]}}, spacing, table.place()};
+  if (!disc.empty()) return {SizeSource::Disc{{disc[0], disc[1]}, disc[2]}, spacing, table.place()};
+  return {SizeSource::Line{{line[0], line[1]}, {line[2], line[3]}}, spacing, table.place()};
 }
 
 void read_mesh_table(const CaseTable& table, Settings& settings) {
   mesh_keys().read(table, settings);
+  if (const std::vector<double>& r = settings.root; !r.empty())
+    settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
   if (!settings.half) return;
   settings.mesh.mirror.reset();  // the half is no image of itself
   settings.outline.rules.insert(
       settings.outline.rules.begin(),
-      {settings.half->boundary, {}, {}, "symmetry", table.place("half"), false, true});
+      {settings.half->boundary, {}, {}, BoundaryCondition::symmetry, table.place("half"), false, true});
 }
 
 }  // namespace quadloop

@@ -1,16 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "quadloop/case/key_table.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
 
+/// The table [[source]]: the numbers of its shape, and the size.
+struct SourceKeys {
+  std::vector<double> box, disc, line;
+  double spacing = 0;
+};
+
 /// The tables [geometry], [spacing], [[source]] and [mesh].
 const KeyTable<Settings>& geometry_keys();
 const KeyTable<Settings>& spacing_keys();
-const KeyTable<SizeSource>& source_keys();
+const KeyTable<SourceKeys>& source_keys();
 const KeyTable<Settings>& mesh_keys();
 
 /// Read them. All throw InputError that names key and line.

@@ -81,7 +81,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   settings.flow = read_flow_table(root);
   if (settings.far_field)  // unless the case says other
     settings.outline.rules.push_back(
-        {"farfield", {}, {}, "farfield", settings.far_field->where, false, true});
+        {"farfield", {}, {}, BoundaryCondition::farfield, settings.far_field->where, false, true});
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
@@ -101,11 +101,10 @@ void read_tables(const CaseTable& root, Settings& settings) {
 }
 
 /// Keys that the case gives and nothing uses.
-Warnings unused_settings(const Settings& settings) {
-  Warnings warnings = unused_flow(settings);
-  for (const Warnings& more :
-       {idle_wall_temperatures(settings.solver), forces_without_stream(settings.solver),
-        exits_into_vacuum(settings.solver, settings.outline.rules)})
+Warnings unused_settings(const CaseTable& root, const Settings& settings) {
+  Warnings warnings = root.warnings();
+  for (const Warnings& more : {unused_flow(settings), forces_without_stream(settings.solver),
+                               exits_into_vacuum(settings.solver, settings.outline.rules)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   return warnings;
 }
@@ -171,7 +170,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   const bool is_built_in = settings.solver.kind == SolverSettings::Kind::euler;
   if (settings.flow && !is_built_in) settings.stream = settings.flow->stream();
   if (settings.adapt) settings.adapt->wall_flow = wall_flow(settings);
-  settings.warnings = unused_settings(settings);
+  settings.warnings = unused_settings(root, settings);
   settings.values = root.values({"title", "output.prefix", "output.partitions", "adapt.cycles", "adapt.until",
                                  "solver.timeout", "solver.ranks"});
   return settings;

@@ -73,6 +73,7 @@ struct Settings {
   std::optional<FarField> far_field;
   bool inside = false;  ///< an airfoil without an outer boundary is meshed inside
   std::optional<HalfDomain> half;
+  std::vector<double> root;  ///< mesh.root, from which the mesh's options are
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry

@@ -28,6 +28,9 @@ ValueForm<std::string> file_name() {
   return form;
 }
 
+/// Without the condition the key has no effect.
+KeyNeed only_with(const std::string& condition) { return {condition, "", "", true}; }
+
 /// The free stream and what is solved.
 std::vector<Key<EulerOptions>> model_keys() {
   using enum EulerOptions::Limiter;
@@ -36,11 +39,11 @@ std::vector<Key<EulerOptions>> model_keys() {
           "mach", number({0, 100}),
           "Free-stream Mach number. Mach 0 requires another driving force; see [free stream](#solver)."),
       key<&EulerOptions::alpha>("alpha", number({-360, 360}), "Angle of attack.", {.unit = "degrees"}),
-      key<&EulerOptions::gamma>("gamma", number({1, 10, true, false}), "Ratio of specific heats."),
       key<&EulerOptions::viscosity>("viscosity", number({0}),
                                     "Dynamic viscosity in units of free-stream density, speed of sound and "
                                     "length. Above 0: laminar flow, no-slip walls."),
-      key<&EulerOptions::prandtl>("prandtl", number(Range::positive()), "Prandtl number of a viscous flow."),
+      key<&EulerOptions::prandtl>("prandtl", number(Range::positive()), "Prandtl number of a viscous flow.",
+                                  {.needs = {only_with("viscosity > 0 or reynolds")}}),
       key<&EulerOptions::reference_length>(
           "reference_length", number(Range::positive()),
           "Reference length of the force coefficients, which include all walls and are in wind axes.",
@@ -77,6 +80,7 @@ std::vector<Key<EulerOptions>> march_keys() {
           "end_time", number({0}),
           "End of a flow with `time = \"accurate\"`, in units of length over free-stream speed of sound.",
           {.example = "10",
+           .needs = {only_with("time = \"accurate\"")},
            .required = {{"the time at which a flow with time = \"accurate\" ends", "time = \"accurate\""}}}),
       key<&EulerOptions::average_from>(
           "average_from", number({0}),
@@ -113,24 +117,29 @@ std::vector<Key<EulerOptions>> march_keys() {
 
 std::vector<Key<SolverSettings>> command_keys() {
   const std::string runs = "kind = \"euler\" or kind = \"command\"";
+  const KeyNeed of_command = only_with("kind = \"command\""),
+                of_program = only_with("kind = \"command\" or kind = \"su2\""),
+                of_all = only_with("kind = \"command\" or kind = \"su2\" or kind = \"openfoam\"");
   const std::string own_names = "with the others both files have names of their own";
   return {key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::arguments>(
               "command", texts(), "Program and arguments ([interface](solver-interface.md)).",
               {.example = "[\"flow\", \"{mesh}\"]",
+               .needs = {of_program},
                .required = {{"kind = \"command\" needs the program to run and its arguments, as in command = "
                              "[\"my_solver\", \"{mesh}\"]",
                              "kind = \"command\""}}}),
           key<&SolverSettings::command, &CommandSolver::ranks>(
               "ranks", whole({0, std::numeric_limits<int>::max()}),
-              "Number of ranks of the program; 0: as many as quadloop.", {.example = "3"}),
+              "Number of ranks of the program; 0: as many as quadloop.", {.example = "3", .needs = {of_all}}),
           key<&SolverSettings::command, &CommandSolver::mesh>(
               "mesh", file_name(), "Input file of the program.",
-              {.example = "\"m.su2\"", .needs = {{runs, own_names}}}),
+              {.example = "\"m.su2\"", .needs = {of_command, {runs, own_names}}}),
           key<&SolverSettings::command, &CommandSolver::solution>(
               "solution", file_name(), "Output file of the program.",
-              {.example = "\"s.cgns\"", .needs = {{runs, own_names}}}),
+              {.example = "\"s.cgns\"", .needs = {of_command, {runs, own_names}}}),
           key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::timeout>(
-              "timeout", number(Range::positive()), "Time limit of the program.", {.unit = "seconds"}),
+              "timeout", number(Range::positive()), "Time limit of the program.",
+              {.unit = "seconds", .needs = {of_all}}),
           key<&SolverSettings::case_template>(
               "template", text(),
               "Configuration file of [SU2](../how-to/su2.md), or folder of an "
@@ -172,21 +181,26 @@ void require_driven_flow(const CaseTable& table, const SolverSettings& settings)
 }  // namespace
 
 const KeyTable<SolverSettings>& solver_keys() {
-  const Key<SolverSettings> kind =
+  const std::vector<Key<SolverSettings>> general{
       key<&SolverSettings::kind>("kind", choice(SolverSettings::kind_words),
                                  "Built-in solver, [your program](../how-to/own-solver.md), "
-                                 "[SU2](../how-to/su2.md) or [OpenFOAM](../how-to/openfoam.md).");
-  const Key<SolverSettings> reynolds = key<&SolverSettings::reynolds>(
-      "reynolds", number(Range::positive()),
-      "Alternative to `viscosity`, which becomes `mach` times `reference_length` / `reynolds`.",
-      {.fallback = "none",
-       .needs = {{"no viscosity", "which it decides; give one of the two"},
-                 {"mach > 0", "give viscosity instead"}}});
+                                 "[SU2](../how-to/su2.md) or [OpenFOAM](../how-to/openfoam.md)."),
+      key<&SolverSettings::euler, &EulerOptions::gamma>(
+          "gamma", number({1, 10, true, false}), "Ratio of specific heats.",
+          {.needs = {only_with("kind = \"euler\" or kind = \"command\" or kind = \"su2\"")}})};
+  std::vector<Key<SolverSettings>> of_euler = joined<SolverSettings>(
+      {KeyTable("", model_keys()).keys_of<&SolverSettings::euler>(),
+       {key<&SolverSettings::reynolds>(
+           "reynolds", number(Range::positive()),
+           "Alternative to `viscosity`, which becomes `mach` times `reference_length` / "
+           "`reynolds`.",
+           {.fallback = "none",
+            .needs = {{"no viscosity", "which it decides; give one of the two"},
+                      {"mach > 0", "give viscosity instead"}}})},
+       KeyTable("", march_keys()).keys_of<&SolverSettings::euler>()});
+  for (Key<SolverSettings>& key : of_euler) key.text.needs.push_back(only_with("kind = \"euler\""));
   static const KeyTable<SolverSettings> keys{
-      "solver",
-      joined(joined({kind}, KeyTable("", model_keys()).keys_of<&SolverSettings::euler>()),
-             joined(joined({reynolds}, KeyTable("", march_keys()).keys_of<&SolverSettings::euler>()),
-                    joined(goal_keys(), command_keys())))};
+      "solver", joined<SolverSettings>({general, of_euler, goal_keys(), command_keys()})};
   return keys;
 }
 
@@ -204,17 +218,6 @@ void read_solver_table(const CaseTable& table, SolverSettings& settings) {
   require_driven_flow(table, settings);
 }
 
-std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings) {
-  if (settings.kind != SolverSettings::Kind::euler || settings.euler.viscosity > 0) return {};
-  std::vector<std::string> warnings;
-  for (const WallTemperature& wall : settings.wall_temperatures)
-    warnings.push_back(
-        fmt::format("'boundary.{}.wall_temperature' does nothing, as the flow has no "
-                    "viscosity: set solver.reynolds or solver.viscosity",
-                    wall.pattern));
-  return warnings;
-}
-
 std::vector<std::string> forces_without_stream(const SolverSettings& settings) {
   if (!settings.given || settings.kind != SolverSettings::Kind::euler || settings.euler.mach > 0) return {};
   return {"solver.mach is 0: coefficients of forces need a free stream, so cl and cd are 0"};
@@ -228,7 +231,7 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
     const bool has_pressure = std::ranges::any_of(settings.pressures, [&](const OutflowPressure& outflow) {
       return matches(outflow.pattern, rule.pattern);
     });
-    if (rule.condition == "outflow" && !has_pressure)
+    if (rule.condition == BoundaryCondition::outflow && !has_pressure)
       warnings.push_back(
           rule.where +
           " is a subsonic outflow without back pressure, where gas leaves as into a vacuum; set "
@@ -245,7 +248,7 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
   EulerOptions options = settings.euler;
   for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
-    BoundaryChoice choice{boundary.name, boundary.condition == "none" ? "" : boundary.condition, {}, {}};
+    BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
         if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))

@@ -26,6 +26,9 @@ struct WallTemperature {
   double temperature = 1;
 };
 
+/// What the flow is solved for, each with the weight of its error.
+using GoalWeights = std::vector<std::pair<Goal::Quantity, double>>;
+
 /// The case's table [solver], and what its boundary tables say to the solver alone.
 struct SolverSettings {
   enum class Kind { euler, command, su2, openfoam };
@@ -36,6 +39,7 @@ struct SolverSettings {
   bool given = false;  ///< the case has the table
   EulerOptions euler;  ///< without the boundaries
   std::optional<double> reynolds;
+  GoalWeights goals = {};
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
   std::optional<Point> goal_about = {};
   CommandSolver command;      ///< without the case's folder
@@ -48,9 +52,6 @@ const KeyTable<SolverSettings>& solver_keys();
 
 /// Reads [solver]. Throws InputError that names key and line.
 void read_solver_table(const CaseTable& table, SolverSettings& settings);
-
-/// A warning for each wall temperature that the built-in solver's flow does not feel, as it has no viscosity.
-std::vector<std::string> idle_wall_temperatures(const SolverSettings& settings);
 
 /// A warning where the free stream is at rest, so that forces have no coefficients.
 std::vector<std::string> forces_without_stream(const SolverSettings& settings);

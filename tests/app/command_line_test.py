@@ -3,6 +3,7 @@
 
     command_line_test.py QUADLOOP MPIRUN
 """
+import json
 import subprocess
 import sys
 import unittest
@@ -65,6 +66,22 @@ class Assignments(ProgramTest):
         self.refused(1, ["--set sorce=[]: unknown key 'sorce'", "do you mean 'source'?"], "mesh", "a.toml", "--set", "spacing.max=1", "sorce=[]")
         self.refused(1, ["--set .x=1:", "not a key"], "mesh", "a.toml", "--set", ".x=1")
         self.refused(1, ["source.1.spacing", "above 0"], "mesh", "a.toml", "--set", SOURCE.replace("0.5", "-1"))
+
+
+class Help(ProgramTest):
+    def test_a_key_from_one_rank(self):
+        said, errors = self.done("help", "spacing.max", ranks=3)
+        self.assertEqual((said.count("spacing.max: number, above 0"), errors), (1, ""))
+
+    def test_tables(self):
+        said, _ = self.done("help", "spacing")
+        self.assertIn("\n  gradation ", said)
+        self.assertNotIn("[mesh]", said)
+        self.assertIn("[mesh]", self.done("help")[0])
+        self.assertEqual(json.loads(self.done("help", "spacing", "--json")[0])["help"], said)
+
+    def test_an_unknown_key(self):
+        self.refused(2, ["'spacing.mxa'", "do you mean 'spacing.max'?"], "help", "spacing.mxa")
 
 
 class Slips(ProgramTest):

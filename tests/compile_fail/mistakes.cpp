@@ -2,6 +2,7 @@
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/parallel/communicator.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
@@ -10,6 +11,7 @@ constexpr GlobalNodeId global_node{3};
 
 static_assert(node == NodeId{3});
 static_assert(!NodeId{}.valid());
+static_assert(BoundaryCondition("farfield") == BoundaryCondition::farfield);
 
 inline double value_at(const IdVector<NodeId, double>& values) { return values[node]; }
 
@@ -35,6 +37,10 @@ double mistake() { return value_at(std::vector<double>{3}); }
 IdVector<NodeId, bool> mistake;
 #elif defined(COPIED_COMMUNICATOR)
 Communicator mistake(const Communicator& comm) { return comm; }
+#elif defined(UNKNOWN_CONDITION)
+const BoundaryCondition mistake = "far_field";
+#elif defined(TEXT_FOR_CONDITION)
+BoundaryCondition mistake(const std::string& word) { return word; }
 #endif
 
 }  // namespace quadloop

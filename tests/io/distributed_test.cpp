@@ -222,7 +222,7 @@ TEST(CgnsFile, ComesBackAsTheNativeFileDoes) {
   const LoadedMesh loaded = test::read_plane<read_cgns>(folder.file("m.cgns"));
   expect_same_mesh(loaded, sample.mesh);
   expect_same_solution(loaded, sample.solution);
-  EXPECT_EQ(loaded.mesh.boundaries.at(1).condition, "farfield");
+  EXPECT_EQ(loaded.mesh.boundaries.at(1).condition, BoundaryCondition::farfield);
   EXPECT_EQ(loaded.blocks, 1);
 }
 

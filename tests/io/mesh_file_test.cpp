@@ -104,7 +104,8 @@ void convert_and_compare(LoadedMesh loaded, const std::string& first, const std:
   const bool conditions_carried = format_named(first)->holds(Content::conditions);
   const bool conditions_kept = conditions_carried && format_named(second)->holds(Content::conditions);
   // Fluent has a wall where nothing is said
-  const std::string condition = conditions_kept || second == "fluent.msh" ? "wall" : "none";
+  const BoundaryCondition condition =
+      conditions_kept || second == "fluent.msh" ? BoundaryCondition::wall : BoundaryCondition::none;
   EXPECT_EQ(back.mesh.boundaries[0].condition, condition);
   const std::size_t losses =
       (conditions_carried && !conditions_kept ? 1U : 0U) + (carried && !kept ? 1U : 0U) +
@@ -176,9 +177,9 @@ TEST(MeshFile, ConditionsOfInterfacesStay) {
   for (const char* format : {"cgns", "qmesh"}) {
     const test::TemporaryFolder folder;
     LoadedMesh loaded = sample(Kind::hybrid, false);
-    loaded.mesh.boundaries[0].condition = "interface";
+    loaded.mesh.boundaries[0].condition = BoundaryCondition::interface;
     const LoadedMesh back = through_file(loaded, folder.file(std::string("a.") + format));
-    EXPECT_EQ(back.mesh.boundaries[0].condition, "interface") << format;
+    EXPECT_EQ(back.mesh.boundaries[0].condition, BoundaryCondition::interface) << format;
     EXPECT_EQ(back.mesh.boundaries[1].condition, loaded.mesh.boundaries[1].condition) << format;
   }
 }

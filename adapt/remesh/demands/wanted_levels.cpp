@@ -39,7 +39,8 @@ void demand_level(const Quadrant& leaf, int level, std::vector<SplitDemand>& dem
 
 ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree,
                                 std::span<const std::int8_t> levels) {
-  QUADLOOP_REQUIRE(levels.size() == tree.leaves.size(), "there must be one level for each leaf");
+  QUADLOOP_REQUIRE(levels.size() == tree.leaves.size(), "there must be one level for each leaf",
+                   levels.size(), tree.leaves.size());
   ChangedSplits changed;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
@@ -62,7 +63,8 @@ ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree
 WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                            std::vector<std::int8_t> finest, std::optional<MirrorAxis> mirror)
     : comm_{comm}, tree_{solved.tree}, finest_{std::move(finest)}, mirror_{mirror}, norm_{*options.norm} {
-  QUADLOOP_REQUIRE(finest_.size() == tree_.leaves.size(), "there must be one finest level for each leaf");
+  QUADLOOP_REQUIRE(finest_.size() == tree_.leaves.size(), "there must be one finest level for each leaf",
+                   finest_.size(), tree_.leaves.size());
   const Field field = selected(solved.solution, options.variables, "adapt.variable");
   by_error_ = options.source == AdaptOptions::Source::error;
   InterpolationError error =

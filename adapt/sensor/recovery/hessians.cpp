@@ -206,7 +206,7 @@ double along(const Hessian& h, Point e) { return h.xx * e.x * e.x + 2 * h.xy * e
 
 std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field,
                                        ValuesAt at) {
-  const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
+  const std::size_t cells = mesh.cell_count();
   comm.together([&] {
     QUADLOOP_REQUIRE(field.values.size() == (at == ValuesAt::nodes ? mesh.points.size() : cells),
                      "there must be one value for each node or cell");
@@ -225,8 +225,7 @@ std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mes
     }
     of_cells.push_back({1.0 / static_cast<double>(nodes.size()) * sum, largest});
   };
-  for (const auto& nodes : mesh.triangles) add(nodes);
-  for (const auto& nodes : mesh.quads) add(nodes);
+  mesh.for_each_cell(add);
   return of_cells;
 }
 

@@ -33,7 +33,8 @@ Integral integral_over(const Nodes& nodes, const HaloMesh& halo, const IdVector<
 
 std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
                                   std::span<const double> values) {
-  QUADLOOP_REQUIRE(values.size() == mesh.points.size(), "there must be one value for each node");
+  QUADLOOP_REQUIRE(values.size() == mesh.points.size(), "there must be one value for each node",
+                   values.size(), mesh.points.size());
   const HaloMesh halo(comm, mesh);
   IdVector<NodeId, double> halo_values(std::vector<double>(values.begin(), values.end()));
   halo_values.resize(halo.points().size());

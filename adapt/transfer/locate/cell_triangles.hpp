@@ -22,12 +22,7 @@ struct CellTriangle {
 /// The centre of the bounding box of all ranks' nodes. *Collective.*
 Point centre_of_nodes(const Communicator& comm, const Mesh& mesh);
 
-inline std::array<Point, 4> corners_of(const Mesh& mesh, const std::array<NodeId, 4>& quad) {
-  return {mesh.point(quad[0]), mesh.point(quad[1]), mesh.point(quad[2]), mesh.point(quad[3])};
-}
-
-/// Whether the quadrilateral is an axis-parallel rectangle, starting at the lower left corner; most are uncut
-/// leaves.
+/// Whether its sides lie along the axes, from the lower left corner on: most quads are whole leaves.
 inline bool is_rectangle(const std::array<Point, 4>& p) {
   return p[0].y == p[1].y && p[1].x == p[2].x && p[2].y == p[3].y && p[3].x == p[0].x && p[0].x < p[1].x &&
          p[1].y < p[2].y;

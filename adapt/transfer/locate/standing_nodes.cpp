@@ -42,8 +42,7 @@ void add_turns(const Mesh& mesh, const std::array<NodeId, corners>& cell,
 /// The remaining sum at each owned node; 0 inside the mesh. *Collective.*
 IdVector<NodeId, std::uint64_t> open_turns(const Communicator& comm, const Mesh& mesh) {
   IdVector<NodeId, std::uint64_t> turns(mesh.points.size(), 0);
-  for (const auto& cell : mesh.triangles) add_turns(mesh, cell, turns);
-  for (const auto& cell : mesh.quads) add_turns(mesh, cell, turns);
+  mesh.for_each_cell([&](const auto& cell) { add_turns(mesh, cell, turns); });
   struct Part {
     NodeId node;  ///< number on its owner
     std::uint64_t turns;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flow/euler/model/goal.hpp"
+#include "mesher/geometry/boundary_conditions.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -15,9 +16,9 @@ namespace quadloop {
 /// What the user asks of one boundary of the mesh.
 struct BoundaryChoice {
   std::string name;
-  std::string condition;           ///< wall | farfield | inflow | outflow | symmetry; empty: the mesh's own
-  std::optional<double> pressure;  ///< behind an outflow, in units of the free stream's; none: the flow
-                                   ///< leaves faster than sound
+  BoundaryCondition condition = {};  ///< none: the mesh's own
+  std::optional<double> pressure;    ///< behind an outflow, in units of the free stream's; none: the flow
+                                     ///< leaves faster than sound
   std::optional<double> temperature = {};  ///< of a wall that a viscous flow sticks to, in units of the free
                                            ///< stream's; none: it lets no heat through
 };

@@ -14,28 +14,36 @@ namespace quadloop::euler {
 
 namespace {
 
-/// What the solver makes of a word of boundary_conditions; none where it cannot use it.
-Condition condition_named(std::string_view word) {
-  if (is_wall(word)) return Condition::wall;
-  if (word == "farfield") return Condition::farfield;
-  if (word == "inflow") return Condition::inflow;
-  if (word == "outflow") return Condition::outflow;
-  if (word == "symmetry") return Condition::symmetry;
+/// What the solver makes of a condition; none where it cannot use it.
+Condition used_as(BoundaryCondition condition) {
+  switch (condition.kind()) {
+    case BoundaryCondition::wall:
+    case BoundaryCondition::viscous_wall:
+    case BoundaryCondition::inviscid_wall: return Condition::wall;
+    case BoundaryCondition::farfield: return Condition::farfield;
+    case BoundaryCondition::inflow: return Condition::inflow;
+    case BoundaryCondition::outflow: return Condition::outflow;
+    case BoundaryCondition::symmetry: return Condition::symmetry;
+    case BoundaryCondition::interface:
+    case BoundaryCondition::none: break;
+  }
   return Condition::none;
 }
 
 /// What the case or the mesh says of a boundary; the last choice counts.
-std::string word_of(const BoundaryEdges& boundary, const EulerOptions& options) {
-  std::string word = boundary.condition;
+BoundaryCondition condition_of(const BoundaryEdges& boundary, const EulerOptions& options) {
+  BoundaryCondition condition = boundary.condition;
   for (const BoundaryChoice& choice : options.boundaries) {
-    if (choice.name == boundary.name && !choice.condition.empty()) word = choice.condition;
+    if (choice.name == boundary.name && choice.condition != BoundaryCondition::none)
+      condition = choice.condition;
   }
-  return word;
+  return condition;
 }
 
-std::string fault_of_condition(const std::string& name, const std::string& word) {
-  return word.empty() || word == "none" ? fmt::format("'{}' has no condition", name)
-                                        : fmt::format("'{}' has the condition '{}'", name, word);
+std::string fault_of_condition(const std::string& name, BoundaryCondition condition) {
+  return condition == BoundaryCondition::none
+             ? fmt::format("'{}' has no condition", name)
+             : fmt::format("'{}' has the condition '{}'", name, condition.word());
 }
 
 /// Throws InputError that names all boundaries whose condition is missing or of no use here, and the words
@@ -43,14 +51,16 @@ std::string fault_of_condition(const std::string& name, const std::string& word)
 void require_conditions(const std::vector<const BoundaryEdges*>& boundaries, const EulerOptions& options) {
   std::vector<std::string> faults, tables;
   for (const BoundaryEdges* boundary : boundaries) {
-    const std::string word = word_of(*boundary, options);
-    if (condition_named(word) != Condition::none) continue;
-    faults.push_back(fault_of_condition(boundary->name, word));
+    const BoundaryCondition condition = condition_of(*boundary, options);
+    if (used_as(condition) != Condition::none) continue;
+    faults.push_back(fault_of_condition(boundary->name, condition));
     tables.push_back(fmt::format("[boundary.{}]", boundary->name));
   }
   if (faults.empty()) return;
   std::vector<std::string> usable = condition_words();
-  std::erase_if(usable, [](const std::string& known) { return condition_named(known) == Condition::none; });
+  std::erase_if(usable, [](const std::string& known) {
+    return used_as(*BoundaryCondition::named(known)) == Condition::none;
+  });
   const std::string last = usable.back();
   usable.pop_back();
   throw InputError(fmt::format("the flow solver cannot use these boundaries: {}; in {} set bc to {} or {}",
@@ -65,7 +75,7 @@ BoundaryModel boundary_model(const BoundaryEdges& boundary, const EulerOptions& 
     if (choice.pressure) pressure = *choice.pressure / options.gamma;
     temperature = choice.temperature;
   }
-  Condition condition = condition_named(word_of(boundary, options));
+  Condition condition = used_as(condition_of(boundary, options));
   if (condition == Condition::wall && options.viscosity > 0) condition = Condition::no_slip;
   return {condition, pressure, temperature};
 }

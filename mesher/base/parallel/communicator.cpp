@@ -34,7 +34,7 @@ void for_pieces(std::size_t size, std::size_t largest, const Visit& visit) {
 
 /// Refused rather than cut short: collective pieces are bounded by the callers.
 int count_of(std::size_t size) {
-  QUADLOOP_REQUIRE(size <= largest_message, "a collective message of more than 1 GiB");
+  QUADLOOP_REQUIRE(size <= largest_message, "a collective message of more than 1 GiB", size);
   return static_cast<int>(size);
 }
 

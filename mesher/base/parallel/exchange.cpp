@@ -26,7 +26,7 @@ std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts)
 Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_{&comm} {
   std::vector<std::int64_t> counts(comm.size(), 0);
   for (const int rank : ranks) {
-    QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks");
+    QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks", rank, comm.size());
     ++counts[rank];
   }
   targets_ = stretches(counts);
@@ -55,7 +55,7 @@ void Exchange::move(std::span<const Source> to, Bytes rows, std::span<const Sour
 }
 
 void Exchange::deliver_bytes(Bytes rows, Room room, std::size_t row) const {
-  QUADLOOP_REQUIRE(rows.size() == items() * row, "a row for each item");
+  QUADLOOP_REQUIRE(rows.size() == items() * row, "a row for each item", rows.size(), items(), row);
   if (order_.empty() || row == 0) return move(targets_, rows, sources_, room, row);
   std::vector<std::byte> sorted(rows.size());
   for (std::size_t i = 0; i < order_.size(); ++i)
@@ -64,7 +64,7 @@ void Exchange::deliver_bytes(Bytes rows, Room room, std::size_t row) const {
 }
 
 void Exchange::answer_bytes(Bytes rows, Room room, std::size_t row) const {
-  QUADLOOP_REQUIRE(rows.size() == arrivals() * row, "a row for each arrival");
+  QUADLOOP_REQUIRE(rows.size() == arrivals() * row, "a row for each arrival", rows.size(), arrivals(), row);
   if (order_.empty() || row == 0) return move(sources_, rows, targets_, room, row);
   std::vector<std::byte> sorted(room.size());
   move(sources_, rows, targets_, sorted, row);

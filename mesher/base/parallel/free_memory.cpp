@@ -95,8 +95,6 @@ double free_in_control_groups(const std::string& membership, const std::string& 
   return least;
 }
 
-double free_memory() { return std::min(free_on_machine(), free_of_process()); }
-
 double free_memory_of_all(const Communicator& comm) {
   const std::size_t machine = name_of_machine();
   const std::vector<std::size_t> machines = comm.all_gather(machine);

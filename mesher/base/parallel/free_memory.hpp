@@ -11,12 +11,9 @@ inline constexpr const char* out_of_memory =
     "out of memory; use a coarser mesh (larger spacing.min and spacing.max), more machines, or a machine "
     "with more memory";
 
-/// Bytes of memory that this process may still fill: what the system, its control groups and its own limits
-/// (ulimit) leave. Infinity where none says.
-double free_memory();
-
-/// Bytes that the ranks may fill together, each having as much as the worst off: what is free on a machine is
-/// shared out over its ranks. *Collective.*
+/// Bytes of memory that the ranks may still fill together: what the system, its control groups and the limits
+/// of the processes (ulimit) leave, each rank having as much as the worst off. What is free on a machine is
+/// shared out over its ranks. Infinity where nothing says. *Collective.*
 double free_memory_of_all(const Communicator& comm);
 
 /// What the control groups leave below `root`, where control groups are mounted: `membership` is the text of

@@ -70,7 +70,8 @@ class Region {
  private:
   /// Flags the nodes of triangles with a moved node, on any rank. *Collective.*
   NodeFlags near_moved() const {
-    QUADLOOP_REQUIRE(known_.moved.size() == mesh_.points.size(), "a flag for each point");
+    QUADLOOP_REQUIRE(known_.moved.size() == mesh_.points.size(), "a flag for each point", known_.moved.size(),
+                     mesh_.points.size());
     NodeFlags near(mesh_.points.size(), 0);
     for (const auto& t : mesh_.triangles) {
       if (any_flagged(known_.moved, t)) flag_all(t, near);

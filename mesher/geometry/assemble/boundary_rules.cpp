@@ -52,7 +52,7 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
                                           const std::vector<BoundaryRule>& rules,
                                           double default_corner_degrees) {
   std::vector<Boundary> boundaries;
-  for (const std::string& name : names) boundaries.push_back({name, 0, default_corner_degrees, "none"});
+  for (const std::string& name : names) boundaries.push_back({name, 0, default_corner_degrees});
   for (const bool patterns : {true, false}) {
     for (const BoundaryRule& rule : rules) {
       if (is_pattern(rule.pattern) != patterns) continue;

@@ -13,11 +13,10 @@ namespace quadloop {
 struct BoundaryRule {
   std::string pattern;  ///< a name, optionally with * (any text) and ? (any character)
   std::optional<double> spacing, corner_degrees;
-  std::optional<std::string> condition;
-  std::string where;       ///< place of the rule in the case file, for messages
-  bool must_match = true;  ///< false for internal rules, which may match nothing
-  bool claims = false;     ///< the boundary was added by the program; patterns, meant for the user's own
-                           ///< boundaries, do not match it
+  std::optional<BoundaryCondition> condition;
+  std::string where;       ///< where the rule stands, for messages
+  bool must_match = true;  ///< a rule of ours (not the user's) may find nothing
+  bool claims = false;  ///< the boundary was added by us: patterns, meant for the user's own, do not reach it
   std::optional<double> corner_spacing = {};
   std::optional<LayerSpec> layers = {};
 };

@@ -30,10 +30,6 @@ Point placed(Point p, const Transform& transform, Point turn) {
 
 }  // namespace
 
-Point transformed(Point p, const Transform& transform) {
-  return placed(p, transform, direction(transform.rotate_degrees));
-}
-
 void apply(const Transform& transform, std::vector<Chain>& chains) {
   const Point turn = direction(transform.rotate_degrees);
   for (Chain& chain : chains) {

@@ -15,8 +15,7 @@ struct Transform {
   Point rotate_about = {};  ///< in scaled coordinates
 };
 
-/// The transformed point. Quarter turns are exact.
-Point transformed(Point p, const Transform& transform);
+/// Places the points. Quarter turns are exact: no sine of 90 degrees is rounded.
 void apply(const Transform& transform, std::vector<Chain>& chains);
 
 /// The square with the given half width around the centre of the chains' bounding box. Throws InputError as

@@ -296,8 +296,4 @@ const WallColumns& ColumnsOnWall::fit(const std::vector<double>& thickness) {
   return columns_->fit(thickness);
 }
 
-WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness) {
-  return ColumnsOnWall(line).fit(thickness);
-}
-
 }  // namespace quadloop

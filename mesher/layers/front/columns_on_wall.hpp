@@ -15,16 +15,14 @@ struct WallColumns {
   Point front(const WallLine& line, std::int32_t i) const { return line[i].wall + length[i] * direction[i]; }
 };
 
-/// Columns for layers of these thicknesses (normal to the wall, one per station). A column is normal to the
-/// wall where possible. Beside a concave corner columns lean away from it, less with the distance, so that
-/// the front is the wall's offset line and columns do not cross. Where columns would come too close to each
-/// other or spread too far, their directions are averaged along the wall; a column always keeps an angle to
-/// the wall on both sides of its station. Thickness must change by at most 0.35 of the distance along the
-/// wall.
-WallColumns columns_on_wall(const WallLine& line, const std::vector<double>& thickness);
-
-/// Columns for a sequence of thicknesses. Each call recomputes only the places that changed and those whose
-/// columns depend on them; the columns are bitwise those of columns_on_wall().
+/// Columns for layers of given thicknesses (normal to the wall, one for each station), for one set of these
+/// after another: each time the work is that of the places that have changed and of those whose columns
+/// depend on them, with the columns that a first set would have, bit for bit. Each stands normal to the wall
+/// where it can. Beside a concave corner, columns lean away from it, less with the distance, so that the
+/// front is the wall's offset line and nothing crosses; where columns would come too close to each other, or
+/// spread too far, directions are averaged along the wall, but a column always rises visibly from both sides
+/// of its station.
+/// Thickness changes by at most 0.35 of the distance along the wall.
 class ColumnsOnWall {
  public:
   /// `line` must outlive it.

@@ -71,7 +71,7 @@ CellShape shape_of(std::span<const Point> corners) {
 
 std::vector<CellShape> cell_shapes(const Mesh& mesh) {
   std::vector<CellShape> shapes;
-  shapes.reserve(mesh.triangles.size() + mesh.quads.size());
+  shapes.reserve(mesh.cell_count());
   const auto append = [&](const auto& cells) {
     for (const auto& nodes : cells) {
       std::array<Point, 4> corners;
@@ -92,7 +92,8 @@ CellsRoundNodes::CellsRoundNodes(const Communicator& comm, const Mesh& mesh)
       halo_shapes_{halo_.spread(comm, shapes_)} {}
 
 std::vector<AroundNode> CellsRoundNodes::of(const std::vector<double>& of_cells) const {
-  QUADLOOP_REQUIRE(of_cells.size() == shapes_.size(), "there must be one value for each cell");
+  QUADLOOP_REQUIRE(of_cells.size() == shapes_.size(), "there must be one value for each cell",
+                   of_cells.size(), shapes_.size());
   const std::vector<double> values = halo_.spread(comm_, of_cells);
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<AroundNode> around(halo_.points().size(), {none, -none, {}, false});

@@ -100,7 +100,7 @@ double area_ratio(double area, double other) {
 
 std::vector<double> cell_areas(const Mesh& mesh) {
   std::vector<double> areas;
-  areas.reserve(mesh.triangles.size() + mesh.quads.size());
+  areas.reserve(mesh.cell_count());
   const auto add = [&](Point u, Point v) { areas.push_back(cross(u, v) / 2); };
   for (const auto& t : mesh.triangles)
     add(mesh.point(t[1]) - mesh.point(t[0]), mesh.point(t[2]) - mesh.point(t[0]));

@@ -16,8 +16,7 @@ namespace {
 
 template <class Visit>
 void for_each_cell(const Mesh& mesh, const Visit& visit) {
-  for (const auto& nodes : mesh.triangles) visit(std::span<const NodeId>(nodes));
-  for (const auto& nodes : mesh.quads) visit(std::span<const NodeId>(nodes));
+  mesh.for_each_cell([&](const auto& nodes) { visit(std::span<const NodeId>(nodes)); });
 }
 
 template <class Visit>

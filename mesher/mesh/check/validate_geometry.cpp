@@ -89,7 +89,7 @@ std::vector<Point> sharp_points(std::span<const Chain> geometry) {
 }
 
 std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
-  std::vector<double> longest(mesh.triangles.size() + mesh.quads.size(), 0);
+  std::vector<double> longest(mesh.cell_count(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     auto& value = longest[cell];
     value = std::max(value, length(mesh.point(to) - mesh.point(from)));

@@ -18,8 +18,8 @@ const FreeStream stream{2, 3, 4, 0, 1.5, 0, 0.5};
 
 Mesh spread_grid() {
   Mesh whole = test::Grid{6}.mesh();
-  whole.boundaries[0].condition = "wall";
-  whole.boundaries[1].condition = "farfield";
+  whole.boundaries[0].condition = BoundaryCondition::wall;
+  whole.boundaries[1].condition = BoundaryCondition::farfield;
   return scatter_mesh(world(), whole, test::shuffled_order(whole, 3));
 }
 

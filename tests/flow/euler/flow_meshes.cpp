@@ -22,7 +22,9 @@ void relabel(Mesh& mesh, const std::function<std::string(Point)>& name_of) {
       const std::string name = name_of(0.5 * (mesh.point(edge[0]) + mesh.point(edge[1])));
       auto found =
           std::find_if(named.begin(), named.end(), [&](const BoundaryEdges& b) { return b.name == name; });
-      if (found == named.end()) found = named.insert(named.end(), {name, name, {}});
+      if (found == named.end())
+        found = named.insert(named.end(),
+                             {name, BoundaryCondition::named(name).value_or(BoundaryCondition()), {}});
       found->edges.push_back(edge);
     }
   }

@@ -60,7 +60,7 @@ TEST(FlatPlate, HasBlasiusFriction) {
   options.viscosity = options.mach / reynolds;
   options.limiter = EulerOptions::Limiter::none;
   options.tolerance = 1e-5;
-  options.boundaries = {{"outflow", "", 1.0}};
+  options.boundaries = {{"outflow", {}, 1.0}};
   const EulerResult result = solve_euler(world(), mesh, options);
   EXPECT_TRUE(result.converged) << result.residual;
   ASSERT_EQ(result.flow.width(), 5u);

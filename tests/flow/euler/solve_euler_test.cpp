@@ -76,7 +76,7 @@ TEST(UniformFlow, IsKeptBetweenWalls) {
   options.iterations = 20;
   for (const double mach : {0.3, 2.0}) {
     options.mach = mach;
-    if (mach < 1) options.boundaries = {{"outflow", "", 1.0}};
+    if (mach < 1) options.boundaries = {{"outflow", {}, 1.0}};
     const EulerResult result = solve_euler(world(), mesh, options);
     EXPECT_LT(departure(result, options), 1e-12);
     EXPECT_NEAR(result.cl, 0, 1e-10);

@@ -24,7 +24,7 @@ using Names = std::vector<std::string>;
 Mesh spread(const Mesh& whole) { return scatter_mesh(world(), whole, test::shuffled_order(whole, 5)); }
 
 /// A grid of quads and triangles on the unit square, south and east side "wall".
-Mesh grid(const char* condition = "wall") {
+Mesh grid(BoundaryCondition condition = "wall") {
   Mesh whole = test::Grid{8}.mesh();
   whole.boundaries[0].condition = condition;
   return spread(whole);
@@ -64,8 +64,8 @@ void on_the_south(const Mesh& mesh, const Field& flow,
 
 TEST(WallFlow, WallsAreKnownByTheirConditions) {
   Mesh mesh;
-  for (const char* condition : {"wall", "farfield", "viscous_wall", "inviscid_wall", "symmetry"})
-    mesh.boundaries.push_back({std::string("a_") + condition, condition, {}});
+  for (const auto& [word, condition] : BoundaryCondition::words)
+    mesh.boundaries.push_back({std::string("a_") + word, condition, {}});
   EXPECT_EQ(walls_of(mesh), (Names{"a_wall", "a_viscous_wall", "a_inviscid_wall"}));
 }
 

@@ -20,15 +20,15 @@ TEST(BoundaryRules, MatchPatterns) {
 
 TEST(BoundaryRules, ExactNamesWinOverPatterns) {
   BoundaryRule exact{"island_2", 0.5, {}, {}, "", true};
-  BoundaryRule pattern{"island_*", 2.0, 45.0, "wall", "", true};
+  BoundaryRule pattern{"island_*", 2.0, 45.0, BoundaryCondition::wall, "", true};
   const auto boundaries = boundaries_by_rules({"sea", "island_1", "island_2"}, {exact, pattern}, 30);
   EXPECT_EQ(boundaries[0].spacing, 0);
   EXPECT_EQ(boundaries[0].corner_degrees, 30);
-  EXPECT_EQ(boundaries[0].condition, "none");
+  EXPECT_EQ(boundaries[0].condition, BoundaryCondition::none);
   EXPECT_EQ(boundaries[1].spacing, 2);
   EXPECT_EQ(boundaries[2].spacing, 0.5);
   EXPECT_EQ(boundaries[2].corner_degrees, 45);
-  EXPECT_EQ(boundaries[2].condition, "wall");
+  EXPECT_EQ(boundaries[2].condition, BoundaryCondition::wall);
 }
 
 TEST(BoundaryRules, LayersComeFromTheLastRuleThatAsksForThem) {
@@ -56,15 +56,15 @@ TEST(BoundaryRules, PatternsLeaveWhatIsClaimed) {
   BoundaryRule pattern, ours, exact;
   pattern.pattern = "*";
   pattern.spacing = 0.1;
-  pattern.condition = "wall";
+  pattern.condition = BoundaryCondition::wall;
   ours.pattern = "farfield";
-  ours.condition = "farfield";
+  ours.condition = BoundaryCondition::farfield;
   ours.claims = true;
   exact.pattern = "farfield";
   exact.spacing = 2;
   const auto boundaries = boundaries_by_rules({"wing", "farfield"}, {ours, pattern}, 30);
-  EXPECT_EQ(boundaries[0].condition, "wall");
-  EXPECT_EQ(boundaries[1].condition, "farfield");
+  EXPECT_EQ(boundaries[0].condition, BoundaryCondition::wall);
+  EXPECT_EQ(boundaries[1].condition, BoundaryCondition::farfield);
   EXPECT_EQ(boundaries[1].spacing, 0);
   EXPECT_EQ(boundaries_by_rules({"wing", "farfield"}, {ours, pattern, exact}, 30)[1].spacing, 2);
 }

@@ -12,6 +12,12 @@ namespace {
 using test::refusal;
 using test::square;
 
+Point transformed(Point p, const Transform& transform) {
+  std::vector<Chain> chains{{"point", false, {p}, ""}};
+  apply(transform, chains);
+  return chains[0].points[0];
+}
+
 TEST(Transform, QuarterTurnsAreExact) {
   const Point p{0.1, 0.7};
   EXPECT_EQ(transformed(p, {1, 90, {}}), (Point{-0.7, 0.1}));

@@ -112,7 +112,7 @@ TEST(CgnsReader, ReadsSectionsOfOneKindAndMixedOnes) {
     EXPECT_EQ(loaded.mesh.triangles.size(), 2U);
     ASSERT_EQ(loaded.mesh.boundaries.size(), 1U);
     EXPECT_EQ(loaded.mesh.boundaries[0].name, "wall");
-    EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
+    EXPECT_EQ(loaded.mesh.boundaries[0].condition, BoundaryCondition::wall);
     EXPECT_EQ(loaded.mesh.boundaries[0].edges,
               (std::vector<std::array<NodeId, 2>>{{NodeId{0}, NodeId{1}}, {NodeId{1}, NodeId{2}}}));
   }

@@ -76,16 +76,18 @@ TEST(CgnsExponents, AreThoseOfTheStandard) {
 }
 
 TEST(CgnsNames, ConditionsComeBack) {
-  for (const auto& [word, cgns_type] : boundary_conditions) {
-    const int type = cgns_condition(word);
-    EXPECT_STREQ(cg_BCTypeName(static_cast<BCType_t>(type)), cgns_type);
-    EXPECT_EQ(condition_of_cgns(type), type == BCTypeUserDefined ? "none" : word);
-    EXPECT_EQ(condition_of_cgns_family(type, cgns_family_condition(word)), word);
+  for (const auto& [word, condition] : BoundaryCondition::words) {
+    const int type = cgns_condition(condition);
+    const bool has_type = condition != BoundaryCondition::interface && condition != BoundaryCondition::none;
+    EXPECT_EQ(type != BCTypeUserDefined, has_type) << word;
+    EXPECT_EQ(condition_of_cgns(type), has_type ? condition : BoundaryCondition::none) << word;
+    EXPECT_EQ(condition_of_cgns_family(type, cgns_family_condition(condition)), condition) << word;
   }
-  EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), "viscous_wall");
-  EXPECT_TRUE(is_wall(condition_of_cgns(BCWallViscousHeatFlux)));
-  EXPECT_EQ(condition_of_cgns(BCTunnelOutflow), "outflow");
-  EXPECT_EQ(condition_of_cgns(-3), "none");
+  EXPECT_EQ(cgns_condition(BoundaryCondition::viscous_wall), BCWallViscous);
+  EXPECT_EQ(condition_of_cgns(BCWallViscousIsothermal), BoundaryCondition::viscous_wall);
+  EXPECT_TRUE(condition_of_cgns(BCWallViscousHeatFlux).is_wall());
+  EXPECT_EQ(condition_of_cgns(BCTunnelOutflow), BoundaryCondition::outflow);
+  EXPECT_EQ(condition_of_cgns(-3), BoundaryCondition::none);
 }
 
 using Face = CgnsFaces::Face;

@@ -41,9 +41,9 @@ TEST(FluentReader, ReadsCellsAndZones) {
   EXPECT_EQ(loaded.mesh.triangles.at(0), (std::array{node(3), node(2), node(4)}));
   ASSERT_EQ(loaded.mesh.boundaries.size(), 2U);
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "floor");
-  EXPECT_EQ(loaded.mesh.boundaries[0].condition, "wall");
+  EXPECT_EQ(loaded.mesh.boundaries[0].condition, BoundaryCondition::wall);
   EXPECT_EQ(loaded.mesh.boundaries[1].name, "walls");
-  EXPECT_EQ(loaded.mesh.boundaries[1].condition, "outflow");
+  EXPECT_EQ(loaded.mesh.boundaries[1].condition, BoundaryCondition::outflow);
   EXPECT_EQ(loaded.mesh.boundaries[1].edges.size(), 4U);
   EXPECT_EQ(loaded.block_names, std::vector<std::string>{"room"});
   EXPECT_TRUE(loaded.warnings.empty());
@@ -74,7 +74,7 @@ TEST(FluentReader, TwoZonesOfCellsAreBlocks) {
   EXPECT_EQ(loaded.triangle_to_block, std::vector<std::int32_t>{1});
   ASSERT_EQ(loaded.mesh.boundaries.size(), 3U);
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "inside");
-  EXPECT_EQ(loaded.mesh.boundaries[0].condition, "interface");
+  EXPECT_EQ(loaded.mesh.boundaries[0].condition, BoundaryCondition::interface);
 }
 
 TEST(FluentReader, RefusesWhatItCannotRead) {
@@ -104,10 +104,12 @@ TEST(FluentReader, RefusesFilesThatEndEarly) {
 }
 
 TEST(FluentZones, ConditionsComeBack) {
-  for (const char* condition : {"wall", "farfield", "inflow", "outflow", "symmetry", "interface"})
+  for (const BoundaryCondition condition :
+       {BoundaryCondition::wall, BoundaryCondition::farfield, BoundaryCondition::inflow,
+        BoundaryCondition::outflow, BoundaryCondition::symmetry, BoundaryCondition::interface})
     EXPECT_EQ(condition_of_fluent(fluent_number(condition)), condition);
   EXPECT_EQ(fluent_word("none"), "wall");
-  EXPECT_EQ(condition_of_fluent(12), "none");
+  EXPECT_EQ(condition_of_fluent(12), BoundaryCondition::none);
 }
 
 TEST(FluentFile, BlocksComeBack) {

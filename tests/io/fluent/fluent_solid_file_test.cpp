@@ -57,11 +57,11 @@ TEST(FluentSolidReader, ReadsCellsZonesAndConditions) {
   EXPECT_EQ(blocks_of_cells(mesh), (std::vector<std::int32_t>{0, 1}));
   ASSERT_EQ(mesh.boundaries.size(), 2);
   EXPECT_EQ(mesh.boundaries[0].name, "floor");
-  EXPECT_EQ(mesh.boundaries[0].condition, "wall");
+  EXPECT_EQ(mesh.boundaries[0].condition, BoundaryCondition::wall);
   EXPECT_EQ(mesh.boundaries[0].faces.front(),
             (FileBoundary::Face{2, 1, 0, FileBoundary::no_node}));  // looks out
   EXPECT_EQ(mesh.boundaries[1].name, "zone_10");
-  EXPECT_EQ(mesh.boundaries[1].condition, "symmetry");
+  EXPECT_EQ(mesh.boundaries[1].condition, BoundaryCondition::symmetry);
 }
 
 TEST(FluentSolidReader, RefusesWhatItCannotRead) {

@@ -42,7 +42,7 @@ void expect_house(const Mesh& mesh) {
   EXPECT_EQ(mesh.triangles[0], (std::array{node(1), node(4), node(2)}));
   ASSERT_EQ(mesh.boundaries.size(), 2U);
   EXPECT_EQ(mesh.boundaries[0].name, "wall");
-  EXPECT_EQ(mesh.boundaries[0].condition, "wall");
+  EXPECT_EQ(mesh.boundaries[0].condition, BoundaryCondition::wall);
   using Edges = std::vector<std::array<NodeId, 2>>;
   EXPECT_EQ(mesh.boundaries[0].edges, (Edges{{node(0), node(1)}, {node(1), node(4)}}));
   EXPECT_EQ(mesh.boundaries[1].edges, (Edges{{node(3), node(0)}, {node(2), node(3)}, {node(4), node(2)}}));

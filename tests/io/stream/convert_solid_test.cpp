@@ -99,9 +99,9 @@ TEST(ConvertSolid, EveryPairOfFormatsKeepsTheMesh) {
         EXPECT_EQ(back.solution->cells.values, mesh.solution->cells.values);
       }
       const bool conditions = from.holds(Content::conditions) && to.holds(Content::conditions);
-      const char* unknown = second == "fluent.msh" ? "wall" : "none";
-      EXPECT_EQ(back.boundaries[0].condition, conditions ? "wall" : unknown);
-      EXPECT_EQ(back.boundaries[1].condition, conditions ? "symmetry" : unknown);
+      const auto unknown = second == "fluent.msh" ? BoundaryCondition::wall : BoundaryCondition::none;
+      EXPECT_EQ(back.boundaries[0].condition, conditions ? BoundaryCondition::wall : unknown);
+      EXPECT_EQ(back.boundaries[1].condition, conditions ? BoundaryCondition::symmetry : unknown);
       const std::size_t losses =
           (from.holds(Content::solution) && !to.holds(Content::solution) ? 1U : 0U) +
           (from.holds(Content::conditions) && !to.holds(Content::conditions) ? 1U : 0U) +

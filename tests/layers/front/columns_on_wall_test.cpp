@@ -19,7 +19,7 @@ struct Columned {
   explicit Columned(Geometry g) : geometry{std::move(g)}, line(geometry, wall_runs(geometry)) {
     std::vector<double> asked;
     for (std::int32_t i = 0; i < line.size(); ++i) asked.push_back(line.asked(i));
-    columns = columns_on_wall(line, asked);
+    columns = ColumnsOnWall(line).fit(asked);
   }
   Point front(std::int32_t i) const { return columns.front(line, i); }
   /// The cosine of the larger tilt against the wall before and after.
@@ -154,7 +154,7 @@ TEST(ColumnsOnWall, FittedAgainAreThoseFittedAtOnce) {
   std::vector<double> h(line.size(), 0.5);
   for (int pass = 0; pass < 40; ++pass) {
     const WallColumns& fitted = again.fit(h);
-    const WallColumns at_once = columns_on_wall(line, h);
+    const WallColumns at_once = ColumnsOnWall(line).fit(h);
     ASSERT_EQ(fitted.direction, at_once.direction) << pass;
     ASSERT_EQ(fitted.length, at_once.length) << pass;
     h[random() % h.size()] *= pass < 20 ? 0.8 : 0.5;

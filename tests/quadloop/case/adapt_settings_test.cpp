@@ -145,14 +145,15 @@ TEST_F(Case, OfPressuresExactNamesWinOverPatternsAndLaterOverEarlier) {
   EXPECT_EQ(choices[0].pressure, 0.9);
   EXPECT_EQ(choices[1].pressure, 0.1);
   EXPECT_EQ(choices[2].pressure, 0.1);
-  EXPECT_EQ(choices[2].condition, "") << "the mesh's own";
+  EXPECT_EQ(choices[2].condition, BoundaryCondition::none) << "the mesh's own";
 }
 
 TEST_F(Case, RulesThatFindNothingInAMeshAreNoFault) {
-  BoundaryRule wall{"wall*", {}, {}, "wall", "case.toml:3"}, gone{"island", {}, {}, "wall", "case.toml:4"};
+  BoundaryRule wall{"wall*", {}, {}, BoundaryCondition::wall, "case.toml:3"},
+      gone{"island", {}, {}, BoundaryCondition::wall, "case.toml:4"};
   const auto choices = euler_options({}, {wall, gone}, with_boundaries({"wall_1", "far"})).boundaries;
-  EXPECT_EQ(choices.at(0).condition, "wall");
-  EXPECT_EQ(choices.at(1).condition, "");
+  EXPECT_EQ(choices.at(0).condition, BoundaryCondition::wall);
+  EXPECT_EQ(choices.at(1).condition, BoundaryCondition::none);
 }
 
 TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
@@ -174,7 +175,7 @@ TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
   const ChosenSolver euler =
       chosen_solver(settings, input.settings.outline.rules, geometry, "somewhere/case.toml");
   EXPECT_EQ(std::get<EulerOptions>(euler).mach, 2);
-  EXPECT_EQ(std::get<EulerOptions>(euler).boundaries.at(0).condition, "wall");
+  EXPECT_EQ(std::get<EulerOptions>(euler).boundaries.at(0).condition, BoundaryCondition::wall);
   settings.kind = SolverSettings::Kind::command;
   const auto command = std::get<CommandSolver>(chosen_solver(settings, {}, geometry, "somewhere/case.toml"));
   EXPECT_EQ(command.gamma, 1.3);

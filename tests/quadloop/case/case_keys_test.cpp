@@ -64,16 +64,21 @@ class Accepted {
     return when.empty() || value_of(when.substr(0, sign)) == when.substr(sign + 3);
   }
 
+  /// Sets the first of the keys that a condition names, if it is not one that says "no" or that defaults
+  /// meet.
   void satisfy(const std::string& condition, const TableText& table) {
-    if (condition.starts_with("no ") || condition.find_first_of("<>") != std::string::npos) return;
     const std::string first = condition.substr(0, condition.find(" or "));
-    const auto sign = first.find(" = "), dot = first.substr(0, sign).find('.');
-    const std::string value = sign == std::string::npos ? "" : first.substr(sign + 3);
+    if (first.starts_with("no ") || first.find(" < ") != std::string::npos) return;
+    const auto sign = first.find_first_of("=>");
+    const std::string name = sign == std::string::npos ? first : first.substr(0, sign - 1);
+    const std::string value = sign == std::string::npos ? ""
+                              : first[sign] == '>'      ? "1"
+                                                        : first.substr(sign + 2);
+    const auto dot = name.find('.');
     if (dot == std::string::npos)
-      set(table, first.substr(0, sign), value);
+      set(table, name, value);
     else
-      set(table_named(first.substr(0, dot)),
-          first.substr(dot + 1, sign == std::string::npos ? sign : sign - dot - 1), value);
+      set(table_named(name.substr(0, dot)), name.substr(dot + 1), value);
   }
 
   std::map<std::string, std::string> values_;
@@ -95,7 +100,11 @@ class CaseKeys : public ::testing::Test {
     for (const char* const list : {"source", "wake", "layer_line"})
       if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
     const std::string path = folder_.write("case.toml", tables);
-    EXPECT_NO_THROW(read_settings(path, accepted.assignments())) << name;
+    const std::vector<std::string> warnings = read_settings(path, accepted.assignments()).warnings;
+    EXPECT_EQ(std::ranges::count_if(
+                  warnings, [](const std::string& w) { return w.find("nothing: it needs") < w.size(); }),
+              0)
+        << name << ": " << warnings.front();
     CaseTable below = read_case(path, accepted.assignments());
     for (std::string rest = place_of(table.text().name); !rest.empty();) {
       const std::string first = rest.substr(0, rest.find('.'));

@@ -125,7 +125,7 @@ TEST_F(KeyTableTest, RowsServeAStructThatHasTheOptions) {
   EXPECT_EQ(whole.inner.count, 4);
   EXPECT_TRUE(keys.keys()[2].differs(whole, Whole{}));
   EXPECT_FALSE(keys.keys()[0].differs(whole, Whole{}));
-  EXPECT_EQ(joined(keys.keys(), keys.keys()).size(), 14U);
+  EXPECT_EQ(joined<Whole>({keys.keys(), keys.keys()}).size(), 14U);
 }
 
 }  // namespace

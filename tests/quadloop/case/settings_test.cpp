@@ -34,7 +34,7 @@ TEST_F(SettingsTest, AWallMayBeViscousOrInviscid) {
   for (const std::string wall : {"viscous", "inviscid"}) {
     const Geometry geometry =
         load(read("[spacing]\nmin = 0.5\nmax = 1\n[boundary.box]\nbc = \"wall\"\nwall = \"" + wall + "\"\n"));
-    EXPECT_EQ(geometry.boundaries()[0].condition, wall + "_wall");
+    EXPECT_EQ(geometry.boundaries()[0].condition.word(), wall + "_wall");
   }
 }
 
@@ -105,9 +105,9 @@ formats = ["cgns"]
   EXPECT_EQ(s.formats, std::vector<std::string>{"cgns"});
   const Geometry g = load(s);
   EXPECT_EQ(g.boundary(BoundaryId{0}).spacing, 0.25);
-  EXPECT_EQ(g.boundary(BoundaryId{0}).condition, "wall");
+  EXPECT_EQ(g.boundary(BoundaryId{0}).condition, BoundaryCondition::wall);
   EXPECT_EQ(g.boundary(BoundaryId{1}).name, "farfield");
-  EXPECT_EQ(g.boundary(BoundaryId{1}).condition, "farfield");
+  EXPECT_EQ(g.boundary(BoundaryId{1}).condition, BoundaryCondition::farfield);
   EXPECT_EQ(g.boundary(BoundaryId{1}).corner_degrees, 20);
 }
 
@@ -443,12 +443,12 @@ TEST_F(SettingsTest, BoundaryTablesGiveTheMeshItsConditions) {
       {"box", "none", {}}, {"bottom", "wall", {}}, {"farfield", "none", {}}, {"other", "symmetry", {}}};
   const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
   ASSERT_EQ(choices.size(), 4u);
-  EXPECT_EQ(choices[0].condition, "outflow");
+  EXPECT_EQ(choices[0].condition, BoundaryCondition::outflow);
   EXPECT_EQ(choices[0].pressure, 0.5);
-  EXPECT_EQ(choices[1].condition, "outflow");
+  EXPECT_EQ(choices[1].condition, BoundaryCondition::outflow);
   EXPECT_EQ(choices[1].pressure, 2);
-  EXPECT_EQ(choices[2].condition, "farfield");
-  EXPECT_EQ(choices[3].condition, "");  // the mesh's own stands
+  EXPECT_EQ(choices[2].condition, BoundaryCondition::farfield);
+  EXPECT_EQ(choices[3].condition, BoundaryCondition::none);  // the mesh's own stands
   EXPECT_FALSE(choices[3].pressure);
 }
 

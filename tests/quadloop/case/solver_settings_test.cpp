@@ -68,5 +68,16 @@ TEST_F(SolverSettingsTest, WarnsOfExitsIntoAVacuumBelowTheSpeedOfSound) {
   EXPECT_TRUE(read(exit).warnings.empty()) << "nobody is to solve";
 }
 
+TEST_F(SolverSettingsTest, WarnsOfKeysThatTheKindOfSolverDoesNotUse) {
+  const Settings s =
+      read("[solver]\nkind = \"command\"\ncommand = [\"a\"]\nmach = 0.5\ngamma = 1.3\ntimeout = 5\n");
+  ASSERT_EQ(s.warnings.size(), 1U);
+  EXPECT_TRUE(
+      s.warnings[0].ends_with("case.toml:6: 'solver.mach' does nothing: it needs kind = \"euler\", but "
+                              "kind = \"command\""))
+      << s.warnings[0];
+  EXPECT_EQ(read("[solver]\ntimeout = 5\n").warnings.size(), 1U);
+}
+
 }  // namespace
 }  // namespace quadloop

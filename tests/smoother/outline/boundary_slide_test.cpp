@@ -25,7 +25,7 @@ struct Sliding {
     const auto owned = ids_below(NodeId{mesh.owned_nodes});
     stars.emplace(halo, std::vector<NodeId>(owned.begin(), owned.end()), std::vector<CellTarget>{});
   }
-  std::optional<Point> improved(NodeId node, double even_up_to = 0) const {
+  std::optional<Point> improved(NodeId node, double even_up_to = 0) {
     Star star;
     stars->gather(node.value(), star);
     return slide->improve(node, star, Objective::power, even_up_to);
@@ -43,7 +43,7 @@ constexpr test::Grid grid{6, {1, 1}, true};
 bool at_corner(Point p) { return (p.x == 0 || p.x == 1) && (p.y == 0 || p.y == 1); }
 
 TEST(BoundarySlide, StraightSidesSlideAndCornersStay) {
-  const Sliding s(grid.mesh());
+  Sliding s(grid.mesh());
   for (std::int32_t node = 0; node < s.mesh.owned_nodes; ++node) {
     const NodeFreedom expected = grid.inner(node)                        ? NodeFreedom::interior
                                  : at_corner(s.mesh.point(NodeId{node})) ? NodeFreedom::fixed
@@ -55,7 +55,7 @@ TEST(BoundarySlide, StraightSidesSlideAndCornersStay) {
 TEST(BoundarySlide, PinnedNodesStay) {
   NodeFlags pinned(49, 0);
   pinned[NodeId{3}] = pinned[NodeId{24}] = 1;  // on the lower side, inside
-  const Sliding s(grid.mesh(), nullptr, pinned);
+  Sliding s(grid.mesh(), nullptr, pinned);
   EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
   EXPECT_EQ(s.slide->freedom(NodeId{24}), NodeFreedom::fixed);
   EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
@@ -64,7 +64,7 @@ TEST(BoundarySlide, PinnedNodesStay) {
 TEST(BoundarySlide, ABoundaryThatIsBentWithoutAnOutlineStays) {
   Mesh mesh = grid.mesh();
   mesh.points.begin()[3].y = -1e-6;
-  const Sliding s(std::move(mesh));
+  Sliding s(std::move(mesh));
   for (const int node : {2, 3, 4}) EXPECT_EQ(s.slide->freedom(NodeId{node}), NodeFreedom::fixed) << node;
   EXPECT_EQ(s.slide->freedom(NodeId{1}), NodeFreedom::sliding);
 }
@@ -81,7 +81,7 @@ TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
   });
   ASSERT_EQ(half.edges.size(), 3U);
   mesh.boundaries.push_back(half);
-  const Sliding s(std::move(mesh));
+  Sliding s(std::move(mesh));
   EXPECT_EQ(s.slide->freedom(NodeId{3}), NodeFreedom::fixed);
   EXPECT_EQ(s.slide->freedom(NodeId{2}), NodeFreedom::sliding);
 }
@@ -89,7 +89,7 @@ TEST(BoundarySlide, WhereBoundariesMeetOnAStraightSideTheNodeStays) {
 TEST(BoundarySlide, ANodeNearANeighbourMovesAwayAlongTheSide) {
   Mesh mesh = grid.mesh();
   mesh.points.begin()[3].x = 0.36;  // from 0.5, beside that at 0.333
-  const Sliding s(std::move(mesh));
+  Sliding s(std::move(mesh));
   const auto better = s.improved(NodeId{3});
   ASSERT_TRUE(better.has_value());
   EXPECT_EQ(better->y, 0);
@@ -103,7 +103,7 @@ TEST(BoundarySlide, EdgesStayEvenUnlessCellsNeedTheRoom) {
   constexpr double costly = 0.3, third = 1.0 / 3;
   Mesh mesh = grid.mesh();
   mesh.points.begin()[10].x = 0.6;  // above node 3, from 0.5: cells are best with the node under it
-  const Sliding even(mesh);
+  Sliding even(mesh);
   const auto held = even.improved(NodeId{3}, costly), freed = even.improved(NodeId{3}, 0);
   ASSERT_TRUE(held.has_value() && freed.has_value());
   EXPECT_GT(held->x, 0.5);
@@ -112,7 +112,7 @@ TEST(BoundarySlide, EdgesStayEvenUnlessCellsNeedTheRoom) {
 
   mesh.points.begin()[3].x = 0.55;
   const double before = longer_by_shorter(0.55 - third, 2 * third - 0.55);
-  const Sliding uneven(std::move(mesh));
+  Sliding uneven(std::move(mesh));
   const auto further = uneven.improved(NodeId{3}, 0);
   ASSERT_TRUE(further.has_value());
   EXPECT_GT(longer_by_shorter(further->x - third, 2 * third - further->x), before);
@@ -127,7 +127,7 @@ struct OnTheCircle {
 
 TEST(BoundarySlide, NodesOnACurvedOutlineSlideAlongIt) {
   const OnTheCircle c;
-  const Sliding without(c.mesh), with(c.mesh, &c.polygon);
+  Sliding without(c.mesh), with(c.mesh, &c.polygon);
   int sliding = 0, moved = 0;
   for (const BoundaryEdges& boundary : c.mesh.boundaries) {
     for (const auto& edge : boundary.edges) {
@@ -160,7 +160,7 @@ struct InASquare {
 
 TEST(BoundarySlide, TellsWhichNodesLieOnFlaggedSegments) {
   const InASquare in;
-  const Sliding s(in.mesh, &in.square);
+  Sliding s(in.mesh, &in.square);
   const std::vector<double> south{1, 0, 0, 0}, none(4, 0);
   for (const int node : {1, 2, 3, 4, 5}) {
     EXPECT_TRUE(s.slide->lies_on(NodeId{node}, south)) << node;
@@ -173,7 +173,7 @@ TEST(BoundarySlide, TellsWhichNodesLieOnFlaggedSegments) {
 TEST(BoundarySlide, AnEighthOfTheDifferenceTowardsTheMiddle) {
   InASquare in;
   const auto moved = [&](int node) {
-    const Sliding s(in.mesh, &in.square);
+    Sliding s(in.mesh, &in.square);
     Star star;
     s.stars->gather(node, star);
     return s.slide->towards_middle(NodeId{node}, star, std::vector<Point>(in.mesh.points.size()));
@@ -190,7 +190,7 @@ TEST(BoundarySlide, NoAngleFallsUnder28DegreesOnTheWayToTheMiddle) {
   InASquare in;
   in.mesh.points.begin()[3].x = 0.36;
   in.mesh.points.begin()[10].x = 0.10;  // above it, far to the left: a move to the right flattens the cell
-  const Sliding s(in.mesh, &in.square);
+  Sliding s(in.mesh, &in.square);
   Star star;
   s.stars->gather(3, star);
   const std::vector<Point> none(in.mesh.points.size());
@@ -200,7 +200,7 @@ TEST(BoundarySlide, NoAngleFallsUnder28DegreesOnTheWayToTheMiddle) {
 TEST(BoundarySlide, BesideANodeThatStaysTheWidthBeyondItCountsToo) {
   InASquare in;
   in.mesh.points.begin()[13].y = 0.05;  // east of the corner, node 6
-  const Sliding s(in.mesh, &in.square);
+  Sliding s(in.mesh, &in.square);
   const std::vector<Point> fixed = s.slide->widths_at_fixed(std::vector<double>{1, 1, 0, 0});
   EXPECT_NEAR(fixed[6].x, 1.0 / 6, 1e-12);
   EXPECT_NEAR(fixed[6].y, 0.05, 1e-12);
@@ -219,7 +219,7 @@ TEST(BoundarySlide, BesideANodeThatStaysTheWidthBeyondItCountsToo) {
 
 TEST(BoundarySlide, HeightsAreThoseOfTheSegmentInTheMiddleOfAnEdge) {
   InASquare in;
-  const Sliding s(in.mesh, &in.square);
+  Sliding s(in.mesh, &in.square);
   const std::vector<double> heights{3, 4, 0, 0};
   EXPECT_EQ(s.slide->height_at({NodeId{5}, NodeId{6}, 0}, heights), 3);
   EXPECT_EQ(s.slide->height_at({NodeId{6}, NodeId{13}, 0}, heights), 4);
@@ -250,7 +250,7 @@ TEST(BoundarySlide, SmoothingMakesNoMoreEdgesUneven) {
 TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
   OnTheCircle c;
   for (BoundaryEdges& boundary : c.mesh.boundaries) boundary.name += " of another";
-  const Sliding s(c.mesh, &c.polygon);
+  Sliding s(c.mesh, &c.polygon);
   for (const BoundaryEdges& boundary : c.mesh.boundaries) {
     for (const auto& edge : boundary.edges) EXPECT_EQ(s.slide->freedom(edge[0]), NodeFreedom::fixed);
   }

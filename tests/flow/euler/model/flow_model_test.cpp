@@ -125,7 +125,7 @@ TEST(FluxMatrix, IsTheDerivativeOfTheFlux) {
 TEST(FlowModel, RefusesAConditionThatItCannotUse) {
   Mesh mesh = test::irregular_grid(4, {1, 1}, 0);
   EulerOptions options;
-  mesh.boundaries[1].condition = "interface";
+  mesh.boundaries[1].condition = BoundaryCondition::interface;
   try {
     flow_model(world(), mesh, options);
     FAIL() << "taken";
@@ -133,7 +133,7 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
     EXPECT_NE(std::string(error.what()).find("in [boundary.far] set bc to"), std::string::npos)
         << error.what();
   }
-  mesh.boundaries[0].condition = "none";
+  mesh.boundaries[0].condition = BoundaryCondition::none;
   try {
     flow_model(world(), mesh, options);
     FAIL() << "taken";
@@ -143,7 +143,7 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
         << what;
     EXPECT_NE(what.find("in [boundary.wall], [boundary.far] set bc to"), std::string::npos) << what;
   }
-  mesh.boundaries[0].condition = "wall";
+  mesh.boundaries[0].condition = BoundaryCondition::wall;
   options.boundaries = {{"far", "outflow", 0.5}};
   const FlowModel model = flow_model(world(), mesh, options);
   EXPECT_EQ(model.boundaries[1].condition, Condition::outflow);
@@ -157,7 +157,7 @@ std::map<std::string, Condition> usable_conditions() {
   Mesh mesh = test::irregular_grid(2, {1, 1}, 0);
   std::map<std::string, Condition> usable;
   for (const std::string& word : condition_words()) {
-    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = word;
+    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = *BoundaryCondition::named(word);
     try {
       usable[word] = flow_model(world(), mesh, {}).boundaries[0].condition;
     } catch (const InputError&) {
