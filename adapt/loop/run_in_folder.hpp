@@ -19,7 +19,7 @@ struct AdaptiveCase {
   ChosenSolver solver;
   std::vector<std::string> formats;  ///< of each cycle's mesh, in addition to the default ones
   CaseSettings settings;             ///< all that the run's files depend on, except the geometry
-  /// Of quantity_names(): written to the mesh files of the cycles, but not to the restart file.
+  /// Names of quantity_names() written to the mesh files of the cycles, but not to the restart file.
   std::vector<std::string> fields = {};
   /// Reference state for the forces of an external solver; empty: forces are not computed.
   std::optional<FreeStream> stream = {};

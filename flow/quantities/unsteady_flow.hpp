@@ -17,7 +17,7 @@ struct Swing {
 struct UnsteadyFlow {
   double from = 0, to = 0;  ///< averaging interval
   Swing cl, cd;
-  /// Of the lift, or of the drag if the lift hardly oscillates; empty if there is no period.
+  /// Period of the lift, or of the drag if the lift hardly oscillates; empty if there is no period.
   std::optional<double> period, strouhal;  ///< strouhal: reference length over period times free-stream speed
   int steps = 0;                           ///< time steps from the start of the unsteady run
   double longest_step = 0;

@@ -8,7 +8,7 @@
 
 namespace quadloop {
 
-// What is called of GDAL's C interface.
+// The functions used of GDAL's C interface.
 // clang-format moves these lines about each time.
 // clang-format off
 #define QUADLOOP_FOR_EACH_GDAL_FUNCTION(DO)                                                                 \

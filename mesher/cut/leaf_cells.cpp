@@ -44,7 +44,7 @@ constexpr std::array<Template, 4> turned_templates(const Template& bottom) {
   return result;
 }
 
-/// Of three and four triangles: a hanging node on a side; another one on the next side.
+/// Templates of three triangles (a hanging node on a side) and of four (another one on the next side).
 constexpr std::array<Template, 4> one_hanging =
     turned_templates({{{Site::south_west, Site::bottom_middle, Site::north_west},
                        {Site::bottom_middle, Site::south_east, Site::north_east},

@@ -14,14 +14,14 @@
 
 namespace quadloop {
 
-/// What a key requires of other keys. A condition is one of these, or several with " or " between them:
+/// Requirement of a key on other keys. A condition is one of these, or several separated by " or ":
 ///
 ///     rotate                        the key is given
-///     no viscosity                  it is not
-///     kind = "su2"                  its value in the case, or else its default
+///     no viscosity                  the key is not given
+///     kind = "su2"                  its value in the case, else its default
 ///     mach > 0, mach < 1
 ///
-/// A name without a dot is that of a key of the same table; others are dotted names: solver.time = "steady".
+/// A name without a dot is a key of the same table; others are dotted names: solver.time = "steady".
 struct KeyNeed {
   std::string condition;
   std::string remedy = {};

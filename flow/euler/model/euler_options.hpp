@@ -20,7 +20,7 @@ struct BoundaryChoice {
   /// Back pressure of an outflow, in units of the free-stream pressure; empty: supersonic outflow (choked
   /// where subsonic).
   std::optional<double> pressure;
-  /// Of a no-slip wall, in units of the free-stream temperature; empty: adiabatic.
+  /// Temperature of a no-slip wall, in units of the free-stream temperature; empty: adiabatic.
   std::optional<double> temperature = {};
 };
 
@@ -54,7 +54,7 @@ struct EulerOptions {
   /// Unsteady: implicit steps of this size. Empty: explicit steps, or steps chosen by the unsteady
   /// continuation.
   std::optional<double> time_step;
-  /// Of an unsteady run: flow and forces are averaged from this time to the end.
+  /// Unsteady: flow and forces are averaged from this time to the end.
   std::optional<double> average_from;
   /// For a steady run that does not converge: keep the best state, or continue in time for `flow_throughs`
   /// flow-through times (length of the walls' bounding box over free-stream speed); flow and forces are then

@@ -13,7 +13,7 @@ namespace quadloop {
 
 namespace {
 
-/// Of the quadtree cell sizes: (g - 1) / 2 for the largest gradation g = 2.
+/// Maximum slope of the quadtree cell sizes: (g - 1) / 2 for the largest gradation g = 2.
 constexpr double largest_slope = 0.5;
 
 }  // namespace
