@@ -6,11 +6,11 @@
 
 namespace quadloop {
 
-/// A lock on a folder, which ends with its process, however that ends. On a file system that has no locks on
-/// folders (NFS) it is none, and says nothing. On one rank.
+/// A lock on a folder. It ends with the process, however that ends. On a file system without locks on folders
+/// (NFS) it silently has no effect. On one rank.
 class FolderLock {
  public:
-  /// Nothing where another owner holds it.
+  /// Empty if another owner holds the lock.
   static std::optional<FolderLock> attempt(const std::string& folder);
 
   ~FolderLock();

@@ -30,7 +30,8 @@ void refuse_others(const std::string& path, const std::vector<std::string>& file
 
 }  // namespace
 
-std::unique_ptr<Temporary> make_output_folder(const std::string& path, const std::vector<std::string>& files) {
+std::unique_ptr<Temporary> make_output_folder(const std::string& path,
+                                              const std::vector<std::string>& files) {
   require_possible_folder(path);
   if (fs::is_directory(path)) {
     refuse_others(path, files);
@@ -40,7 +41,7 @@ std::unique_ptr<Temporary> make_output_folder(const std::string& path, const std
   if (::mkdir(path.c_str(), open_to_all) == 0) return made;
   const int reason = errno;
   if (reason != EEXIST || !fs::is_directory(path)) refuse_output(path, reason);
-  refuse_others(path, files);  // another run made it in the meantime
+  refuse_others(path, files);  // another run created it in the meantime
   return nullptr;
 }
 

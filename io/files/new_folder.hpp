@@ -8,9 +8,9 @@
 
 namespace quadloop {
 
-/// Makes a folder that is itself an output, unless it is there already; a new one is registered, to be removed
-/// unless its files become whole. Throws OutputError where it cannot be made, or holds anything but `files`
-/// (names that begin with a dot do not count). On one rank.
+/// Creates an output folder, unless it exists; a new one is registered for removal unless its files are
+/// completed. Throws OutputError if it cannot be created, or contains anything but `files` (names that begin
+/// with a dot are ignored). On one rank.
 std::unique_ptr<Temporary> make_output_folder(const std::string& path, const std::vector<std::string>& files);
 
 }  // namespace quadloop

@@ -91,7 +91,7 @@ std::optional<std::vector<FolderLock>> lock_all(
 
 OutputSet::~OutputSet() {
   for (const Written& file : written_) ::close(file.descriptor);
-  staging_.clear();  // it may lie in a folder
+  staging_.clear();  // the staging folder may be inside an output folder
   for (const auto& folder : folders_) ::rmdir(folder->path().c_str());
 }
 

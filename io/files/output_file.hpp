@@ -78,7 +78,7 @@ class OutputSet {
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<std::unique_ptr<Temporary>> folders_;  ///< made for outputs; the first four on rank 0 only
+  std::vector<std::unique_ptr<Temporary>> folders_;  ///< created for outputs; the first four on rank 0 only
   std::vector<Output> outputs_;
   std::set<std::string> targets_;  ///< of outputs_
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;

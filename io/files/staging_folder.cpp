@@ -38,7 +38,7 @@ std::string random_letters() {
   return fmt::format("{:016x}", number);
 }
 
-/// Removes the folder of a run that was killed; that of a living run is locked.
+/// Removes the folder of a killed run; that of a running one is locked.
 void remove_if_forsaken(const fs::path& folder) {
   std::error_code ignored;
   const std::optional<FolderLock> lock = FolderLock::attempt(folder);
@@ -60,7 +60,8 @@ void remove_forsaken(const std::string& parent) {
 StagingFolder::StagingFolder(const std::string& parent, const std::string& shown) : parent_{parent} {
   remove_forsaken(parent);
   std::error_code ignored;
-  // Another run may take the folder for forsaken between making and locking it. Without locks it is ours.
+  // Another run may remove the folder as abandoned between creation and locking. Without locks the folder is
+  // used anyway.
   do {
     make(shown);
     lock_ = FolderLock::attempt(folder_->path());
