@@ -70,7 +70,7 @@ class MeshWarnings(ProgramTest):
         comb = "".join(f"{3 + 0.02 * k:.2f} {3.26 if k % 2 else 3.24}\n" for k in range(30, -1, -1))
         for ranks in (1, 3):
             _, warnings = self.mesh("2\n" + BOX + "comb\n33\n" + comb + "3 4\n3.6 4\n", CASE.replace("0.5", "0.25"), ranks=ranks)
-            self.assertRegex(warnings, r"boundary 'comb': \d+ of 37 kept corners of the outline (is|are) no node of the mesh, the first at \(3")
+            self.assertRegex(warnings, r"boundary 'comb': \d+ of 37 feature points (is|are) no node of the mesh, the first at \(3")
             self.assertIn("make spacing.min smaller", warnings)
 
     def test_max_holds_where_min_is_left_open(self):

@@ -32,7 +32,7 @@ def check_changed_settings(program, folder, ranks):
     outline = case.with_name("square.geom")
     kept = outline.read_text()
     outline.write_text(kept.replace("1 1", "1 1.125"))
-    expect_refusal(program, 1, ["cycle_00/record.json", "outline"], "adapt", case, "-o", made, "--resume", ranks=ranks)
+    expect_refusal(program, 1, ["cycle_00/record.json", "geometry"], "adapt", case, "-o", made, "--resume", ranks=ranks)
     outline.write_text(kept)
     require(states(made) == before, "a refusal has touched the folder")
     # What says how long, where or how often, and another way to write the same number.
