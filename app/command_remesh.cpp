@@ -59,7 +59,7 @@ LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tr
         fault.rule != MeshRule::coincident)
       continue;
     throw InputError(
-        fmt::format("{}: is no mesh of this tree: {} at ({}, {}); give the mesh that was solved on",
+        fmt::format("{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
                     arguments.mesh, fault.what, fault.place.x, fault.place.y));
   }
   return named;
