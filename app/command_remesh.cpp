@@ -58,9 +58,9 @@ LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tr
     if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
         fault.rule != MeshRule::coincident)
       continue;
-    throw InputError(
-        fmt::format("{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
-                    arguments.mesh, fault.what, fault.place.x, fault.place.y));
+    throw InputError(fmt::format(
+        "{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
+        arguments.mesh, fault.what, fault.place.x, fault.place.y));
   }
   return named;
 }

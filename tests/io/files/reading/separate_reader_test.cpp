@@ -185,10 +185,10 @@ TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
 
 TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
   ::setenv("QUADLOOP_READER", "/nowhere/reader", 1);
-  const std::string missing =
-      test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
-  EXPECT_TRUE(says(missing, "a.cgns: cannot be read: the program that reads such files is not at "
-                            "/nowhere/reader; install quadloop again, or set QUADLOOP_READER"))
+  const std::string missing = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  EXPECT_TRUE(says(missing,
+                   "a.cgns: cannot be read: the program that reads such files is not at "
+                   "/nowhere/reader; install quadloop again, or set QUADLOOP_READER"))
       << missing;
   const std::string ended = refusal_of("exit 127");
   EXPECT_TRUE(says(ended, "/reader ended at once, with status 127; install quadloop again")) << ended;
@@ -199,8 +199,9 @@ TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
 TEST_F(ReadSeparately, IsDoneByTheProgramOfThisBuild) {
   const std::string refused = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
   EXPECT_TRUE(says(refused, "a.cgns: the CGNS library refuses: ")) << refused;
-  const std::string no_tree =
-      test::refusal_text<Error>([&] { read_separately<std::string>("tree", path, {"0", "1"}); });
+  const std::string no_tree = test::refusal_text<Error>([&] {
+    read_separately<std::string>("tree", path, {"0", "1"});
+  });
   EXPECT_TRUE(says(no_tree, "a.cgns: cannot be opened, or is no HDF5 file")) << no_tree;
 }
 
