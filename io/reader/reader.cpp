@@ -42,38 +42,42 @@ void limit_costs(rlim_t seconds, rlim_t bytes) {
   if (const rlim_t data = own_data(); data > 0) limit(RLIMIT_DATA, data + bytes);
 }
 
-template <class Value>
-void send(PipeWriter& pipe, int status, Value value) {
+void send_error(PipeWriter& pipe, int status, std::string message) {
   pass(pipe, status);
-  pass(pipe, value);
+  pass(pipe, message);
 }
 
-void send_file(PipeWriter& pipe, const std::vector<std::string>& arguments) {
-  const std::string &kind = arguments.at(2), &path = arguments.at(3);
-  if (kind == "cgns") {
-    send(pipe, ReaderProtocol::done, read_cgns_by_library(path));
-  } else {
-    send(pipe, ReaderProtocol::done,
-         read_tree_share(path, std::stoll(arguments.at(4)), std::stoll(arguments.at(5))));
-  }
-}
-
-void answer(const std::vector<std::string>& arguments) {
+/// What `read()` gives, or its error.
+template <class Read>
+void answer(const Read& read) {
+  using Value = decltype(read());
   PipeWriter pipe(ReaderProtocol::descriptor);
-  std::uint64_t begin = ReaderProtocol::begin, end = ReaderProtocol::end;
+  std::uint64_t begin = ReaderProtocol::begin<Value>(), end = ReaderProtocol::end;
   pass(pipe, begin);
   pipe.flush();
   try {
-    send_file(pipe, arguments);
+    Value value = read();
+    int status = ReaderProtocol::done;
+    pass(pipe, status);
+    pass(pipe, value);
   } catch (const Error& error) {
-    send(pipe, static_cast<int>(error.status()), std::string(error.what()));
+    send_error(pipe, static_cast<int>(error.status()), error.what());
   } catch (const std::bad_alloc&) {
-    send(pipe, ReaderProtocol::too_much_memory, std::string());
+    send_error(pipe, ReaderProtocol::too_much_memory, "");
   } catch (const std::exception& error) {
-    send(pipe, static_cast<int>(ExitStatus::fault), std::string(error.what()));
+    send_error(pipe, static_cast<int>(ExitStatus::fault), error.what());
   }
   pass(pipe, end);
   pipe.flush();
+}
+
+void answer_to(const std::vector<std::string>& arguments) {
+  const std::string& path = arguments.at(3);
+  if (arguments.at(2) == "cgns") {
+    answer([&] { return read_cgns_by_library(path); });
+  } else {
+    answer([&] { return read_tree_share(path, std::stoll(arguments.at(4)), std::stoll(arguments.at(5))); });
+  }
 }
 
 }  // namespace
@@ -88,6 +92,6 @@ int main(int count, char** texts) {
     ::_exit(EXIT_FAILURE);
   });  // libcgns calls exit() when memory runs out; exit handlers of libraries could crash on the data read
   quadloop::limit_costs(std::stoull(arguments[0]), std::stoull(arguments[1]));
-  quadloop::answer(arguments);
+  quadloop::answer_to(arguments);
   ::_exit(EXIT_SUCCESS);
 }

@@ -50,12 +50,7 @@ class VtuAppended {
         },
         [&](std::span<const Row> piece) { put(piece); });
   }
-  /// Writes rows from rank 0 only.
-  template <class Make>
-  void put_root_rows(std::int64_t rows, const Make& make) {
-    put_rows(comm_.is_root() ? rows : 0, make);
-  }
-  /// Writes a row for each boundary edge, made from the stream's entry.
+  /// A row for each boundary edge, made of what the stream has for it.
   template <class Make>
   void put_edges(const BoundaryStream& edges, const Make& make) {
     using Row = decltype(make(BoundaryStream::Edge{}));

@@ -145,12 +145,12 @@ class Child {
 
 /// Receives the reader's data up to its end. `has_begun`: whether it has sent anything.
 void take(PipeReader& pipe, const std::string& path, const std::string& reader, const Allowance& allowance,
-          const std::function<void(PipeReader&)>& receive, bool& has_begun) {
+          std::uint64_t wanted_begin, const std::function<void(PipeReader&)>& receive, bool& has_begun) {
   std::uint64_t begin = 0, end = 0;
   int status = 0;
   pass(pipe, begin);
   has_begun = true;
-  if (begin != ReaderProtocol::begin)
+  if (begin != wanted_begin)
     throw InputError(path + ": cannot be read: " + reader +
                      " is of another version than this program; install quadloop again");
   pass(pipe, status);
@@ -167,7 +167,7 @@ void take(PipeReader& pipe, const std::string& path, const std::string& reader, 
 namespace detail {
 
 void run_reader(const std::string& kind, const std::string& path, const std::vector<std::string>& more,
-                const std::function<void(PipeReader&)>& receive) {
+                std::uint64_t begin, const std::function<void(PipeReader&)>& receive) {
   const Allowance allowance = allowance_for(path);
   const std::string reader = find_reader(path);
   std::vector<std::string> arguments{reader, std::to_string(allowance.seconds),
@@ -187,7 +187,7 @@ void run_reader(const std::string& kind, const std::string& path, const std::vec
   PipeReader pipe(ends[0]);  // closed before waiting for the reader, which then has no receiver
   bool has_begun = false;
   try {
-    take(pipe, path, reader, allowance, receive, has_begun);
+    take(pipe, path, reader, allowance, begin, receive, has_begun);
   } catch (const PipeEnded&) {
     const int status = child.wait_status();
     if (!has_begun && WIFEXITED(status))

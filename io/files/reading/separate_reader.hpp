@@ -13,8 +13,13 @@ namespace quadloop {
 /// sends `begin`, a status, the value or an error message, `end`.
 struct ReaderProtocol {
   static constexpr int descriptor = 3;
-  static constexpr std::uint64_t begin = 0x71'6c'72'65'61'64'00'01;  ///< the last two bytes are the version
-  static constexpr std::uint64_t end = ~begin;
+  static constexpr std::uint64_t version = 1, end = 0x71'6c'72'65'61'64'65'72;
+
+  /// Before a value of this type.
+  template <class Value>
+  static std::uint64_t begin() {
+    return signature_of<Value>() + version;
+  }
   static constexpr int done = 0, too_much_memory = -1;  ///< other values: an ExitStatus
 };
 
@@ -22,7 +27,7 @@ namespace detail {
 
 /// Implementation of read_separately() for any data.
 void run_reader(const std::string& kind, const std::string& path, const std::vector<std::string>& more,
-                const std::function<void(PipeReader&)>& receive);
+                std::uint64_t begin, const std::function<void(PipeReader&)>& receive);
 
 }  // namespace detail
 
@@ -36,7 +41,8 @@ template <class Result>
 Result read_separately(const std::string& kind, const std::string& path,
                        const std::vector<std::string>& more = {}) {
   Result result{};
-  detail::run_reader(kind, path, more, [&](PipeReader& pipe) { pass(pipe, result); });
+  detail::run_reader(kind, path, more, ReaderProtocol::begin<Result>(),
+                     [&](PipeReader& pipe) { pass(pipe, result); });
   return result;
 }
 

@@ -53,6 +53,16 @@ class PipeReader {
   std::size_t begin_ = 0, end_ = 0;  ///< of the unread bytes in it
 };
 
+/// Takes down how a type is sent, from a value of it that holds nothing.
+class PipeSignature {
+ public:
+  static constexpr bool reads = false;
+
+  void bytes(const void*, std::size_t size) { number = (number ^ size) * 0x100000001b3; }
+
+  std::uint64_t number = 0xcbf29ce484222325;  ///< FNV-1a
+};
+
 namespace detail {
 
 template <class T>
@@ -75,7 +85,10 @@ void pass_list(Pipe& pipe, List& list) {
   using Element = typename List::value_type;
   std::uint64_t size = list.size();
   pass(pipe, size);
-  if constexpr (std::is_trivially_copyable_v<Element>) {
+  if constexpr (std::is_same_v<Pipe, PipeSignature>) {
+    Element one{};
+    pass(pipe, one);
+  } else if constexpr (std::is_trivially_copyable_v<Element>) {
     for (std::size_t done = 0; done < size;) {
       const std::size_t step = std::min<std::size_t>(size - done, PipeReader::largest_step);
       if constexpr (Pipe::reads) list.resize(done + step);
@@ -100,7 +113,12 @@ void pass(Pipe& pipe, T& value) {
     if constexpr (Pipe::reads) {
       if (there) value.emplace();
     }
-    if (there) pass(pipe, *value);
+    if constexpr (std::is_same_v<Pipe, PipeSignature>) {
+      typename T::value_type one{};
+      pass(pipe, one);
+    } else if (there) {
+      pass(pipe, *value);
+    }
   } else if constexpr (std::is_same_v<T, std::string> || detail::IsVector<T>::value) {
     pass_list(pipe, value);
   } else if constexpr (std::is_trivially_copyable_v<T>) {
@@ -116,6 +134,15 @@ void pass(Pipe& pipe, First& first, Second& second, More&... more) {
   pass(pipe, first);
   pass(pipe, second);
   (pass(pipe, more), ...);
+}
+
+/// Tells types that are sent in different ways, of two builds of a program too.
+template <class T>
+std::uint64_t signature_of() {
+  PipeSignature signature;
+  T value{};
+  pass(signature, value);
+  return signature.number;
 }
 
 }  // namespace quadloop
