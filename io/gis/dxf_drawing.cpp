@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/files/reading/input_file.hpp"
+#include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -63,7 +64,65 @@ class DxfPairs {
   int code_ = 0;
 };
 
-/// An entity while its pairs are read.
+/// The names of a drawing's layers, or of its blocks: equal ones may differ in case.
+class DxfNames {
+ public:
+  /// The first spelling of the name; the name itself where it is new.
+  const std::string& spelling_of(std::string_view name) {
+    return names_.try_emplace(lower_case(name), name).first->second;
+  }
+  bool contains(std::string_view name) const { return names_.contains(lower_case(name)); }
+  std::vector<std::string> all() const {
+    std::vector<std::string> spellings;
+    for (const auto& [lower, name] : names_) spellings.push_back(name);
+    return spellings;
+  }
+
+ private:
+  std::map<std::string, std::string> names_;  ///< by lower case
+};
+
+/// Calls `take` for each pair within a section, with the section's name and the type of the table entry or
+/// entity that the pair belongs to.
+template <class Take>
+void for_each_pair(std::string_view text, Take take) {
+  DxfPairs pairs(text);
+  std::string_view section, type;
+  while (pairs.next()) {
+    if (pairs.is(0, "SECTION")) {
+      if (!pairs.next()) return;
+      section = pairs.value();
+    }
+    if (pairs.code() == 0) type = pairs.value();
+    take(pairs, section, type);
+  }
+}
+
+/// What a drawing defines.
+struct DxfDefinitions {
+  DxfNames layers, blocks;
+
+  explicit DxfDefinitions(std::string_view text) {
+    constexpr int external = 4;  // a flag of a block: its content is in another file
+    std::string_view block;
+    bool is_head = false;
+    for_each_pair(text, [&](const DxfPairs& pair, std::string_view section, std::string_view type) {
+      if (section == "TABLES" && type == "LAYER" && pair.code() == 2) layers.spelling_of(pair.value());
+      if (section != "BLOCKS") return;
+      if (pair.code() == 0) {
+        if (is_head && !block.empty()) blocks.spelling_of(block);
+        is_head = type == "BLOCK";
+        block = {};
+      } else if (is_head && pair.code() == 2) {
+        block = pair.value();
+      } else if (is_head && pair.code() == 70 && (number_in<int>(pair.value()) & external) != 0) {
+        is_head = false;
+      }
+    });
+  }
+};
+
+/// One entity while its pairs are read.
 struct PartEntity {
   DxfEntity entity;
   std::string handle;
@@ -160,9 +219,35 @@ std::vector<Point> points_of(const DxfSpline& spline) {
   return points;
 }
 
+bool DxfDrawing::correct_names(std::string& text) {
+  DxfDefinitions defined(text);
+  layers_ = defined.layers.all();
+  bool any = false;
+  const auto spell = [&](std::string_view name, const std::string& spelling) {
+    if (name == spelling) return;
+    any = true;
+    std::ranges::copy(spelling, text.begin() + (name.data() - text.data()));  // only the case differs
+  };
+  std::string layer;
+  for_each_pair(text, [&](const DxfPairs& pair, std::string_view section, std::string_view type) {
+    if (section != "BLOCKS" && section != "ENTITIES") return;
+    if (pair.code() == 8) {
+      layer = defined.layers.spelling_of(pair.value());
+      spell(pair.value(), layer);
+    }
+    if (type != "INSERT" || pair.code() != 2) return;
+    if (defined.blocks.contains(pair.value()))
+      spell(pair.value(), defined.blocks.spelling_of(pair.value()));
+    else
+      missing_blocks_.emplace_back(pair.value(), layer);
+  });
+  return any;
+}
+
 DxfDrawing::DxfDrawing(const std::string& path) {
-  const std::string text = read_input(path);
+  std::string text = read_input(path);
   refuse_binary(path, text);
+  const bool is_corrected = correct_names(text);
   DxfPairs pairs(text);
   std::string section, first_section, variable;
   std::size_t section_begin = 0;
@@ -188,7 +273,7 @@ DxfDrawing::DxfDrawing(const std::string& path) {
       if (section == "ENTITIES") {
         keep();
         if (first_section != "HEADER" && first_section != "ENTITIES")
-          entities_alone_ = text.substr(section_begin, pairs.end() - section_begin) + "  0\nEOF\n";
+          corrected_ = text.substr(section_begin, pairs.end() - section_begin) + "  0\nEOF\n";
       }
       section.clear();
     } else if (section == "ENTITIES") {
@@ -205,6 +290,7 @@ DxfDrawing::DxfDrawing(const std::string& path) {
   }
   if (!section.empty()) refuse_damaged(path, pairs, "section " + section + " does not end with ENDSEC");
   if (!pairs.at_end() && !pairs.is(0, "EOF")) refuse_damaged(path, pairs, "a group code is expected here");
+  if (corrected_.empty() && is_corrected) corrected_ = std::move(text);
 }
 
 const DxfEntity* DxfDrawing::find(const std::string& handle) const {

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/geometry/point.hpp"
@@ -35,14 +36,25 @@ class DxfDrawing {
 
   /// Returns the entity with this handle; null if there is none.
   const DxfEntity* find(const std::string& handle) const;
-  /// The drawing reduced to its entities, if it begins with a section that GDAL does not expect.
-  const std::string& entities_alone() const { return entities_alone_; }
-  /// The unit declared in the drawing, a name of length_units.hpp; empty if there is none.
+  /// The drawing as GDAL is to read it; empty where that is the file itself. GDAL compares names of layers and
+  /// blocks with their case: here each has the case of its definition, else of its first use. It has nothing
+  /// but the entities where the file begins with a section that GDAL does not expect there.
+  const std::string& corrected() const { return corrected_; }
+  /// The layers that are defined.
+  const std::vector<std::string>& layers() const { return layers_; }
+  /// For each reference to a block whose content is not in the file: the block, and the reference's layer.
+  const std::vector<std::pair<std::string, std::string>>& missing_blocks() const { return missing_blocks_; }
+  /// The unit that the drawing declares, a name of length_units.hpp; empty where it declares none.
   const std::string& unit() const { return unit_; }
 
  private:
+  /// Writes names of layers and blocks as they are defined; returns whether the text has changed.
+  bool correct_names(std::string& text);
+
   std::map<std::string, DxfEntity> entities_;  ///< by handle
-  std::string entities_alone_, unit_;
+  std::string corrected_, unit_;
+  std::vector<std::string> layers_;
+  std::vector<std::pair<std::string, std::string>> missing_blocks_;
 };
 
 }  // namespace quadloop

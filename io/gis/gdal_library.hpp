@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -14,7 +15,7 @@ namespace quadloop {
 #define QUADLOOP_FOR_EACH_GDAL_FUNCTION(DO)                                                                 \
   DO(CPLErrorReset)                                                                                         \
   DO(CPLGetLastErrorMsg) DO(CPLGetLastErrorType) DO(CPLPopErrorHandler) DO(CPLPushErrorHandler)             \
-      DO(CPLQuietErrorHandler) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
+      DO(CPLQuietErrorHandler) DO(CPLSetThreadLocalConfigOption) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
           DO(GDALDatasetGetLayerCount) DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID)                    \
               DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex) DO(OGR_F_GetGeometryRef)                   \
                   DO(OGR_F_IsFieldSetAndNotNull) DO(OGR_G_Clone) DO(OGR_G_DestroyGeometry)                  \

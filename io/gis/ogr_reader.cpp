@@ -23,7 +23,6 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
-#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 namespace quadloop {
 
@@ -46,10 +45,12 @@ void throw_out_of_memory(CPLErr kind, CPLErrorNum number, const char* message) {
   gdal().CPLQuietErrorHandler(kind, number, message);
 }
 
-/// Suppresses GDAL's output on stderr; its last message becomes part of ours.
+/// GDAL would print its own lines on stderr; its last message goes into ours instead. It gives each entity of
+/// a DXF block as one feature with the entity's own layer, not one feature for a reference to the block.
 class QuietGdal {
  public:
   QuietGdal() {
+    gdal().CPLSetThreadLocalConfigOption("DXF_MERGE_BLOCK_GEOMETRIES", "FALSE");
     gdal().CPLPushErrorHandler(throw_out_of_memory);
     gdal().CPLErrorReset();
   }
@@ -108,7 +109,24 @@ class Collector {
  public:
   /// `drawing` is null if the file is not a drawing.
   Collector(std::vector<Chain>& chains, const LayerNames& layers, const DxfDrawing* drawing)
-      : chains_{chains}, layers_{layers}, drawing_{drawing} {}
+      : chains_{chains}, layers_{layers}, drawing_{drawing} {
+    if (drawing == nullptr) return;
+    known_layers_.insert(drawing->layers().begin(), drawing->layers().end());
+    for (const auto& [block, layer] : drawing->missing_blocks()) {
+      if (is_wanted(layer))
+        left_out_.add(fmt::format("INSERT of block '{}', whose content is not in the file", block), {});
+    }
+  }
+
+  void add_layer(OGRLayerH layer, const std::string& path) {
+    if (drawing_ == nullptr) known_layers_.insert(gdal().OGR_L_GetName(layer));
+    while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) add_feature(feature.get(), layer, path);
+  }
+
+  const LeftOut& left_out() const { return left_out_; }
+  const std::set<std::string>& known_layers() const { return known_layers_; }
+
+ private:
 
   void add_feature(OGRFeatureH feature, OGRLayerH layer, const std::string& path) {
     const std::string layer_name = drawing_ ? text_of(feature, "Layer") : gdal().OGR_L_GetName(layer);
@@ -133,13 +151,9 @@ class Collector {
     add(straight.get(), name, source);
   }
 
-  const LeftOut& left_out() const { return left_out_; }
-  const std::set<std::string>& known_layers() const { return known_layers_; }
-
- private:
   bool is_wanted(const std::string& layer) const {
     return layers_.empty() ||
-           std::ranges::any_of(layers_, [&](const std::string& pattern) { return matches(pattern, layer); });
+           std::ranges::any_of(layers_, [&](const std::string& name) { return matches_layer(name, layer); });
   }
 
   /// For a drawing: returns the kind of a feature that is not part of the geometry, or not visible; empty if
@@ -147,10 +161,12 @@ class Collector {
   std::string why_left_out(OGRFeatureH feature, const std::string& handle, const std::string& layer) const {
     if (drawing_ == nullptr) return {};
     const std::string type = type_of(feature, handle);
-    if (text_of(feature, "PaperSpace") == "1") return fmt::format("{} in paper space", type);
+    if (text_of(feature, "PaperSpace") == "1")
+      return fmt::format("{} in paper space", type.empty() ? "entity" : type);
     const char* const style = gdal().OGR_F_GetStyleString(feature);
     const bool hidden = style != nullptr && has_hidden_colour(style);
-    if (hidden && layers_.empty()) return fmt::format("{} not visible on layer '{}'", type, layer);
+    if (hidden && layers_.empty())
+      return fmt::format("{} not visible on layer '{}'", type.empty() ? "entity" : type, layer);
     return is_outline(type) ? std::string() : fmt::format("{} on layer '{}'", type, layer);
   }
 
@@ -257,12 +273,11 @@ void note_unit(OGRLayerH layer, FileUnit& unit) {
   if (unit.metres != 0 && unit.metres != metres)
     unit = {};
   else
-    unit = {name, metres};
+    unit = {name, metres, {}};
 }
 
 void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
-  while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)})
-    collector.add_feature(feature.get(), layer, path);
+  collector.add_layer(layer, path);
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
     throw InputError(fmt::format("{}: {}; correct the file or export it again", path,
                                  one_line(gdal().CPLGetLastErrorMsg())));
@@ -279,7 +294,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  static constexpr const char* name = "/vsimem/entities.dxf";
+  static constexpr const char* name = "/vsimem/corrected.dxf";
 
  private:
   std::string text_;
@@ -305,9 +320,9 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
   if (suffix_of(path) == ".dxf") drawing.emplace(path);
   gdal().GDALAllRegister();
   const QuietGdal quiet;
-  std::optional<MemoryFile> entities_alone;
-  if (drawing && !drawing->entities_alone().empty()) entities_alone.emplace(drawing->entities_alone());
-  const Dataset data{gdal().GDALOpenEx(entities_alone ? MemoryFile::name : path.c_str(),
+  std::optional<MemoryFile> corrected;
+  if (drawing && !drawing->corrected().empty()) corrected.emplace(drawing->corrected());
+  const Dataset data{gdal().GDALOpenEx(corrected ? MemoryFile::name : path.c_str(),
                                        GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
@@ -329,7 +344,9 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
   warn_of_degrees(path, in_degrees, warnings);
   if (!collector.left_out().empty())
     warnings.push_back(fmt::format("{}: left out: {}", path, collector.left_out().text()));
-  if (drawing && !drawing->unit().empty()) unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0)};
+  if (drawing && !drawing->unit().empty())
+    unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0), {}};
+  unit.layers.assign(collector.known_layers().begin(), collector.known_layers().end());
   return chains;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -13,16 +14,23 @@ namespace quadloop {
 /// visible ones.
 using LayerNames = std::vector<std::string>;
 
-/// The unit of length declared in a file for its coordinates.
+/// The letters a to z in lower case.
+std::string lower_case(std::string_view text);
+
+/// Whether the layer has this name, in upper or lower case.
+bool matches_layer(const std::string& pattern, const std::string& layer);
+
+/// What a file declares: the unit of length of its coordinates, and its layers.
 struct FileUnit {
-  std::string name;   ///< empty if there is none
-  double metres = 0;  ///< metres per unit; 0: not known
+  std::string name;   ///< empty where it declares none
+  double metres = 0;  ///< in one of it; 0: not known
+  std::vector<std::string> layers;  ///< of a drawing or map; ascending
 };
 
-/// Reads the polylines of a geometry file; the suffix selects the format: .geom, .dat (airfoil), and
-/// gis_suffixes if add_geometry_reader() has added a reader for them, with the given layers. On the calling
-/// rank only. Throws InputError "file:line: ..." if the file does not have the format of its suffix. Each
-/// kind of omitted data gives a warning. `unit` is set if the file declares one.
+/// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
+/// gis_suffixes where add_geometry_reader() has brought a reader for them; of those the layers given. On the
+/// calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix says. What
+/// was left out of the file is told by a warning each. `unit` receives what the file declares.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
                                  const LayerNames& layers = {}, FileUnit* unit = nullptr);
 

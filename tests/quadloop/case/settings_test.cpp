@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "generate/digests.hpp"
+#include "io/gis/gis_formats.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
@@ -53,6 +54,25 @@ TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
   ASSERT_EQ(extents.size(), 1u);
   EXPECT_EQ(extents[0].box.high, (Point{4, 4})) << "as they stand in the file";
   EXPECT_EQ(extents[0].metres, 1e-3);
+}
+
+TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
+  const std::string feature = R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
+                              R"("coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}})";
+  for (const char* name : {"shore", "isle"}) {
+    folder_.write(std::string(name) + ".geojson",
+                  R"({"type":"FeatureCollection","name":")" + std::string(name) + R"(","features":[)" + feature + "]}");
+  }
+  add_gis_formats();
+  const auto loaded = [&](const std::string& files, const std::string& layers) {
+    return load(read_settings(folder_.write(
+        "maps.toml", "[geometry]\noverlap = \"union\"\nfile = " + files + "\nlayers = " + layers + "\n")));
+  };
+  const std::string said = test::refusal(folder_, [&] { loaded(R"("shore.geojson")", R"(["sh*", "shor"])"); });
+  EXPECT_NE(said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(loaded(R"("shore.geojson")", R"(["SHORE"])").boundaries().size(), 1u);
 }
 
 TEST_F(SettingsTest, ReadsEveryKey) {
