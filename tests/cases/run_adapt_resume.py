@@ -52,7 +52,7 @@ def check_mended_command(program, folder, ranks):
     case.write_text(TINY.replace('"python3",', '"python3", "-B",').replace("timeout", "iterations = 7\ntimeout"))
     status, message = attempt(program, "adapt", case, "-o", made, "--cycles", "1", "--resume", ranks=ranks)
     require(status == 0, f"exit status {status}: {message}")
-    for part in ("solver.command was [", "solver.iterations was not set, is now 7", "cycle_00 stay"):
+    for part in ("solver.command was [", "solver.iterations was not set, is now 7", "cycle_00 remain"):
         require(part in message, f"no word of '{part}': {message}")
     settings = [json.loads((made / cycle / "record.json").read_text())["case"] for cycle in ("cycle_00", "cycle_01")]
     require(["-B" in of_cycle["solver.command"] for of_cycle in settings] == [False, True], f"records say {settings}")
