@@ -122,7 +122,7 @@ def check_begin_and_end(program, folder, ranks):
     case = tiny_case(folder / "begin")
     made = folder / "of_begin"
     status, message = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "1", ranks=ranks)
-    require(status == 0 and "holds no whole cycle" in message, f"exit status {status}: {message}")
+    require(status == 0 and "contains no complete cycle" in message, f"exit status {status}: {message}")
     printed = adapt(program, case, made, ranks, ["--resume", "--cycles", "1"])
     require("all cycles exist already" in printed and "wrote" not in printed, printed)
     printed = adapt(program, case, made, ranks, ["--resume", "--cycles", "2"])
