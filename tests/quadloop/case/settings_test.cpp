@@ -57,22 +57,19 @@ TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
 }
 
 TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
-  const std::string feature = R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
-                              R"("coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}})";
-  for (const char* name : {"shore", "isle"}) {
-    folder_.write(std::string(name) + ".geojson",
-                  R"({"type":"FeatureCollection","name":")" + std::string(name) + R"(","features":[)" + feature + "]}");
-  }
+  folder_.write("map.geojson",
+                R"({"type":"FeatureCollection","name":"shore","features":[{"type":"Feature","properties":{},)"
+                R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}}]})");
   add_gis_formats();
-  const auto loaded = [&](const std::string& files, const std::string& layers) {
-    return load(read_settings(folder_.write(
-        "maps.toml", "[geometry]\noverlap = \"union\"\nfile = " + files + "\nlayers = " + layers + "\n")));
+  const auto load_layers = [&](const std::string& layers) {
+    const std::string text = "[geometry]\nfile = \"map.geojson\"\nlayers = " + layers + "\n";
+    return load(read_settings(folder_.write("map.toml", text)));
   };
-  const std::string said = test::refusal(folder_, [&] { loaded(R"("shore.geojson")", R"(["sh*", "shor"])"); });
+  const std::string said = test::refusal(folder_, [&] { load_layers(R"(["sh*", "shor"])"); });
   EXPECT_NE(said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
             std::string::npos)
       << said;
-  EXPECT_EQ(loaded(R"("shore.geojson")", R"(["SHORE"])").boundaries().size(), 1u);
+  EXPECT_EQ(load_layers(R"(["SHORE"])").boundaries().size(), 1u);
 }
 
 TEST_F(SettingsTest, ReadsEveryKey) {
