@@ -207,7 +207,7 @@ class FoamReader {
     std::vector<std::string> cyclic;
     for (const FoamPatch& given : patches_) {
       const std::int64_t start = given.first_face;
-      if (given.faces < 0 || start < std::ssize(neighbour_) || start + given.faces > std::ssize(faces_))
+      if (given.faces < 0 || start < std::ssize(neighbour_) || given.faces > std::ssize(faces_) - start)
         throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}",
                                      file("boundary"), given.name, given.faces, start, faces_.size()));
       FileBoundary& patch = mesh_.boundaries.emplace_back();

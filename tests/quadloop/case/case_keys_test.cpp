@@ -46,6 +46,7 @@ class Dump {
     add_one(";");
   }
   void add_one(Point p) { add(p.x, p.y); }
+  void add_one(BoundaryCondition c) { add(c.word()); }
   void add_one(const Box& b) { add(b.low, b.high); }
   void add_one(const SizeSource::Disc& d) { add(d.centre, d.radius); }
   void add_one(const SizeSource::Line& l) { add(l.from, l.to); }

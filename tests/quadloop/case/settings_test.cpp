@@ -63,7 +63,7 @@ TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
   add_gis_formats();
   const auto load_layers = [&](const std::string& layers) {
     const std::string text = "[geometry]\nfile = \"map.geojson\"\nlayers = " + layers + "\n";
-    return load(read_settings(folder_.write("map.toml", text)));
+    return load(read_settings(folder_.write("map.toml", text), {}));
   };
   const std::string said = test::refusal(folder_, [&] { load_layers(R"(["sh*", "shor"])"); });
   EXPECT_NE(said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
