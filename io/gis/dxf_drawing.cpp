@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "io/files/reading/input_file.hpp"
-#include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/suffix.hpp"
 
 namespace quadloop {
 
@@ -69,9 +69,9 @@ class DxfNames {
  public:
   /// The first spelling of the name; the name itself where it is new.
   const std::string& spelling_of(std::string_view name) {
-    return names_.try_emplace(lower_case(name), name).first->second;
+    return names_.try_emplace(small_letters(std::string(name)), name).first->second;
   }
-  bool contains(std::string_view name) const { return names_.contains(lower_case(name)); }
+  bool contains(std::string_view name) const { return names_.contains(small_letters(std::string(name))); }
   std::vector<std::string> all() const {
     std::vector<std::string> spellings;
     for (const auto& [lower, name] : names_) spellings.push_back(name);

@@ -3,7 +3,6 @@
 #include <array>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -13,9 +12,6 @@ namespace quadloop {
 /// Names of layers of a drawing or map, with the wildcards * and ?. Empty: all layers; in a drawing the
 /// visible ones.
 using LayerNames = std::vector<std::string>;
-
-/// The letters a to z in lower case.
-std::string lower_case(std::string_view text);
 
 /// Whether the layer has this name, in upper or lower case.
 bool matches_layer(const std::string& pattern, const std::string& layer);

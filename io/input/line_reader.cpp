@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -31,15 +32,29 @@ std::optional<double> number_of(std::string_view word) {
   return parse_real(word, value) ? std::optional(value) : std::nullopt;
 }
 
-/// By the byte order mark.
-bool is_utf16(std::string_view text) { return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"); }
+enum class ByteOrder { none, low_first, high_first };
 
-/// Without the byte order mark. Characters outside the basic plane become '?': coordinates and names have
+/// Of a text in UTF-16: by its byte order mark, else by the zeros that half of the bytes of most letters and
+/// digits are; none where it is another text.
+ByteOrder utf16_order(std::string_view text) {
+  if (text.starts_with("\xFF\xFE")) return ByteOrder::low_first;
+  if (text.starts_with("\xFE\xFF")) return ByteOrder::high_first;
+  const std::string_view begin = text.substr(0, 256);
+  std::array<std::size_t, 2> zeros{};  // at even and at odd places
+  for (std::size_t i = 0; i < begin.size(); ++i) zeros[i % 2] += begin[i] == '\0' ? 1 : 0;
+  const auto are_high = [&](std::size_t some, std::size_t others) {
+    return others == 0 && some > 0 && 4 * some >= begin.size();
+  };
+  if (are_high(zeros[1], zeros[0])) return ByteOrder::low_first;
+  return are_high(zeros[0], zeros[1]) ? ByteOrder::high_first : ByteOrder::none;
+}
+
+/// A byte order mark stays one in UTF-8. Characters beyond the first plane become '?': coordinates and names have
 /// none.
-std::string utf8_of_utf16(std::string_view text) {
-  const std::size_t low = text.starts_with("\xFF\xFE") ? 0 : 1;
+std::string utf8_of_utf16(std::string_view text, ByteOrder order) {
+  const std::size_t low = order == ByteOrder::low_first ? 0 : 1;
   std::string out;
-  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[i + k]); };
     const unsigned unit = byte(low) | static_cast<unsigned>(byte(1 - low)) << 8U;
     if (unit < 0x80) {
@@ -59,9 +74,9 @@ std::string utf8_of_utf16(std::string_view text) {
 
 LineReader::LineReader(const std::string& path) : path_{path}, file_{path} {
   fill();
-  if (is_utf16(text_)) {
+  if (const ByteOrder order = utf16_order(text_); order != ByteOrder::none) {
     read_rest();
-    text_ = utf8_of_utf16(text_);
+    text_ = utf8_of_utf16(text_, order);
     fill();
   }
   const bool has_old_line_ends = row_end_ == text_.size() && text_.find('\r') != std::string::npos;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -59,8 +60,12 @@ const std::vector<Signature>& signatures() {
       {"VARIABLES", "ZONE", "a Tecplot file"},
       {"*HEADING", "", "an Abaqus file"},
       {"*NODE", "", "an Abaqus file"},
-      {"BEGIN BULK", "", "a Nastran file"},
-      {"SOL ", "BEGIN BULK", "a Nastran file"},
+      {"", "BEGIN BULK", "a Nastran file"},
+      {"CEND", "", "a Nastran file"},
+      {"GRID", "", "a Nastran file"},
+      {"$", "\nGRID", "a Nastran file"},
+      {"-1\n", "", "a universal file of I-deas (.unv)"},
+      {"-1\r\n", "", "a universal file of I-deas (.unv)"},
       {"CONTROL INFO", "GAMBIT", "a neutral file of Gambit"},
       {"mesh3d", "", "a mesh of Netgen"},
       {"MFEM mesh", "", "a mesh of MFEM"},
@@ -93,12 +98,33 @@ bool is_binary_stl(std::string_view begins, std::uintmax_t size) {
   return triangles > 0 && size == 84 + std::uintmax_t{50} * triangles;
 }
 
-/// HDF5 is the container of many formats, distinguished by the suffix.
-FileKind hdf5_kind(const std::string& path) {
+/// Nodes of Triangle or TetGen: their number, 2 or 3 dimensions, numbers of attributes and of markers; then
+/// rows with consecutive numbers.
+bool is_node_file(std::string_view text) {
+  std::istringstream rows{std::string(text)};
+  std::string row;
+  const auto next_numbers = [&] {
+    std::vector<double> numbers;
+    std::getline(rows, row);
+    std::istringstream words(row.substr(0, row.find('#')));
+    for (double number; words >> number;) numbers.push_back(number);
+    return numbers;
+  };
+  const std::vector<double> head = next_numbers();
+  if (head.size() != 4 || (head[1] != 2 && head[1] != 3)) return false;
+  const std::vector<double> one = next_numbers(), two = next_numbers();
+  return static_cast<double>(one.size()) == 1 + head[1] + head[2] + head[3] && one.size() == two.size() &&
+         two[0] == one[0] + 1;
+}
+
+/// HDF5 is the container of many formats; the names of groups or the suffix tell which.
+FileKind hdf5_kind(const std::string& path, std::string_view begins) {
   const std::string name = small_letters(path);
   if (name.ends_with(".cas.h5") || name.ends_with(".msh.h5"))
     return {"a mesh of Fluent in HDF5", {}, "save it in Fluent as a legacy ASCII file"};
-  if (name.ends_with(".med")) return {"a mesh of Salome (MED)", {}, save_as};
+  const bool has_med_groups = begins.find("ENS_MAA") != std::string_view::npos ||
+                              begins.find("INFOS_GENERALES") != std::string_view::npos;
+  if (has_med_groups || name.ends_with(".med")) return {"a mesh of Salome (MED)", {}, save_as};
   return {"an HDF5 file", {".cgns", ".h5"}, save_as};
 }
 
@@ -108,7 +134,7 @@ std::optional<FileKind> kind_of_file(const std::string& path) {
   std::error_code failure;
   if (!std::filesystem::is_regular_file(path, failure)) return std::nullopt;
   const std::string bytes = first_bytes(path);
-  if (bytes.starts_with("\x89HDF")) return hdf5_kind(path);
+  if (bytes.starts_with("\x89HDF")) return hdf5_kind(path, bytes);
   const std::string_view text = without_blanks_before(bytes);
   for (const Signature& signature : signatures()) {
     const bool fits = text.starts_with(signature.begins) &&
@@ -117,6 +143,7 @@ std::optional<FileKind> kind_of_file(const std::string& path) {
   }
   if (is_binary_stl(bytes, std::filesystem::file_size(path, failure)))
     return FileKind{"a binary STL surface", {}, is_geometry};
+  if (is_node_file(text)) return FileKind{"a file of nodes of Triangle or TetGen (.node)", {}, save_as};
   return std::nullopt;
 }
 

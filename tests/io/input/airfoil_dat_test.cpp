@@ -96,6 +96,10 @@ TEST_F(AirfoilDat, ReadsOldLineEndsAndWideCharacters) {
   std::string text = airfoil_name + selig_rows, wide = "\xFF\xFE";
   for (const char c : text) wide += {c, '\0'};
   expect_airfoil(wide, {});
+  expect_airfoil(wide.substr(2), {});
+  std::string high_first;
+  for (const char c : text) high_first += {'\0', c};
+  expect_airfoil(high_first, {});
   std::ranges::replace(text, '\n', '\r');
   expect_airfoil(text, {});
 }
