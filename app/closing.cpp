@@ -18,8 +18,9 @@ namespace quadloop {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int failure_note = 7;                             // the tag of "I have failed"
-constexpr auto patience = std::chrono::milliseconds(2000);  // how far apart ranks may come to the same error
+constexpr int failure_note = 7;  // the tag of "I have failed"
+// maximum delay between ranks that encounter the same error
+constexpr auto patience = std::chrono::milliseconds(2000);
 
 bool print(const std::string& record) {
   return std::fputs(record.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
@@ -49,8 +50,8 @@ bool completes_within(MPI_Request& request, std::chrono::milliseconds time) {
   }
 }
 
-/// Tells all other ranks that this one failed. The notes are small enough to be on their way without
-/// anybody's help.
+/// Notifies all other ranks that this one failed. The messages are small enough to be sent without a matching
+/// receive.
 void send_notes(MPI_Comm comm, int rank, int ranks, std::vector<MPI_Request>& notes) {
   static const char note = 1;
   for (int r = 0; r < ranks; ++r) {
@@ -74,10 +75,10 @@ bool lower_rank_failed(MPI_Comm comm, int rank) {
   return false;
 }
 
-/// The others are waiting for this rank somewhere else. The lowest rank that failed speaks and ends them.
+/// The others wait for this rank elsewhere. The lowest failed rank prints the message and aborts them.
 [[noreturn]] void end_all(MPI_Comm comm, int rank, const Outcome& outcome) {
   if (lower_rank_failed(comm, rank))
-    std::this_thread::sleep_for(std::chrono::seconds(20));  // ended by that rank before this is over
+    std::this_thread::sleep_for(std::chrono::seconds(20));  // aborted by that rank before this ends
   else
     say(outcome);
   MPI_Abort(comm, static_cast<int>(outcome.status));

@@ -20,7 +20,7 @@ std::string record_text(const CommandRecord& record, const Outcome& outcome) {
 
 namespace {
 
-/// Into the record, each once. Returns those of them that are new and shown.
+/// Adds warnings to the record, each once. Returns those of them that are new and to be shown.
 std::vector<std::string> recorded(const CommandContext& context, std::vector<std::string> warnings) {
   constexpr std::size_t most_shown = 10;
   std::vector<std::string>& all = context.record.warnings;

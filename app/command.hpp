@@ -10,29 +10,29 @@
 
 namespace quadloop {
 
-/// What `--json` prints of a command: one object on one line. A failure has it too, with what was known by
+/// Output of `--json` for a command: one object on one line. Also printed on failure, with what is known by
 /// then.
 struct CommandRecord {
   std::string command;
-  JsonObject figures;                        ///< what the table says, on the root rank
+  JsonObject figures;                        ///< contents of the table, on the root rank
   std::vector<std::string> warnings, files;  ///< all warnings; the files that were written
-  /// Warnings that the work has noted so far, which the user has not yet been told of. On every rank.
+  /// Warnings recorded so far that have not been shown to the user. On every rank.
   std::vector<std::string> noted = {};
 };
 
-/// The record of a command that ended so: {"command", "status", "error", figures ..., "warnings", "files"};
-/// "error" is null where there is none.
+/// Returns the record of a finished command: {"command", "status", "error", figures ..., "warnings",
+/// "files"}; "error" is null if there is none.
 std::string record_text(const CommandRecord& record, const Outcome& outcome);
 
-/// What every command is given, and where it leaves its work.
+/// Context of a command.
 ///
 ///     add_x_command(line, context)     adds the command `x` with its options
 ///     line.parse(...)                  returns the work of the chosen command
 ///     work()                           does it, *collectively*, and throws an Error of mesher/base/error.hpp
 ///
-/// Options live in a shared_ptr that the work captures. `quiet` and `verbose` are known when the work is
-/// done, not before. Results for the user go to stdout from the rank and in the manner that `shows_table`
-/// says, and into `record` always; logs go through mesher/base/log.hpp, warnings through `warn`.
+/// Options are stored in a shared_ptr that the work captures. `quiet` and `verbose` are valid only when the
+/// work runs. Results for the user are printed to stdout if `shows_table` is true, and always added to
+/// `record`; logs use mesher/base/log.hpp, warnings `warn`.
 struct CommandContext {
   const Communicator& comm;
   bool quiet = false;
@@ -40,12 +40,13 @@ struct CommandContext {
   bool json = false;
   CommandRecord& record;
 
-  /// Whether this rank prints the table for people.
+  /// Whether this rank prints the table.
   bool shows_table() const { return comm.is_root() && !quiet && !json; }
-  /// From the root rank, after those noted: the first few, unless `verbose`; all of them into the record,
-  /// which with `quiet` is the only place. What the record has already is passed over.
+  /// Shows warnings from the root rank, after those recorded earlier: the first few, unless `verbose`. All of
+  /// them are added to the record, with `quiet` only there. Those already in the record are skipped.
   void warn(const std::vector<std::string>& warnings) const;
-  /// Those noted join the record. Returns the lines to print of them before the error that ends the command.
+  /// Moves the recorded warnings to the record. Returns the lines to print before the error that ends the
+  /// command.
   std::vector<std::string> warnings_before_error() const;
 };
 

@@ -35,7 +35,7 @@ struct AdaptArguments {
   std::optional<double> max_cells;
 };
 
-/// What would stop the loop after the first mesh, found out before it.
+/// Checks for errors that would stop the loop after the initial mesh.
 void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
   const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
   const auto is_for = [](const std::string& path, Content content) {
@@ -57,7 +57,7 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
                                  solver.mesh + "; give the solution another name");
 }
 
-/// Of each cycle, where the next shape's mesh is to be morphed from it.
+/// Returns the geometry text to store with each cycle, if the next design's mesh is to be morphed from it.
 std::string outline_to_keep(const CaseInput& input) {
   if (!input.settings.morph_to) return {};
   MeshReport told_of_the_mesh;
@@ -83,7 +83,7 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
   if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
-    read_openfoam_template(openfoam->case_template);  // refuses what would end the first cycle
+    read_openfoam_template(openfoam->case_template);  // rejects errors that would end the first cycle
   AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
                         settings.formats,       settings.values, settings.fields};
   adaptive.stream = settings.stream;
@@ -110,7 +110,7 @@ std::string line_of(const CycleRecord& record) {
   return line;
 }
 
-/// A cycle's figures and files join those of the run.
+/// Adds a cycle's data and files to those of the run.
 void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles,
           CommandRecord& of_run) {
   cycles.push_back(figures_of(record));
@@ -125,7 +125,7 @@ void keep(const CycleRecord& record, const std::string& folder, std::vector<Json
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
-/// A line where the run ended before its last cycle; else empty.
+/// Returns a line if the run ended before its last cycle; else empty.
 std::string why_ended(const LoopEnd& end) {
   if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};

@@ -25,8 +25,8 @@ struct CheckArguments {
   std::string input, geometry;
 };
 
-/// The outline as `mesh` would take it: joined, its loops turned. That of several blocks is no outline of one
-/// domain and stays as it is.
+/// Returns the geometry as `mesh` would use it: joined, with consistently directed loops. With several blocks
+/// it is not that of a single domain and is left unchanged.
 std::vector<Chain> load_chains(const CommandContext& context, const std::string& path, bool one_domain) {
   Warnings warnings;
   std::vector<Chain> chains = read_geometry(path, warnings);
@@ -37,7 +37,7 @@ std::vector<Chain> load_chains(const CommandContext& context, const std::string&
   return chains;
 }
 
-/// The figures of a mesh whose connectivity names existing nodes, as every mesh read from a file does.
+/// Checks a mesh whose connectivity is valid, as that of every mesh read from a file is.
 CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) {
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
@@ -124,7 +124,7 @@ void add_check_command(CommandLine& line, CommandContext& context) {
                   "the geometry of the mesh, as written by `mesh --geometry-out`")
       .value_name("FILE.geom");
   command.set_work([&context, arguments] {
-    context.comm.together([&] {  // the root rank alone works; what it finds is every rank's exit status
+    context.comm.together([&] {  // only the root rank works; its exit status becomes that of every rank
       if (context.comm.is_root()) check_on_root(context, *arguments);
     });
   });

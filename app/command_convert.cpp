@@ -57,7 +57,7 @@ const FileFormat& output_format(const ConvertArguments& arguments) {
                                arguments.input, output.name, suffixes_for({Content::solid}, "and")));
 }
 
-/// A 3D mesh that is one cell thick is a plane one where the output has a place for those.
+/// A 3D mesh that is one cell thick is read as a plane mesh if the output format supports those.
 MeshOfFile read_convert_input(const ConvertArguments& arguments) {
   const FileFormat& output = output_format(arguments);
   const FileFormat* const format = format_of(arguments.input);
@@ -75,7 +75,7 @@ MeshOfFile read_convert_input(const ConvertArguments& arguments) {
   return mesh;
 }
 
-/// What was left out on reading, what is wrong with it, what is lost on writing.
+/// Returns what was omitted on reading, errors of the mesh, and what is lost on writing.
 template <class AnyMesh>
 std::vector<std::string> warnings_of(const AnyMesh& mesh, const ConvertArguments& arguments) {
   std::vector<std::string> warnings = mesh.warnings;
@@ -98,7 +98,7 @@ Figures figures_of(const FileMesh& mesh) {
   return figures;
 }
 
-/// What --parts asks for, known before the mesh is read.
+/// Returns the request of --parts, which is known before the mesh is read.
 PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks) {
   const FileFormat* format =
       arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
@@ -124,7 +124,7 @@ Figures figures_of(const LoadedMesh& whole) {
   return figures;
 }
 
-/// The parts that have been written, and what was asked for.
+/// The parts that have been written, with the request.
 struct WrittenParts {
   PartRequest request;
   PartFigures figures;
@@ -142,7 +142,7 @@ std::optional<WrittenParts> write_parts(const Communicator& comm, const MeshOfFi
   return WrittenParts{request, write_parts_of_root(files, comm, *plane, request)};
 }
 
-/// On the root rank alone, whose communicator `outputs` has for itself. *Collective.*
+/// Writes on the root rank only; `outputs` has a communicator of its own. *Collective.*
 void write_output(const Communicator& comm, const MeshOfFile& input, const ConvertArguments& arguments,
                   OutputSet& outputs) {
   comm.together([&] {
@@ -172,7 +172,7 @@ void report(const CommandContext& context, const MeshOfFile& input, const Conver
 
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
-  MeshOfFile input;  // on the root rank alone
+  MeshOfFile input;  // on the root rank only
   comm.together([&] {
     output_format(arguments);
     if (!comm.is_root()) return;

@@ -42,7 +42,7 @@ struct ExtrudeArguments {
   std::optional<double> max_cells;
 };
 
-/// Numbers from a text file, "#" begins a comment: the coordinates of the levels, ascending.
+/// Reads numbers from a text file with "#" comments: the coordinates of the levels, ascending.
 std::vector<double> read_heights(const std::string& path) {
   TextScanner scan(path);
   std::vector<double> heights;
@@ -58,7 +58,7 @@ std::vector<double> read_heights(const std::string& path) {
   return heights;
 }
 
-/// Checks what the command line says together.
+/// Checks the consistency of the command line options.
 void require_one_way(const ExtrudeArguments& arguments) {
   const bool even = arguments.layers > 0 || arguments.thickness > 0;
   if (even == !arguments.heights.empty())
@@ -67,7 +67,7 @@ void require_one_way(const ExtrudeArguments& arguments) {
     throw UsageError("extrude requires both --layers N and --thickness T, the total thickness of the layers");
 }
 
-/// Beyond these bounds areas and volumes leave the range of double precision.
+/// Beyond these limits areas and volumes exceed the range of double precision.
 void require_in_range(const std::vector<double>& heights, const std::string& source) {
   constexpr double least = 1e-100, most = 1e100;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -81,7 +81,7 @@ void require_in_range(const std::vector<double>& heights, const std::string& sou
   }
 }
 
-/// The same on every rank. *Collective.*
+/// Returns the heights, the same on every rank. *Collective.*
 std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
   std::vector<double> heights;
   if (arguments.heights.empty()) {
@@ -101,14 +101,15 @@ std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments&
   return heights;
 }
 
-/// The plane mesh spread over the ranks in the order of its file, and its solution.
+/// The plane mesh, distributed in the order of its file, and its solution.
 struct Plane {
   Mesh mesh;
   std::optional<Field> solution;
-  std::optional<PlaneBlocks> blocks;  ///< of several
+  std::optional<PlaneBlocks> blocks;  ///< if there are several
 };
 
-/// What the root read, its inner boundaries left out; the others get an empty one. *Collective.*
+/// Returns the mesh that the root has read, without its inner boundaries; an empty one on other ranks.
+/// *Collective.*
 LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments,
                 std::vector<std::string>& warnings) {
   LoadedMesh whole;
@@ -127,7 +128,7 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
   return whole;
 }
 
-/// In the order given, as scatter_mesh() spreads cells. *Collective.*
+/// Distributes blocks in the given order, as scatter_mesh() distributes cells. *Collective.*
 void spread_blocks(const Communicator& comm, PlaneBlocks& blocks, const MeshOrder& order) {
   blocks.names = broadcast_words(comm, blocks.names);
   for (auto [of_cells, cells] :
@@ -143,21 +144,21 @@ Plane spread(const Communicator& comm, LoadedMesh whole) {
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
   Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt, std::move(blocks)};
   if (plane.blocks) spread_blocks(comm, *plane.blocks, order);
-  whole.mesh = {};  // before the 3D mesh streams
+  whole.mesh = {};  // freed before the 3D mesh is streamed
   if (comm.any(whole.solution.has_value()))
     plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
   return plane;
 }
 
-/// On the disk, at least: the numbers of nodes and cells as the shortest formats have them.
+/// Least file size: the numbers of nodes and cells in the most compact formats.
 double least_bytes(const ExtrudedCounts& counts) {
   constexpr double of_node = 24, of_prism = 6 * 4, of_hexahedron = 8 * 4;
   return of_node * static_cast<double>(counts.nodes) + of_prism * static_cast<double>(counts.prisms) +
          of_hexahedron * static_cast<double>(counts.hexahedra);
 }
 
-/// Says how large a mesh will be before it is written, and refuses one of more cells than are allowed, or for
-/// which the disk has no room: no rank holds it, memory is no limit. *Collective.*
+/// Reports the size of a large mesh before it is written. Throws if it has more cells than allowed, or does
+/// not fit on the disk. Memory is not a limit, as no rank stores the mesh. *Collective.*
 void require_room(const Communicator& comm, const ExtrudedCounts& counts, const ExtrudeArguments& arguments) {
   constexpr double large = 1e6;
   const auto cells = static_cast<double>(counts.cells());

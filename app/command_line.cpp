@@ -22,7 +22,7 @@ std::vector<CLI::App*> commands_of(CLI::App& app) {
   return app.get_subcommands([](CLI::App*) { return true; });
 }
 
-/// What is wrong where no word of the command line is a command.
+/// Returns the error for a command line without a command.
 std::string without_command(CLI::App& app) {
   std::vector<std::string> commands;
   for (const CLI::App* command : commands_of(app)) commands.push_back(command->get_name());
@@ -40,7 +40,7 @@ void append_options(const CLI::App& app, std::vector<std::string>& names) {
   }
 }
 
-/// What is wrong with the first word that looks like an option and is none; empty where all are known.
+/// Returns the error for the first word that looks like an option and is none; empty if all are known.
 std::string unknown_option(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining(true);
   const auto unknown = std::find_if(words.begin(), words.end(), [](const std::string& word) {
@@ -55,13 +55,13 @@ std::string unknown_option(const CLI::App& app) {
 }
 
 bool is_file(const std::string& word) {
-  std::error_code ignored;  // a word too long for a path is none
+  std::error_code ignored;  // a word too long for a path is not a file
   return std::filesystem::exists(word, ignored);
 }
 
-/// The command line, last word first as CLI11 takes it, with --set before each of the assignments that follow
-/// one: an option of many values would take the case file for one of them. A word that names a file is the
-/// case file, whatever it looks like.
+/// Returns the words of the command line, last word first as CLI11 expects it, with --set inserted before
+/// each further assignment: an option with several values would take the case file as one of them. A word
+/// that names a file is the case file, whatever it looks like.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words;
   bool in_assignments = false;
@@ -77,7 +77,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
   return words;
 }
 
-/// Lets CLI11 print what it has to print (help, version) on the root rank; anything else is a UsageError.
+/// Lets CLI11 print help or version on the root rank; anything else is a UsageError.
 void answer(CLI::App& app, const CLI::ParseError& request, const Communicator& comm) {
   if (request.get_exit_code() == 0) {
     if (comm.is_root()) app.exit(request, std::cout, std::cerr);

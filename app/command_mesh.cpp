@@ -34,14 +34,14 @@ struct MeshArguments {
   std::optional<double> max_cells;
 };
 
-/// What has to be known before the meshing starts; the same on every rank.
+/// Input known before mesh generation; the same on every rank.
 struct Prepared {
   CaseInput input;
-  std::vector<std::string> files;       ///< to be written, the tree last
-  std::vector<std::string> part_files;  ///< and these, where parts are asked for
+  std::vector<std::string> files;       ///< output files, the tree last
+  std::vector<std::string> part_files;  ///< and those of partitions, if requested
 };
 
-/// `-o out.mesh` would write out.mesh.mesh.
+/// Rejects a prefix with a format suffix: `-o out.mesh` would write out.mesh.mesh.
 void require_prefix(const std::string& prefix) {
   const std::string suffix = format_suffix_of(prefix);
   if (!suffix.empty())
@@ -77,7 +77,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   return prepared;
 }
 
-/// The geometry as it was meshed: without the islands that were dropped.
+/// Returns the geometry as it was meshed, without the dropped islands.
 Geometry meshed_geometry(const MeshInput& input) {
   MeshReport told_already;
   return without_small_islands(input.geometry, input.mesh.size.min, told_already);
@@ -89,7 +89,7 @@ void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::str
   file.close();
 }
 
-/// With the figures of parts where they are asked for.
+/// Writes the outputs; returns the statistics of the partitions, if requested.
 std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshResult& result,
                                          const Prepared& prepared, const std::string& geometry_out) {
   OutputSet outputs(comm);
@@ -108,9 +108,9 @@ std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshRes
   return parts;
 }
 
-/// SU2 is silent about cells that its scheme gets wrong.
+/// SU2 does not report cells for which its scheme is inaccurate.
 Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
-  constexpr double few = 0.98;  // of the quads are parallelograms
+  constexpr double few = 0.98;  // fraction of quads that are parallelograms
   const auto& formats = settings.formats;
   if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few)
     return {};
@@ -122,8 +122,8 @@ Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
           : "mesh.quads = \"parallel\" divides them")};
 }
 
-/// Stretched cells hang on a solution, which this command does not take. Those of a metric are told of where
-/// the saved mesh had some; nodes that gathered at fronts left no trace in a tree.
+/// Anisotropic cells depend on a solution, which this command does not use. Warns if the saved mesh had
+/// metric-based cells; r-adaptation is not recorded in a tree.
 Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& saved, const MeshInput& input,
                               const TreeAttributes& made) {
   const char* setting = setting_that_follows(input);
@@ -136,7 +136,7 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
       tree, setting, made.nodes, same ? "" : fmt::format(" where the saved one has {}", saved.nodes))};
 }
 
-/// The first mesh of a case whose cells follow a solution is what this command makes without a tree.
+/// Without a tree this command generates the initial mesh of a case whose cells follow a solution.
 Warnings first_mesh_warnings(const MeshInput& input) {
   const char* setting = setting_that_follows(input);
   if (!setting) return {};
@@ -144,8 +144,8 @@ Warnings first_mesh_warnings(const MeshInput& input) {
       "{}: there is no solution yet: this is the first mesh of \"adapt\", that of the quadtree", setting)};
 }
 
-/// Reads on every rank (files are small beside a mesh, and an error is then the same error everywhere),
-/// meshes, writes. Warnings come when all is done, or before the error.
+/// Reads on every rank (files are small compared with a mesh, and errors are then the same everywhere),
+/// generates the mesh, writes. Warnings are shown at the end, or before an error.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;

@@ -37,22 +37,22 @@ namespace {
 
 struct MorphArguments {
   std::string input, output, geometry, from;
-  std::string direction;                              ///< a table of what the outline's points do
-  std::string nodal_gradient, outline_gradient;       ///< a solution, and the table made from it
+  std::string direction;                              ///< table with the velocities of the geometry's points
+  std::string nodal_gradient, outline_gradient;       ///< a solution, and the table computed from it
   std::vector<std::string> fields{"dJ_dx", "dJ_dy"};  ///< of that solution
 
   bool wants_derivative() const { return !direction.empty() || !outline_gradient.empty(); }
 };
 
-/// The fields that OUT gets of a direction.
+/// The fields added to OUT for a direction.
 const std::vector<std::string> velocity_names{"dx_ds", "dy_ds"};
 
-/// Every rank has the outlines, the root the mesh.
+/// Input: the geometries on every rank, the mesh on the root.
 struct MorphInput {
   LoadedMesh whole;
   MeshOrder order;
   std::optional<Geometry> to, from;
-  std::vector<Point> direction;  ///< of each point of `to`
+  std::vector<Point> direction;  ///< for each point of `to`
 };
 
 void require_outputs(const MorphArguments& arguments) {
@@ -73,11 +73,11 @@ void require_outputs(const MorphArguments& arguments) {
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code none;  // where one of them is not there
+  std::error_code none;  // one of them may not exist
   return a == b || std::filesystem::equivalent(a, b, none);
 }
 
-/// Outputs that can be written, and over nothing that is read or written besides. Only the mesh may be
+/// Requires that the outputs can be written and do not overwrite inputs or each other. Only the mesh may be
 /// replaced by its successor.
 void require_other_outputs(const MorphArguments& arguments) {
   const std::string &mesh = arguments.output, &table = arguments.outline_gradient;
@@ -140,7 +140,7 @@ void require_derivative(const MorphArguments& arguments, const MorphReport& repo
         arguments.input, arguments.geometry));
 }
 
-/// The nodes' velocities join the whole mesh's solution. *Collective.*
+/// Adds the nodes' velocities to the whole mesh's solution. *Collective.*
 void add_velocities(const Communicator& comm, const Mesh& part, const std::vector<Point>& velocity,
                     MorphInput& input) {
   Field field{velocity_names, {}, {}};
@@ -156,7 +156,7 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
   append_columns(joined, velocity_names, of_whole.values);
 }
 
-/// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the outline. *Collective.*
+/// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the geometry. *Collective.*
 void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
                             const MorphInput& input, const Mesh& part, const MorphDerivative& derivative) {
   Field of_whole;

@@ -38,7 +38,7 @@ struct PlotArguments {
 
 enum class Subject { mesh, walls, history };
 
-/// What is drawn, and how.
+/// What to plot, and how.
 struct PlotTask {
   Subject subject = Subject::mesh;
   PlotFormat format = PlotFormat::png;
@@ -54,7 +54,7 @@ PlotFormat picture_format_of(const std::string& path) {
                    "'; end its name in .png, .svg or .pdf");
 }
 
-/// So many numbers with a sign between them.
+/// Parses `count` numbers with a separator between them.
 template <std::size_t count>
 std::array<double, count> numbers_in(const std::string& text, char between, const std::string& refusal) {
   std::array<double, count> numbers{};
@@ -70,7 +70,7 @@ std::array<double, count> numbers_in(const std::string& text, char between, cons
   return numbers;
 }
 
-/// X0,X1,Y0,Y1. Four numbers that span no area are left to draw_mesh.
+/// X0,X1,Y0,Y1. A window without area is rejected by draw_mesh.
 Box window_of(const std::string& text) {
   const auto numbers = numbers_in<4>(text, ',', "--window takes four numbers X0,X1,Y0,Y1");
   return {{numbers[0], numbers[2]}, {numbers[1], numbers[3]}};
@@ -135,7 +135,7 @@ PlotTask task_of(const PlotArguments& arguments) {
   return task;
 }
 
-/// Mach number, pressure coefficient: where the file has none, they are made of its flow.
+/// Computes Mach number or pressure coefficient if the file lacks them.
 void add_quantity(LoadedMesh& loaded, const std::string& field) {
   if (!loaded.solution || std::ranges::find(quantity_names(), field) == quantity_names().end()) return;
   Field& solution = *loaded.solution;
@@ -173,7 +173,7 @@ std::string picture(const PlotArguments& arguments, const PlotTask& task) {
                     task.format);
 }
 
-/// The root rank alone reads and draws; what it cannot do is the same error everywhere.
+/// Only the root rank reads and plots; an error there is thrown on all ranks.
 void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   const Communicator& comm = context.comm;
   PlotTask task;

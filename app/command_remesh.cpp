@@ -35,7 +35,7 @@ struct RemeshArguments {
   std::optional<double> max_cells;
 };
 
-/// Where the mesh of a tree may be: beside it, under the same name.
+/// Returns possible mesh files of a tree: next to it, with the same name.
 std::vector<std::string> files_beside(const std::string& tree) {
   const std::string ending = tree_suffix;
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
@@ -49,8 +49,8 @@ MeshCounts counts_of(const Mesh& whole) {
   return {std::ssize(whole.points), std::ssize(whole.triangles), std::ssize(whole.quads), 0};
 }
 
-/// That of --mesh, which is taken for the tree's mesh, with its nodes moved, if it has its counts and sound
-/// cells.
+/// Returns the mesh of --mesh. It is accepted as the tree's mesh, with moved nodes, if it has the same counts
+/// and valid cells.
 LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedMesh named = read_mesh(arguments.mesh);
   require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
@@ -58,15 +58,15 @@ LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tr
     if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
         fault.rule != MeshRule::coincident)
       continue;
-    throw InputError(
-        fmt::format("{}: is no mesh of this tree: {} at ({}, {}); give the mesh that was solved on",
-                    arguments.mesh, fault.what, fault.place.x, fault.place.y));
+    throw InputError(fmt::format(
+        "{}: is not a mesh of this tree: {} at ({}, {}); give the mesh that was written with the tree",
+        arguments.mesh, fault.what, fault.place.x, fault.place.y));
   }
   return named;
 }
 
-/// The mesh that was solved on, where the solution's file has another or none: that of --mesh, else the first
-/// one beside the tree that is the tree's to the last bit.
+/// Returns the mesh of the solution if the solution's file has another or none: that of --mesh, else the
+/// first file next to the tree that is bitwise the tree's mesh.
 LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
   if (!arguments.mesh.empty()) return named_mesh(arguments, tree);
   const std::vector<std::string> files = files_beside(arguments.tree);
@@ -85,8 +85,8 @@ LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& 
       arguments.solution, arguments.tree, files.front()));
 }
 
-/// The mesh that the solution counts on, with it. Its nodes are the tree's: to the last bit, else within 1e-6
-/// of a local edge of those of mesh_of_tree(), which take their place. On the calling rank alone.
+/// Returns the mesh of the solution, with the solution. Its nodes are those of the tree: bitwise, or else
+/// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. On the calling rank only.
 LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
   if (solution.mesh) require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
@@ -118,17 +118,17 @@ Figures transfer_figures(const CarriedMesh& carried) {
   return figures;
 }
 
-/// What remesh works on; the whole mesh with its solution on the root alone.
+/// Input of remesh; the whole mesh with its solution on the root only.
 struct RemeshProblem {
   TreeRecord tree;
   CaseInput input;
-  LoadedMesh whole;                     ///< until it is spread
-  std::vector<std::string> files;       ///< to be written
-  std::vector<std::string> part_files;  ///< and these, where parts are asked for
+  LoadedMesh whole;                     ///< until it is distributed
+  std::vector<std::string> files;       ///< output files
+  std::vector<std::string> part_files;  ///< and those of partitions, if requested
   PartRequest parts;
 };
 
-/// With the figures of parts where they are asked for. *Collective.*
+/// Writes the outputs; returns the statistics of the partitions, if requested. *Collective.*
 std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& carried,
                                  const RemeshProblem& problem) {
   OutputSet outputs(comm);
@@ -175,7 +175,7 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
   return problem;
 }
 
-/// Spread over the ranks. *Collective.*
+/// Distributes the solved mesh. *Collective.*
 SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
   const LoadedMesh whole = std::exchange(problem.whole, {});
   SolvedMesh solved =
@@ -208,8 +208,8 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
   if (context.shows_table()) std::cout << table_of(summary) << of_transfer.table(27, 10);
 }
 
-/// The old cells on the changed outline, where the case wants them and they are good enough; otherwise why a
-/// mesh is made anew is added to `doubts`. *Collective.*
+/// Returns the old cells on the changed geometry, if the case requests it and they are good enough; otherwise
+/// adds to `doubts` why the mesh is generated again. *Collective.*
 std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments& arguments,
                                  const RemeshProblem& problem, const SolvedMesh& solved, Warnings& doubts) {
   const std::optional<double>& least = problem.input.settings.morph_to;
@@ -221,7 +221,7 @@ std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments
   return std::move(morphed.carried);
 }
 
-/// Marked by the solution, meshed, and the solution carried over. *Collective.*
+/// Flags cells by the solution, generates the mesh, and transfers the solution. *Collective.*
 CarriedMesh remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
                    StageTimes& times, Warnings& warnings) {
   times.begin("adapt");

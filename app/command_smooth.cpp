@@ -40,16 +40,16 @@ struct SmoothArguments {
   std::vector<std::string> fix;  ///< names of boundaries, inner curves and blocks
 };
 
-/// What the root rank knows of the mesh as it was read; on the others nothing but the geometry.
+/// Input on the root rank; on the others only the geometry.
 struct Loaded {
   LoadedMesh whole;
   MeshOrder order;
   NodeFlags pinned;  ///< nodes_that_stay(), and fix_nodes()
   std::optional<Geometry> geometry;
-  bool delaunay = false;  ///< on every rank; flips would cross inner curves
+  bool delaunay = false;  ///< on every rank; false if flips could cross inner curves
 };
 
-/// Layers are cut by the shorter diagonals; that may be Delaunay or not.
+/// Cells of layers are split by the shorter diagonals, which may not be Delaunay.
 bool is_delaunay_outside_layers(const LoadedMesh& loaded) {
   const Communicator alone(MPI_COMM_SELF);
   const Mesh& mesh = loaded.mesh;
@@ -57,9 +57,9 @@ bool is_delaunay_outside_layers(const LoadedMesh& loaded) {
                      blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
 }
 
-constexpr double most_stretched = 20;  // longest edge over the shortest
+constexpr double most_stretched = 20;  // longest over shortest edge
 
-/// Layers of another program's mesh would be evened out.
+/// Warns that layers of another program's mesh would be lost by smoothing.
 Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
   if (has_layers(mesh)) return {};
   std::int64_t stretched = 0;
@@ -84,7 +84,7 @@ void append(Warnings& warnings, const Warnings& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
-/// The root reads the mesh, every rank the geometry (files are small beside a mesh). *Collective.*
+/// The root reads the mesh, every rank the geometry (files are small compared with a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Loaded loaded;
   Warnings& warnings = context.record.noted;
@@ -139,14 +139,15 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
   return options;
 }
 
-/// Refuses, on all ranks, a mesh that is not valid on the root. *Collective.*
+/// Throws on all ranks if the mesh is not valid on the root. *Collective.*
 void require_valid_result(const Communicator& comm, const Loaded& loaded, const std::string& input) {
   comm.together([&] {
     if (comm.is_root()) require_valid(loaded.whole, input);
   });
 }
 
-/// All quads were parallelograms, as node-centred solvers want them, and cells stay cells here.
+/// Warns if all quads were parallelograms, as node-centred solvers prefer, and some are not any more: this
+/// command does not split cells.
 void warn_of_skew_quads(const CommandContext& context, const std::string& output,
                         const ShapeFigures& figures) {
   const std::int64_t skew = figures.quads - figures.parallelograms;
@@ -157,7 +158,7 @@ void warn_of_skew_quads(const CommandContext& context, const std::string& output
                    output, skew, figures.quads)});
 }
 
-/// Smooths and writes; the text to be shown, on the root alone. *Collective.*
+/// Smooths and writes; returns the text to show, on the root only. *Collective.*
 std::string smooth_and_write(const CommandContext& context, const SmoothArguments& arguments, Loaded& loaded,
                              StageTimes& times) {
   const Communicator& comm = context.comm;
@@ -191,7 +192,7 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   return comparison_table(before, after) + work.table(24) + stage_table(stages);
 }
 
-/// Without sweeps a mesh only changes its format, and its shapes are of no interest.
+/// Without sweeps a mesh only changes its format, and its shapes are not reported.
 void run_smooth(const CommandContext& context, const SmoothArguments& arguments) {
   StageTimes times;
   times.begin("read");

@@ -35,12 +35,12 @@ struct SolveArguments {
   std::vector<std::string> assignments;
 };
 
-/// The settings, and on the root rank alone the mesh with the flow to start from.
+/// The settings and, on the root rank only, the mesh with the initial state.
 struct SolveProblem {
   Settings settings;
   LoadedMesh whole;
   MeshOrder order;
-  Field start;  ///< without variables: the flow starts as the case says
+  Field start;  ///< without variables: the initial state follows from the case
 };
 
 void require_outputs(const std::string& output) {
@@ -50,7 +50,7 @@ void require_outputs(const std::string& output) {
                      suffixes_for({Content::mesh, Content::solution}) + " file");
 }
 
-/// Where a mesh brings density, velocity and pressure along.
+/// Returns the initial state if the mesh file has density, velocity and pressure.
 Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
@@ -99,7 +99,7 @@ SolveProblem load(const CommandContext& context, const SolveArguments& arguments
   return problem;
 }
 
-/// The tables beside the mesh with the flow.
+/// The tables written with the mesh.
 struct TableFiles {
   std::string walls, history;
 };
@@ -115,7 +115,7 @@ void write_text(OutputSet& outputs, const std::string& path, const std::string& 
   file.close();
 }
 
-/// Puts the flow into the whole mesh on the root and writes it, and the tables beside it. *Collective.*
+/// Adds the solution to the whole mesh on the root and writes it, with the tables. *Collective.*
 void write(const CommandContext& context, SolveProblem& problem, const Mesh& part, const EulerResult& result,
            const std::string& path) {
   const Communicator& comm = context.comm;

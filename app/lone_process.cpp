@@ -10,10 +10,9 @@ namespace quadloop {
 
 namespace {
 
-// Without the daemon all such processes would share one folder of Open MPI's in /tmp, which the first to end
-// takes away from the others: so they have none.
-// Nobody is talked to, and no graphics card or X display asked for its place in the machine: a tenth of the
-// time to start.
+// Without the daemon all such processes would share one folder of Open MPI in /tmp, which the first one to
+// end removes: so none is created. No network is used, and no graphics card or X display is queried for the
+// topology: this takes a tenth of the startup time.
 constexpr std::array<std::pair<const char*, const char*>, 5> settings{
     {{"OMPI_MCA_ess_singleton_isolated", "1"},
      {"OMPI_MCA_orte_create_session_dirs", "0"},

@@ -4,9 +4,10 @@
 
 namespace quadloop {
 
-/// Around MPI_Init: in a process that no launcher started Open MPI (4) would start a daemon beside it, with
-/// which it could spawn others, and try every network: a third of a second that nobody needs. Settings that
-/// the user has made stand; those made here are gone with this, so that a solver does not inherit them.
+/// To be constructed around MPI_Init: in a process without a launcher Open MPI (4) would start a daemon for
+/// spawning further processes and probe every network, which takes a third of a second. The user's own
+/// settings are kept; those made here are removed by the destructor, so that an external solver does not
+/// inherit them.
 class LoneProcess {
  public:
   LoneProcess();

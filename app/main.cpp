@@ -27,7 +27,7 @@ namespace quadloop {
 
 namespace {
 
-/// MPI's own way would be to print a paragraph and to end all ranks.
+/// MPI's default would be to print a paragraph and to abort all ranks.
 void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
   int kind = MPI_SUCCESS, length = 0;
   MPI_Error_class(*code, &kind);
@@ -37,8 +37,8 @@ void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
   throw Fault(std::string("MPI: ") + text.data());
 }
 
-/// MPI from its beginning to its end. Its errors are exceptions, also those of communicators made from the
-/// first one.
+/// Initialises and finalises MPI. Its errors become exceptions, also for communicators derived from the first
+/// one.
 class MpiGuard {
  public:
   MpiGuard(int& argc, char**& argv) {
@@ -79,7 +79,7 @@ void add_commands(CommandLine& line, CommandContext& context) {
                   about_quiet, about_verbose, about_json));
 }
 
-/// The command's name in the record says that one was to run.
+/// The command's name is set in the record if a command is to be run.
 void run(int argc, char** argv, CommandContext& context) {
   const Communicator& comm = context.comm;
   CommandLine line("quadloop: parallel 2D mesh generation from named boundary curves", "quadloop",
@@ -91,7 +91,7 @@ void run(int argc, char** argv, CommandContext& context) {
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   if (comm.is_root() && !context.quiet) progress::show();
   work();
-  context.warn({});  // what is noted
+  context.warn({});  // shows the recorded warnings
 }
 
 Outcome guarded_run(int argc, char** argv, CommandContext& context) {
@@ -109,20 +109,21 @@ Outcome guarded_run(int argc, char** argv, CommandContext& context) {
   }
 }
 
-/// Runs the command, and makes its record where the command line asks for one, be it never so wrong.
+/// Runs the command, and creates its record if the command line requests one, even if it is invalid.
 Outcome recorded_run(int argc, char** argv, const Communicator& comm) {
   CommandRecord record;
   CommandContext context{comm, false, false, false, record};
   Outcome outcome = guarded_run(argc, argv, context);
   if (outcome.status != ExitStatus::done) outcome.warnings = context.warnings_before_error();
   const bool wanted = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
-  const bool has_run = !record.command.empty() || outcome.status != ExitStatus::done;  // no help, no version
+  // neither help nor version
+  const bool has_run = !record.command.empty() || outcome.status != ExitStatus::done;
   if (wanted && has_run) outcome.record = record_text(record, outcome);
   return outcome;
 }
 
-/// Arrays of many megabytes come and go between the stages: kept, their pages need not be asked for and
-/// cleared again each time (a seventh of the run for a million cells).
+/// Large arrays are allocated and freed between stages: keeping their pages avoids requesting and clearing
+/// them again (a seventh of the run time for a million cells).
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 30);

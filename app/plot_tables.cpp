@@ -22,7 +22,7 @@ struct WholeCycle {
   CyclePaths paths;
 };
 
-/// Of an adaptive run, one after the other.
+/// Returns the cycles of an adaptive run, in order.
 std::vector<WholeCycle> cycles_in(const std::string& run) {
   std::vector<WholeCycle> cycles;
   constexpr std::string_view head = "cycle_";
@@ -43,7 +43,7 @@ std::vector<WholeCycle> cycles_in(const std::string& run) {
 constexpr const char* cure =
     "; forces and wall values are written if [flow] has a pressure and a boundary has bc = \"wall\"";
 
-/// The table itself, or that beside a mesh with a flow.
+/// Returns the table itself, or that written with a mesh.
 std::string table_of(const std::string& input, const char* suffix) {
   if (suffix_of(input) == ".csv") return input;
   const std::string table = fs::path(input).replace_extension().string() + suffix;

@@ -14,20 +14,19 @@
 
 namespace quadloop {
 
-/// A flow on a mesh, and what the solver says of it.
+/// The solution of a flow solver, with its report.
 struct SolvedFlow : FlowFigures {
-  Field solution;                            ///< a row for each owned node, or for each cell, or both
+  Field solution;                            ///< nodal values at owned nodes, or cell values, or both
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
-  std::optional<FreeStream> stream;          ///< where the solver knows it
-  Field at_walls = {};                       ///< rows of nodes, as wall_flow(); empty: those of the solution
+  std::optional<FreeStream> stream;          ///< if the solver provides it
+  Field at_walls = {};                       ///< nodal rows as of wall_flow(); empty: those of the solution
   std::vector<HistoryRow> history;
 };
 
-/// Any flow solver: `start` is the state to begin with, a row for each of the mesh's owned nodes, or cells,
-/// or without variables where there is none yet; `cycle` counts the solver's meshes from 0. Throws
-/// InputError, SolverError, the same on all ranks: what may fail on one of them alone runs inside
-/// comm.together(), which throws the error of the lowest such rank on all; else the others wait for ever.
-/// *Collective.*
+/// Any flow solver: `start` is the initial state, with values at the owned nodes or in the cells, or without
+/// variables if there is none; `cycle` counts the solver's meshes from 0. Throws InputError, SolverError, the
+/// same on all ranks: code that may fail on a single rank must run inside comm.together(), which throws the
+/// error of the lowest such rank on all; otherwise the other ranks would wait forever. *Collective.*
 using FlowSolver =
     std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
 

@@ -16,7 +16,7 @@ namespace {
 
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value + 0.0); }  // -0 becomes 0
 
-/// A digest of words in their order.
+/// A digest of words; depends on their order.
 class WordDigest {
  public:
   void add(std::uint64_t word) { state_ = mixed_bits(state_ ^ word) + golden_step; }
@@ -70,14 +70,14 @@ class WordDigest {
   std::uint64_t state_ = 0x6a09e667f3bcc908ULL;
 };
 
-/// Modulo 2^64 over all ranks, in two halves: a signed 64-bit sum may not overflow. *Collective.*
+/// Sum modulo 2^64 over all ranks, in two halves because a signed 64-bit sum could overflow. *Collective.*
 std::uint64_t sum_over_ranks(const Communicator& comm, std::uint64_t own) {
   const std::uint64_t low = comm.sum(own & 0xffffffffULL), high = comm.sum(own >> 32);
   return low + (high << 32);
 }
 
-/// Of rows of `width` values, each with the number over all ranks that `number_of` has for it; those of all
-/// ranks add up.
+/// Digest of rows of `width` values; `number_of` gives the global number of each row. The digests of all
+/// ranks are summed.
 template <class NumberOf>
 std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, const NumberOf& number_of) {
   std::uint64_t sum = 0;
@@ -92,10 +92,10 @@ std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, 
 
 }  // namespace
 
-// By name, so that an option more does not compile before it is thought of here.
+// Structured bindings, so that a new option does not compile before it is considered here.
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
   const auto& [type, quads, size, snap, may_vanish, limit, mirror] = options;
-  // may_vanish and limit make no other mesh
+  // may_vanish and limit do not affect the mesh
   const auto& [min, max, gradation, curvature, gap, sources, root] = size;
   WordDigest digest;
   digest.add(static_cast<std::uint64_t>(type));
@@ -110,7 +110,7 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
   digest.add(std::uint64_t{root.has_value()});
   if (root) {
     const auto& [corner, tree_edge, trees_x, trees_y, far_corner] =
-        *root;  // the last follows from the others
+        *root;  // far_corner follows from the others
     digest.add(corner);
     digest.add(tree_edge);
     digest.add(static_cast<std::uint64_t>(trees_x));

@@ -11,21 +11,21 @@
 
 namespace quadloop {
 
-/// A number that changes with every setting that the mesh depends on, beside the geometry.
+/// Returns a hash of all settings that affect the mesh, except the geometry.
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines = {});
 
-/// A number that changes with any character of a text.
+/// Returns a hash of a text.
 std::uint64_t text_digest(const std::string& text);
 
-/// This rank's nodes' part in coordinate_digest(): the parts of all ranks add up to it, modulo 2^64.
+/// Returns the contribution of this rank's nodes to coordinate_digest(): those of all ranks add up to it,
+/// modulo 2^64.
 std::uint64_t digest_of_owned(const Mesh& mesh);
 
-/// A number that changes with any node's coordinates and does not depend on the number of ranks.
-/// *Collective.*
+/// Returns a hash of all node coordinates, independent of the number of ranks. *Collective.*
 std::uint64_t coordinate_digest(const Communicator& comm, const Mesh& mesh);
 
-/// A number that changes with any value, constant or name of a solution and does not depend on the number of
-/// ranks. *Collective.*
+/// Returns a hash of all values, constants and names of a solution, independent of the number of ranks.
+/// *Collective.*
 std::uint64_t solution_digest(const Communicator& comm, const Mesh& mesh, const Field& solution);
 
 }  // namespace quadloop

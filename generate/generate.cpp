@@ -36,9 +36,8 @@ std::function<TieRank(Point)> order_of_nodes(const MeshInput& input, int finest_
   };
 }
 
-/// The same for the cells of layers, but where the mesh is to be its own mirror image nodes rank as their
-/// images do: cells of four corners that are their own images are not divided, as no diagonal is its own
-/// image.
+/// Order of nodes for the cells of layers. If the mesh must be its own mirror image, nodes rank as their
+/// images do: quads that are their own images are not split, as no diagonal is its own image.
 std::function<TieRank(Point)> order_in_layers(const MeshInput& input, int finest_level) {
   const std::function<TieRank(Point)> order = order_of_nodes(input, finest_level);
   if (!input.mesh.mirror) return order;
@@ -47,7 +46,7 @@ std::function<TieRank(Point)> order_in_layers(const MeshInput& input, int finest
   };
 }
 
-/// A leaf has the triangles that stand in the slots of its own before.
+/// Counts the triangles of each quadtree cell after flips: those stored in the slots of its former triangles.
 void count_triangles(const std::vector<std::int32_t>& standing, std::vector<LeafRecord>& leaves) {
   auto slot = standing.begin();
   for (LeafRecord& leaf : leaves) {
@@ -58,7 +57,7 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
   }
 }
 
-/// A flag for each owned node; the nodes are sorted.
+/// Returns a flag for each owned node: whether it is among `nodes`, which must be sorted.
 NodeFlags owned_among(const std::vector<GlobalNodeId>& nodes, const Mesh& mesh) {
   NodeFlags flags(mesh.owned_nodes, 0);
   for (const NodeId node : flags.ids()) flags[node] = std::ranges::binary_search(nodes, mesh.global(node));
@@ -74,7 +73,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   options.keep_slots = !has_triangles_alone(input.mesh.type);
   const SmoothReport report = smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
-  if (keeps_parallelograms(input.mesh)) {  // moved nodes leave some skew; those are divided too
+  if (keeps_parallelograms(input.mesh)) {  // moved nodes make some skew; these are split too
     split_skew_quads(result.mesh, result.tree.leaves, order_of_nodes(input, finest));
   }
   log::detail(fmt::format("smoothed: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
@@ -82,7 +81,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
                           report.worst_cost_before));
 }
 
-/// Files keep with the mesh how many layers its boundaries have.
+/// Stores the number of layers of each boundary in the mesh, for output files.
 void name_layers(const Geometry& geometry, Mesh& mesh) {
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     const auto& layers = geometry.boundaries()[b].layers;
@@ -90,7 +89,7 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
   }
 }
 
-/// Layers on all walls that ask for them. *Collective.*
+/// Adds the layers of all walls that have them. *Collective.*
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   DivideBy divide;
@@ -102,7 +101,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   result.tree.attributes.geometry_digest = input.geometry.digest();
 }
 
-/// A mesh that is not smoothed yet. *Collective.*
+/// Builds a mesh without smoothing. *Collective.*
 GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
   const MeshReport& report = generated.result.report;
@@ -111,7 +110,7 @@ GeneratedMesh build(const Communicator& comm, const MeshInput& input, const Dema
   return generated;
 }
 
-/// Nodes `pinned`, sorted, stay. *Collective.*
+/// Smooths the mesh with fixed nodes `pinned`, which must be sorted. *Collective.*
 void smooth(const Communicator& comm, const MeshInput& input, const std::vector<GlobalNodeId>& pinned,
             GeneratedMesh& generated) {
   generated.times.begin("smooth");
@@ -120,7 +119,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
 }
 
-/// Before layers are filled. *Collective.*
+/// Applies the callback before the layers are generated. *Collective.*
 void change(const Communicator& comm, const MeshInput& input, const MeshChange& change,
             GeneratedMesh& generated) {
   if (!change) return;
@@ -130,8 +129,9 @@ void change(const Communicator& comm, const MeshInput& input, const MeshChange& 
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
 }
 
-/// The mesh outside, on which all columns can stand: where they could not it is made again, first as it is
-/// cut, with more nodes, then as it is smoothed, with less freedom. *Collective.*
+/// The mesh outside the layers, on which all columns must be valid. Where a column is invalid, the mesh is
+/// made again: first with more nodes on the unsmoothed mesh, then with fewer free nodes in smoothing.
+/// *Collective.*
 class OutsideMesh {
  public:
   OutsideMesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
@@ -203,7 +203,7 @@ void add_dropped(const MeshReport& dropped, MeshReport& report) {
                        [&](const std::string& name) { return !known.contains(name); });
 }
 
-/// The estimate is of the mesh outside: with the cells of strips, which are known by now.
+/// Adds the cells of strips, known by now, to the estimate, which is that of the mesh outside.
 void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate) {
   for (const LayerStrip& strip : front.strips) {
     const double of_columns =

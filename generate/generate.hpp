@@ -17,42 +17,42 @@
 
 namespace quadloop {
 
-/// All that a mesh is made from, beside what adaptation demands; the same on every rank.
+/// All inputs of mesh generation except the adaptation splits; the same on every rank.
 struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
   SmoothOptions smooth;      ///< without the geometry
-  std::uint64_t digest = 0;  ///< of the case: case_digest() of its own mesh options and lines
+  std::uint64_t digest = 0;  ///< case_digest() of the case's own mesh options and lines
   std::vector<LayerLine> lines = {};
-  /// Where cells are to follow the solution on the last mesh: so many times thinner at most than the tree
-  /// makes them (adapt/targets).
+  /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/targets); empty: no
+  /// r-adaptation.
   std::optional<double> stretch = {};
 
-  /// That of the whole domain, on which the mesh outside layers is made too.
+  /// Returns the background lattice of the whole domain, which is also that of the mesh outside layers.
   Lattice lattice() const { return choose_root(geometry, mesh.size.root); }
 };
 
-/// A smoothed mesh and its tree record, complete but for what a file adds.
+/// A smoothed mesh and its tree record, without the attributes that are set on writing.
 struct GeneratedMesh {
   MeshResult result;
-  StageTimes times;    ///< those of the report, "smooth" and "check"
-  LayerReport layers;  ///< of the boundaries that have any
+  StageTimes times;    ///< stages of the report, "smooth" and "check"
+  LayerReport layers;  ///< of the boundaries that have layers
 };
 
-/// How the meshes of this input are smoothed: along its geometry, which must outlive the options, sparing
-/// parallelograms where no other quadrilaterals are kept. A mesh of the Delaunay type ends with flips, under
-/// the order of nodes that it has with leaves down to `finest_level`.
+/// Returns the smoothing options for meshes of this input: nodes slide along its geometry, which must outlive
+/// the options; parallelograms are preserved if no other quads are kept. Delaunay-type meshes end with flips,
+/// with the node order of quadtree cells down to `finest_level`.
 SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
-/// What is done to a smoothed mesh before layers are filled: `input` is that of the mesh, the domain outside
-/// layers where there are any. Nodes on the front of layers must stay, and the tree must count the cells.
-/// *Collective.*
+/// Callback on the smoothed mesh before the layers are generated. `input` is that of the mesh (of the domain
+/// outside layers, if there are any). Nodes on the outer edge of the layers must not move, and the tree must
+/// count the cells. *Collective.*
 using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
 
-/// Meshes and smooths; smoothing always begins with the mesh as it is cut, and a mesh of the Delaunay type
-/// ends with flips, under the order of nodes that it was made with. First heights of layers that want a y+
-/// follow the measured wall, which the tree keeps. *Collective.* Throws InputError as build_mesh does, and
-/// Fault where the mesh is not valid (require_sound()).
+/// Generates and smooths a mesh. Smoothing starts from the mesh as cut; a Delaunay-type mesh ends with flips,
+/// with the node order that it was made with. First heights of layers that specify a y+ follow the measured
+/// wall friction, which the tree stores. Throws InputError as build_mesh does, and Fault if the mesh is not
+/// valid (require_sound()). *Collective.*
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
                             const MeshChange& change = {});

@@ -7,7 +7,7 @@ namespace quadloop {
 
 MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : input_{input} {
   if (!has_layers(input)) return;
-  MeshReport dropped;  // said when the mesh is made
+  MeshReport dropped;  // reported when the mesh is made
   geometry_.emplace(geometry_with_layers(input, dropped));
   front_.emplace(front_of(input, *geometry_, measured));
   outer_.emplace(outside(input, *front_));

@@ -8,20 +8,20 @@
 
 namespace quadloop {
 
-/// What meshes of one input would come to for different demands, without making the whole of them.
+/// Predicts the size of meshes of one input for different demands, without generating them completely.
 class MeshTrial {
  public:
-  /// `input` must outlive it. Throws InputError where its layers do not fit.
+  /// `input` must outlive the object. Throws InputError if its layers do not fit.
   explicit MeshTrial(const MeshInput& input, const MeasuredWall& measured = {});
   MeshTrial(const MeshTrial&) = delete;
   MeshTrial& operator=(const MeshTrial&) = delete;
 
-  /// The nodes that generate_mesh() would make: counted on the leaves (count_nodes()); with layers on the
-  /// mesh outside them, which is not smoothed, with the nodes of the layers. The bounds differ at sharp edges
-  /// alone (layer_nodes()). Throws as these do. *Collective.*
+  /// Returns the number of nodes of the mesh of generate_mesh(): counted on the quadtree cells
+  /// (count_nodes()); with layers, counted on the unsmoothed mesh outside them plus the nodes of the layers.
+  /// The bounds differ only at sharp edges (layer_nodes()). Throws as these do. *Collective.*
   NodeBounds nodes(const Communicator& comm, const DemandedSplits& demanded) const;
 
-  /// The same on any number of ranks; not collective.
+  /// Returns an estimate, the same on any number of ranks. Not collective.
   MeshEstimate estimate(const DemandedSplits& demanded) const;
 
  private:

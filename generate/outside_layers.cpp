@@ -35,7 +35,7 @@ Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped) {
 
 namespace {
 
-/// Before they are built. Their nodes are on every rank for a while.
+/// Checks the size of the strips before they are built. Their nodes are temporarily stored on every rank.
 void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit& limit) {
   constexpr double of_cell = 200, of_cell_on_rank = 100;  // bytes
   constexpr double most = std::numeric_limits<std::int32_t>::max() / 4.0;

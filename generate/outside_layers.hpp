@@ -6,21 +6,22 @@
 
 namespace quadloop {
 
-/// Whether any wall or line asks for layers.
+/// Whether any wall or line has layers.
 bool has_layers(const MeshInput& input);
 
-/// Whether any wall wants a y+, so that its first heights can follow a measured flow.
+/// Whether any wall specifies a y+, so that its first heights can follow a computed flow.
 bool wants_y_plus(const Geometry& geometry);
 
-/// The geometry without islands that no leaf can tell, as they would go without layers; they are noted in
-/// `dropped`. Throws InputError where a boundary that may not vanish does.
+/// Returns the geometry without islands that are too small for any quadtree cell to resolve; the mesh would
+/// lose them without layers too. They are recorded in `dropped`. Throws InputError if a boundary that must be
+/// kept is lost.
 Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped);
 
-/// The front of an input's layers on such a geometry, which must outlive it. Throws TooManyCells, naming the
-/// line, where strips would have more cells than the input allows.
+/// Returns the outer edge of an input's layers on such a geometry, which must outlive it. Throws
+/// TooManyCells, naming the line, if strips would have more cells than the input allows.
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured);
 
-/// The same input for the domain outside the layers, in the same root.
+/// Returns the same input for the domain outside the layers, with the same root.
 MeshInput outside(const MeshInput& input, const LayerFront& front);
 
 }  // namespace quadloop

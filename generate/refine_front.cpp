@@ -13,14 +13,14 @@ namespace {
 
 constexpr int most_levels = 2;
 
-/// That of a leaf's children which hold the point, or of theirs.
+/// Returns the split of the quadtree cell of level `level` at the point.
 SplitDemand split_at(const Lattice& lattice, Point p, int level) {
   const std::int64_t size = Quadrant{0, 0, level}.size();
   const std::int64_t column = lattice.column_at(p.x), row = lattice.row_at(p.y);
   return {{column - column % size, row - row % size, level}, 1U << level};
 }
 
-/// As many levels as it takes for leaves to be half as long as the way between stations.
+/// Returns the number of levels after which cells are half as long as the distance between stations.
 int levels_for(const LayerFront& front, std::int32_t station, double edge) {
   double least = edge;
   for (const std::int32_t other : {front.line.previous(station), front.line.next(station)}) {

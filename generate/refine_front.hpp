@@ -8,18 +8,18 @@
 
 namespace quadloop {
 
-/// Where layers cannot stand on this mesh outside of the front (unsound_strips), asks for more of the next
-/// one: the stations that a chord passes over become nodes, and leaves there are split until they
-/// can be told apart, also below spacing.min, by a factor of four at most. Whether there is such a place.
-/// *Collective.*
+/// Refines the next mesh where layers are not valid on this mesh outside the outer edge (unsound_strips):
+/// stations that a chord skips become nodes, and quadtree cells there are split until they separate the
+/// stations, below spacing.min if necessary, by a factor of four at most. Returns whether there is such a
+/// location. *Collective.*
 bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshResult& outside,
                   LayerFront& front, DemandedSplits& splits);
 
-/// The nodes of all such places. *Collective.*
+/// Returns the nodes of all such locations. *Collective.*
 std::vector<GlobalNodeId> unsound_nodes(const Communicator& comm, const LayerFront& front,
                                         const MeshResult& outside);
 
-/// The tree record tells what adaptation has asked for and no more: the same mesh is made again from that.
+/// Restores the adaptation splits in the tree record, so that the same mesh can be generated again from it.
 void forget_splits(const DemandedSplits& adapted, TreeRecord& tree);
 
 }  // namespace quadloop

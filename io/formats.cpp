@@ -39,7 +39,7 @@ std::vector<std::string> msh_group_names(const std::vector<std::string>& boundar
   return names;
 }
 
-/// Gmsh's and Fluent's files have the same suffix; what comes through a pipe is Gmsh's.
+/// Gmsh and Fluent files have the same suffix; a pipe is assumed to be Gmsh.
 bool holds_fluent(const std::string& path) {
   std::error_code failure;
   return std::filesystem::is_regular_file(path, failure) && is_fluent(path);
@@ -60,7 +60,7 @@ FileFormat msh_row(const std::string& name) {
           .boundary_names = msh_group_names};
 }
 
-/// One for each order of bytes.
+/// One for each byte order.
 template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
@@ -72,7 +72,7 @@ FileFormat ugrid_row(const std::string& name) {
           .file_beside = mapbc_path};
 }
 
-/// Medit's text has the suffix of the program's own; what comes through a pipe is the program's.
+/// Medit's text format has the suffix of the native one; a pipe is assumed to be native.
 MeshOfFile read_native_or_medit(const std::string& path) {
   std::error_code failure;
   const bool is_file = std::filesystem::is_regular_file(path, failure);
@@ -80,7 +80,7 @@ MeshOfFile read_native_or_medit(const std::string& path) {
   return read_native(path);
 }
 
-/// Written by its name alone.
+/// Written only if requested by name.
 FileFormat medit_row() {
   return {.name = "medit",
           .program = "MMG, FreeFEM",
@@ -90,7 +90,7 @@ FileFormat medit_row() {
           .boundary_names = medit_boundary_names};
 }
 
-/// The program's own: as text, and binary.
+/// The native formats: text and binary.
 std::vector<FileFormat> native_rows() {
   using enum Content;
   return {{.name = "mesh",
@@ -115,7 +115,7 @@ FileFormat cgns_row() {
           .variable_names = cgns_variable_renames};
 }
 
-/// One file, and the list of pieces.
+/// A single file, and the list of pieces.
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
@@ -175,7 +175,7 @@ FileFormat foam_row() {
           .is_folder = true};
 }
 
-/// Solutions alone.
+/// Formats of solutions without a mesh.
 std::vector<FileFormat> rows_of_solutions() {
   using enum Content;
   return {{.name = "csv",
@@ -251,7 +251,7 @@ const FileFormat* format_named(const std::string& name) {
 
 const FileFormat* format_of(const std::string& path) {
   std::filesystem::path file = path;
-  if (!file.has_filename()) file = file.parent_path();  // a folder with a slash behind it
+  if (!file.has_filename()) file = file.parent_path();  // a folder with a trailing slash
   const std::string name = small_letters(file.filename());
   const auto found = std::ranges::find_if(file_formats(), [&](const FileFormat& format) {
     const std::string ending = small_letters(format.name);

@@ -11,7 +11,7 @@
 
 namespace quadloop {
 
-/// What a format may have a place for.
+/// Data that a format may support.
 enum class Content {
   mesh,
   solution,
@@ -19,92 +19,90 @@ enum class Content {
   blocks,
   block_names,
   conditions,  ///< of boundaries
-  layers,      ///< on boundaries: how many
+  layers,      ///< number of layers on boundaries
   solid        ///< a 3D mesh
 };
 
-/// A row of the table of formats: a file holds a mesh of two dimensions or of three (some formats have both),
-/// often with a solution, or a solution alone. Whoever
-/// adds a format adds a folder and a row: commands, case keys and messages list it by what it has a place
-/// for.
+/// An entry of the table of formats: a file contains a 2D or 3D mesh (some formats support both), often with
+/// a solution, or a solution alone. To add a format, add a folder and an entry: commands, case keys and
+/// messages list it by its supported data.
 struct FileFormat {
-  std::string name;             ///< the suffix without its dot; of a folder its own name, or the suffix of it
-  std::string program = {};     ///< whose format it is, where the suffix does not tell
-  std::vector<Content> places;  ///< what it has a place for
-  bool by_default = false;      ///< written unless a case says otherwise, and in each cycle of a run
-  /// What a user is to do where a mesh comes without a solution.
+  std::string name;             ///< suffix without its dot; for a folder its name, or its suffix
+  std::string program = {};     ///< program of the format, if the suffix does not tell
+  std::vector<Content> places;  ///< supported data
+  bool by_default = false;      ///< written by default, and in each cycle of a run
+  /// What the user should do if a mesh has no solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 
-  /// On the calling rank alone; null: no mesh is read. Throws InputError.
+  /// On the calling rank only; null: no mesh is read. Throws InputError.
   MeshOfFile (*read)(const std::string& path) = nullptr;
-  /// A mesh of the dimensions that there is a place for. *Collective.* Throws OutputError.
+  /// Writes a mesh of a supported dimension. Throws OutputError. *Collective.*
   void (*write)(OutputSet& outputs, const MeshStream& mesh, const std::string& path) = nullptr;
-  /// The boundaries' names as a file has them; null: as they are.
+  /// Returns the boundaries' names in the file; null: unchanged.
   std::vector<std::string> (*boundary_names)(const std::vector<std::string>& names) = nullptr;
 
-  /// Of a solution's variables those names that it cannot hold as a file has them, the others as they are;
-  /// null: it holds all.
+  /// Returns the variable names of a solution, with those that cannot be stored replaced by their names in
+  /// the file; null: all can be stored.
   std::vector<std::string> (*variable_names)(const std::vector<std::string>& names) = nullptr;
-  /// What a boundary becomes that nothing is known of, where other programs take that for a statement; null:
-  /// nothing.
+  /// Condition that other programs assume for a boundary without one; null: none.
   const char* unknown_boundary = nullptr;
-  /// The second file that is written with one of this name; null: there is none.
+  /// Returns the second file that is written with one of this name; null: there is none.
   std::string (*file_beside)(const std::string& path) = nullptr;
 
-  /// A solution alone, as above; `gamma` is the ratio of specific heats of its gas.
+  /// As above for a solution alone; `gamma` is the ratio of specific heats of its gas.
   LoadedSolution (*read_solution)(const std::string& path) = nullptr;
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 
-  bool single_block_name = true;  ///< whether names of blocks have a place also where there is only one
+  bool single_block_name = true;  ///< whether the name of a single block can be stored
   bool is_folder = false;
 
   bool holds(Content content) const;
-  std::string suffix() const { return (is_folder ? "" : ".") + name; }  ///< as sentences have it
+  std::string suffix() const { return (is_folder ? "" : ".") + name; }  ///< for use in sentences
 };
 
-/// The table.
+/// Returns the table.
 const std::vector<FileFormat>& file_formats();
 
-/// A line on variables whose names a format cannot hold; empty where there are none.
+/// Returns a line on variables whose names a format cannot store; empty if there are none.
 std::string renames_of_variables(const FileFormat& format, const Field& solution, const std::string& path);
 
-/// Throws InputError where a file is by its first bytes of a kind that is not read under its suffix, and says
-/// what it is.
+/// Throws InputError if a file is, by its first bytes, of a kind that is not read under its suffix; the
+/// message names the kind.
 void require_kind_of_suffix(const std::string& path);
 
-/// Adds the names of all variables, of nodes and of cells, to a list for clean_names().
+/// Appends the names of all variables, nodal and cell, to a list for clean_names().
 void append_names(Field& solution, std::vector<std::string*>& names);
 
-/// Throws InputError where two variables, of nodes or of cells, have one name to the letter.
+/// Throws InputError if two variables, nodal or cell, have identical names.
 void require_distinct_variables(const Field& solution, const std::string& path);
 
-/// The format of this name, or the one that the path's suffix tells; null where it is none.
+/// Return the format of this name, or that of the path's suffix; null if there is none.
 const FileFormat* format_named(const std::string& name);
 const FileFormat* format_of(const std::string& path);
 
-/// Each file, and after it the one that is written beside it in its format: the named one, else that of its
+/// Returns each file, followed by the second file of its format, if any: the named format, else that of the
 /// suffix.
 std::vector<std::string> with_files_beside(const std::vector<std::string>& files,
                                            const std::string& format = {});
 
-/// Refuses those that cannot become a file, or a folder, of their format; what has no format is a file. Found
-/// out before an hour of work goes into them. Throws OutputError.
+/// Rejects outputs that cannot become a file, or a folder, of their format, before any work; a path without a
+/// format is a file. Throws OutputError.
 void require_possible_outputs(const std::vector<std::string>& files);
 
-/// The first row: the program's own, which keeps mesh and solution to the bit.
+/// Returns the first entry: the native format, which stores mesh and solution bitwise.
 const FileFormat& native_format();
 
-/// The names of those that are written by default, in the order of the table: the program's own first.
+/// Returns the names of the formats written by default, in the order of the table: the native one first.
 std::vector<std::string> default_formats();
 
-/// The names of those in which a plane mesh, or its solution, is written.
+/// Returns the names of the formats for plane meshes, or their solutions.
 std::vector<std::string> written_formats();
 
-/// The names of all formats that have a place for each of these, in the order of the table.
+/// Returns the names of all formats that support all of these, in the order of the table.
 std::vector<std::string> formats_for(std::initializer_list<Content> contents);
 
-/// The same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
+/// Returns the same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
 std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last = "or");
 
 }  // namespace quadloop

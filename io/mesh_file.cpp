@@ -26,13 +26,13 @@ namespace quadloop {
 
 namespace {
 
-/// The one that is named, else that of the suffix; null where it holds no mesh.
+/// Returns the named format, else that of the suffix; null if it does not support meshes.
 const FileFormat* mesh_format(const std::string& path, const std::string& name = {}) {
   const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
   return format != nullptr && format->holds(Content::mesh) ? format : nullptr;
 }
 
-/// The one that is named, else that of the suffix; null where it holds no 3D mesh.
+/// Returns the named format, else that of the suffix; null if it does not support 3D meshes.
 const FileFormat* solid_format(const std::string& path, const std::string& name = {}) {
   const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
   return format != nullptr && format->holds(Content::solid) ? format : nullptr;
@@ -70,13 +70,13 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
                                         turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
 }
 
-/// What of a mesh a format may have no place for.
+/// Data of a mesh that a format may not support.
 struct MeshContent {
   std::vector<std::string> boundary_names, block_names = {};
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
   bool has_conditions = false, has_layers = false;
-  bool knows_walls = false;  ///< no word on boundaries of which nothing is known
+  bool knows_walls = false;  ///< boundaries without a condition need no warning
 };
 
 template <class Boundaries>
@@ -96,7 +96,7 @@ MeshContent content_of(const Mesh& mesh, const Field* solution) {
   return content;
 }
 
-/// A line that counts the boundaries whose names the format cannot hold.
+/// Returns a line that counts the boundaries whose names the format cannot store.
 std::vector<std::string> renames_of(const std::vector<std::string>& names, const FileFormat& format,
                                     const std::string& path) {
   if (format.boundary_names == nullptr) return {};
@@ -110,7 +110,8 @@ std::vector<std::string> renames_of(const std::vector<std::string>& names, const
       renamed, renamed == 1 ? "y is" : "ies are", *first.in1, *first.in2)};
 }
 
-/// A line where blocks have names of their own, not "domain" or "block_<number>", and the format none.
+/// Appends a line if blocks have names of their own, not "domain" or "block_<number>", and the format cannot
+/// store them.
 void append_block_names(const FileFormat& format, const MeshContent& content, const std::string& path,
                         std::vector<std::string>& losses) {
   const bool blocks_are_kept = content.blocks == 1 || format.holds(Content::blocks);
@@ -240,7 +241,7 @@ std::vector<std::string> losses_in(const FileMesh& mesh, const std::string& path
   if (row == nullptr) return {};
   MeshContent content = content_of(mesh.boundaries);
   content.blocks = mesh.has_blocks() ? std::ssize(mesh.block_names) : 1;
-  if (mesh.has_blocks()) content.block_names = mesh.block_names;  // the name of a single block is not kept
+  if (mesh.has_blocks()) content.block_names = mesh.block_names;  // the name of a single block is not stored
   content.solution = mesh.solution ? &*mesh.solution : nullptr;
   return losses_of(content, *row, path);
 }

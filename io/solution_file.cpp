@@ -22,7 +22,7 @@ void require_values(const LoadedMesh& loaded, const std::string& path) {
   throw InputError(path + ": holds a mesh without a solution; " + format_of(path)->without_values);
 }
 
-/// Finite, and so small that differences, squares and integrals over the mesh are finite too.
+/// Values must be finite, and so small that differences, squares and integrals over the mesh are finite too.
 void require_usable(const std::vector<std::string>& names, const std::vector<double>& values,
                     const std::string& place, const std::string& path) {
   constexpr double largest = 1e150;

@@ -35,7 +35,7 @@ std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
 }
 
-/// *Collective.*
+/// Whether all triangles of the mesh are Delaunay. Gathers the mesh on the root. *Collective.*
 bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   if (!comm.is_root()) return comm.any(false);

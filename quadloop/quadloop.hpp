@@ -16,29 +16,28 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-/// quadloop as a library: this header and those that it names are its whole interface.
+/// quadloop as a library: the public interface is this header and the headers that it includes.
 ///
-/// Life cycle: MPI is begun before the first Communicator and ended after the last one is gone. Every
-/// function here is *collective* over the communicator that it is given: all its ranks call it, in the same
-/// order, with the same case. Meshes and fields are spread over the ranks, and their bits do not depend on
-/// how many there are. Nothing is written to disk but by write() and write_solved().
+/// Life cycle: MPI must be initialised before the first Communicator is constructed and finalised after the
+/// last is destroyed. Every function here is *collective* over the communicator that it is given: all its
+/// ranks call it, in the same order, with the same case. Meshes and fields are distributed over the ranks;
+/// results are bitwise independent of the number of ranks. Only write() and write_solved() write files.
 ///
-/// Shapes and units: a Mesh is one rank's part, as mesh.hpp says; a Field has a row of values for each node
-/// that the rank owns, and for each of its cells, in the mesh's order, with the same names on all ranks.
-/// Lengths are in the unit of the case's geometry. Values are the solver's own; sense() and remesh() want
-/// them finite.
+/// Shapes and units: a Mesh is the part of one rank (mesh.hpp); a Field stores nodal values for owned nodes
+/// and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in the
+/// unit of the case's geometry. Values are in solver units; sense() and remesh() require finite values.
 ///
-/// A parallel solver of one's own has in HaloMesh all cells round its nodes, and in halo.exchange() what
-/// brings owners' values to copies. There is no way that adds up copies at their owners: floating-point sums
-/// would depend on the ranks. A rank adds up, for its owned nodes alone, over halo.for_each_cell(), which
-/// goes by the global order of cells; reproducible_sum() adds up over all ranks.
+/// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes; halo.exchange() updates
+/// ghost values from their owners. Ghost contributions are never summed at the owner, because the sum would
+/// depend on the partition. Accumulate over halo.for_each_cell() at owned nodes only; cells are visited in
+/// global order. reproducible_sum() sums over all ranks.
 ///
 /// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
-/// cannot be used, SolverError, OutputError; their text names the place and the cure. Fault is a mistake of
-/// this library's. What else a function throws stands with it. Code of a user's own that may fail on one rank
-/// alone runs inside comm.together(), so that its error too is the same on all.
+/// cannot be used, SolverError, OutputError. The message gives location and remedy. Fault is an internal
+/// error. Other exceptions are documented at the function. User code that may fail on a single rank must run
+/// inside comm.together(), which raises the error on all ranks.
 ///
-/// Warnings are returned, the same on all ranks. Nothing is printed unless log::configure() asks for it.
+/// Warnings are returned, the same on all ranks. Nothing is printed unless log::configure() enables it.
 ///
 ///     const Communicator comm(MPI_COMM_WORLD);
 ///     const Case wing(comm, "wing.toml");
@@ -50,58 +49,59 @@ namespace quadloop {
 struct CaseParts;
 struct AdaptationPlan;
 
-/// A case file with its geometry in place: sizes, smoothing, what to adapt to, the solver. Copies share it.
+/// A case file with its geometry: sizes, smoothing, adaptation, solver. Copies share the data.
 class Case {
  public:
-  /// Reads the file on every rank. `assignments` take the place of keys in it, as in "spacing.min=0.01".
-  /// Throws InputError with file, line and key.
+  /// Reads the file on every rank. `assignments` override keys of the file, e.g. "spacing.min=0.01". Throws
+  /// InputError with file, line and key.
   Case(const Communicator& comm, const std::string& path, const std::vector<std::string>& assignments = {});
 
   const std::string& title() const;
-  int cycles() const;  ///< adapt.cycles; 0 where the case does not adapt
-  /// What the user is to be told of case and geometry.
+  int cycles() const;  ///< adapt.cycles; 0 if the case has no adaptation
+  /// Warnings about the case and the geometry.
   const std::vector<std::string>& warnings() const;
 
-  const CaseParts& parts() const { return *parts_; }  ///< for this library alone
+  const CaseParts& parts() const { return *parts_; }  ///< internal use only
 
  private:
   std::shared_ptr<const CaseParts> parts_;
 };
 
-/// A mesh that was made, and how.
+/// A generated mesh with its solution.
 struct NewMesh {
-  SolvedMesh solved;       ///< the solution without variables in a first mesh, else carried over
-  TransferReport carried;  ///< what carrying over did to each variable
+  SolvedMesh solved;       ///< transferred solution; empty for the initial mesh
+  TransferReport carried;  ///< conservation error of the transfer for each variable
   std::vector<std::string> warnings;
 };
 
-/// The case's first mesh, smoothed as the case says. Throws InputError, naming the boundary, where the
-/// geometry cannot be meshed, or would have more cells than free memory holds.
+/// Generates the initial mesh of the case, smoothed by the case's settings. Throws InputError, naming the
+/// boundary, if the geometry cannot be meshed or the mesh would exceed free memory.
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
-/// Moves the nodes of a mesh for better cells, as the case says; boundary nodes slide along its geometry. Any
-/// valid mesh of that geometry will do. Its cells stay as they are, but where the case is of the Delaunay
-/// type and the mesh too: flips then make it so again (and one rank holds the whole for a while, to tell).
-/// With quads = "parallel" parallelograms are spared; those that become skew are not divided, as make_mesh()
-/// does. Layers at walls, of boundaries with a number of them, stay to the last bit. Never makes the worst
-/// cell worse. Of inverted cells as many are mended as can be: check() tells.
+/// Smooths a mesh by the case's settings; boundary nodes slide along the case's geometry. The mesh may be any
+/// valid mesh of that geometry. Connectivity is preserved, except for Delaunay meshes of Delaunay-type cases,
+/// where edge flips restore the Delaunay property (checking this gathers the mesh on one rank). With quads =
+/// "parallel", smoothing avoids skewing parallelograms; quads that nevertheless become skew are not split,
+/// unlike in make_mesh(). Boundary layers (boundaries with a layer count) are kept bitwise. Never degrades
+/// the worst cell. Untangles as many inverted cells as possible; check() reports the others.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
-/// The built-in solver of the two-dimensional Euler equations with the case's settings, for any mesh of its
-/// geometry. It starts from and gives density, x_velocity, y_velocity and pressure, in units of the free
-/// stream's density and speed of sound; constants: steps, time, Mach number, angle of attack in degrees, CL,
-/// CD, residual. Throws InputError where the case chooses a solver of its own; the solver throws it for a
-/// start without these variables, and SolverError, with the place, where the flow cannot be kept physical.
+/// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
+/// Initial state and solution: density, x_velocity, y_velocity and pressure, in units of the free-stream
+/// density and speed of sound; constants: steps, time, Mach number, angle of attack in degrees, CL, CD,
+/// residual. Throws InputError if the case selects another solver. The solver throws InputError for an
+/// initial state without these variables, and SolverError, with the location, if the state becomes
+/// unphysical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
-/// What a solution asks of the next mesh: sense() makes it, for one mesh alone. Copies share it.
+/// Refinement decisions computed by sense(), valid for that mesh only. Copies share the data.
 class Marks {
  public:
-  std::int64_t refined() const;  ///< leaves, of all ranks
+  std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
-  const std::vector<std::string>& warnings() const;  ///< why nothing is marked, what was not reached
-  /// Whether remesh() makes a mesh that differs from the last one: by refined or coarsened leaves, a metric,
-  /// targets of nodes, or new first heights of layers.
+  const std::vector<std::string>& warnings() const;  ///< why no cell is flagged; limits that were not reached
+  /// Whether remesh() returns a different mesh: refined or coarsened quadtree cells, a metric, target sizes
+  /// for the nodes, or new first-layer heights.
   bool changes_mesh() const;
 
  private:
@@ -110,53 +110,52 @@ class Marks {
   friend NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks,
                         const SolvedMesh& before);
 
-  std::uint64_t case_digest_, coordinate_digest_;  ///< of the tree of the mesh that it is for
+  std::uint64_t case_digest_, coordinate_digest_;  ///< digests of the mesh's tree
   std::shared_ptr<const AdaptationPlan> plan_;
 };
 
-/// Marks leaves by the case's table [adapt], from the solution. `solved` is what make_mesh() or remesh() made
-/// of this case, with a solution. Throws InputError where the case has no such table, or the solution no such
-/// variable, not a row for each owned node, or a value that is not finite.
+/// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` is a mesh of
+/// make_mesh() or remesh() for this case, with a solution. Throws InputError if the case has no such table,
+/// or if the solution lacks the variable, lacks a row for an owned node, or has a value that is not finite.
 Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
 
-/// The next mesh, smoothed, with the solution of the one before carried over to it: all its variables, as
-/// transfer() does. `marks` are those of sense() for `before`, whose nodes may have moved since. Throws
+/// Returns the next mesh, smoothed, with all variables transferred from the previous mesh (transfer()).
+/// `marks` must be those of sense() for `before`; the nodes of `before` may have moved since. Throws
 /// InputError as make_mesh() and sense() do, and for marks of another mesh.
 NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before);
 
-/// What is wrong with a mesh: one line for each fault, with its place; none where it is valid. Gathers the
-/// mesh on one rank. The same lines on every rank.
+/// Returns one line per error, with its location; empty for a valid mesh. The lines are the same on every
+/// rank. Gathers the mesh on one rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh as a file had it, its blocks made one. Spread along a space-filling curve: its nodes and cells
-/// stand in another order than in the file.
+/// A mesh read from a file with its blocks merged, distributed along a space-filling curve and therefore
+/// renumbered.
 struct MeshFile {
   Mesh mesh;
-  Field field;  ///< without variables where the file has none
+  Field field;  ///< no variables if the file has none
   std::vector<std::string> warnings;
 };
 
-/// Reads a mesh, and the field at its nodes, in the format that the suffix tells: .mesh, .cgns, .vtu, .su2,
-/// .msh. The first rank reads it whole; .cgns by the installed program quadloop-reader. Throws InputError with
-/// the file and, in text, the line.
+/// Reads a mesh and its nodal field; the suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh. The root
+/// rank reads the whole file; CGNS is read by the installed program quadloop-reader. Throws InputError with
+/// the file and, for text formats, the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
-/// Writes a mesh, with the field where the format has a place for one, as the suffix tells; the file appears
-/// whole or not at all. The same bytes on any number of ranks. Returns warnings, the same on all ranks: what
-/// the format has no place for (solution, constants, boundary conditions, the number of layers), and names
-/// that it cannot hold.
-/// Throws InputError for a suffix that read() does not know, or a field without a row for each owned node;
-/// OutputError where the file cannot be written.
+/// Writes a mesh and, if the format supports it, the field; the suffix selects the format. The file is
+/// written atomically: complete or not at all. The bytes are the same on any number of ranks. Returns
+/// warnings, the same on all ranks: data the format cannot store (solution, constants, boundary conditions,
+/// number of layers), and names it cannot represent. Throws InputError for a suffix that read() does not
+/// support, or a field without a row for each owned node; OutputError if the file cannot be written.
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field = {});
 
-/// Keeps a mesh that make_mesh() or remesh() made, with its tree and solution, as `stem`.mesh and
-/// `stem`.tree.h5: both appear or none. Throws as write() does.
+/// Writes a mesh of make_mesh() or remesh(), its tree and its solution to `stem`.mesh and `stem`.tree.h5,
+/// both or neither. Throws as write() does.
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem);
 
-/// The way back, to the last bit, on any number of ranks, so that an adaptation goes on as if it had not been
-/// interrupted. The tree is read as read() reads .cgns. Throws InputError where they do
-/// not belong to each other, or are not of this case.
+/// Reads the files of write_solved() bitwise, on any number of ranks, so that an interrupted adaptation can
+/// continue with identical results. The tree is read by quadloop-reader, as CGNS is by read(). Throws
+/// InputError if the files do not belong together, or are not of this case.
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem);
 
 }  // namespace quadloop

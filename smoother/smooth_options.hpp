@@ -20,7 +20,8 @@ struct SmoothOptions {
   int sweeps = 20;  ///< maximum number; fewer if nothing moves any more
   Objective objective = Objective::power;
   Method method = Method::perturb;
-  /// Nodes of cells with lower cost stay, unless they share a cell with a node of a cell above it.
+  /// Cost threshold: a node moves only if it, or a node of one of its cells, belongs to a cell above it, and
+  /// only within three rings of the cells that are above it at the start.
   double threshold = 0.05;
   /// First moves lines where squares of two sizes meet, which raises angles of 26.6 degrees to 29.7.
   bool level_lines = true;
@@ -36,8 +37,10 @@ struct SmoothOptions {
                                            ///< flips restore this at the end
   /// Block of each owned triangle (empty: one block); edges between blocks are not flipped.
   std::vector<std::int32_t> triangle_to_block;
-  bool keep_slots = true;  ///< triangles made by flips take slots in the order in which these become free,
-                           ///< else slots next to them; not with blocks
+  /// A slot is the position of a triangle in the global order. True: triangles made by flips take the slots
+  /// of removed ones, one each, in the order of the slots. False: they are stored next to a removed triangle
+  /// with the same first node, so a slot may hold none or several; not with blocks.
+  bool keep_slots = true;
   std::optional<MirrorAxis> mirror;  ///< the mesh is mirror-symmetric in this axis, and stays so
   /// Target shape of each owned cell, triangles first, then quadrilaterals; empty: ideal shapes. With targets
   /// angles may decrease. Not with `delaunay`.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* template_files_key = "solver.template/";
 
-/// Of JSON values, whose numbers and lists may be written in several ways.
+/// Compares JSON values, whose numbers and lists may be written in several ways.
 bool is_same_value(const std::string& a, const std::string& b) {
   if (a == b) return true;
   const auto first = nlohmann::json::parse(a, nullptr, false),

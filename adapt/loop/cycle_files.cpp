@@ -17,7 +17,7 @@ namespace quadloop {
 
 namespace {
 
-/// From the root rank. *Collective.*
+/// Writes a text from the root rank. *Collective.*
 void write_text(const Communicator& comm, const std::string& path, const std::string& text) {
   OutputSet outputs(comm);
   TextOutput file(outputs, path);
@@ -26,7 +26,7 @@ void write_text(const Communicator& comm, const std::string& path, const std::st
   outputs.commit();
 }
 
-/// What users look at beside the solution, of a solver that tells it. *Collective.*
+/// Writes the tables of walls and history, if the solver provides them. *Collective.*
 void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& flow,
                   const CyclePaths& paths) {
   if (flow.stream) {
@@ -81,7 +81,7 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   write_parts_of(mesh.mesh, starts_afresh_ ? nullptr : &start);
 }
 
-/// As mesh() of CyclePaths are named.
+/// Writes the partitions of the mesh, with the names of CyclePaths::mesh().
 void CycleFiles::write_parts_of(const Mesh& mesh, const Field* field) const {
   if (options_.partitions == 0) return;
   PartFiles files(comm_);
@@ -106,10 +106,10 @@ std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& 
   outputs.commit();
   write_parts_of(mesh, &flow.solution);
   write_tables(comm_, mesh, flow, paths);
-  return starts_afresh_ ? renames(mesh) : std::vector<std::string>{};  // said of the first cycle alone
+  return starts_afresh_ ? renames(mesh) : std::vector<std::string>{};  // reported for the first cycle only
 }
 
-/// Of every file that a cycle's mesh is written to.
+/// Returns the names that are changed in any file that a cycle's mesh is written to.
 std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
   std::vector<std::string> files = options_.read_by_solver;
   for (const std::string& format : options_.formats) files.push_back(CyclePaths::mesh_name(format));

@@ -10,27 +10,27 @@
 
 namespace quadloop {
 
-/// Which files a cycle is to have, and what its record keeps of the case.
+/// The files of a cycle, and the case data in its record.
 struct CycleFileOptions {
-  std::vector<std::string> formats;         ///< names of those that its mesh is written in
+  std::vector<std::string> formats;         ///< names of the formats of its mesh
   std::vector<std::string> read_by_solver;  ///< names of further mesh files that are written, for warnings
-  double gamma = 1.4;                       ///< ratio of specific heats, where a format wants it
-  std::vector<std::string> fields;          ///< of quantity_names(), beside the solution
-  /// Asked as each cycle begins, as files of the case may change meanwhile; its digests and settings alone
-  /// count.
+  double gamma = 1.4;                       ///< ratio of specific heats, for formats that need it
+  std::vector<std::string> fields;          ///< of quantity_names(), in addition to the solution
+  /// Called as each cycle begins, as files of the case may change meanwhile; only its digests and settings
+  /// are used.
   std::function<CycleRecord()> of_case;
-  std::int32_t partitions = 0;  ///< parts of the mesh, in those of the formats that hold them
-  std::string outline = {};     ///< text of the file with it; empty: none is written
+  std::int32_t partitions = 0;  ///< parts of the mesh, in the formats that support them
+  std::string outline = {};     ///< text of the geometry file; empty: none is written
 };
 
-/// Writes what the loop does to the run's folder, a folder for each cycle, put in place when it is whole:
-/// those of CyclePaths. The mesh in the program's own format is there, with the starting state, while the
-/// solver runs, and so are its parts where they are wanted; these get the solution too in the end.
+/// Writes the results of the loop to the run's folder: one folder per cycle, renamed into place when
+/// complete, with the files of CyclePaths. While the solver runs it contains the mesh in the native format
+/// with the initial state, and its partitions if requested; these receive the solution at the end.
 class CycleFiles final : public CycleObserver {
  public:
   using Told = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
 
-  /// `told` hears of each cycle once its folder stands.
+  /// `told` is called for each cycle once its folder is in place.
   CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Told told);
 
   void begin(int cycle) override;
@@ -48,11 +48,11 @@ class CycleFiles final : public CycleObserver {
   const Communicator& comm_;
   CycleFolders& folders_;
   CycleFileOptions options_;
-  CycleRecord of_case_;  ///< of the cycle under way
+  CycleRecord of_case_;  ///< of the current cycle
   Told told_;
   int cycle_ = 0;
   bool starts_afresh_ = true;
-  CellParts cell_parts_;  ///< of the mesh under way
+  CellParts cell_parts_;  ///< of the current mesh
 };
 
 }  // namespace quadloop

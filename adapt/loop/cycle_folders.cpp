@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A fault of the disk as ours.
+/// Runs `work`, converting file system errors to errors of quadloop.
 template <class Work>
 void on_disk(const std::string& path, const Work& work) {
   try {
@@ -31,7 +31,7 @@ void on_disk(const std::string& path, const Work& work) {
   }
 }
 
-/// Empty, or but for what is left of a first cycle that failed.
+/// Whether a folder is empty except for the remains of a first cycle that failed.
 bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way, const fs::path& start) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
@@ -40,7 +40,7 @@ bool holds_nothing_whole(const fs::path& folder, const fs::path& first_under_way
   return true;
 }
 
-/// The digest that the line of a start begins with.
+/// Returns the digest at the beginning of a start line.
 std::string digest_of_start(const std::string& start) { return start.substr(0, start.find(' ')); }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::string CycleFolders::whole(int cycle) const { return folder_ + "/" + cycle_
 void CycleFolders::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) refuse_output(folder_, errno);
-  // Some file systems of networks have no such locks; a run without one is better than none.
+  // Some network file systems do not support such locks; the run then proceeds without one.
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw InputError(
       folder_ + ": another run is using this folder; wait until it ends, or choose another folder with -o");

@@ -20,7 +20,7 @@ void append(std::vector<std::string>& lines, const std::vector<std::string>& mor
   lines.insert(lines.end(), more.begin(), more.end());
 }
 
-/// Of the slowest rank. *Collective.*
+/// Returns the seconds of each stage on the slowest rank. *Collective.*
 StageSeconds seconds_of(const Communicator& comm, const StageTimes& times) {
   StageSeconds seconds = added_up(times.stages());
   for (auto& [stage, own] : seconds) own = comm.maximum(own);
@@ -73,7 +73,7 @@ class Loop {
     return first;
   }
 
-  /// Against the cycle before.
+  /// Compares the cycle with the one before.
   void settle(const CycleEnd* before, CycleRecord& record, CycleEnd& end) const {
     const AdaptOptions::Until& until = adapt_.until;
     end.values = values_of(record);

@@ -26,7 +26,7 @@ JsonObject record_of(const PassRecord& pass) {
   return json;
 }
 
-/// An empty object where the text is none.
+/// Parses a text; an empty object if it is not a JSON object.
 Json parsed(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
   return json.is_object() ? json : Json::object();
@@ -42,7 +42,7 @@ std::optional<std::uint64_t> digest_in(const Json& json, const std::string& name
   return digest;
 }
 
-/// On one line, lists as a case's settings are written.
+/// Returns a value on one line; lists are formatted as in a case's settings.
 std::string one_line(const Json& value) {
   if (!value.is_array()) return value.dump();
   std::string text;

@@ -14,56 +14,56 @@
 
 namespace quadloop {
 
-/// Of one boundary's layers, in the geometry's unit of length.
+/// First heights of one boundary's layers, in the geometry's unit of length.
 struct FirstHeights {
   std::string boundary;
   double least = 0, largest = 0;
 };
 
-/// What layers, and the cells outside them, are judged by.
+/// Quality of the layers and of the cells outside them.
 struct LayerQuality {
-  double outer_angle = 0;   ///< the smallest corner outside layers, degrees
-  double aspect_ratio = 0;  ///< of layers these: FaceFigures
+  double outer_angle = 0;   ///< smallest angle outside layers, degrees
+  double aspect_ratio = 0;  ///< this and the next two in layers: FaceFigures
   double non_orthogonality = 0, skewness = 0;
 };
 
-/// What record.json keeps of a cycle.
+/// Contents of record.json for a cycle.
 struct CycleRecord : FlowFigures {
   int cycle = 0;
-  std::uint64_t case_digest = 0;      ///< of all that the run depends on
-  std::uint64_t geometry_digest = 0;  ///< of the outline alone
-  std::uint64_t template_digest = 0;  ///< of the user's case for SU2 or OpenFOAM; 0: none
-  std::uint64_t solution_digest = 0;  ///< of the values that the cycle's solution has
-  CaseSettings settings;              ///< those that the cycle was made with
+  std::uint64_t case_digest = 0;      ///< digest of all that the run depends on
+  std::uint64_t geometry_digest = 0;  ///< digest of the geometry alone
+  std::uint64_t template_digest = 0;  ///< digest of the user's case for SU2 or OpenFOAM; 0: none
+  std::uint64_t solution_digest = 0;  ///< digest of the values of the cycle's solution
+  CaseSettings settings;              ///< settings of the cycle
   std::int64_t nodes = 0, triangles = 0, quads = 0, leaves = 0;
-  double worst_angle = 0;               ///< the smallest corner, degrees
-  std::optional<LayerQuality> layered;  ///< where the mesh has layers, whose thin cells have small corners
+  double worst_angle = 0;               ///< smallest angle, degrees
+  std::optional<LayerQuality> layered;  ///< if the mesh has layers, whose thin cells have small angles
   double mean = 0, deviation = 0;       ///< of log10 of the indicator
   std::int64_t refined = 0, coarsened = 0;
-  std::optional<double> estimate;  ///< the norm of the interpolation error, where sizes follow from it
-  std::optional<double> order;     ///< at which it fell from the cycle before
-  std::optional<bool> settled;     ///< whether forces and estimate have, where that ends the run
-  std::optional<bool> morphed;     ///< of a run's first mesh that another run left: whether its cells stay
-  std::vector<PassRecord> passes;  ///< before a run's first cycle
+  std::optional<double> estimate;  ///< norm of the interpolation error, if sizes follow from it
+  std::optional<double> order;     ///< observed order of convergence from the previous cycle
+  std::optional<bool> settled;     ///< whether forces and estimate have settled, if adapt.until is set
+  std::optional<bool> morphed;     ///< for a run started from another one: whether the cells were kept
+  std::vector<PassRecord> passes;  ///< initial passes, before a run's first cycle
   std::int64_t outside = 0;        ///< nodes that the transfer found outside the old mesh
-  /// How far each variable's integral drifted in the transfer into this cycle.
+  /// Drift of each variable's integral in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
-  /// Of boundaries that want a y+: the least and the largest first height that their layers were asked for.
+  /// Smallest and largest target first height, for boundaries that specify a y+.
   std::vector<FirstHeights> first_heights;
-  std::optional<MetricFigures> metric;  ///< that the mesh follows
+  std::optional<MetricFigures> metric;  ///< that the mesh follows, if any
   std::vector<std::pair<std::string, double>> seconds;
 };
 
-/// What the cycle came to, without its case and the seconds that it took.
+/// Returns the results of a cycle, without its case and its timings.
 JsonObject figures_of(const CycleRecord& record);
 JsonObject seconds_of(const CycleRecord& record);
-/// For people: the smallest angle, in layers the figures of their faces.
+/// Returns the smallest angle and, with layers, their face quality, for the log.
 std::string quality_text(const CycleRecord& record);
 
 /// {goal: {"value": ..., "corrected": ..., "error": ..., "by_alpha": ..., "by_mach": ..., "adjoint_residual":
 /// ...}}
 JsonObject record_of(const std::vector<GoalValue>& goals);
-/// For people.
+/// Returns one line for the log.
 std::string line_of(const GoalValue& goal);
 
 /// {"from": ..., "to": ..., "steps": ..., "implicit": ..., "cl": {"mean": ..., "smallest": ..., "largest":
@@ -73,20 +73,20 @@ JsonObject record_of(const UnsteadyFlow& flow);
 /// {boundary: {"cl": ..., "cd": ..., "cl_friction": ..., "cd_friction": ...}}
 JsonObject record_of(const std::vector<BoundaryForce>& forces);
 
-/// One JSON object, a member a line; numbers are the shortest that read back as they are.
+/// Returns one JSON object with one member per line; numbers are the shortest that read back bitwise.
 std::string json_text(const CycleRecord& record);
 
-/// What a record's text says of the case.
+/// The case data in a record.
 struct RecordedCase {
   std::uint64_t case_digest = 0, geometry_digest = 0;
-  std::optional<std::uint64_t> solution_digest;  ///< records of earlier versions have none
+  std::optional<std::uint64_t> solution_digest;  ///< absent in records of earlier versions
   CaseSettings settings;
 };
 
-/// What a record's text has under a key of its own that is a number, as `cl`. Empty where there is none.
+/// Returns the number stored under a top-level key of a record, e.g. `cl`; empty if there is none.
 std::optional<double> recorded_number(const std::string& text, const std::string& key);
 
-/// Empty where the text is no whole record of ours.
+/// Returns the case data of a record; empty if the text is not a complete record.
 std::optional<RecordedCase> recorded_case(const std::string& text);
 
 }  // namespace quadloop

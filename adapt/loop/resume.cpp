@@ -47,14 +47,14 @@ RecordedCase record_in(const std::string& folder) {
                    "; resume with the same settings, or use another folder");
 }
 
-/// A further file of the mesh, for viewers.
+/// Checks a further file of the mesh, for viewers.
 void require_copy(const std::string& path, std::int64_t nodes) {
   const LoadedMesh loaded = read_mesh(path);
   if (std::ssize(loaded.mesh.points) == nodes && loaded.solution) return;
   throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
 }
 
-/// Throws InputError where a file is not whole. *Collective.*
+/// Reads a cycle. Throws InputError if a file is incomplete. *Collective.*
 SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   const std::string path = paths.native_mesh();
   LoadedMesh whole;
@@ -69,7 +69,7 @@ SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   return solved;
 }
 
-/// Against the digest in the cycle's record. *Collective.*
+/// Compares the solution with the digest in the cycle's record. *Collective.*
 void require_untouched_solution(const Communicator& comm, const SolvedMesh& solved, const CyclePaths& paths,
                                 const std::string& folder) {
   const std::uint64_t digest = solution_digest(comm, solved.mesh, solved.solution);
@@ -115,7 +115,7 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
       }
     });
     return solved;
-  } catch (const InputError& fault) {  // the same one on every rank
+  } catch (const InputError& fault) {  // the same on every rank
     throw InputError(fault.what() + cure_of(folder));
   }
 }

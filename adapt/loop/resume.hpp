@@ -9,19 +9,19 @@
 
 namespace quadloop {
 
-/// Looks whether a run can be gone on with after the whole cycle in `folder`, before any work. Throws
-/// InputError that names the file and the cure where its record is not whole, or is of a case with another
-/// outline or other settings: then with the key that has changed. Returns a warning for each setting that has
-/// changed and may. `now` needs its digests and settings alone. *Collective.*
+/// Checks, before any work, whether a run can be resumed after the complete cycle in `folder`. Throws
+/// InputError that names the file and the remedy if its record is incomplete, or is of a case with another
+/// geometry or other settings (it then names the changed key). Returns a warning for each changed setting
+/// that may change. Of `now` only digests and settings are used. *Collective.*
 std::vector<std::string> require_same_run(const Communicator& comm, const std::string& folder,
                                           const CycleRecord& now);
 
-/// The mesh, the tree and the solution of a cycle that an earlier run left, by its files. They are compared
-/// with each other; a refusal says how to be rid of the damage. *Collective.*
+/// Reads mesh, tree and solution of a cycle of an earlier run and checks that they belong together. The error
+/// message names the remedy. *Collective.*
 SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folder);
 
-/// What an earlier run's record of the cycle in `folder` tells of forces and estimate. Throws InputError
-/// where it cannot be read. *Collective.*
+/// Returns forces and error estimate from the record of the cycle in `folder`. Throws InputError if it cannot
+/// be read. *Collective.*
 CycleValues read_earlier_values(const Communicator& comm, const std::string& folder);
 
 }  // namespace quadloop

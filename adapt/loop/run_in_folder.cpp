@@ -32,7 +32,7 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
   return record;
 }
 
-/// Those that every cycle has, then the others that the case names.
+/// Returns the default formats, then the others of the case.
 std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
   std::vector<std::string> formats = default_formats();
   for (const std::string& format : of_case) {
@@ -41,7 +41,7 @@ std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
   return formats;
 }
 
-/// `adaptive` must outlive them.
+/// Returns the file options; `adaptive` must outlive them.
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
                              return record_of_case(adaptive);
@@ -72,8 +72,8 @@ FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) 
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }
 
-/// Of the built-in solver: far from its end shocks and edges are where they will be. What the flow is solved
-/// for is estimated only where meshes follow it.
+/// Returns the built-in solver with a loose convergence tolerance, at which shocks and edges are already in
+/// position. Output functionals are estimated only if the meshes follow them.
 FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   constexpr double enough = 1e-2;
   const auto* options = std::get_if<EulerOptions>(&adaptive.solver);
@@ -85,8 +85,8 @@ FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   return euler_solver(rough, estimate_goals(rough));
 }
 
-/// What an earlier run's last whole cycle came to, by its files. A finished run is looked at too: whoever
-/// resumes it is told of damage. *Collective.*
+/// Returns the result of the last complete cycle of an earlier run, from its files. The files of a finished
+/// run are checked too, so that damage is reported. *Collective.*
 CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adaptive,
                              const CycleFolders& folders, int cycle, const RunReport& report) {
   const std::string folder = folders.whole(cycle);
@@ -105,7 +105,7 @@ CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adapt
   return left;
 }
 
-/// Tells the mesh of one start from that of another.
+/// Returns a line that identifies the start, for CycleFolders::open().
 std::string begun_with(const DesignStart& start) {
   return fmt::format("{:016x} {}", start.solved.tree.attributes.coordinate_digest, start.solved.file);
 }
@@ -114,7 +114,7 @@ std::string begun_with(const DesignStart& start) {
 
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
-  require_min_in_tree(adaptive.mesh, adaptive.adapt);  // flows would be solved in vain
+  require_min_in_tree(adaptive.mesh, adaptive.adapt);  // checked before any flow is solved
   CycleFolders folders(comm, folder);
   const int first = folders.open(resume, start ? begun_with(*start) : std::string());
   if (resume && first == 0)
@@ -125,7 +125,7 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
   AdaptOptions adapt = adaptive.adapt;
   FirstMesh first_mesh;
   if (start) {
-    adapt.passes = 0;  // the mesh is adapted already
+    adapt.passes = 0;  // the mesh is already adapted
     first_mesh = [&] {
       return continued_mesh(comm, adaptive.mesh, start->solved, start->wish, adapt.transfer);
     };

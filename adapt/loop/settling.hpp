@@ -9,24 +9,24 @@
 
 namespace quadloop {
 
-/// What tells whether cycles go on changing their answer.
+/// Values that decide whether the loop has converged.
 struct CycleValues {
   std::int64_t nodes = 0;
   std::optional<double> cl, cd, estimate;
 };
 
 CycleValues values_of(const CycleRecord& record);
-/// The same, to the last bit, from a record's text.
+/// Returns the same values, bitwise, from a record's text.
 CycleValues recorded_values(const std::string& json);
 
-/// The order at which the estimate falls with nodes^(-1/2), the edge of a cell; none where one of the cycles
-/// has no estimate, or their nodes differ by less than a tenth.
+/// Returns the observed order of convergence of the estimate in the cell size, nodes^(-1/2); empty if one of
+/// the cycles has no estimate, or the numbers of nodes differ by less than a tenth.
 std::optional<double> observed_order(const CycleValues& before, const CycleValues& now);
 
-/// Whether all that `until` names has changed by less; never where it names nothing.
+/// Whether all values that `until` names have changed by less than its limits; false if it names none.
 bool have_settled(const AdaptOptions::Until& until, const CycleValues& before, const CycleValues& now);
 
-/// Throws InputError where `until` names a force that the solver does not tell.
+/// Throws InputError if `until` names a force that the solver does not provide.
 void require_told(const AdaptOptions::Until& until, const CycleValues& now);
 
 }  // namespace quadloop

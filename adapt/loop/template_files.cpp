@@ -20,7 +20,7 @@ void add_file(const fs::path& path, const std::string& name, CaseSettings& files
   try {
     files.emplace_back(template_key(name),
                        fmt::format("\"{:016x}\"", text_digest(read_input(path.string()))));
-  } catch (const InputError&) {  // the solver that wants it refuses it by its name
+  } catch (const InputError&) {  // reported by the solver that needs the file
   }
 }
 

@@ -7,12 +7,13 @@
 
 namespace quadloop {
 
-/// The files of the user's case that the solver's own is made from, as settings: SU2's configuration, or what
-/// is copied of OpenFOAM's folder, each by its template_key() with the digest of its bytes. Empty for other
-/// solvers; what cannot be read is left out, as the solver says so. On the calling rank alone.
+/// Returns the files of the user's case that the solver's case is made from, as settings: SU2's
+/// configuration, or the copied files of OpenFOAM's folder, each under its template_key() with the digest of
+/// its bytes. Empty for other solvers. Unreadable files are omitted; the solver reports them. On the calling
+/// rank only.
 CaseSettings template_files(const ChosenSolver& solver);
 
-/// Of all of them.
+/// Returns the digest of all files.
 std::uint64_t template_digest(const CaseSettings& files);
 
 }  // namespace quadloop

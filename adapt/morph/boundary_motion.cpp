@@ -12,7 +12,8 @@ namespace quadloop {
 
 namespace {
 
-/// Where each vertex of the mesh's outline goes, its own outline being what is known of the old one.
+/// Returns the image of each vertex of the mesh boundary, if the mesh boundary is all that is known of the
+/// old geometry.
 std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& change) {
   const Geometry to = walked_as(outline, change.to);
   const OutlineMap map(outline, to, false, {change.file, "the mesh"});
@@ -25,7 +26,7 @@ std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& 
   return images;
 }
 
-/// The places of a mesh's outline on the outline that it was made on.
+/// Positions of the vertices of a mesh boundary on the geometry that the mesh was made for.
 class PlacesOnOutline {
  public:
   PlacesOnOutline(const Geometry& outline, const OutlineChange& change)
@@ -33,7 +34,7 @@ class PlacesOnOutline {
 
   const Geometry& from() const { return from_; }
 
-  /// Invalid where that outline lacks the boundary.
+  /// Invalid if that geometry lacks the boundary.
   OutlinePlace of(std::int32_t v) const {
     const Point p = outline_.point(v);
     const std::string& name = outline_.boundary(outline_.boundary_of(v)).name;
@@ -66,7 +67,7 @@ std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChang
   return images;
 }
 
-/// Vertices of walked_as(like, outline) as the outline itself numbers them.
+/// Converts vertices of walked_as(like, outline) to vertices of the outline itself.
 std::vector<std::int32_t> vertices_as_given(const Geometry& like, const Geometry& outline) {
   const std::vector<char> against = loops_against(like, outline);
   std::vector<std::int32_t> given(outline.size());
@@ -84,7 +85,7 @@ std::vector<std::int32_t> vertices_as_given(const Geometry& like, const Geometry
                   change.file));
 }
 
-/// A node that the boundary passes twice stands for one place of the new outline too.
+/// Requires that a node where the boundary passes twice has a single image on the new geometry.
 std::vector<BoundaryNodeMotion> each_once(std::vector<BoundaryNodeMotion> motions, const std::string& file) {
   constexpr double rounding = 1e-9;
   for (std::size_t k = 1; k < motions.size(); ++k) {

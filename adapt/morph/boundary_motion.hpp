@@ -9,44 +9,45 @@
 
 namespace quadloop {
 
-/// A turn about one point and a shift of that to another.
+/// A rotation about one point followed by a translation of that point to another.
 struct RigidMotion {
   Point from, to;
   double angle = 0;  ///< radians, counter-clockwise
 
   Point moved(Point p) const;
-  /// The same way gone in part: 0 not at all, 1 whole.
+  /// Returns the motion scaled by `share`: 0 none, 1 all of it.
   RigidMotion part(double share) const { return {from, from + share * (to - from), share * angle}; }
 };
 
-/// What a boundary node does, with half the lengths of its two edges before it does so.
+/// The motion of a boundary node, with half the lengths of its two edges before the motion.
 struct BoundaryNodeMotion {
   GlobalNodeId node;
   RigidMotion motion;
   double width = 0;
-  std::int32_t vertex = -1;  ///< of the mesh's outline
+  std::int32_t vertex = -1;  ///< of the mesh boundary
 };
 
-/// Where a mesh's outline is to go.
+/// The change of geometry of a mesh.
 struct OutlineChange {
   const Geometry& to;
-  std::string file;  ///< its, for messages
-  /// The outline that the mesh was made on, if it is known: where `to` has as many points, nodes stay with
-  /// their segment. Else they keep their share of the way between two corners.
+  std::string file;  ///< file of `to`, for messages
+  /// The geometry of the mesh, if known: if `to` has the same number of points, nodes stay on their segment.
+  /// Otherwise nodes keep their relative position between two corners.
   const Geometry* from = nullptr;
   std::string from_file = {};
 };
 
-/// Of all boundary nodes, by their numbers, each once; those of boundaries that the new outline lacks stay. A
-/// node turns by the mean of what its two edges do. Throws InputError as OutlineMap does, and where a node is
-/// not on `change.from`.
+/// Returns the motions of all boundary nodes, sorted by number, each once; nodes of boundaries that the new
+/// geometry lacks do not move. A node rotates by the mean of its two edges' rotations. Throws InputError as
+/// OutlineMap does, and if a node is not on `change.from`.
 std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, const OutlineChange& change);
 
-/// Where each vertex of a mesh's outline goes.
+/// Returns the image of each vertex of a mesh boundary.
 std::vector<Point> images_of(const BoundaryOutline& outline, const OutlineChange& change);
 
-/// Of which points of `change.to` the image of each vertex of a mesh's outline is a mean. Throws InputError
-/// as boundary_motion(), and where a loop's points do not stand for those of `change.from`, one for one.
+/// Returns the image of each vertex of a mesh boundary as a weighted mean of points of `change.to`. Throws
+/// InputError as boundary_motion() does, and if the points of a loop do not correspond one-to-one to those of
+/// `change.from`.
 std::vector<PointShares> image_shares(const BoundaryOutline& outline, const OutlineChange& change);
 
 }  // namespace quadloop

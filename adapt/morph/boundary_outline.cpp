@@ -19,7 +19,7 @@ struct OutlineEdge {
   std::int32_t boundary = -1;
 };
 
-/// Of all ranks, by the node where they begin.
+/// Gathers the edges of all ranks, sorted by their start nodes.
 std::vector<OutlineEdge> all_edges(const Communicator& comm, const Mesh& mesh) {
   std::vector<OutlineEdge> own;
   for (std::int32_t b = 0; b < size32(mesh.boundaries); ++b) {
@@ -31,7 +31,7 @@ std::vector<OutlineEdge> all_edges(const Communicator& comm, const Mesh& mesh) {
   return edges;
 }
 
-/// Edges joined to loops.
+/// Connects edges to loops.
 class Loops {
  public:
   explicit Loops(std::vector<OutlineEdge> edges) : edges_{std::move(edges)}, taken_(edges_.size(), 0) {
@@ -62,17 +62,17 @@ class Loops {
   }
   Point along(const OutlineEdge& edge) const { return leaving(edge.to).front().place - edge.place; }
 
-  /// By how many millionths of a radian the boundary turns from one edge to the next; a turn away from the
-  /// domain, as at the corner of a body, first of two that are as sharp.
+  /// Returns the turning angle from one edge to the next in millionths of a radian; of two equally sharp
+  /// turns, one away from the domain (as at the corner of a body) comes first.
   std::pair<double, bool> turn(const OutlineEdge& edge, const OutlineEdge& next) const {
     const Point before = along(edge), after = along(next);
     const double angle = std::round(1e6 * std::atan2(cross(before, after), dot(before, after)));
     return {std::abs(angle), angle > 0};
   }
 
-  /// The edge on which a loop that began with `first` goes on. Where the boundary passes a node more than
-  /// once, one that no loop has, of the same boundary if there is one: the straightest way, so that two
-  /// bodies that touch stay two loops.
+  /// Returns the edge that continues a loop that started with `first`. If the boundary passes a node more
+  /// than once: an unused edge, of the same boundary if possible, in the straightest direction, so that two
+  /// touching bodies remain two loops.
   std::size_t after(const OutlineEdge& edge, std::size_t first) const {
     const std::span<const OutlineEdge> all = leaving(edge.to);
     if (all.size() == 1) return &all.front() - edges_.data();

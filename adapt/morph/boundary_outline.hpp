@@ -8,15 +8,15 @@
 
 namespace quadloop {
 
-/// The boundary of a mesh as an outline, the same on every rank: vertex v is a node, segment v the boundary
-/// edge that leaves it.
+/// The boundary of a mesh as a geometry, the same on every rank: vertex v is a node, segment v the boundary
+/// edge that starts there.
 struct BoundaryOutline {
   Geometry geometry;
-  std::vector<GlobalNodeId>
-      nodes;  ///< of each vertex; one where the boundary comes back to stands there twice
+  /// Node of each vertex; a node where the boundary passes twice is listed twice.
+  std::vector<GlobalNodeId> nodes;
 };
 
-/// `mesh` has a closed boundary (MeshRule::closed). Each rank holds all boundary edges. *Collective.*
+/// `mesh` must have a closed boundary (MeshRule::closed). Each rank stores all boundary edges. *Collective.*
 BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

@@ -10,8 +10,9 @@
 
 namespace quadloop {
 
-/// How a body moves about one of its points, `arm` from there: linear in its members. That of a turn by a has
-/// 1 - cos a and sin a, and what it does less where it is.
+/// Rigid motion of a body about one of its points, as a function linear in its members; `arm` is the position
+/// relative to that point. For a rotation by a they are 1 - cos a and sin a. Its displacement is the new
+/// minus the old position.
 struct LinearMotion {
   double versed = 0, sine = 0;
   Point shift;
@@ -23,45 +24,45 @@ struct LinearMotion {
 };
 LinearMotion operator*(double factor, const LinearMotion& motion);
 
-/// About `motion.from`.
+/// The motion about `motion.from`.
 LinearMotion linear_motion(const RigidMotion& motion);
 
-/// By how much a sum of g . displacement(arm) changes with each member of the motion. The transpose.
+/// Transpose: returns the derivative of g . displacement(arm) with respect to each member of the motion.
 LinearMotion members_gradient(Point arm, Point g);
 
-/// A motion that the plane follows, near its place most.
+/// A moving point that the surrounding plane follows.
 struct MotionSource {
   Point place;
-  double width = 0;  ///< length of the line for which it stands
+  double width = 0;  ///< length of the line that it represents
   LinearMotion motion;
 };
 
-/// The motion of the plane between lines that move: the mean of their rigid motions, weighted by width (1 +
-/// (reach / r)^2) / r^3 at the distance r (Luke, Collins and Blades, J. Comput. Phys. 231, 2012). Sources
-/// that lie close together are taken as one where they are seen from far away. Linear in the sources'
-/// motions, so that the field of their rates is the rate of the field; O(log n) for a place.
+/// The motion of the plane between moving lines: the mean of their rigid motions, weighted by width (1 +
+/// (reach / r)^2) / r^3 at the distance r (Luke, Collins and Blades, J. Comput. Phys. 231, 2012). Distant
+/// clusters of sources are combined. Linear in the sources' motions, so that the field of their rates is the
+/// rate of the field; O(log n) per point.
 class InverseDistance {
  public:
-  /// Not empty. What it answers depends on sources, their order and `reach` alone.
+  /// `sources` must not be empty. The field depends only on the sources, their order and `reach`.
   InverseDistance(std::span<const MotionSource> sources, double reach);
 
-  /// How far a point goes that is none of the sources' own.
+  /// Returns the displacement of a point that is not a source.
   Point displacement(Point p) const;
 
-  /// The transpose of displacement(): adds to what a sum of g . displacement(p) over points gains from each
-  /// of `mean_count()` motions, of sources or of means of several, by calling `add(number, gradient)`.
+  /// Transpose of displacement(): calls `add(number, gradient)` with the derivative of g . displacement(p)
+  /// with respect to each of `mean_count()` motions, of sources or of means of several.
   template <class Add>
   void add_gradient(Point p, Point g, const Add& add) const;
   std::size_t mean_count() const { return sources_.size() + nodes_.size(); }
-  /// From the sums that add_gradient() told of to those for each source, in the order that they were given.
+  /// Converts the sums from add_gradient() to gradients for each source, in the original order.
   std::vector<LinearMotion> gradient_of_sources(std::span<const LinearMotion> of_means) const;
 
  private:
   struct Node {
-    MotionSource mean;  ///< of its sources, about the centre of them
+    MotionSource mean;  ///< mean of its sources, about their centre
     double radius = 0;
-    std::int32_t begin = 0, end = 0;  ///< its sources
-    std::int32_t after = 0;           ///< the node behind its descendants
+    std::int32_t begin = 0, end = 0;  ///< range of its sources
+    std::int32_t after = 0;           ///< index of the node after its descendants
   };
   void build(std::int32_t begin, std::int32_t end);
   Node summary(std::int32_t begin, std::int32_t end) const;
@@ -69,15 +70,16 @@ class InverseDistance {
     const double squared = dot(arm, arm);
     return source.width * (1 + squared_reach_ / squared) / (squared * std::sqrt(squared));
   }
-  /// Calls `visit(source, number)` for those that count at p: sources, or means where they are far away.
+  /// Calls `visit(source, number)` for the sources that contribute at p, or for means of distant ones.
   template <class Visit>
   void for_each_seen(Point p, const Visit& visit) const;
 
-  static constexpr double far_away_ = 30;  // radii: from there on a node's sources count as one
+  // in radii: beyond this distance the sources of a node are combined
+  static constexpr double far_away_ = 30;
 
   double squared_reach_;
   std::vector<MotionSource> sources_;
-  std::vector<std::int32_t> given_as_;  ///< the number that each source was given as
+  std::vector<std::int32_t> given_as_;  ///< original number of each source
   std::vector<Node> nodes_;             ///< in preorder
 };
 

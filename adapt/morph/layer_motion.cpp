@@ -8,8 +8,8 @@ namespace quadloop {
 
 namespace {
 
-/// Of each owned node in layers the next node of its column towards the wall: over the shortest edge that
-/// leads one layer down, as diagonals are longer.
+/// Returns for each owned node in layers the next node of its column towards the wall: along the shortest
+/// edge that leads one layer down, as diagonals are longer.
 IdVector<NodeId, NodeId> nodes_below(const HaloMesh& mesh, const LayerPlaces& places) {
   IdVector<NodeId, NodeId> below(mesh.owned_nodes(), NodeId{});
   const auto edge = [&](NodeId a, NodeId b) {

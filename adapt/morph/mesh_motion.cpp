@@ -9,7 +9,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_move = 1e-9;  // of the outline's extent: what moves less stays, but for rounding
+// relative to the extent of the geometry: smaller motions are due to rounding and ignored
+constexpr double least_move = 1e-9;
 
 std::vector<Box> boxes_of_loops(const Geometry& geometry) {
   std::vector<Box> boxes(geometry.loop_count());
@@ -19,7 +20,7 @@ std::vector<Box> boxes_of_loops(const Geometry& geometry) {
 
 double extent(const Box& box) { return std::max(box.width(), box.height()); }
 
-/// The extent of those boundaries that move; 0 where none does.
+/// Returns the extent of the moving boundaries; 0 if none moves.
 double extent_of_moved(const BoundaryOutline& outline, std::span<const BoundaryNodeMotion> boundary) {
   const Geometry& geometry = outline.geometry;
   const double enough = least_move * extent(geometry.box());
@@ -76,7 +77,7 @@ double MeshMotion::possible_reach(const OutlineChange& change) const {
   return inside > 0 ? inside : all;
 }
 
-/// The boundary, and the fronts of layers in the place of the walls below. *Collective.*
+/// Collects the boundary, and the outer edges of layers instead of the walls below. *Collective.*
 void MeshMotion::gather_sources(const Communicator& comm, const LayerPlaces& places) {
   IdVector<NodeId, double> widths(halo_.points().size(), 0);
   for (const NodeId node : ids_below(NodeId{halo_.owned_nodes()})) {

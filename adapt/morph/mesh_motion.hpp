@@ -12,39 +12,40 @@
 
 namespace quadloop {
 
-/// What moves each node of a mesh whose outline changes: its boundary nodes, on every rank; which nodes go
-/// with one of them as one piece; and the lines that all others follow.
+/// Motion of each node of a mesh whose boundary changes: its boundary nodes, on every rank; the nodes that
+/// move rigidly with one of them; and the lines that all others follow.
 class MeshMotion {
  public:
-  /// `mesh` must outlive it and keep its cells; its nodes may move. *Collective.* Throws InputError as
-  /// boundary_motion().
+  /// `mesh` must outlive the object with unchanged cells; its nodes may move. Throws InputError as
+  /// boundary_motion() does. *Collective.*
   MeshMotion(const Communicator& comm, const Mesh& mesh, const OutlineChange& change);
 
   const BoundaryOutline& outline() const { return outline_; }
   const std::vector<BoundaryNodeMotion>& boundary() const { return boundary_; }
-  /// The mesh with its nodes where they were.
+  /// The mesh with its original node positions.
   const HaloMesh& before() const { return halo_; }
   const LayerPlaces& places() const { return places_; }  ///< of the mesh's nodes
 
-  /// The extent of those boundaries that move; 0 where none does.
+  /// Extent of the moving boundaries; 0 if none moves.
   double reach() const { return reach_; }
-  /// The same; where none moves, of those that may: of the loops inside the domain that have an image, or
-  /// where there are none of all that have one.
+  /// The same or, if none moves, the extent of those that may move: of the loops inside the domain that have
+  /// an image or, if there are none, of all that have one.
   double possible_reach(const OutlineChange& change) const;
 
-  /// Which of boundary() an owned node goes with; below 0: it follows the field.
+  /// Index in boundary() of the node that an owned node moves with; negative: it follows the field.
   std::int32_t foot(NodeId node) const { return feet_[node]; }
   bool is_boundary(NodeId node) const {
     return feet_[node] >= 0 && boundary_[feet_[node]].node == halo_.global(node);
   }
 
-  /// A node of boundary or front, in the place of the wall below, with the width that it stands for.
+  /// A node of a boundary or of an outer edge of layers (instead of the wall below), with the width that it
+  /// represents.
   struct Source {
     std::int32_t foot;
     double width;
   };
   const std::vector<Source>& sources() const { return sources_; }  ///< the same on every rank
-  /// What the plane follows when boundary node k moves as `motion_of(k)` says.
+  /// Returns the motion field of the plane if boundary node k moves by `motion_of(k)`.
   template <class MotionOf>
   InverseDistance field(double reach, const MotionOf& motion_of) const {
     std::vector<MotionSource> sources;

@@ -10,18 +10,19 @@ namespace quadloop {
 
 namespace {
 
-/// What the direction of an edge gains, in radians, from a shift of its end; less that from one of its start.
+/// Derivative of the direction of an edge, in radians, with respect to the position of its end; that with
+/// respect to its start is the negative.
 Point turn_gradient(Point edge) { return (1 / dot(edge, edge)) * Point{-edge.y, edge.x}; }
 
-/// A motion's rate from those of its place and angle: LinearMotion is not linear in the angle.
+/// Returns a motion's rate from those of position and angle, as LinearMotion is not linear in the angle.
 LinearMotion rate_of(const RigidMotion& motion, Point to_rate, double angle_rate) {
   return {std::sin(motion.angle) * angle_rate, std::cos(motion.angle) * angle_rate, to_rate};
 }
 
-/// Sums of LinearMotions whose shifts are gradients of nodes, or shares of them.
+/// Sums of LinearMotions whose shifts are gradients of nodes, or fractions of them.
 class MotionSums {
  public:
-  /// Of `nodes` nodes, whose gradients are no larger than `largest`, each at most `reach` away.
+  /// For `nodes` nodes with gradients up to `largest`, at distances up to `reach`.
   MotionSums(std::size_t motions, double largest, double reach, std::int64_t nodes)
       : shifts_{2 * motions, largest, nodes}, turns_{2 * motions, 2 * reach * largest, nodes} {}
 
@@ -55,7 +56,7 @@ MorphDerivative::MorphDerivative(const Communicator& comm, const Mesh& mesh, con
       points_{change.to.points().size()},
       reach_{motion_.possible_reach(change)} {}
 
-/// Of each boundary node's motion.
+/// Returns the rate of each boundary node's motion.
 std::vector<LinearMotion> MorphDerivative::rates(std::span<const Point> of_points) const {
   const Geometry& outline = motion_.outline().geometry;
   std::vector<Point> of_images;
@@ -89,7 +90,7 @@ std::vector<Point> MorphDerivative::velocity(std::span<const Point> of_points) c
   return velocity;
 }
 
-/// From each node to the motions that it follows, added up over all ranks.
+/// Maps the gradient of each node to the motions that it follows, summed over all ranks.
 std::vector<LinearMotion> MorphDerivative::gradient_of_motions(std::span<const Point> of_nodes) const {
   const HaloMesh& mesh = motion_.before();
   const InverseDistance field = motion_.field(reach_, [](std::int32_t) { return LinearMotion{}; });

@@ -7,23 +7,24 @@
 
 namespace quadloop {
 
-/// The derivative of what morph_mesh() does to nodes, without smoothing, by the points of the new outline: a
-/// matrix of two rows for each node and two columns for each point, which is never made, only multiplied.
-/// Exact: by the same formulas, differentiated. The extent L of what moves counts as given; where `change`
-/// moves nothing it is that of the boundaries which may move (MeshMotion::possible_reach).
+/// Derivative of morph_mesh(), without smoothing, with respect to the points of the new geometry: a matrix
+/// with two rows per node and two columns per point, which is never formed, only multiplied. Exact: the same
+/// formulas, differentiated. The extent of what moves is held constant; if `change` moves nothing it is that
+/// of the boundaries which may move (MeshMotion::possible_reach).
 class MorphDerivative {
  public:
-  /// `mesh` as it is before the morph; `change` must outlive this. *Collective.* Throws InputError as
-  /// boundary_motion() and image_shares(): `change.from` must have as many points as `change.to`.
+  /// `mesh` is the mesh before the morph; `change` must outlive the object. Throws InputError as
+  /// boundary_motion() and image_shares() do: `change.from` must have as many points as `change.to`.
+  /// *Collective.*
   MorphDerivative(const Communicator& comm, const Mesh& mesh, const OutlineChange& change);
 
-  /// How each owned node moves when each point of `change.to` moves as given, on every rank: the product of
-  /// the matrix. Copies are not told. Linear in the nodes.
+  /// Matrix product: returns the velocity of each owned node for given velocities of the points of
+  /// `change.to`, which are the same on every rank. Ghosts are not included. Linear in the number of nodes.
   std::vector<Point> velocity(std::span<const Point> of_points) const;
 
-  /// From what a number J gains from the shift of each owned node after the morph, dJ/dX of an adjoint
-  /// solution, to what it gains from that of each point of `change.to`, on every rank: the product of the
-  /// transpose. The same bits on any number of ranks. *Collective.*
+  /// Product with the transpose: converts the gradient dJ/dX of a functional J with respect to each owned
+  /// node after the morph, e.g. from an adjoint solution, to that with respect to each point of `change.to`,
+  /// on every rank. Bitwise independent of the number of ranks. *Collective.*
   std::vector<Point> gradient(std::span<const Point> of_nodes) const;
 
  private:
@@ -32,8 +33,8 @@ class MorphDerivative {
 
   const Communicator& comm_;
   MeshMotion motion_;
-  std::vector<Point> images_;        ///< of each vertex of the mesh's outline
-  std::vector<PointShares> shares_;  ///< and the points that it is a mean of
+  std::vector<Point> images_;        ///< of each vertex of the mesh boundary
+  std::vector<PointShares> shares_;  ///< and its weights of points
   std::size_t points_;
   double reach_;
 };

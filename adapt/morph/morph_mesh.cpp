@@ -15,11 +15,11 @@ namespace quadloop {
 
 namespace {
 
-constexpr double quality_kept = 0.8;  // of the worst cell: below it the mesh is smoothed
+constexpr double quality_kept = 0.8;  // relative quality of the worst cell: below it the mesh is smoothed
 constexpr int smoothed_rings = 4;
 constexpr int bisections = 7;
 
-/// The quality of a cell whose nodes are where `place(node)` says.
+/// Returns the quality of a cell with the node positions `place(node)`.
 template <std::size_t width, class Place>
 double quality_at(const std::array<NodeId, width>& nodes, const Place& place) {
   std::array<Point, width> corners;
@@ -27,14 +27,14 @@ double quality_at(const std::array<NodeId, width>& nodes, const Place& place) {
   return quality_of(corners);
 }
 
-/// A mesh as it was, and where its nodes go.
+/// A mesh before the morph, with the motion of its nodes.
 class Morph {
  public:
-  /// `mesh` may be moved by this, and keeps its cells. *Collective.*
+  /// `mesh` may be moved by this object; its cells must not change. *Collective.*
   Morph(const Communicator& comm, const Mesh& mesh, const OutlineChange& change)
       : comm_{comm}, motion_{comm, mesh, change}, halo_{motion_.before()} {}
 
-  /// Puts the nodes where they are after a share of the way. *Collective.*
+  /// Moves the nodes by a fraction of the motion. *Collective.*
   void move(double share, Mesh& mesh) const {
     const auto part_of = [&](std::int32_t foot) { return motion_.boundary()[foot].motion.part(share); };
     const InverseDistance field =
@@ -58,10 +58,11 @@ class Morph {
     for (const NodeId node : flags.ids()) flags[node] = motion_.is_boundary(node) ? 1 : 0;
     return flags;
   }
-  /// How far an owned node has gone.
+  /// Returns how far an owned node has moved.
   double way_of(NodeId node, const Mesh& mesh) const { return length(mesh.point(node) - halo_.point(node)); }
 
-  /// Flags owned nodes: those of cells whose quality has suffered, and some rings round them. *Collective.*
+  /// Flags owned nodes: those of cells whose quality has decreased too much, and some rings around them.
+  /// *Collective.*
   NodeFlags nodes_near_suffering(const Mesh& mesh) const {
     std::vector<GlobalNodeId> nodes;
     const auto look_at = [&](const auto& cell) {
@@ -78,7 +79,7 @@ class Morph {
     return near;
   }
 
-  /// The first node of the worst cell over all ranks. *Collective.*
+  /// Returns the first node of the worst cell over all ranks. *Collective.*
   Point worst_place(const Mesh& mesh) const {
     std::pair<double, Point> worst{std::numeric_limits<double>::infinity(), {}};
     const auto look_at = [&](const auto& nodes) {
@@ -95,7 +96,7 @@ class Morph {
     return worst.second;
   }
 
-  /// The quality of the worst cell outside layers, or of any that is inverted. *Collective.*
+  /// Returns the quality of the worst cell outside layers, or of any inverted cell. *Collective.*
   double worst_quality(const Mesh& mesh) const {
     double worst = std::numeric_limits<double>::infinity();
     const auto look_at = [&](const auto& nodes) {
@@ -109,11 +110,11 @@ class Morph {
  private:
   const Communicator& comm_;
   MeshMotion motion_;
-  const HaloMesh& halo_;  ///< with the nodes where they were
+  const HaloMesh& halo_;  ///< with the original node positions
 };
 
-/// Cells outside layers that have suffered, and those near them, made better; boundary and layers stay.
-/// *Collective.*
+/// Smooths the cells outside layers whose quality has decreased too much, and those near them; boundary and
+/// layers do not move. *Collective.*
 void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& interfaces) {
   SmoothOptions options;
   options.pinned = morph.boundary_nodes();
@@ -127,8 +128,8 @@ void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, con
   smooth_mesh(comm, mesh, options);
 }
 
-/// The longest share of the way after which no cell is inverted, to 1 in 2^bisections; the mesh is left
-/// there. *Collective.*
+/// Returns the largest fraction of the motion, to 1 in 2^bisections, after which no cell is inverted; leaves
+/// the mesh there. *Collective.*
 double possible_way(const Morph& morph, Mesh& mesh) {
   double possible = 0, impossible = 1;
   for (int k = 0; k < bisections; ++k) {

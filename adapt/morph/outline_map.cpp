@@ -18,8 +18,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_corner = 10;   // degrees: what turns less is no counterpart of a corner
-constexpr double most_stretched = 2;  // between vertices that stay, or it shortens to the inverse of that
+constexpr double least_corner = 10;   // degrees: a smaller turn does not correspond to a corner
+constexpr double most_stretched = 2;  // maximum ratio of lengths, or its inverse, between vertices that stay
 
 using NameSet = std::set<std::string>;
 
@@ -55,7 +55,7 @@ double area_of(const Geometry& geometry, std::int32_t loop) {
   return twice / 2;
 }
 
-/// The loop with the same boundaries whose centre is nearest, of those that may be taken; -1: none.
+/// Returns the closest loop, by its centre, with the same boundaries, among the allowed ones; -1: none.
 template <class MayTake>
 std::int32_t counterpart(const Geometry& outline, std::int32_t loop, const Geometry& other,
                          const MayTake& may_take) {
@@ -84,7 +84,8 @@ std::vector<std::int32_t> kept_vertices(const Geometry& geometry, std::int32_t l
   return kept;
 }
 
-/// At most so many, ascending: where boundaries begin, then where the outline turns most.
+/// Returns at most `count` vertices, ascending: first those where boundaries begin, then those of the largest
+/// turning angles.
 std::vector<std::int32_t> sharpest_vertices(const Geometry& geometry, std::int32_t loop, std::size_t count) {
   std::vector<std::int32_t> found;
   for_each_vertex(geometry, loop, [&](std::int32_t v) {
@@ -107,9 +108,9 @@ Vertices all_vertices(const Geometry& geometry, std::int32_t loop) {
   return all;
 }
 
-/// Of these numbers of vertices the one by which `to` is walked on so that they stand for those of `from`:
-/// the names that follow are the same, and they lie nearest to them when the loops' centres are laid on each
-/// other. None where names never are.
+/// Returns the rotation of the vertex numbering of `to` that makes them correspond to those of `from`: the
+/// sequence of names must agree, and the vertices be closest after the loops' centres are aligned. Empty if
+/// the names never agree.
 std::optional<std::size_t> turn_of(const Geometry& old_outline, const Vertices& from,
                                    const Geometry& new_outline, const Vertices& to, Point shift,
                                    std::span<const std::size_t> turns) {
@@ -131,7 +132,8 @@ std::optional<std::size_t> turn_of(const Geometry& old_outline, const Vertices& 
   return best;
 }
 
-/// The turns that lay the first kept vertex of one loop on a kept one of another, as long; and none at all.
+/// Returns the rotations that map the first feature point of one loop to a feature point of another with the
+/// same number of points; and 0.
 std::vector<std::size_t> turns_of_kept(const Geometry& old_outline, const Vertices& from,
                                        const Geometry& new_outline, const Vertices& to) {
   std::vector<std::size_t> turns{0};
@@ -144,7 +146,7 @@ std::vector<std::size_t> turns_of_kept(const Geometry& old_outline, const Vertic
   return turns;
 }
 
-/// The way along a loop to its place nearest to p.
+/// Returns the arc length along a loop of its point closest to p.
 double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32_t loop, Point p) {
   double arc = 0, least = std::numeric_limits<double>::infinity();
   for_each_vertex(geometry, loop, [&](std::int32_t v) {

@@ -12,54 +12,54 @@
 
 namespace quadloop {
 
-/// An outline whose loops are walked as those of the same names are in `like`; an outline alone, as that of
-/// an airfoil without its far field, does not know on which side the domain lies.
+/// Returns an outline whose loops have the direction of those of the same names in `like`. A single outline,
+/// e.g. of an airfoil without far field, does not define the side of the domain.
 Geometry walked_as(const Geometry& like, const Geometry& outline);
 
-/// A flag for each loop of the outline: whether walked_as() turns it.
+/// Returns a flag for each loop of the outline: whether walked_as() reverses it.
 std::vector<char> loops_against(const Geometry& like, const Geometry& outline);
 
-/// A place as a mean of two points of an outline.
+/// A point as a weighted mean of two points of a geometry.
 struct PointShares {
-  std::int32_t first = -1, second = -1;  ///< vertices; -1: the place stays where it is
-  double share = 0;                      ///< of the second; 1 - share is the first one's
+  std::int32_t first = -1, second = -1;  ///< vertices; -1: the point does not move
+  double share = 0;                      ///< weight of the second; that of the first is 1 - share
 };
 
-/// Takes places of an outline to places of another one of the same shape in the large: loop by loop, between
-/// vertices that stand for each other by shares of the way. Those vertices are all of them where both
-/// outlines have as many and `by_points` is asked for, wherever the loops begin, else the kept ones of the
-/// new outline and the sharpest of the old, and between these the old vertices that lie on the new outline,
-/// which stay, unless that would halve or double the length of a part between two of them. Loops of names
-/// that the new outline lacks have no image. A smooth function of the new outline's points as long as the
-/// same vertices stand for each other.
+/// Maps points of a geometry to another one of similar shape: loop by loop, with relative arc length between
+/// corresponding vertices. With `by_points` and equal numbers of points all vertices correspond, wherever the
+/// loops begin. Otherwise the feature points of the new geometry correspond to the sharpest vertices of the
+/// old one, and between these, old vertices that lie on the new geometry stay in place, unless this would
+/// halve or double the length of a part between two of them. Loops with names that the new geometry lacks
+/// have no image. The map is a smooth function of the new geometry's points as long as the correspondence
+/// does not change.
 class OutlineMap {
  public:
-  /// What messages call the outlines: the new one's file, the old one's or "the mesh".
+  /// Names of the geometries in messages: the new one's file, the old one's or "the mesh".
   struct Names {
     std::string to, from;
   };
-  /// Both outlines must outlive it. Throws InputError where a loop or a corner has no counterpart.
+  /// Both geometries must outlive the object. Throws InputError if a loop or a corner has no counterpart.
   OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names);
 
   bool maps(std::int32_t loop) const { return loops_[loop].image >= 0; }
-  /// `arc`: the way along the loop from its first vertex.
+  /// `arc`: arc length along the loop from its first vertex.
   Point image(std::int32_t loop, double arc) const;
-  /// The same place as a mean of new points; none where the loop's points do not stand for each other, as the
-  /// way to it is then a function of all of them.
+  /// Returns the image as a weighted mean of new points; empty if the loop's points do not correspond
+  /// one-to-one, as the arc length then depends on all of them.
   std::optional<PointShares> shares(std::int32_t loop, double arc) const;
 
  private:
-  /// Places that stand for each other, ascending along the old loop from its first one on.
+  /// Corresponding positions, ascending along the old loop from its first vertex.
   struct LoopMap {
-    std::int32_t image = -1;  ///< the new loop; -1: none
+    std::int32_t image = -1;  ///< new loop; -1: none
     std::vector<double> from, to;
-    std::vector<std::int32_t> to_vertices;  ///< the new ones, where all stand for each other
+    std::vector<std::int32_t> to_vertices;  ///< new vertices, if all correspond
   };
-  /// A place on the old loop and the one that it goes to, by their arcs.
+  /// Corresponding positions on the old and the new loop, by arc length.
   struct Anchor {
     double from, to;
   };
-  /// The number of the stretch that an arc lies on, and its share of the way along that.
+  /// The interval that contains an arc length, and the relative position in it.
   struct Stretch {
     std::size_t number;
     double share;
@@ -69,15 +69,15 @@ class OutlineMap {
   /// Counterparts begin at the one numbered `turn`.
   LoopMap anchored(std::int32_t image, const std::vector<std::int32_t>& corners,
                    const std::vector<std::int32_t>& counterparts, std::size_t turn) const;
-  /// None where the loops have other numbers of points, or names.
+  /// Empty if the loops have different numbers of points, or names.
   std::optional<LoopMap> point_by_point(std::int32_t loop, std::int32_t image) const;
   LoopMap by_corners(std::int32_t loop, std::int32_t image, const Names& names) const;
-  /// The old vertices that lie on the new loop, ascending.
+  /// Returns the old vertices that lie on the new loop, ascending.
   std::vector<Anchor> standing_vertices(std::int32_t loop, std::int32_t image) const;
-  /// The map with those of them as further anchors that may stay.
+  /// Returns the map with those of them that may stay as further anchors.
   LoopMap with_standing(std::int32_t loop, const LoopMap& map, std::vector<Anchor> standing) const;
   static bool may_stay(Anchor begin, std::span<const Anchor> between, Anchor end);
-  /// None where a vertex of the old loop does not lie on the new one, or a corner of that has no vertex.
+  /// Empty if a vertex of the old loop does not lie on the new one, or a corner of that has no vertex.
   std::optional<LoopMap> unchanged(std::int32_t loop, std::int32_t image,
                                    const std::vector<Anchor>& standing) const;
 

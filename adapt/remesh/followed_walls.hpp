@@ -9,12 +9,12 @@
 
 namespace quadloop {
 
-/// The friction that first heights are to follow after a solution: what it tells of the walls that want a
-/// y+; where it tells nothing, what the tree was made with. *Collective.*
+/// Returns the wall friction for the first heights of the next mesh, for walls that specify a y+: that of the
+/// solution, or, where it has none, that which the tree was made with. *Collective.*
 MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                             const SolvedMesh& solved);
 
-/// Whether any first height that the input's walls ask for differs by more than a twentieth.
+/// Whether any first height of the input's walls differs by more than 5 %.
 bool other_heights(const MeshInput& input, const MeasuredWall& before, const MeasuredWall& now);
 
 }  // namespace quadloop

@@ -18,7 +18,7 @@ namespace quadloop {
 
 namespace {
 
-/// The first fault of a distributed mesh; empty where there is none. *Collective.*
+/// Returns the first error of a distributed mesh; empty if it is valid. *Collective.*
 std::string first_fault(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   std::vector<char> said;
@@ -30,7 +30,7 @@ std::string first_fault(const Communicator& comm, const Mesh& mesh) {
   return {said.begin(), said.end()};
 }
 
-/// What a mesh that is made anew would tell of itself. *Collective.*
+/// Returns the report of a mesh that is kept, with the data that mesh generation would report. *Collective.*
 MeshReport report_of(const Communicator& comm, const TreeRecord& tree) {
   MeshReport report;
   int coarsest = std::numeric_limits<std::int8_t>::max(), finest = 0;
@@ -46,8 +46,8 @@ MeshReport report_of(const Communicator& comm, const TreeRecord& tree) {
   return report;
 }
 
-/// The solved mesh with other places of its nodes, as if it had been made on the input's outline. The tree is
-/// the old one, for these nodes. *Collective.*
+/// Returns the solved mesh with moved nodes, as if it had been generated on the input's geometry. The tree is
+/// the old one, adjusted to these nodes. *Collective.*
 CarriedMesh with_nodes_of(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                           Mesh mesh) {
   CarriedMesh carried;
@@ -113,8 +113,8 @@ std::vector<Point> sorted_points(const Geometry& outline) {
   return points;
 }
 
-/// Whether the case asks for other cells than those of the solved mesh, as far as its tree, its outline and
-/// what was written of its case tell.
+/// Whether the case specifies other cells than those of the solved mesh, judging by its tree, its geometry
+/// and the recorded settings of its case.
 bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const MorphWish& wish) {
   if (old.tree.attributes.case_digest != input.digest || !wish.changed.empty()) return true;
   if (wish.from == nullptr) return false;
@@ -123,7 +123,7 @@ bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const Mor
   return sorted_points(*wish.from) == sorted_points(to);
 }
 
-/// Of a mesh that nobody wished to morph or that has no other outline to go to.
+/// Returns the reason, for a mesh that is not to be morphed or whose geometry has not changed.
 std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wished) {
   const std::string why = has_outline_of(old, input)
                               ? fmt::format("{} are not those that it was made with", what_shapes_cells)
@@ -133,7 +133,7 @@ std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wis
   return fmt::format("{}: was remeshed, because {}{}", old.file, why, cure);
 }
 
-/// What a mesh made anew by the tree alone leaves out.
+/// Returns a warning about anisotropic cells that a mesh generated from the tree alone does not have.
 std::string without_stretched_cells(const SolvedMesh& old, const char* setting) {
   return fmt::format(
       "{}: {}: cycle 0 is the mesh of the case's quadtree, without anisotropic cells; the first adaptation "

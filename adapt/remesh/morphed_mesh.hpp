@@ -8,37 +8,36 @@
 
 namespace quadloop {
 
-/// What became of the wish to keep a mesh's cells on a changed outline.
+/// Result of morphing a mesh to a changed geometry.
 struct MorphedMesh {
-  std::optional<CarriedMesh> carried;  ///< the old cells on the input's outline, values with their nodes
-  std::string refusal;                 ///< why there is none; empty where the outline has not changed
+  std::optional<CarriedMesh> carried;  ///< old cells on the input's geometry, values moved with their nodes
+  std::string refusal;                 ///< reason for failure; empty if the geometry has not changed
 };
 
-/// How far cells may be taken along, and what is known of the outlines.
+/// Request to keep the cells of a mesh on a changed geometry.
 struct MorphWish {
-  double least_quality = 0;  ///< of the worst cell outside layers
-  std::string file;          ///< of the new outline, for messages
-  /// The outline that the solved mesh was made on, where it is at hand, and its file: OutlineChange.
+  double least_quality = 0;  ///< least quality of the worst cell outside layers
+  std::string file;          ///< file of the new geometry, for messages
+  /// Geometry of the solved mesh, if available, and its file (OutlineChange).
   const Geometry* from = nullptr;
   std::string from_file = {};
-  /// What boundaries are asked for now and were not by the case that the mesh was made for, for messages;
-  /// empty: nothing, or it is not known.
+  /// Boundary settings that have changed since the mesh was made, for messages; empty: none, or not known.
   std::string changed = {};
 };
 
-/// Morphs the solved mesh to the input's outline if that is another than the tree's. It is taken if its worst
-/// cell outside layers has at least the quality wished for and it is valid. The tree stays, for the mesh as
-/// it is now; so the next mesh that is made anew is made as if nothing had been morphed. *Collective.*
+/// Morphs the solved mesh to the input's geometry if that differs from the tree's. The result is accepted if
+/// it is valid and its worst cell outside layers has at least the requested quality. The tree is kept, for
+/// the mesh as it is now; the next generated mesh does not depend on the morphing. *Collective.*
 MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                          const MorphWish& wish);
 
-/// What a user is to be told where a mesh was not morphed as wished.
+/// Returns the warning for a mesh that could not be morphed as requested.
 std::string why_anew(const MorphWish& wish, const std::string& refusal);
 
-/// The solved mesh on the input's outline with its flow, and no leaf marked: the mesh itself where it is of
-/// this outline and case; morphed, if that is wished and allowed; else made anew by the tree as it stands,
-/// the flow carried over. Why it is made anew joins the warnings of the mesh's report, and where cells are
-/// kept that other settings made, that. *Collective.*
+/// Returns the solved mesh on the input's geometry with its solution and no cell flagged: the mesh itself if
+/// geometry and case are unchanged; morphed, if requested and possible; else generated from the tree, with
+/// the solution transferred. The mesh report gains a warning that says why the mesh was generated again, or
+/// that cells of other settings are kept. *Collective.*
 CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                            const std::optional<MorphWish>& wish, TransferKind transfer);
 

@@ -17,8 +17,8 @@ namespace quadloop {
 
 namespace {
 
-/// A coordinate of the centres of this rank's cells, triangles, then quads; of those in layers, which reach
-/// from their leaf down to the wall, `in_layers`.
+/// Returns a coordinate of the centroids of this rank's cells, triangles, then quads; `in_layers` for cells
+/// in layers, which extend from their quadtree cell to the wall.
 std::vector<double> centres(const Mesh& mesh, const LayerPlaces& places, double Point::*coordinate,
                             double in_layers) {
   std::vector<double> values;

@@ -23,7 +23,7 @@ namespace quadloop {
 
 namespace {
 
-/// Looks along the family for the marks that lead to a number of nodes from 95 to 100 % of the one allowed.
+/// Searches the family of markings for one that gives 95 to 100 % of the allowed number of nodes.
 class NodeSearch {
  public:
   NodeSearch(const Communicator& comm, const TrialCount& count, const SolvedMesh& solved,
@@ -32,13 +32,13 @@ class NodeSearch {
 
   ChangedSplits changes_at(double at) const {
     ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
-    if (mirror_)  // the last mesh may be one without
+    if (mirror_)  // the last mesh may lack mirror symmetry
       changes.demands = with_images(*mirror_, solved_.tree.attributes, std::move(changes.demands));
     return changes;
   }
 
-  /// The largest meshes within the cap and within what is allowed, as far as they are found; the one of the
-  /// fewest nodes where none is. Without a cap estimates do.
+  /// Returns the changes with the largest mesh found within the cap and the mesh limit; that with the fewest
+  /// nodes if none fits. Without a cap estimates suffice.
   ChangedSplits within(const std::optional<std::int64_t>& most, ChangedSplits all) const {
     constexpr double enough = 0.95;
     constexpr int most_steps = 24;
@@ -77,7 +77,7 @@ std::vector<std::int8_t> finest_of_leaves(const MeshInput& input, const AdaptOpt
   return finest_levels(input.geometry, solved.tree, finest_level(input, options), options.facets);
 }
 
-/// Leaves that the rule marks, but that the outline's facets keep as they are. *Collective.*
+/// Counts cells that the rule flags but that the facets of the geometry keep unchanged. *Collective.*
 std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
                             const std::vector<Mark>& marks, std::span<const std::int8_t> finest) {
   std::int8_t deepest = 0;
@@ -95,7 +95,8 @@ constexpr const char* text_of_facets =
     "flow "
     "has a peak at each point; supply more points, or set adapt.facets = true";
 
-/// Why a plan changes no leaf, for its user. `all` is what the rule marks by itself. *Collective.*
+/// Returns the reason why a plan changes no cell, for the user. `all`: the changes flagged by the rule alone.
+/// *Collective.*
 std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options,
                                 const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
                                 bool held) {
@@ -128,13 +129,13 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
                      wanted, edge);
 }
 
-/// What is wrong with the field is told with its file. *Collective.*
+/// Constructs the object; errors of the field are reported with its file. *Collective.*
 template <class Made, class... Further>
 Made made_from(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                Further... further) {
   try {
     return {comm, options, solved, further...};
-  } catch (const InputError& fault) {  // the same one on every rank
+  } catch (const InputError& fault) {  // the same on every rank
     throw InputError(solved.file.empty() ? fault.what() : solved.file + ": " + fault.what());
   }
 }
@@ -179,7 +180,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
     plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all, held);
 }
 
-/// That the options ask for.
+/// Returns the number of nodes requested by the options.
 std::int64_t bounded_nodes(const AdaptOptions& options, const SolvedMesh& solved) {
   const std::int64_t nodes = *options.max_nodes;
   if (!options.growth) return nodes;
@@ -187,7 +188,7 @@ std::int64_t bounded_nodes(const AdaptOptions& options, const SolvedMesh& solved
   return grown < static_cast<double>(nodes) ? static_cast<std::int64_t>(grown) : nodes;
 }
 
-/// By the sizes that make the L^p norm of the interpolation error least.
+/// Plans by the target sizes that minimise the L^p norm of the interpolation error.
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                    const TrialCount& count, const std::vector<std::int8_t>& finest,
                    std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
@@ -213,7 +214,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
                     : "all cells have their target sizes";
 }
 
-/// What --max-cells and free memory leave of them.
+/// Returns how many of the nodes --max-cells and free memory allow.
 std::int64_t allowed_nodes(const MeshLimit& limit, std::int64_t nodes) {
   constexpr double cells_of_node = 2, bytes_of_node = 4096;
   const double most = std::min(limit.cells / cells_of_node, limit.bytes / bytes_of_node);
@@ -247,15 +248,15 @@ TargetDemand target_demand(const MeshInput& input, const AdaptOptions& options, 
   return demand;
 }
 
-/// Whether a variable is what another one was at the end of a mean over time.
+/// Whether a variable is the final value of another one that is a time average.
 bool is_at_end(const std::string& name, const std::vector<std::string>& names) {
   constexpr std::string_view ending = "_at_end";
   return name.ends_with(ending) &&
          std::ranges::find(names, name.substr(0, name.size() - ending.size())) != names.end();
 }
 
-/// Of an error that the solver wrote all other variables tell the shapes of cells, of flows that are means
-/// over time these.
+/// Returns the metric demand. If the solver wrote an error field, the anisotropy follows from all other
+/// variables (of time-averaged flows: the averages).
 MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
   if (options.source != AdaptOptions::Source::error) return {options.variables, {}, *options.norm};
   MetricDemand demand{{}, options.variables.front(), *options.norm};
@@ -265,7 +266,8 @@ MetricDemand metric_demand(const AdaptOptions& options, const Field& solution) {
   return demand;
 }
 
-/// The tree is that of the case alone: what adaptation asked of one before counts no more. *Collective.*
+/// Plans a metric-based mesh. The tree is that of the case alone: earlier adaptation demands are discarded.
+/// *Collective.*
 void plan_by_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                     const SolvedMesh& solved, AdaptationPlan& plan) {
   require_norm(options);

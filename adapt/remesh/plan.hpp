@@ -16,47 +16,47 @@
 
 namespace quadloop {
 
-/// What the next tree is to be split at, and how that came about.
+/// Splits of the next tree, and how they were found.
 struct AdaptationPlan {
-  std::vector<SplitDemand> demands;  ///< from this rank's share of leaves
-  double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for sizes
+  std::vector<SplitDemand> demands;  ///< from this rank's quadtree cells
+  double mean = 0, deviation = 0;    ///< of log10 of the indicator; 0 for target sizes
   std::int64_t refined = 0, coarsened = 0;
-  /// Where the options have a norm: that of the interpolation error on the mesh that was solved on.
+  /// If the options have a norm: that of the interpolation error on the solved mesh.
   std::optional<double> estimate;
-  CellValues estimates_of_cells;  ///< then also `interpolation_error` and `wanted_size` of its cells
-  MeasuredWall measured_wall;     ///< that first heights of layers are to follow; the same on every rank
-  bool new_heights = false;       ///< they differ from those of the last mesh
-  /// What anisotropic cells the next mesh is to have: none, those of a metric, on the tree of the case alone,
-  /// or quadtree cells whose nodes are moved.
+  /// If there is an estimate: `interpolation_error` and `wanted_size` of the cells.
+  CellValues estimates_of_cells;
+  MeasuredWall measured_wall;  ///< for the first heights of layers; the same on every rank
+  bool new_heights = false;    ///< whether these differ from those of the last mesh
+  /// Anisotropy of the next mesh: none, that of a metric (on the tree of the case alone), or quadtree cells
+  /// with r-adaptation.
   std::variant<std::monostate, MetricDemand, TargetDemand> anisotropy;
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
-  bool flat = false;                ///< the solution asks for nothing anywhere
-  std::string reason_for_standing;  ///< where no leaf is marked, why
+  bool flat = false;                ///< whether the solution gives no reason to refine anywhere
+  std::string reason_for_standing;  ///< why no cell is flagged
 
-  /// Without a mark that takes effect, or new heights, the next mesh would be the last one again.
+  /// Without an effective flag, new heights or anisotropy the next mesh would be the same.
   bool changes_mesh() const {
     return refined + coarsened > 0 || new_heights || !std::holds_alternative<std::monostate>(anisotropy);
   }
 };
 
-/// From a solution to the next tree's demands: sensor, marks, and a search among fewer or more marks where
-/// the number of nodes is bounded or wanted; the nodes are counted on the trees themselves (MeshTrial); or,
-/// where the options have a norm, sizes wanted of the leaves, of any number of levels, that lead to a number
-/// of nodes; or, in a mesh that is to stretch, the metric that it is to follow. Where walls want a y+ and the
-/// solution tells friction, first heights follow it, from the next mesh on if any changes by more than a
-/// twentieth. *Collective.* Throws InputError where the solution has no such variable, or one that is not
-/// finite.
+/// Computes the demands of the next tree from a solution. By flags: sensor, flags, and a search among fewer
+/// or more flags if the number of nodes is limited or prescribed (nodes are counted on the trees themselves,
+/// MeshTrial). With a norm: target sizes of the quadtree cells, changing any number of levels, for a number
+/// of nodes. For an anisotropic mesh: its metric. If walls specify a y+ and the solution provides friction,
+/// first heights follow it from the next mesh on if any changes by more than 5 %. Throws InputError if the
+/// solution has no such variable, or one that is not finite. *Collective.*
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);
 
-/// Throws InputError where adapt.min is smaller than leaves of the case's tree can be, or, where the
-/// mesh follows a metric, larger than the largest size of the case.
+/// Throws InputError if adapt.min is smaller than the smallest possible quadtree cell, or, for a metric-based
+/// mesh, larger than the largest size of the case.
 void require_min_in_tree(const MeshInput& input, const AdaptOptions& options);
 
-/// Refuses a number of nodes in which a mesh that follows a metric finds no place for the case's own sizes,
-/// by the mesh of the case's tree: every cycle would come to more; of meshes without layers. Throws
-/// InputError with the least that would do. *Collective.*
+/// Throws InputError, with the least sufficient number, if the number of nodes of a metric-based mesh is too
+/// small for the case's own sizes, judging by the mesh of the case's tree: every cycle would exceed it. For
+/// meshes without layers. *Collective.*
 void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                              const MeshResult& first);
 

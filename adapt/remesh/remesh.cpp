@@ -13,7 +13,7 @@ namespace quadloop {
 
 SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
                          TreeRecord tree) {
-  const MeshOrder order = own_order(whole);  // along the curve, as the tree has the cells
+  const MeshOrder order = own_order(whole);  // along the curve, as the tree stores the cells
   SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
   solved.solution = scatter_field(comm, solution, solved.mesh, order);
   return solved;
@@ -31,7 +31,7 @@ std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
 
 namespace {
 
-/// Rounding changes a conserved integral by less than this fraction of its size.
+/// Relative error of a conserved integral that rounding does not exceed.
 constexpr double kept_to = 1e-10;
 
 }  // namespace

@@ -10,44 +10,44 @@
 
 namespace quadloop {
 
-/// The whole mesh on the root, its cells in the order of the tree's leaves, with its solution and its tree,
-/// spread over the ranks. *Collective.*
+/// Distributes a whole mesh on the root, whose cells are in the order of the quadtree cells, with its
+/// solution and tree. *Collective.*
 SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree);
 
-/// What a mesh on the way to a run's first one came to, solved roughly.
+/// Result of an initial adaptation pass, with a loosely converged solution.
 struct PassRecord {
   std::int64_t nodes = 0;
-  std::optional<double> cl, cd, residual;  ///< where the solver knows them
+  std::optional<double> cl, cd, residual;  ///< if the solver provides them
 };
 
-/// A new mesh and the old one's solution on it.
+/// A new mesh with the transferred solution.
 struct CarriedMesh {
   GeneratedMesh generated;
   Field start;
-  StageTimes times;                     ///< those of meshing, and "transfer"
-  TransferReport report;                ///< none in a first mesh
-  bool morphed = false;                 ///< the cells are the old ones
-  std::optional<double> estimate = {};  ///< of the old mesh's interpolation error, where the plan has one
-  std::optional<MetricFigures> stretched = {};  ///< where it follows a metric
-  std::vector<PassRecord> passes = {};          ///< that led to a run's first mesh
+  StageTimes times;                             ///< of mesh generation, and "transfer"
+  TransferReport report;                        ///< empty for the initial mesh
+  bool morphed = false;                         ///< whether the cells are the old ones
+  std::optional<double> estimate = {};          ///< interpolation error on the old mesh, if the plan has it
+  std::optional<MetricFigures> stretched = {};  ///< if the mesh follows a metric
+  std::vector<PassRecord> passes = {};          ///< passes before a run's initial mesh
 
-  /// The drift of each variable's integral, by its name.
+  /// Returns the drift of each variable's integral, with its name.
   std::vector<std::pair<std::string, double>> drifts() const;
 };
 
-/// Meshes by the plan and carries the solution over. *Collective.*
+/// Generates the mesh of the plan and transfers the solution. *Collective.*
 CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
                        const SolvedMesh& old);
 
-/// A warning where the transfer changed an integral that it has to keep by more than 1e-10 of its size. Two
-/// meshes that cover different regions cannot keep it: there up to ten times the change of area is no fault.
+/// Returns a warning if a conservative transfer changed an integral by more than 1e-10 of its size. If the
+/// two meshes cover different regions, up to ten times the change of area is accepted.
 std::vector<std::string> drift_warnings(const CarriedMesh& carried);
 
-/// What in a case makes cells that follow a solution, as a text for messages; null where nothing does. A tree
-/// keeps none of it.
+/// Returns the setting of the case that makes cells follow a solution, for messages; null if there is none. A
+/// tree does not store it.
 const char* setting_that_follows(const MeshInput& input);
 
-/// No marks: the tree stands, but for what case and geometry now ask for.
+/// Returns a plan without flags: the tree is kept, except for what case and geometry now request.
 AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input);
 
 }  // namespace quadloop

@@ -28,8 +28,8 @@ SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int
   return files;
 }
 
-/// The mesh in the format that the user's solver reads, and the starting state beside it where that has no
-/// place for one. *Collective.*
+/// Writes the mesh in the solver's format, and the initial state to a separate file if that format cannot
+/// store it. *Collective.*
 void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const SolverFiles& files,
                double gamma) {
   OutputSet outputs(comm);
@@ -39,7 +39,7 @@ void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, c
   outputs.commit();
 }
 
-/// What the command left, spread over the ranks. *Collective.*
+/// Reads the solution of the command and distributes it. *Collective.*
 Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand& command,
                 const SolverFiles& files) {
   Field whole;

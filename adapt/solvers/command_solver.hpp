@@ -9,24 +9,22 @@
 
 namespace quadloop {
 
-/// A solver of the user's own, and the files through which it is spoken to, by their names in the cycle's
-/// folder.
+/// An external solver, with the names of its files in the cycle's folder.
 struct CommandSolver {
   SolverCommand command;
   std::string mesh = CyclePaths::mesh_name(native_format().name),
               solution = "solution." + native_format().name;
-  int ranks = 0;  ///< 0: as many as quadloop runs on
+  int ranks = 0;  ///< 0: as many as quadloop uses
   std::string case_folder;
-  double gamma = 1.4;  ///< ratio of specific heats of the starting state, where its format wants it
+  double gamma = 1.4;  ///< ratio of specific heats of the initial state, if its format needs it
 
-  /// The file that the starting state stands in: that of the mesh where its format has a place for it, else
-  /// one beside it that holds nothing else, of the solution's format where that is such a one, or a .csv.
+  /// Returns the file of the initial state: the mesh file if its format can store a state, else a separate
+  /// file, in the solution's format if that stores states without a mesh, or .csv.
   std::string state() const;
 };
 
-/// The command as any other solver. Where it solves, folder_of(cycle), the mesh must stand in its
-/// native_mesh() already, with the starting state where there is one. Throws SolverError for what the command
-/// does or leaves.
+/// Returns the command as a solver. It runs in folder_of(cycle), where native_mesh() must already exist, with
+/// the initial state if there is one. Throws SolverError if the command fails or its solution is unusable.
 FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
 
 }  // namespace quadloop

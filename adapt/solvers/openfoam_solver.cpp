@@ -36,7 +36,7 @@ void write_text(const fs::path& path, const std::string& text) {
   if (!file) throw OutputError(path.string() + ": cannot be written");
 }
 
-/// Slices along x.
+/// Decomposition in slices along x.
 std::string decompose_dict(int ranks) {
   return fmt::format(
       "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class dictionary;\n    object "
@@ -46,7 +46,7 @@ std::string decompose_dict(int ranks) {
       ranks);
 }
 
-/// Debian's package needs but this variable to be set; elsewhere the user has OpenFOAM's own environment.
+/// Debian's package needs only this variable; elsewhere the user has set up OpenFOAM's environment.
 constexpr const char* script_head =
     "#!/bin/sh\n"
     "# What this cycle runs, in the folder above its case; written by quadloop.\n"
@@ -55,7 +55,7 @@ constexpr const char* script_head =
     "  export WM_PROJECT_DIR=/usr/share/openfoam\n"
     "fi\n";
 
-/// The solver, by controlDict.start first where there is one.
+/// Runs the solver, first with controlDict.start if there is one.
 constexpr const char* script_run =
     "if [ -f system/controlDict.start ]; then\n"
     "  mv system/controlDict system/controlDict.then\n"
@@ -80,7 +80,7 @@ std::string script(const std::string& application, int ranks) {
   return text + "cd ..\necho done > " + done_name + "\n";
 }
 
-/// The case beside the cycle's files; the application that it runs. On the root alone.
+/// Copies the case to the cycle's files and returns its application. On the root only.
 std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int ranks,
                       const CellValues& start) {
   const OpenfoamTemplate given = read_openfoam_template(solver.case_template);
@@ -106,7 +106,7 @@ MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
   return order;
 }
 
-/// What the solver left, spread over the ranks. *Collective.*
+/// Reads the solver's last time step and distributes it. *Collective.*
 Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
                      const SolverCommand& command, const SolverFiles& files) {
   Field whole;

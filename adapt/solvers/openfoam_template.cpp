@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that holds a cycle of an adaptive run, whole or under way.
+/// Whether the folder contains a cycle of an adaptive run, complete or in progress.
 bool is_of_a_run(const fs::path& folder) {
   std::error_code fault;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, fault)) {
@@ -76,7 +76,7 @@ class Listing {
   std::vector<std::string> files_;
 };
 
-/// The application that controlDict names; refuses what its fields could not be read from.
+/// Returns the application named by controlDict; rejects settings that write unreadable fields.
 std::string read_control(const std::string& path, bool has_allrun) {
   const std::string text = without_foam_comments(read_input(path));
   const std::vector<FoamEntry> entries = foam_entries(text);

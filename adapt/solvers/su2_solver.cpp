@@ -20,7 +20,7 @@ constexpr const char* history_name = "history";
 
 Su2Config read_config(const std::string& path) { return {read_input(path), path}; }
 
-/// The restart file that SU2 will leave.
+/// Returns the name of the restart file that SU2 will write.
 std::string restart_name(const Su2Config& config, const std::string& path) {
   const std::vector<std::string> files = config.words("OUTPUT_FILES");
   const auto has = [&](const char* word) { return std::ranges::find(files, word) != files.end(); };
@@ -41,7 +41,7 @@ double gamma_of(const Su2Config& config, const std::string& path, double absent)
   }
 }
 
-/// The user's configuration as it is to be run on a cycle's files.
+/// Returns the user's configuration with the settings of the cycle.
 std::string config_text(const Su2Solver& solver, bool restarts) {
   Su2Config config = read_config(solver.config);
   const CommandSolver& command = solver.command;
@@ -69,7 +69,7 @@ void write_config(const Communicator& comm, const Su2Solver& solver, const std::
   outputs.commit();
 }
 
-/// What SU2 says of its end, where it does. *Collective.*
+/// Adds how SU2 ended, if it reports this. *Collective.*
 void add_end(const Communicator& comm, const std::string& folder, SolvedFlow& flow) {
   Su2End end;
   comm.together([&] {

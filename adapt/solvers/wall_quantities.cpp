@@ -34,7 +34,7 @@ FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream) {
     SolvedFlow flow = solver(comm, mesh, start, cycle);
     try {
       add_forces(comm, mesh, stream, flow);
-    } catch (const InputError& fault) {  // by its names, which are the same on every rank
+    } catch (const InputError& fault) {  // a missing variable: the same on every rank
       flow.warnings.push_back(fmt::format("no forces and no values along walls: {}", fault.what()));
     }
     return flow;

@@ -40,18 +40,23 @@ struct Transferred {
   TransferReport report;
 };
 
-/// Carries values from the nodes and cells of one mesh to those of another. Linear: a node inside an old
-/// triangle, or in half of a quad (parts_of), takes the values interpolated linearly there: those of an old
-/// node at the same place bit for bit, linear fields to rounding. Of several triangles that it lies in it is
-/// the one of the lowest number over all ranks. A node outside the old mesh takes the values at the nearest
-/// point of its boundary edges, of several edges as near those of the lowest number. In layers at walls nodes
-/// go by their height above the wall (column_places). So no value leaves the range of the nodes that it is
-/// made from, and the bits depend on the two meshes alone, not on how they are spread over the ranks.
-/// Conservative: that, changed so that integrals are kept (conserve_at_nodes()). Values of cells go as
-/// carry_cells() says; a cell outside the old mesh takes those of the old cell at the nearest of its boundary
-/// edges. `old_field` holds a row of finite numbers for each owned node and each cell. Each rank works on a
-/// share of the old triangles and new nodes, told by place; the old boundary edges are gathered on all ranks
-/// if some node is outside. *Collective.*
+/// Transfers nodal and cell values from one mesh to another.
+///
+/// Linear: a node inside an old triangle, or half of a quad (parts_of), gets the linear interpolation there:
+/// exact for linear fields up to rounding, and bitwise the old value at a coincident node. If it lies in
+/// several triangles, that of the lowest global number is used. A node outside the old mesh gets the value at
+/// the nearest point of the old boundary; of equally close edges that of the lowest number is used. Nodes in
+/// wall layers are placed by their wall distance (column_places). So new values stay within the range of the
+/// old nodes used, and the result is bitwise independent of the distribution of the two meshes.
+///
+/// Conservative: the same, corrected such that integrals are kept (conserve_at_nodes()).
+///
+/// Cell values are transferred by carry_cells(); a cell outside the old mesh gets the value of the old cell
+/// at the nearest boundary edge.
+///
+/// `old_field` must have finite values for each owned node and each cell. Each rank processes the old
+/// triangles and new nodes in a part of the plane; the old boundary edges are gathered on all ranks if some
+/// node is outside. *Collective.*
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind = TransferKind::linear);
 

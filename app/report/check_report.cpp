@@ -66,7 +66,7 @@ std::string places_text(const std::vector<SharpPlace>& places) {
   return text;
 }
 
-/// They mean something only where the geometry is known.
+/// These are meaningful only if the geometry is known.
 void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool with_geometry, bool verbose) {
   if (!with_geometry) {
     figures.add_member("corners_of_outline", json_of(shape.corners_of_outline));
@@ -107,7 +107,7 @@ std::string boundaries_json(const CheckReport& report) {
   return boundaries.text();
 }
 
-/// All but the faults.
+/// All but the errors.
 Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
   const QualitySummary& quality = report.quality;
   Figures figures;

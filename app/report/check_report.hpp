@@ -15,7 +15,7 @@
 
 namespace quadloop {
 
-/// What `check` has found out about one mesh.
+/// Results of `check` for one mesh.
 struct CheckReport {
   std::string file;
   std::int32_t blocks = 1;
@@ -24,22 +24,21 @@ struct CheckReport {
   ShapeStatistics shape;
   ShapeFigures figures;
   std::vector<LayerFigures> layers;
-  QualityByLayers by_layers;  ///< where there are any
+  QualityByLayers by_layers;  ///< if there are layers
   FaceFiguresByLayers faces;
-  WorstPlaces worst;  ///< of the cells outside layers, but for the area ratio
+  WorstPlaces worst;  ///< of the cells outside layers, except for the area ratio
   double area = 0;
   std::int64_t pinched_nodes = 0;
   MeshRegions regions;
-  std::optional<GeometryFit> fit;  ///< its faults are in `faults` too
+  std::optional<GeometryFit> fit;  ///< its errors are also in `faults`
   std::vector<MeshFault> faults;
 };
 
-/// A table for people, angles in degrees. At most 20 boundaries and 20 faults of each rule are listed, and
-/// how many more there are is said; `verbose` lists all, and every place where the outline makes corners
-/// sharp.
+/// Returns a table, angles in degrees. At most 20 boundaries and 20 errors of each rule are listed, with the
+/// number of others; `verbose` lists all, and every location with sharp corners due to the geometry.
 std::string report_text(const CheckReport& report, bool verbose);
 
-/// The members of the record that --json prints, with all faults.
+/// Returns the members of the record that --json prints, with all errors.
 JsonObject report_record(const CheckReport& report);
 
 }  // namespace quadloop

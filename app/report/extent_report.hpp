@@ -8,12 +8,12 @@
 
 namespace quadloop {
 
-/// A line for each geometry file: the extent of its coordinates and their unit, and whether they are meshed
-/// as they stand or in metres; at most most_listed lines.
+/// Returns a line for each geometry file: the extent of its coordinates, their unit, and whether they are
+/// converted to metres; at most most_listed lines.
 std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents);
 
-/// These lines in the table, and the member "geometry" of the record: for each file its path, box, unit
-/// declared (null: none) and metres in one unit (null: as they stand).
+/// Adds these lines to the table, and the member "geometry" to the record: for each file its path, bounding
+/// box, declared unit (null: none) and metres per unit (null: no conversion).
 void add_extents(Figures& figures, const std::vector<FileExtent>& extents);
 
 }  // namespace quadloop

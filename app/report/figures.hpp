@@ -10,33 +10,32 @@
 
 namespace quadloop {
 
-/// How tables print a value without a unit.
+/// Format of a value without a unit.
 constexpr const char* number_pattern = "{:.6g}";
 
-/// The rows of a list that are printed, unless all are asked for.
+/// Maximum number of printed rows of a list, unless all are requested.
 constexpr std::size_t most_listed = 20;
 
-/// The figures that a command ends with. Each is a row of the table that people read, rounded and with its
-/// unit, and a member of the record that
-/// `--json` prints, in full. A figure's key is its name in the table with "_" for each blank, unless another
-/// is given.
+/// The results of a command. Each is a row of the table, rounded and with its unit, and a member of the
+/// record that `--json` prints, in full precision. The key of a result is its name in the table with "_" for
+/// each blank, unless another is given.
 class Figures {
  public:
   void add(const std::string& name, std::int64_t count);
-  /// `pattern` is how the table prints the value: "{:.2f} degrees".
+  /// `pattern` is the format in the table: "{:.2f} degrees".
   void add(const std::string& name, double value, const char* pattern, const std::string& key = {});
-  /// `text` for the table; `json` for the record, JSON already.
+  /// `text` for the table; `json` for the record, already JSON.
   void add_raw(const std::string& name, const std::string& text, const std::string& json,
                const std::string& key = {});
-  /// Where the figure before is found: a row of the table, and [x, y] in the record.
+  /// Adds the location of the previous result: a row of the table, and [x, y] in the record.
   void add_place(Point place, const std::string& key);
-  /// A member of the record alone; lines of the table alone.
+  /// Add a member to the record only; add lines to the table only.
   void add_member(const std::string& key, const std::string& json) {
     figures_.push_back({{}, key, {}, json});
   }
   void add_lines(const std::string& lines) { figures_.push_back({{}, {}, lines, {}}); }
 
-  /// The names in a column of `width`, the values in one of `value_width`, to the right.
+  /// Formats the names in a column of `width`, the values right-aligned in one of `value_width`.
   std::string table(int width = 16, int value_width = 14) const;
   JsonObject record() const;
 

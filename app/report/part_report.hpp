@@ -9,10 +9,10 @@
 
 namespace quadloop {
 
-/// How many parts, and how good they are for a solver.
+/// Adds the number of partitions, and their quality for a solver.
 void add_parts(Figures& figures, const PartFigures& parts);
 
-/// The same in a mesh's summary; `files` are those of the set, the index first.
+/// Adds the same to a mesh's summary; `files` are those of the set, the index first.
 void add_parts(MeshSummary& summary, const PartFigures& parts, const std::vector<std::string>& files);
 
 }  // namespace quadloop

@@ -15,7 +15,7 @@ CellBlocks blocks_of(const LoadedMesh& loaded) {
   return {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
 }
 
-/// The middle of the cell that costs most.
+/// Returns the centre of the cell with the highest cost.
 Point worst_place(const Mesh& mesh) {
   double worst = -1;
   Point place;

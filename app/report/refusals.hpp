@@ -9,24 +9,24 @@
 
 namespace quadloop {
 
-/// "; 2 faults more", or nothing.
+/// Returns "; 2 faults more", or an empty string.
 std::string more_faults(std::int64_t count);
 
-/// Throws InputError with the first fault, its place, and how many more there are.
+/// Throws InputError with the first error, its location, and the number of others.
 [[noreturn]] void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults);
 
-/// A warning where a mesh that is passed on as it is is not valid: its first fault, and how many more there
-/// are. Otherwise empty.
+/// Returns a warning if a mesh that is passed on unchanged is not valid: its first error, and the number of
+/// others. Otherwise empty.
 std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file);
 
-/// Throws InputError for a mesh that no movement of its nodes can make valid.
+/// Throws InputError for a mesh that cannot be made valid by moving its nodes.
 void require_sound_topology(const LoadedMesh& loaded, const std::string& file);
 
 /// Throws InputError for a mesh that is not valid.
 void require_valid_input(const LoadedMesh& loaded, const std::string& file);
 
-/// Throws InputError for a smoothed mesh that may not be written: where its worst cell is, if cells are still
-/// inverted; else its first fault.
+/// Throws InputError for a smoothed mesh that may not be written, with the location of its worst cell if
+/// cells are still inverted, else its first error.
 void require_valid(const LoadedMesh& smoothed, const std::string& file);
 
 }  // namespace quadloop

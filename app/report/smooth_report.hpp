@@ -11,21 +11,21 @@
 
 namespace quadloop {
 
-/// What a mesh was like at one moment, over all ranks.
+/// Shape statistics of a mesh, over all ranks.
 struct ShapeReport {
   QualitySummary quality;
-  std::optional<QualitySummary> outside;  ///< of the cells outside layers, where there are layers
+  std::optional<QualitySummary> outside;  ///< of the cells outside layers, if there are layers
   std::vector<Histogram> histograms;
-  AreaRatios areas;  ///< on the root rank alone
+  AreaRatios areas;  ///< on the root rank only
 };
 
 /// `whole` is the same mesh, whole on the root rank. *Collective.*
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole);
 
-/// The report as members of a record; each histogram as {"limits", "counts"}.
+/// Returns the members of a record; each histogram as {"limits", "counts"}.
 JsonObject record_of(const ShapeReport& report);
 
-/// Worst and mean quality and angles (of the cells outside layers, where there are layers), ratios of areas
+/// Returns worst and mean quality and angles (of the cells outside layers, if there are layers), area ratios
 /// and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
 

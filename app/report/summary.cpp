@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-/// The most memory this process has ever held, in MiB; 0 where the system does not tell.
+/// Returns the peak memory of this process, in MiB; 0 if the system does not provide it.
 double peak_memory_mib() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -43,7 +43,7 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds) {
   std::vector<StageRow> rows;
   for (const auto& [stage, sum] : added_up(seconds)) {
-    const auto microseconds = std::llround(sum * 1e6);  // there is no floating-point sum, on purpose
+    const auto microseconds = std::llround(sum * 1e6);  // deliberately, there is no floating-point sum
     rows.push_back(
         {stage, comm.maximum(sum), static_cast<double>(comm.sum(microseconds)) / 1e6 / comm.size()});
   }
@@ -81,7 +81,7 @@ void add_shapes(Figures& figures, const ShapeFigures& shape) {
   figures.add("passage cells", shape.passage_cells);
 }
 
-/// `peak` in MiB; the estimate, in bytes, of one of so many ranks.
+/// `peak` in MiB; the estimate, in bytes, is for one of `ranks` ranks.
 void add_memory(Figures& figures, double peak, const MeshEstimate& estimate, int ranks) {
   figures.add("peak memory", peak, "{:.0f} MiB", "peak_memory_mib");
   const double estimated = estimate.bytes / ranks + estimate.bytes_of_rank;

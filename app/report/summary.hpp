@@ -17,31 +17,31 @@ struct StageRow {
   double slowest = 0, mean = 0;
 };
 
-/// Seconds of each stage, on every rank; a stage that ran twice stands once, with its sum. *Collective*;
-/// every rank names the same stages.
+/// Returns the seconds of each stage, on every rank; a stage that ran twice is listed once, with its sum.
+/// Every rank must have the same stages. *Collective.*
 std::vector<StageRow> stage_rows(const Communicator& comm, const StageSeconds& seconds);
 
 /// Two columns: the slowest rank and the mean.
 std::string stage_table(const std::vector<StageRow>& stages);
 
-/// What `mesh` and `remesh` say at their end.
+/// Final report of `mesh` and `remesh`.
 struct MeshSummary {
-  Figures figures;  ///< counts, quality, memory, imbalance; a further figure of the mesh is one more `add`
+  Figures figures;  ///< counts, quality, memory, imbalance; add further results of the mesh here
   ShapeFigures shape;
   std::vector<StageRow> stages;
   std::vector<std::string> files;
   std::vector<std::string> boundaries_vanished;
 };
 
-/// The same on every rank but for the figures, which the root rank alone has. *Collective*; every rank names
-/// the same stages.
+/// Returns the summary, the same on every rank except for the figures, which only the root rank has. Every
+/// rank must have the same stages. *Collective.*
 MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files);
 
-/// The summary as the short table for people.
+/// Returns the summary as a short table.
 std::string table_of(const MeshSummary& summary);
 
-/// The summary as members of a record, the files not: those stand in every command's record.
+/// Returns the summary as members of a record, without the files, which are in every command's record.
 JsonObject record_of(const MeshSummary& summary);
 
 /// {stage: {"slowest": s, "mean": s}}

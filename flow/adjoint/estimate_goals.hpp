@@ -4,11 +4,10 @@
 
 namespace quadloop {
 
-/// What a flow's error is as an adaptation takes it, to be handed to solve_euler(): for each of the options'
-/// goals an adjoint solution and the estimate of its error (GoalValue); error_name joins the flow's
-/// variables, and with `adjoint_fields` the adjoints do. Nothing where there are no goals. Throws InputError,
-/// when the flow ends, for a goal that the mesh or the flow does not have, and for a flow that is viscous or
-/// not steady.
+/// Returns a callback for solve_euler() that estimates the errors of the options' output functionals for
+/// adaptation: for each an adjoint solution and an error estimate (GoalValue). error_name is added to the
+/// flow's variables, and with `adjoint_fields` the adjoints are. Empty without functionals. At the end of the
+/// run throws InputError for a functional that mesh or flow do not have, and for a viscous or unsteady flow.
 AtEnd estimate_goals(const EulerOptions& options);
 
 }  // namespace quadloop

@@ -25,7 +25,7 @@ Flux sum_of(double a, const Flux& x, double b, const Flux& y) {
 
 bool is_physical(const State& state) { return state[0] > 0 && state[3] > 0; }
 
-/// What each cell's part is made from, along its edges.
+/// Terms of each cell's contribution, along its edges.
 class CellParts {
  public:
   CellParts(const FlowRun& run, const std::vector<Flux>& adjoint)
@@ -34,7 +34,7 @@ class CellParts {
     run.mesh.exchange().update(gradients_);
   }
 
-  /// Half way along an edge: cubic between states and gradients of its ends.
+  /// Midpoint of an edge: cubic interpolation of states and gradients at its ends.
   State state_between(std::int32_t a, std::int32_t b) const {
     const Point way = run_.mesh.point(b) - run_.mesh.point(a);
     const State mean = sum_of(0.5, run_.states[a], 0.5, run_.states[b]);
@@ -50,8 +50,8 @@ class CellParts {
   Flux flux(const State& state, Point normal) const { return physical_flux(run_.model.gas, state, normal); }
   Flux rise(std::int32_t a, std::int32_t b) const { return sum_of(1, adjoint_[b], -1, adjoint_[a]); }
 
-  /// The sum over the cell's edges of the adjoint's rise times the scheme's flux through the edge's face in
-  /// it.
+  /// Returns the sum over the cell's edges of the adjoint's difference times the scheme's flux through the
+  /// edge's face in the cell.
   template <class Nodes>
   double by_scheme(const Nodes& nodes, Point centre) const {
     double sum = 0;
@@ -62,13 +62,13 @@ class CellParts {
     return sum;
   }
 
-  /// The integral of the gradient of the adjoint times the flux of higher order.
+  /// Returns the integral of the gradient of the adjoint times the higher-order flux.
   double integral(const std::array<NodeId, 3>& nodes) const;
   double integral(const std::array<NodeId, 4>& nodes) const;
 
  private:
-  /// From a to b through the face between the edge's middle and the cell's centre; of quads also what is
-  /// skew.
+  /// Returns the flux from a to b through the face between the edge's midpoint and the cell's centre; in
+  /// quads including the skewness.
   Flux flux_in_cell(std::int32_t a, std::int32_t b, Point centre, bool is_quad) const {
     const Point from = run_.mesh.point(a), to = run_.mesh.point(b), across = centre - 0.5 * (from + to);
     const double size = length(across);
@@ -88,7 +88,7 @@ class CellParts {
     return sum_of(size, flux, 1, more);
   }
 
-  /// By a right angle, clockwise.
+  /// Rotates by 90 degrees clockwise.
   static Point turned(Point v) { return {v.y, -v.x}; }
 
   const FlowRun& run_;
@@ -96,8 +96,8 @@ class CellParts {
   std::vector<Gradient> gradients_;
 };
 
-/// By the middles of edges, which is exact for quadratics: along each of the gradient's parts, the edge
-/// opposite a node turned.
+/// Edge-midpoint rule, exact for quadratics; the gradients of the shape functions are the rotated opposite
+/// edges.
 double CellParts::integral(const std::array<NodeId, 3>& nodes) const {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -106,7 +106,7 @@ double CellParts::integral(const std::array<NodeId, 3>& nodes) const {
     for (std::size_t n = 0; n < 3; ++n) {
       const Point opposite =
           run_.mesh.point(nodes[(n + 2) % 3].value()) - run_.mesh.point(nodes[(n + 1) % 3].value());
-      // half of the normal into the cell is the gradient of the node's shape function times the area
+      // half of the inward normal is the gradient of the node's shape function times the area
       const Point inward{-0.5 * opposite.y, 0.5 * opposite.x};
       sum += product(adjoint_[nodes[n].value()], flux(middle, inward)) / 3;
     }
@@ -114,7 +114,7 @@ double CellParts::integral(const std::array<NodeId, 3>& nodes) const {
   return sum;
 }
 
-/// By Simpson's rule in both directions.
+/// Simpson's rule in both directions.
 double CellParts::integral(const std::array<NodeId, 4>& nodes) const {
   std::array<State, 9> states;  // row by row
   constexpr std::array<std::size_t, 4> corners{0, 2, 8, 6}, middles{1, 5, 7, 3};
@@ -151,8 +151,8 @@ double CellParts::integral(const std::array<NodeId, 4>& nodes) const {
   return sum;
 }
 
-/// Adds up parts, each shared out among its nodes: what varies from cell to cell cancels there (a partition
-/// of unity, Richter and Wick 2015), what a node is left with has a size.
+/// Sums contributions, each distributed among its nodes: variations from cell to cell cancel there (a
+/// partition of unity, Richter and Wick 2015); the absolute value of the rest is used.
 class Sums {
  public:
   explicit Sums(const FlowRun& run) : run_{run} { error_.of_nodes.resize(run.mesh.owned_nodes(), 0.0); }
@@ -176,7 +176,7 @@ class Sums {
   GoalError error_;
 };
 
-/// Of the pressure on each wall or plane of symmetry: in the residual, and where the goal counts it.
+/// Adds the pressure on each wall or symmetry plane: in the residual and in the functional.
 void add_faces(const FlowRun& run, const GoalFunctional& goal, const std::vector<Flux>& adjoint,
                const CellParts& cells, Sums& sums) {
   const auto faces = run.mesh.faces();

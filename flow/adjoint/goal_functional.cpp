@@ -16,8 +16,8 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Of a pressure of 1 on a piece of a boundary, its normal as long as it is: what that adds to the goal.
-/// `scale` makes coefficients of forces.
+/// Returns the contribution to the functional of unit pressure on a boundary segment; the length of its
+/// normal is that of the segment. `scale` converts forces to coefficients.
 template <class Real, class Vector>
 Real share_of(const Goal& goal, Point wind, double scale, double length, const Vector& normal,
               const Vector& at) {
@@ -33,7 +33,7 @@ Real share_of(const Goal& goal, Point wind, double scale, double length, const V
   return 0;
 }
 
-/// Which of the boundaries count. Throws InputError for a name that is not among them.
+/// Returns a flag for each boundary: whether it counts. Throws InputError for an unknown name.
 std::vector<bool> counted(const FlowModel& model, const std::vector<std::string>& boundaries,
                           const Goal& goal) {
   std::vector<bool> counts;

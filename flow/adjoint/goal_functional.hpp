@@ -8,29 +8,29 @@
 
 namespace quadloop::euler {
 
-/// A goal of a flow without viscosity: a sum of pressures at the halves of boundary faces, each times a
-/// weight. Lift and drag over all walls are wall_forces() to rounding.
+/// An output functional of inviscid flow: a weighted sum of pressures at the halves of boundary faces. Lift
+/// and drag over all walls equal wall_forces() up to rounding.
 class GoalFunctional {
  public:
-  /// One of a boundary's faces.
+  /// One face of a boundary.
   struct Part {
-    std::size_t face;               ///< of the dual mesh
-    double of_from = 0, of_to = 0;  ///< per pressure and length, of the halves at its two nodes
+    std::size_t face;               ///< index in the dual mesh
+    double of_from = 0, of_to = 0;  ///< weights per pressure and length of the halves at its two nodes
   };
 
-  /// `boundaries` are the names of the mesh's, in its order. Throws InputError where the free stream rests,
-  /// or where the goal names a boundary that there is not, or one without edges. What it is given must
-  /// outlive it. *Collective.*
+  /// `boundaries` are the names of the mesh's boundaries, in its order. The arguments must outlive the
+  /// object. Throws InputError if the free stream is at rest, or if the functional names an unknown boundary
+  /// or one without edges. *Collective.*
   GoalFunctional(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                  const std::vector<std::string>& boundaries, const Goal& goal, double reference_length);
 
-  /// Of states with copies. *Collective.*
+  /// Ghosts of the states must be up to date. *Collective.*
   double value(const std::vector<State>& states) const;
 
-  /// Its derivative by the states: an entry for each node, of which those of owned nodes are whole.
+  /// Returns the derivative with respect to the states: an entry for each node, complete for owned nodes.
   std::vector<State> derivative() const;
 
-  /// Adds to the owned nodes' sums its derivative by their places, the states being held.
+  /// Adds to the owned nodes' sums the derivative with respect to their positions at constant states.
   void add_place_derivative(const std::vector<State>& states, std::vector<Point>& sums) const;
 
   /// In the order of the mesh's faces.
@@ -40,9 +40,9 @@ class GoalFunctional {
   const Communicator& comm_;
   const DualMesh& mesh_;
   Goal goal_;
-  Point wind_;             ///< of length 1
-  double scale_, length_;  ///< of coefficients; the reference length
-  double outside_;         ///< the free stream's pressure
+  Point wind_;             ///< unit vector
+  double scale_, length_;  ///< of the coefficients; the reference length
+  double outside_;         ///< free-stream pressure
   std::vector<Part> parts_;
 };
 

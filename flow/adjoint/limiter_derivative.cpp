@@ -6,8 +6,8 @@
 
 namespace quadloop::euler {
 
-/// Of one node: the first edge, for each variable, that has the largest (above 0) or smallest value and
-/// change.
+/// For one side (up or down) of a node: the first edge, for each variable, with the extreme value and the
+/// extreme change.
 struct LimiterDerivative::Side {
   std::array<std::int32_t, 4> neighbour{-1, -1, -1, -1};
   std::array<std::int32_t, 4> along{-1, -1, -1, -1};
@@ -24,7 +24,7 @@ LimiterDerivative::LimiterDerivative(const DualMesh& mesh, const Limiter& limite
   if (live_) find(limiter, states);
 }
 
-/// The sides of node n are at 2 n, upwards, and 2 n + 1.
+/// The sides of node n are at 2 n (up) and 2 n + 1 (down).
 void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<State>& states,
                                    std::vector<Side>& sides) const {
   for (const DualEdge& edge : mesh_.edges()) {
@@ -60,7 +60,7 @@ void LimiterDerivative::find(const Limiter& limiter, const std::vector<State>& s
   }
 }
 
-/// Where the bounds of the neighbours' values decide.
+/// For factors determined by the bounds of the neighbours' values.
 void LimiterDerivative::follow_bounds(const Limiter& limiter, std::size_t node, std::size_t k, double value,
                                       const Side& up_side, const Side& down_side) {
   using Dual = DualNumber<3>;
@@ -80,12 +80,12 @@ void LimiterDerivative::follow_bounds(const Limiter& limiter, std::size_t node, 
   part.by_small = decides.slopes[2];
   part.along = side.along[k];
   part.way = side.way[k];
-  // a node that has the largest value itself allows nothing, whatever the states do
+  // a node that has the largest value itself allows no change, whatever the states
   part.neighbour = value == (is_up ? values.high[k] : values.low[k]) ? -1 : side.neighbour[k];
   if (part.neighbour < 0) part.by_allowed = 0;
 }
 
-/// Where what a density or pressure must keep decides.
+/// For factors determined by the least remaining density or pressure.
 void LimiterDerivative::follow_keeping(const Limiter& limiter, std::size_t node, std::size_t k, double value,
                                        const Side& down) {
   using Dual = DualNumber<2>;
@@ -118,7 +118,7 @@ void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Grad
 
 namespace {
 
-/// What a node's factors hand to the neighbours whose values decide.
+/// Contributions of a node's factors to the neighbours that determine them.
 struct HandedFactors {
   std::array<GlobalNodeId, 4> to;
   State weight{};
@@ -174,7 +174,7 @@ void LimiterDerivative::add_place_weights(const std::vector<Gradient>& weights, 
     for (std::size_t k = 0; k < 4; ++k) {
       const Part& part = parts_[node][k];
       const double factor = held.x[k] * weight.x[k] + held.y[k] * weight.y[k];
-      // (K h)^3 goes with the area to the power of 3 / 2
+      // (K h)^3 is proportional to area^(3/2)
       areas[node] += factor * part.by_small * 1.5 * small_squared_[node] / mesh_.areas()[node];
       if (part.by_change == 0 || part.along < 0) continue;
       const Point half = 0.5 * factor * part.by_change * Point{held.x[k], held.y[k]};

@@ -9,7 +9,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// The numbers of `state`, the k-th of them the variable `first` + k.
+/// Returns `state` as the independent variables `first` to `first` + 3.
 template <class Dual>
 StateOf<Dual> as_variables(const State& state, std::size_t first) {
   StateOf<Dual> variables;
@@ -17,7 +17,7 @@ StateOf<Dual> as_variables(const State& state, std::size_t first) {
   return variables;
 }
 
-/// The flux's derivatives by four of the variables, times `size`.
+/// Returns the flux's derivatives with respect to four of the variables, times `size`.
 template <class Dual>
 Matrix4 slopes(const FluxOf<Dual>& flux, std::size_t first, double size) {
   Matrix4 matrix;
@@ -183,7 +183,7 @@ void LinearResidual::apply_faces(const std::vector<State>& change, std::vector<F
   }
 }
 
-/// What is added up for an owned node comes in the order of edges and faces, as in Residual.
+/// Sums of owned nodes are in the order of edges and faces, as in Residual.
 void LinearResidual::apply_transposed(std::vector<Flux>& weights, std::vector<State>& sums) const {
   run_.mesh.exchange().update(weights);
   sums.assign(run_.mesh.nodes(), {});
@@ -234,7 +234,7 @@ void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vect
   }
 }
 
-/// A share's weight is whole where its node is owned: all of its edges are here.
+/// The weight of a share is complete where its node is owned: all of its edges are on this rank.
 void LinearResidual::transpose_shocks(const std::vector<Flux>& weights, std::vector<State>& sums) const {
   std::vector<double> shares(run_.mesh.nodes());
   for (const ShockPart& part : shock_edges_) {

@@ -10,40 +10,41 @@
 
 namespace quadloop::euler {
 
-/// The derivative of the residual by the states (density, velocity, pressure) of a flow without viscosity: of
-/// the whole second-order scheme, its fluxes' by the same functions in dual numbers. The limiter and the
-/// shock sensor are differentiated too, or are constants where their factors are kept, as Residual has it.
+/// Derivative of the residual of inviscid flow with respect to the states (density, velocity, pressure), for
+/// the complete second-order scheme; fluxes are differentiated by the same functions with dual numbers.
+/// Limiter and shock sensor are differentiated too, or constant if frozen, as in Residual.
 class LinearResidual {
  public:
-  /// At the run's states, where the residual is evaluated once more. What the run refers to must outlive it.
-  /// *Collective.*
+  /// At the run's states, where the residual is evaluated once more. The objects that the run refers to must
+  /// outlive this one. *Collective.*
   explicit LinearResidual(FlowRun& run);
 
-  /// How the owned nodes' net fluxes answer to changes of the states, an entry for each node; those of copies
-  /// are brought up to date first. *Collective.*
+  /// Computes the change of the owned nodes' net fluxes due to changes of the states, which have an entry for
+  /// each node; those of ghosts are updated first. *Collective.*
   void apply(std::vector<State>& change, std::vector<Flux>& sums) const;
 
-  /// The transpose: what weights of net fluxes make of the owned nodes' states. *Collective.*
+  /// Transpose: computes the weights of the owned nodes' states due to weights of net fluxes. *Collective.*
   void apply_transposed(std::vector<Flux>& weights, std::vector<State>& sums) const;
 
-  /// The same weights' limited gradients, of the owned nodes: the part of what acts through them. The weights
-  /// must have copies.
+  /// Returns the weights of the owned nodes' limited gradients due to weights of net fluxes, which must
+  /// include ghosts.
   std::vector<Gradient> limited_gradient_weights(const std::vector<Flux>& weights) const;
-  /// None where the scheme has no limiter.
+  /// Empty if the scheme has no limiter.
   const std::optional<LimiterDerivative>& limiter() const { return limiter_; }
   const FlowRun& run() const { return run_; }
 
  private:
-  /// Of the flux through an edge's face.
+  /// Derivatives of the flux through an edge's face.
   struct EdgePart {
     Matrix4 by_left, by_right;
     bool reconstructed;
   };
-  /// Of what is added to it, by the means of its nodes' states and gradients.
+  /// Derivatives of its skewness correction with respect to the means of its nodes' states and gradients.
   struct SkewPart {
     Matrix4 by_state, by_x, by_y;
   };
-  /// Of the flux through an edge's face by the shock sensor's share at one of its nodes.
+  /// Derivative of the flux through an edge's face with respect to the shock sensor's share at one of its
+  /// nodes.
   struct ShockPart {
     std::size_t edge;
     std::int32_t node;
@@ -65,7 +66,7 @@ class LinearResidual {
   std::optional<LimiterDerivative> limiter_;
   std::vector<EdgePart> edges_;
   std::vector<SkewPart> skew_;
-  std::optional<ShockDerivative> shocks_;  ///< where it answers to the states
+  std::optional<ShockDerivative> shocks_;  ///< if it depends on the states
   std::vector<ShockPart> shock_edges_;
   std::vector<std::array<Matrix4, 2>> faces_;  ///< of the halves at both nodes
 };

@@ -7,7 +7,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// psi . what crosses the edges, at another free stream's Mach number: slow flow feels it.
+/// Terms of psi . flux through the edges for another free-stream Mach number, on which slow flow depends.
 void add_edges(const FlowRun& run, const std::vector<Flux>& adjoint, const Gas& gas,
                std::vector<double>& terms) {
   for (const DualEdge& edge : run.mesh.edges()) {
@@ -21,8 +21,8 @@ void add_edges(const FlowRun& run, const std::vector<Flux>& adjoint, const Gas& 
   }
 }
 
-/// What a goal is, and psi . residual, of the same flow in another free stream: of the residual what
-/// boundaries and edges carry, as the rest does not know it.
+/// Returns the functional and psi . residual at constant states for another free stream; only boundary and
+/// edge fluxes of the residual depend on it.
 double held(const FlowRun& run, const std::vector<std::string>& boundaries, const Goal& goal,
             const std::vector<Flux>& adjoint, double mach, double alpha) {
   FlowModel model = run.model;
@@ -48,7 +48,8 @@ double held(const FlowRun& run, const std::vector<std::string>& boundaries, cons
 
 ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
                                          const Goal& goal, const std::vector<Flux>& adjoint) {
-  constexpr double degrees = 1e-3, share = 1e-4;  // of functions as smooth as sines: off by some 1e-9
+  // central differences of smooth functions: relative error about 1e-9
+  constexpr double degrees = 1e-3, share = 1e-4;
   const double mach = run.options.mach, alpha = run.options.alpha, d_mach = share * mach;
   const auto at = [&](double m, double a) { return held(run, boundaries, goal, adjoint, m, a); };
   return {(at(mach, alpha + degrees) - at(mach, alpha - degrees)) / (2 * degrees),

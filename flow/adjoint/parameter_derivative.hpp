@@ -7,13 +7,14 @@
 
 namespace quadloop::euler {
 
-/// How a goal of the converged flow answers to the free stream.
+/// Derivatives of an output functional of the converged flow with respect to the free stream.
 struct ParameterDerivative {
   double by_alpha = 0, by_mach = 0;  ///< per degree and per unit
 };
 
-/// By the goal's adjoint, which has copies: what the goal itself answers, less psi . (what the residual
-/// answers), the flow being held. `boundaries` are the names of the mesh's. *Collective.*
+/// Uses the functional's adjoint, which must include ghosts: the derivative of the functional minus psi .
+/// (derivative of the residual), at constant states. `boundaries` are the names of the mesh's boundaries.
+/// *Collective.*
 ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
                                          const Goal& goal, const std::vector<Flux>& adjoint);
 

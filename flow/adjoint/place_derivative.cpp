@@ -24,7 +24,7 @@ template <class Real>
 VectorOf<Real> operator*(double factor, const VectorOf<Real>& a) {
   return {factor * a.x, factor * a.y};
 }
-/// By a right angle, clockwise.
+/// Rotates by 90 degrees clockwise.
 template <class Real>
 VectorOf<Real> turned(const VectorOf<Real>& v) {
   return {v.y, -v.x};
@@ -46,10 +46,11 @@ StateOf<Real> constant(const State& state) {
   return result;
 }
 
-/// How psi . residual answers to an edge's face: to its normal, as long as it is, and to what is skew in it.
+/// Derivative of psi . residual with respect to an edge's face: its normal, whose length is that of the face,
+/// and its skewness.
 struct FaceWeights {
   std::array<double, 2> normal{};
-  std::array<double, 4> skew{};  ///< to SkewEdge's with_x and with_y
+  std::array<double, 4> skew{};  ///< with respect to SkewEdge's with_x and with_y
 };
 
 class PlaceDerivative {
@@ -61,7 +62,7 @@ class PlaceDerivative {
         sums_(run_.mesh.nodes()),
         areas_(run_.mesh.nodes(), 0.0) {}
 
-  /// Of psi . residual.
+  /// Returns the derivative of psi . residual.
   std::vector<Point> find() {
     add_edges();
     add_gradients();
@@ -77,7 +78,7 @@ class PlaceDerivative {
     for (std::size_t k = 0; k < 4; ++k) result[k] = adjoint_[edge.low][k] - adjoint_[edge.high][k];
     return result;
   }
-  /// An edge's half way, to its ends.
+  /// Adds the weight of an edge's half vector to its ends.
   void add_half(const DualEdge& edge, Point weight) {
     sums_[edge.low] = sums_[edge.low] - 0.5 * weight;
     sums_[edge.high] = sums_[edge.high] + 0.5 * weight;
@@ -96,7 +97,7 @@ class PlaceDerivative {
   const FlowRun& run_;
   const std::vector<Flux>& adjoint_;
   std::vector<Point> sums_;
-  std::vector<double> areas_;  ///< how it answers to the nodes' dual areas, by the limiter
+  std::vector<double> areas_;  ///< derivative with respect to the nodes' dual areas, via the limiter
   std::vector<FaceWeights> edges_;
 };
 
@@ -109,7 +110,7 @@ void PlaceDerivative::add_edges() {
   }
 }
 
-/// Of the numbers two are the face's normal, two the half way along the edge.
+/// The variables are the face's normal and the half vector along the edge.
 void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   using Dual = DualNumber<4>;
   if (edge.size == 0) return;
@@ -133,7 +134,7 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   add_half(edge, {term.slopes[2], term.slopes[3]});
 }
 
-/// The flux goes with the skewness, so that it answers where that is 0 too.
+/// The flux is proportional to the skewness, so the derivative exists where that is 0 too.
 void PlaceDerivative::add_skew(const DualEdge& edge, FaceWeights& weights) const {
   const std::vector<Gradient>& gradients = run_.residual.gradients();
   const Gradient &low = gradients[edge.low], &high = gradients[edge.high];
@@ -149,7 +150,7 @@ void PlaceDerivative::add_skew(const DualEdge& edge, FaceWeights& weights) const
     weights.skew[i] = weighted_sum(weight, skew_flux(run_.model.gas, units[i], state, along_x, along_y));
 }
 
-/// Gradients answer to places by least squares and, where it is not kept, by the limiter.
+/// Gradients depend on positions by least squares and, unless frozen, by the limiter.
 void PlaceDerivative::add_gradients() {
   using Dual = DualNumber<2>;
   std::vector<Gradient> weights = linear_.limited_gradient_weights(adjoint_);
@@ -197,8 +198,8 @@ void PlaceDerivative::add_boundaries() {
   }
 }
 
-/// Of the edges of all cells that touch an owned node, cell by cell: from the ranks that own the lower of
-/// their nodes, as this one does not know the whole face of an edge that it owns no node of.
+/// Returns the weights of the edges of all cells that touch an owned node, cell by cell, from the owner of
+/// the edge's lower node, as this rank has incomplete faces for edges without an owned node.
 std::vector<FaceWeights> PlaceDerivative::weights_of_cell_edges() const {
   using Key = std::array<GlobalNodeId, 2>;
   const HaloMesh& halo = run_.mesh.halo();
@@ -235,7 +236,7 @@ void PlaceDerivative::add_cells() {
   });
 }
 
-/// One cell's parts of its edges' faces and of its nodes' areas.
+/// Adds one cell's contributions to its edges' faces and its nodes' areas.
 template <class Nodes>
 void PlaceDerivative::add_cell(const Nodes& nodes, std::vector<FaceWeights>::const_iterator weights) {
   constexpr std::size_t n = std::tuple_size_v<Nodes>;

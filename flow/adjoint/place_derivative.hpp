@@ -7,12 +7,13 @@
 
 namespace quadloop::euler {
 
-/// How a goal of the converged flow answers to the place of each owned node, every other node being held and
-/// the flow solved anew: what the goal itself answers, less psi . (what the residual answers). With how
-/// nodes follow a parameter of the outline it is the goal's derivative by that. Exact but where the scheme
-/// gives less than all of what quads' faces lack (DualMesh, SkewEdge; boundary halves): that share, as in
-/// stacks of thin cells, is held. `adjoint` must have copies. The same bits on any number of ranks.
-/// *Collective.*
+/// Returns the total derivative of an output functional of the converged flow with respect to the position of
+/// each owned node, with the other nodes fixed: the derivative of the functional minus psi . (derivative of
+/// the residual). Multiplied by the derivative of the node positions with respect to a shape parameter it
+/// gives the functional's derivative with respect to that parameter. Exact, except that the fractions by
+/// which the skewness corrections of quads are reduced (DualMesh, SkewEdge; boundary halves), e.g. in stacks
+/// of thin cells, are held constant. `adjoint` must include ghosts. Bitwise independent of the number of
+/// ranks. *Collective.*
 std::vector<Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
                                     const std::vector<Flux>& adjoint);
 

@@ -38,7 +38,7 @@ std::vector<double> ShockDerivative::apply(const std::vector<State>& change) con
 
 namespace {
 
-/// What a node's share hands to the neighbour whose pressure decides.
+/// Contribution of a node's share to the neighbour with the deciding pressure.
 struct HandedWeight {
   GlobalNodeId to;
   double weight = 0;

@@ -6,27 +6,27 @@
 
 namespace quadloop::euler {
 
-/// How the shock sensor's shares answer to the states: each to the pressures of its node and of the first
-/// neighbour with the largest jump. Shares that are kept answer to nothing.
+/// Derivative of the shock sensor's shares with respect to the states: each depends on the pressures of its
+/// node and of the first neighbour with the largest jump. Frozen shares have zero derivative.
 class ShockDerivative {
  public:
-  /// Of the sensor's last call, at these states. The mesh must outlive it. *Collective.*
+  /// For the sensor's last call, at these states. The mesh must outlive the object. *Collective.*
   ShockDerivative(const Communicator& comm, const DualMesh& mesh, const ShockSensor& sensor,
                   const std::vector<State>& states);
 
-  /// Whether any share answers at all, on any rank.
+  /// Whether any share has a non-zero derivative, on any rank.
   bool acts() const { return acts_; }
 
-  /// The changes of shares, of all nodes; those of states must have copies. *Collective.*
+  /// Returns the changes of the shares of all nodes; those of the states must include ghosts. *Collective.*
   std::vector<double> apply(const std::vector<State>& change) const;
 
-  /// The transpose: adds what weights of the owned nodes' shares make of the states to the owned nodes'
+  /// Transpose: adds the weights of the states due to weights of the owned nodes' shares to the owned nodes'
   /// `sums`. *Collective.*
   void add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const;
 
  private:
   struct Part {
-    double by_own = 0, by_neighbour = 0;  ///< pressures
+    double by_own = 0, by_neighbour = 0;  ///< with respect to the pressures
     std::int32_t neighbour = -1;
   };
   const DualMesh& mesh_;

@@ -11,7 +11,7 @@ namespace {
 constexpr int sweeps = 12, restart = 60;
 constexpr double cfl = 1000;  ///< of the preconditioner
 
-/// How the states answer to what is conserved.
+/// Returns the derivatives of the states with respect to the conserved variables.
 std::vector<Matrix4> states_by_conserved(const FlowRun& run) {
   using Dual = DualNumber<4>;
   std::vector<Matrix4> matrices(run.mesh.owned_nodes());
@@ -28,7 +28,7 @@ std::vector<Matrix4> states_by_conserved(const FlowRun& run) {
   return matrices;
 }
 
-/// Weights of states become weights of what is conserved.
+/// Converts weights of states to weights of conserved variables.
 void to_conserved(const std::vector<Matrix4>& matrices, NodeRows& rows) {
   for (std::size_t node = 0; node < matrices.size(); ++node) {
     const std::array<double, 4> of_state = rows[node];
@@ -58,7 +58,7 @@ Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of
     to_conserved(matrices, product);
   };
   system.precondition = [&](const NodeRows& right, NodeRows& x) {
-    first_order.relax(right, sweeps, change);  // of the negative right side
+    first_order.relax(right, sweeps, change);  // solves for the negative right side
     for (std::size_t node = 0; node < system.owned; ++node) {
       for (std::size_t k = 0; k < 4; ++k) x[node][k] = -static_cast<double>(change[node][k]);
     }

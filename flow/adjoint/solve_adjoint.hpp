@@ -6,21 +6,21 @@
 
 namespace quadloop::euler {
 
-/// How a linear system is solved, and how well it was.
+/// Parameters of the linear solver.
 struct AdjointSolve {
-  double tolerance = 1e-10;  ///< on what is left, relative to the goal's derivative
-  int iterations = 2000;     ///< at most
+  double tolerance = 1e-10;  ///< on the residual, relative to the functional's derivative
+  int iterations = 2000;     ///< maximum number
 };
 struct Adjoint {
-  std::vector<Flux> weights;  ///< of each node's net fluxes, with copies
+  std::vector<Flux> weights;  ///< of each node's net fluxes, including ghosts
   int iterations = 0;
-  double residual = 1;  ///< what is left, relative to the goal's derivative, in conserved variables
+  double residual = 1;  ///< relative to the functional's derivative, in conserved variables
   bool converged = false;
 };
 
-/// Solves (dR/dU)^T psi = dJ/dU for what a goal J answers to net fluxes R added at each node: by GMRES (Saad
-/// and Schultz 1986; flexible, Saad 1993), preconditioned by sweeps over the transposed matrix of first-order
-/// fluxes. The same bits on any number of ranks. *Collective.*
+/// Solves (dR/dU)^T psi = dJ/dU; psi is the sensitivity of the functional J to net fluxes R added at each
+/// node. Uses GMRES (Saad and Schultz 1986; flexible, Saad 1993), preconditioned by sweeps over the
+/// transposed matrix of first-order fluxes. Bitwise independent of the number of ranks. *Collective.*
 Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of_goal,
                       const AdjointSolve& how = {});
 

@@ -1,4 +1,4 @@
-// How the placeholders of a solver's command are filled in.
+// Replaces the placeholders of a solver's command.
 #include <regex>
 #include <string>
 #include <string_view>
@@ -38,7 +38,7 @@ const std::string& value_of(const Values& values, std::string_view name, const s
 std::string filled_argument(const std::string& argument, const Values& values) {
   if (argument.find('\0') != std::string::npos)
     throw InputError("[solver] command: an argument holds a zero byte; no program can be given one");
-  static const std::regex placeholder(R"(\{\{(\w+)\}\}|\{(\w+)\})");  // {{name}} stands for {name}
+  static const std::regex placeholder(R"(\{\{(\w+)\}\}|\{(\w+)\})");  // {{name}} becomes {name}
   std::string result;
   auto rest = argument.begin();
   for (std::sregex_iterator found(argument.begin(), argument.end(), placeholder), none; found != none;

@@ -23,10 +23,10 @@ constexpr auto launcher_variables = std::to_array<std::string_view>(
      "OMPI_MCA_rmaps_base_mapping_policy", "OMPI_MCA_rmaps_base_ranking_policy",
      "PMIX_MCA_mca_base_component_show_load_errors", "MPI_LOCALRANKID", "MPI_LOCALNRANKS"});
 
-// What MPI_Init itself sets. A user's value for the same variable is another one.
+// Set by MPI_Init itself. A user's value of the same variable differs.
 constexpr std::string_view set_by_mpi_init = "PMIX_MCA_psec=native";
 
-// Settings of a user among the prefixes above.
+// User settings among the prefixes above.
 constexpr auto user_prefixes = std::to_array<std::string_view>({"PMIX_MCA_", "PRTE_MCA_", "OPAL_PREFIX"});
 
 template <class Prefixes>
@@ -61,7 +61,8 @@ std::vector<std::string> environment_for(const std::string& folder, int ranks) {
     if (name == "PWD" || name == "OLDPWD" || text == set_by_mpi_init) continue;
     if (!set_by_launcher(name)) environment.emplace_back(text);
   }
-  environment.push_back("PWD=" + folder);  // programs that trust it would work in the wrong folder
+  // programs that trust an inherited value would work in the wrong folder
+  environment.push_back("PWD=" + folder);
   const auto add = [&](const std::string& name, const char* value) {
     if (std::getenv(name.c_str()) == nullptr) environment.push_back(name + "=" + value);
   };

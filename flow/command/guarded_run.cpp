@@ -26,12 +26,12 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto grace = 2s;         // from SIGTERM to SIGKILL
-constexpr auto patience = 5s;      // with processes that even SIGKILL does not end (a file system that hangs)
+constexpr auto patience = 5s;      // for processes that even SIGKILL does not end (blocked in a file system)
 constexpr int between_looks = 10;  // milliseconds
 constexpr double longest_wait = 1e6;  // seconds; its milliseconds fit into an int
 constexpr int link_number = 3;        // after the three standard descriptors
 
-/// The array of pointers that exec wants; it lives as long as the strings.
+/// Returns the pointer array for exec; the strings must outlive it.
 std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   std::vector<char*> pointers;
   pointers.reserve(strings.size() + 1);
@@ -40,8 +40,8 @@ std::vector<char*> pointers_to(const std::vector<std::string>& strings) {
   return pointers;
 }
 
-/// The process between quadloop and the program, which it has forked. `link` is closed at its other end when
-/// quadloop is gone.
+/// The process between quadloop and the program, which it starts by fork. The other end of `link` is closed
+/// when quadloop ends.
 class Guard {
  public:
   Guard(const Launch& launch, int link)
@@ -53,7 +53,7 @@ class Guard {
   [[noreturn]] void live() {
     hold_signals();
     ::setsid();
-    ::prctl(PR_SET_NAME, "solver-guard");  // so that killall quadloop leaves it time for its work
+    ::prctl(PR_SET_NAME, "solver-guard");  // so that killall quadloop does not kill it before it has finished
     ::prctl(PR_SET_CHILD_SUBREAPER, 1);
     arrange_descriptors();
     follow_launcher();
@@ -81,8 +81,8 @@ class Guard {
     ::_exit(127);
   }
 
-  /// Those of a terminal and a launcher are meant for quadloop. The program finds them as when a user starts
-  /// it.
+  /// Signals of a terminal and a launcher are meant for quadloop. The program has the default handlers, as
+  /// when started by a user.
   static void hold_signals() {
     sigset_t all;
     ::sigfillset(&all);
@@ -92,8 +92,8 @@ class Guard {
     for (int number = 1; number < NSIG; ++number) ::sigaction(number, &standard, nullptr);
   }
 
-  /// 0 to 2 as the program gets them, the link, nothing else: MPI's own would look as if quadloop were still
-  /// alive.
+  /// Sets descriptors 0 to 2 for the program, and the link, and closes all others: those of MPI would look as
+  /// if quadloop were still running.
   void arrange_descriptors() const {
     const int link = ::fcntl(link_, F_DUPFD_CLOEXEC, 10);
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
@@ -107,8 +107,8 @@ class Guard {
     if (log < 0 || ::chdir(launch_.folder.c_str()) != 0) give_up();
   }
 
-  /// mpirun binds each rank to a core; a program that inherited that would have all its threads, and the
-  /// ranks of its own mpirun, on one. It may run where mpirun may.
+  /// mpirun binds each rank to a core; all threads of the program, and the ranks of its own mpirun, would
+  /// inherit this. It may run on the cores available to mpirun.
   void follow_launcher() const {
     cpu_set_t processors;
     if (launcher_ > 0 && ::sched_getaffinity(launcher_, sizeof processors, &processors) == 0)
@@ -118,7 +118,7 @@ class Guard {
   [[noreturn]] void become_solver(pid_t guard_id) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != guard_id) ::_exit(127);  // it died before it was asked for
+    if (::getppid() != guard_id) ::_exit(127);  // the parent died before the request
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -126,7 +126,7 @@ class Guard {
     give_up();
   }
 
-  /// Until the program ends; false where its time is over before, or quadloop is gone.
+  /// Waits for the program; returns false if it times out, or quadloop has ended.
   bool wait() {
     const auto deadline = Clock::now() + std::chrono::duration<double>(launch_.timeout);
     sigset_t children;
@@ -144,7 +144,7 @@ class Guard {
     }
   }
 
-  /// Takes note of the children that have ended. False where none is left.
+  /// Collects the children that have ended. Returns false if none is left.
   bool reap() {
     while (true) {
       int status = 0;
@@ -156,9 +156,9 @@ class Guard {
     }
   }
 
-  /// SIGTERM goes once to each process: an mpirun that gets a second one leaves without ending its ranks. The
-  /// program's group is sent to while the program lives, because only so long the group's number is surely
-  /// its own. Each SIGKILL makes orphans our children, for the next turn.
+  /// Each process gets SIGTERM once: an mpirun that gets a second one exits without ending its ranks. The
+  /// program's group gets the signal while the program lives, as only then the group number is certainly its
+  /// own. Each SIGKILL makes orphans our children, for the next iteration.
   void end_tree() {
     if (!reap()) return;
     if (ended_)
@@ -175,7 +175,7 @@ class Guard {
     }
   }
 
-  /// As many as the first page of the kernel's list holds.
+  /// Limited to the first page of the kernel's list.
   static void signal_children(int signal_number) {
     std::array<char, 4096> list{};
     const int file = ::open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);

@@ -15,13 +15,13 @@ constexpr std::streamoff most_bytes = 1 << 16;
 bool says_something(const std::string& line) {
   return std::any_of(line.begin(), line.end(), [](char c) {
     const unsigned char byte = c;
-    return std::isalnum(byte) != 0 || byte >= 0x80U;  // above ASCII: part of a letter in UTF-8
+    return std::isalnum(byte) != 0 || byte >= 0x80U;  // non-ASCII: part of a UTF-8 letter
   });
 }
 
 bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
 
-/// The last 64 KiB; empty where the file cannot be read.
+/// Returns the last 64 KiB; empty if the file cannot be read.
 std::string end_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) return {};
@@ -40,8 +40,8 @@ std::string trimmed(std::string line) {
   return line;
 }
 
-/// A line without blanks at its ends, cut to `length` bytes between characters, tabs as blanks and other
-/// control characters as '?'.
+/// Trims a line and truncates it to `length` bytes between characters; tabs become blanks and other control
+/// characters '?'.
 std::string fit_for_message(std::string line, std::size_t length) {
   line = trimmed(std::move(line));
   if (line.size() > length) {
@@ -59,7 +59,7 @@ std::string fit_for_message(std::string line, std::size_t length) {
   return line;
 }
 
-/// Of a message of OpenFOAM's: its place in the source, or the next message.
+/// Whether a line of an OpenFOAM message is its source location, or the next message.
 bool ends_message(const std::string& line) {
   for (const char* const head : {"From ", "in file ", "FOAM exiting", "FOAM aborting", "-->"}) {
     if (line.starts_with(head)) return true;
@@ -89,7 +89,7 @@ std::string foam_error(const std::string& path, std::size_t length) {
     if (message.empty()) {
       const std::size_t at = line.find(head);
       if (at == std::string::npos) continue;
-      of_rank = trimmed(line.substr(0, at));  // "[2]", where there are several
+      of_rank = trimmed(line.substr(0, at));  // "[2]", if there are several ranks
       message = trimmed(line.substr(at + 4));
       continue;
     }

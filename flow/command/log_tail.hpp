@@ -5,15 +5,15 @@
 
 namespace quadloop {
 
-/// The last line of a file that says something, with a letter or a digit in it, cut to `length` bytes. Of a
-/// Python traceback that is the error itself; rulers as mpirun prints are passed over. Only the file's end is
-/// read, whatever its size. Carriage returns end a line as well (progress is shown so); other control
-/// characters become '?'. Empty where there is no such line, or the file cannot be read.
+/// Returns the last line of a file with a letter or a digit in it, truncated to `length` bytes. For a Python
+/// traceback this is the error itself; separator lines, as printed by mpirun, are skipped. Only the end of
+/// the file is read. Carriage returns end a line too (for progress displays); other control characters become
+/// '?'. Empty if there is no such line, or the file cannot be read.
 std::string last_line(const std::string& path, std::size_t length = 200);
 
-/// What the first error of OpenFOAM's in the end of a log says, on one line: "FOAM FATAL IO ERROR: ..." up to
-/// the place in OpenFOAM's source, cut to `length` bytes; of several ranks the first one's. Empty where there
-/// is none, or the file cannot be read.
+/// Returns the first OpenFOAM error at the end of a log, on one line: "FOAM FATAL IO ERROR: ..." up to the
+/// location in OpenFOAM's source, truncated to `length` bytes; with several ranks that of the first one.
+/// Empty if there is none, or the file cannot be read.
 std::string foam_error(const std::string& path, std::size_t length = 300);
 
 }  // namespace quadloop

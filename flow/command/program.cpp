@@ -23,7 +23,7 @@ bool may_be_run(const std::string& path) { return ::access(path.c_str(), X_OK) =
   throw InputError(where + ": the program '" + name + "' " + fault);
 }
 
-/// Of a name that is no program.
+/// Throws for a name that is not a program.
 [[noreturn]] void refuse_unknown(const std::string& where, const std::string& name,
                                  const std::string& fault) {
   if (name.find(' ') == std::string::npos) refuse(where, name, fault);
@@ -32,7 +32,7 @@ bool may_be_run(const std::string& path) { return ::access(path.c_str(), X_OK) =
          R"(["python3", "{case}/my_solver.py", "{mesh}"])");
 }
 
-/// `name` has a slash.
+/// `name` contains a slash.
 std::string program_at(const std::string& name, const std::string& folder, const std::string& where) {
   std::string path = std::filesystem::path(folder) / name;
   if (!is_file(path)) {

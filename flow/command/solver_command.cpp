@@ -51,16 +51,16 @@ void remove_old_file(const std::string& path) {
     throw OutputError(path + ": the old file cannot be removed: " + fault.message() + "; remove it by hand");
 }
 
-/// The state of the path after links; nothing there: a mode of 0.
+/// Returns the state of the path after following links; a mode of 0 if it does not exist.
 struct stat state_of(const std::string& path) {
   struct stat state = {};
   if (::stat(path.c_str(), &state) != 0) state = {};
   return state;
 }
 
-/// Removes what an earlier run left and would pass for this run's, and makes the log. Its state has the time
-/// at which the run begins by the clock that the file system stamps files with, which may be another
-/// machine's.
+/// Removes an earlier solution that could be taken for that of this run, and creates the log. Returns its
+/// state, whose time is the start of the run by the clock of the file system, which may be on another
+/// machine.
 struct stat begin_run(const SolverFiles& files) {
   const auto normal = [](const std::string& path) { return std::filesystem::path(path).lexically_normal(); };
   if (normal(files.solution) == normal(files.mesh))
@@ -98,7 +98,7 @@ std::string start_fault(int reason) {
   return text;
 }
 
-/// Empty where the run ended well.
+/// Empty if the run succeeded.
 std::string fault_of(const Ending& ending, double timeout) {
   switch (ending.kind) {
     case Ending::Kind::status:
@@ -111,7 +111,7 @@ std::string fault_of(const Ending& ending, double timeout) {
   return "was killed, because the process that supervises it was";
 }
 
-/// Empty where there is a file that may hold a solution of this run.
+/// Empty if there is a file that may contain a solution of this run.
 std::string solution_fault(const std::string& path, const struct stat& begin) {
   const struct stat state = state_of(path);
   if (state.st_mode == 0) return "ended without leaving its solution, " + path;
@@ -163,7 +163,7 @@ void run_solver(const Communicator& comm, const SolverCommand& command, const So
   } catch (...) {
     outcome = std::current_exception();
   }
-  comm.patient_barrier();  // the solver has the processors until here
+  comm.patient_barrier();  // until here the processors are free for the solver
   comm.together([&] {
     if (outcome) std::rethrow_exception(outcome);
   });

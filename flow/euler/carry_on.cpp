@@ -13,12 +13,13 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Of a flow-through time. More explicit steps take longer than implicit ones that show what moves.
+/// Limit per flow-through time. More explicit steps would cost more than implicit steps that resolve the
+/// motion.
 constexpr int most_explicit_steps = 2000;
 constexpr int implicit_steps = 40;
 
-/// The longer side of the box of all that feels a force, or without such of the whole mesh, over the free
-/// stream's speed. *Collective.*
+/// Longer side of the bounding box of all boundaries with a force, or else of the whole mesh, over the
+/// free-stream speed. *Collective.*
 double flow_through_time(const FlowRun& run) {
   std::vector<Point> of_walls, all;
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) all.push_back(run.mesh.point(node));
@@ -32,8 +33,8 @@ double flow_through_time(const FlowRun& run) {
   return length / std::hypot(run.model.free_stream[1], run.model.free_stream[2]);
 }
 
-/// For how long, in what steps: explicit ones where they are not too many for each flow-through time, else
-/// implicit ones.
+/// Duration and step size: explicit steps unless they are too many per flow-through time, else implicit
+/// steps.
 struct Course {
   double flow_through, explicit_step;
   std::optional<double> step;
@@ -58,13 +59,13 @@ TimePlan plan_of(FlowRun& run) {
   plan.average_from = 0.5 * plan.end;
   plan.step = course.step;
   plan.most_steps = static_cast<int>(
-      std::min(1e9, 10 * course.steps(run.options) + 100));  // faster flow takes shorter steps
+      std::min(1e9, 10 * course.steps(run.options) + 100));  // a faster flow needs shorter steps
   plan.reference = free_stream_residual(run);
   plan.tolerance = run.options.tolerance;
   return plan;
 }
 
-/// Its steps may have become ever shorter.
+/// The steps may have become ever shorter.
 std::string early_end(int steps, double time, const TimePlan& plan) {
   return fmt::format("{} time steps only reached time {:.6g} of {:.6g}; set a time_step", steps, time,
                      plan.end);

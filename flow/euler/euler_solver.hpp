@@ -5,17 +5,17 @@
 
 namespace quadloop {
 
-/// The flow with RunConstants.
+/// Returns the solution with RunConstants.
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
 
-/// For people; with the time where the run is `in_time`.
+/// Returns one line for the log; with the time if the run is `in_time`.
 std::string line_of(const EulerProgress& progress, bool in_time);
 
-/// What its coefficients are relative to.
+/// Returns the reference state of the coefficients.
 FreeStream free_stream_of(const EulerOptions& options);
 
-/// The built-in solver as any other: notes every step that solve_euler() tells of, warns where a flow did not
-/// converge.
+/// Returns the built-in solver as a FlowSolver. It adds a note for every step that solve_euler() reports, and
+/// a warning if it does not converge.
 FlowSolver euler_solver(EulerOptions options, AtEnd at_end = {});
 
 }  // namespace quadloop

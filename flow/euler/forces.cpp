@@ -10,7 +10,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Forces in wind axes, as coefficients.
+/// Converts forces to coefficients in wind axes.
 struct WindAxes {
   double scale, cosine, sine;
 
@@ -28,8 +28,7 @@ Point sum_over_ranks(const Communicator& comm, const std::vector<Point>& forces)
   return {x, reproducible_sum(comm, along_y)};
 }
 
-/// Of each half of a face that belongs to an owned node: what the pressure does there. `counts` tells the
-/// faces.
+/// Pressure forces on the halves of boundary faces at owned nodes. `counts` selects the faces.
 template <class Counts>
 std::vector<Point> pushes_on(const DualMesh& mesh, const FlowModel& model, const std::vector<State>& states,
                              const Counts& counts) {
@@ -59,7 +58,7 @@ ForceCoefficients coefficients(const Communicator& comm, const FlowModel& model,
   return {axes.lift(push) + lift, axes.drag(push) + drag, lift, drag};
 }
 
-/// Of each owned node the lengths of its halves of no-slip faces, of one boundary or of all.
+/// For each owned node the length of its halves of no-slip faces, of one boundary or of all.
 std::vector<double> no_slip_lengths(const DualMesh& mesh, const FlowModel& model,
                                     std::optional<std::int32_t> boundary) {
   std::vector<double> lengths(mesh.nodes(), 0.0);

@@ -8,27 +8,27 @@
 
 namespace quadloop::euler {
 
-/// Force per depth over dynamic pressure and reference length, across and along the free stream.
+/// Lift and drag per unit depth, divided by dynamic pressure and reference length.
 struct ForceCoefficients {
-  double cl = 0, cd = 0;                    ///< by pressure and friction
-  double cl_friction = 0, cd_friction = 0;  ///< the part of friction
+  double cl = 0, cd = 0;                    ///< pressure and friction
+  double cl_friction = 0, cd_friction = 0;  ///< friction only
 };
 
-/// What the pressure, less the free stream's, and friction do to all boundaries that feels_force() counts; 0
-/// where the free stream rests. The states' copies must be up to date; `friction` is as Residual::friction().
-/// *Collective.*
+/// Returns the force of the pressure, minus the free-stream pressure, and of friction on all boundaries that
+/// feels_force() selects; 0 if the free stream is at rest. The states of ghosts must be up to date;
+/// `friction` is as Residual::friction(). *Collective.*
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                               const std::vector<State>& states, const std::vector<Point>& friction,
                               double reference_length);
 
-/// The same for each of these boundaries that has edges, in the mesh's order. Of a node's friction each
-/// boundary that meets there has the share of its edges' lengths. *Collective.*
+/// Returns the same for each of these boundaries that has edges, in the mesh's order. The friction of a node
+/// where boundaries meet is split by the lengths of their edges. *Collective.*
 std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const DualMesh& mesh,
                                                 const FlowModel& model, const std::vector<State>& states,
                                                 const std::vector<Point>& friction, double reference_length,
                                                 const std::vector<BoundaryEdges>& boundaries);
 
-/// The friction along the wall at each owned node, as wall_shear_name says.
+/// Returns the friction along the wall at each owned node (wall_shear_name).
 std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
                                const std::vector<Point>& friction);
 

@@ -24,7 +24,7 @@ double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
 
 namespace {
 
-/// The caller's stage counts steps, or time where that is what ends the run.
+/// Reports progress to the caller's stage: steps, or time if that determines the end of the run.
 void tell_progress(const EulerResult& result, bool in_time) {
   progress::Stage* const stage = progress::current();
   if (stage == nullptr) return;
@@ -75,7 +75,7 @@ namespace {
 
 constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
 
-/// The first owned node whose state is no gas's.
+/// Returns the first owned node with an unphysical state.
 std::int64_t first_without_gas(const FlowRun& run) {
   for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
     if (!is_gas(run.states[node])) return run.mesh.global(node).value();
@@ -83,7 +83,7 @@ std::int64_t first_without_gas(const FlowRun& run) {
   return none;
 }
 
-/// Over all ranks the first of those with the largest flux. *Collective.*
+/// Returns the first node, over all ranks, of those with the largest flux. *Collective.*
 std::int64_t first_of_largest_flux(const FlowRun& run, const std::vector<Flux>& fluxes) {
   double worst = -1;
   std::int64_t at = none;

@@ -9,56 +9,55 @@
 
 namespace quadloop::euler {
 
-/// Root mean square of the owned nodes' net mass fluxes; not a number where any is not finite. *Collective.*
+/// Returns the root mean square of the owned nodes' net mass fluxes; NaN if any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
 
-/// Gives the far field the vortex of the lift that the states have, where the options ask for it.
-/// *Collective.*
+/// Sets the far-field vortex to the current lift, if the options request it. *Collective.*
 void surround(FlowRun& run, FarField& far_field);
 
-/// How steps are counted and kept in the history.
+/// How steps are counted and recorded in the history.
 struct Telling {
-  bool in_time = false;  ///< progress is that of the time
-  int every = 1;         ///< of so many steps one is kept
+  bool in_time = false;  ///< whether progress is measured in time
+  int every = 1;         ///< interval of recorded steps
 };
 
-/// Keeps the history, and hands the options' callback what it is due. *Collective.*
+/// Records the history and calls the options' callback when due. *Collective.*
 void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, const Telling& telling = {});
 
-/// "at (x, y), where density is ..." of the node, over all ranks, where the flow is least physical: the first
-/// that has no gas (is_gas), else the first of the largest flux. *Collective.*
+/// Returns "at (x, y), where density is ..." for the least physical node over all ranks: the first unphysical
+/// one (is_gas()), else the first with the largest flux. *Collective.*
 std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
 
-/// Implicit steps with local time steps until the tolerance is met or the iterations are used up.
-/// *Collective.*
+/// Takes implicit steps with local time steps until the tolerance or the maximum number of iterations is
+/// reached. *Collective.*
 EulerResult march_to_steady(FlowRun& run);
 
-/// How far a flow is to go in time.
+/// Parameters of an unsteady run.
 struct TimePlan {
   double end = 0;
-  std::optional<double> average_from, step;  ///< none: no means; explicit steps
+  std::optional<double> average_from, step;  ///< empty: no averages; empty: explicit steps
   int most_steps = 0;
-  double reference = 0;  ///< mass residual that others are relative to; 0: the first
-  double tolerance = 0;  ///< a relative residual at which the flow is steady after all
+  double reference = 0;  ///< reference mass residual; 0: the first one
+  double tolerance = 0;  ///< relative residual at which the flow counts as steady
 };
 
-/// Steps of one size to the end time. Continues `result`, whose time is that of the states; the flow between
-/// `plan.average_from` and the end joins `average`. *Collective.*
+/// Takes steps of equal size to the end time. Continues `result`, whose time is that of the states; the flow
+/// from `plan.average_from` to the end is added to `average`. *Collective.*
 void march_in_time(FlowRun& run, const TimePlan& plan, EulerResult& result, TimeAverage& average);
 
-/// Refuses what would take more steps in time than anybody waits for: throws InputError with their number and
-/// a step that will do. *Collective.*
+/// Throws InputError, with the number of steps and a suitable step size, if the run would take an
+/// unreasonable number of time steps. *Collective.*
 void require_few_steps(FlowRun& run);
 
-/// A flow that has no steady state, or a start that was carried on before, goes on in time as the options
-/// ask, unless it becomes steady. Where it fails in time, states and result stay as they are, but for
+/// Continues a steady computation without steady state, or from a start that was itself continued, in time as
+/// the options request, unless it becomes steady. If this fails, states and result are unchanged, except for
 /// EulerResult::failed_in_time. *Collective.*
 void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average);
 
-/// The free stream in every node, at rest where it sticks to walls.
+/// Returns the free stream at every node, at rest at no-slip walls.
 std::vector<State> undisturbed(const FlowRun& run);
 
-/// The mass residual of the undisturbed free stream. *Collective.*
+/// Returns the mass residual of the undisturbed free stream. *Collective.*
 double free_stream_residual(FlowRun& run);
 
 }  // namespace quadloop::euler

@@ -11,7 +11,7 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr int explicit_history = 10;  ///< such steps are many and small
+constexpr int explicit_history = 10;  ///< explicit steps are many and small
 
 class TimeMarch {
  public:
@@ -26,7 +26,7 @@ class TimeMarch {
         scheme_{time_scheme(run, plan.step, run.options.cfl)} {}
 
   void march() {
-    double before = 0;  // how long the step to this flow took, as far as it counts for the means
+    double before = 0;  // length of the previous step, as far as it counts for the averages
     while (true) {
       surround(run_, far_field_);
       const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
@@ -51,7 +51,7 @@ class TimeMarch {
 
   bool counts_for_means() const { return plan_.average_from && result_.time >= *plan_.average_from; }
 
-  /// Also that from which the means are.
+  /// Also the step at which averaging starts.
   bool keeps_every_step() const { return scheme_->is_implicit() || (counts_for_means() && average_.empty()); }
 
   void measure(const std::vector<Flux>& fluxes) {
@@ -63,7 +63,7 @@ class TimeMarch {
     result_.converged = result_.time >= plan_.end || is_steady_;
   }
 
-  /// At the states, of the step under way.
+  /// Reports failure at the present states.
   [[noreturn]] void fail(const std::vector<Flux>& fluxes) const {
     throw SolverError(
         fmt::format("the flow solver failed at time {:.6g} {}; check the boundary conditions and the cells "
@@ -78,7 +78,7 @@ class TimeMarch {
                                   result_.time, scheme_->is_implicit() ? "time_step" : "cfl"));
   }
 
-  /// The flow counts for half the step to it and half the one from it, by trapezia. Returns the latter.
+  /// Trapezoidal rule: the flow counts for half the step before and half the step after. Returns the latter.
   double count(double before, double step) {
     if (!counts_for_means()) return 0;
     average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * (before + step));
@@ -93,7 +93,7 @@ class TimeMarch {
     if (is_steady_ || !plan_.average_from) return;
     if (before > 0)
       average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 0.5 * before);
-    else if (average_.empty())  // the last step was longer than all the time of the means
+    else if (average_.empty())  // the last step was longer than the averaging period
       average_.add(run_.states, run_.residual.friction(), run_.mesh.owned_nodes(), 1);
     UnsteadyFlow flow = unsteady_flow(result_.history, *plan_.average_from);
     flow.steps = steps();

@@ -67,7 +67,7 @@ class SteadyMarch {
  private:
   using Next = SteadyControl::Next;
 
-  /// What the residual of an undisturbed flow may be: fluxes are of the size of the dual cells' sides.
+  /// Residual of an undisturbed flow from rounding: fluxes are of the size of the dual cells' sides.
   static double rounding(const FlowRun& run) {
     const std::vector<double> areas(run.mesh.areas().begin(), run.mesh.areas().end());
     const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
@@ -99,7 +99,7 @@ class SteadyMarch {
     }
   }
 
-  /// From the free stream, as without a start.
+  /// Restarts from the free stream, as without a start.
   void leave_start() {
     result_.left_start = std::max(1, result_.iterations);
     run_.states = best_states_ = undisturbed(run_);
@@ -108,7 +108,7 @@ class SteadyMarch {
     reference_ = of_free_stream_;
   }
 
-  /// The flow blew up once more than is borne. One that has its shape is worth keeping.
+  /// After too many blow-ups: keeps the best flow if it is developed, else fails.
   EulerResult end_at_best(const std::vector<Flux>& fluxes) {
     const std::string failure = fmt::format(
         "the flow solver failed after {} steps {}; check the boundary conditions and the cells there, or try "
@@ -120,15 +120,15 @@ class SteadyMarch {
     return finish(0);
   }
 
-  /// To the best flow so far, to leave it in smaller steps.
+  /// Returns to the best flow so far, to continue with smaller steps.
   void go_back() {
     run_.states = best_states_;
     if (!control_.best().limiter_frozen) run_.residual.release_limiter();
     shares_.forget();
   }
 
-  /// Steps leave a flow that is its own image but for what the tolerance bears. Tells whether that was
-  /// mended, once after each step.
+  /// Steps break the mirror symmetry of the flow within the tolerance. Restores it, once per step; returns
+  /// whether it did.
   bool becomes_image() {
     if (!is_stepped_) return false;
     is_stepped_ = false;
@@ -136,7 +136,7 @@ class SteadyMarch {
     return mirrored_.has_value();
   }
 
-  /// Sweeps go in an order that no mirror keeps: a flow that is to be its own image is made so.
+  /// Makes the flow symmetric if requested: the order of the sweeps is not.
   void mirror() {
     if (run_.options.mirror && !mirrored_)
       mirrored_ = MirroredStates::find(run_.comm, run_.mesh, run_.model, *run_.options.mirror);
@@ -145,14 +145,15 @@ class SteadyMarch {
     run_.residual.evaluate(run_.states);
   }
 
-  /// Factors of a flow that is not its own image would leave one that is not, however far the residual falls.
+  /// Makes the flow symmetric first, as asymmetric limiter factors would keep it asymmetric however far the
+  /// residual falls.
   void keep_limiter() {
     mirror();
     run_.residual.freeze_limiter();
     shares_.restart();
   }
 
-  /// The last flow, or the best where it was clearly better.
+  /// Returns the last flow, or the best one if that is clearly better.
   EulerResult finish(double cfl) {
     result_.kept_iteration = result_.iterations;
     result_.last_residual = result_.residual;
@@ -198,7 +199,7 @@ class SteadyMarch {
   std::optional<NewtonStep> newton_;
   std::optional<MirroredStates> mirrored_;
   std::vector<State> best_states_;
-  double reference_ = 0, zero_ = 0;  ///< mass residuals: that which the tolerance is relative to; rounding
+  double reference_ = 0, zero_ = 0;  ///< mass residuals: reference of the tolerance; rounding
   double of_free_stream_ = 0;
   bool is_stepped_ = false;
 };

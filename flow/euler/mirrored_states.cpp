@@ -7,7 +7,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Of the state's entries the velocity across the axis.
+/// Index of the velocity normal to the axis in a state.
 std::size_t across(MirrorAxis axis) { return axis == MirrorAxis::x ? 2 : 1; }
 
 }  // namespace

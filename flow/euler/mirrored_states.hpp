@@ -9,15 +9,15 @@
 
 namespace quadloop::euler {
 
-/// Makes a flow its own mirror image, on a mesh that is so.
+/// Makes a flow mirror-symmetric, on a mirror-symmetric mesh.
 class MirroredStates {
  public:
-  /// None where the mesh is not its own image, or where the free stream does not run along the axis.
-  /// Communicator and mesh must outlive it. *Collective.*
+  /// Empty if the mesh is not symmetric, or the free stream is not parallel to the axis. Communicator and
+  /// mesh must outlive the object. *Collective.*
   static std::optional<MirroredStates> find(const Communicator& comm, const DualMesh& mesh,
                                             const FlowModel& model, MirrorAxis axis);
 
-  /// Each owned node and its image get the mean of both. *Collective.*
+  /// Replaces the states of each owned node and its image by their mean. *Collective.*
   void average(std::vector<State>& states) const;
 
  private:

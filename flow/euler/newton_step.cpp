@@ -37,7 +37,7 @@ NewtonStep::Taken NewtonStep::take(const std::vector<Flux>& fluxes, double cfl,
   return {0, left_over};
 }
 
-/// Returns the share that is left of the residual of the linear system.
+/// Returns the remaining relative residual of the linear system.
 double NewtonStep::solve() {
   NodeRows right = residual_;
   for (Flux& row : right) {
@@ -46,7 +46,7 @@ double NewtonStep::solve() {
   return newton_.solve(start_, residual_, right, effort, change_);
 }
 
-/// The residual's norm after that share of the change.
+/// Returns the residual norm after this fraction of the change.
 double NewtonStep::advance(double share) {
   for (std::size_t node = 0; node < change_.size(); ++node) {
     std::array<double, 4> change = change_[node];

@@ -11,15 +11,15 @@ namespace quadloop::euler {
 /// side. The change is halved until the residual falls.
 class NewtonStep {
  public:
-  /// Both must outlive it. *Collective.*
+  /// Run and system must outlive the object. *Collective.*
   NewtonStep(FlowRun& run, ImplicitSystem& system);
 
   struct Taken {
-    double share;      ///< of the change: the largest that made the residual smaller, 0 where none did
-    double left_over;  ///< of the linear system's residual, as a share of its right side
+    double share;      ///< largest fraction of the change that reduced the residual, 0 if none did
+    double left_over;  ///< residual of the linear system, relative to its right side
   };
-  /// The states become those after the step. `fluxes` are those of the states before; the residual is
-  /// evaluated at others meanwhile. *Collective.*
+  /// Updates the states. `fluxes` are those of the states before; the residual is evaluated at other states.
+  /// *Collective.*
   Taken take(const std::vector<Flux>& fluxes, double cfl, const std::vector<double>& shares);
 
  private:

@@ -9,29 +9,29 @@
 
 namespace quadloop::euler {
 
-/// Tells when the residual falls slowly.
+/// Detects slow convergence of the residual.
 class StallWatch {
  public:
   using Slow = SteadyParameters::Slow;
 
   void add(double residual) { best_.push_back(best_.empty() ? residual : std::min(best_.back(), residual)); }
 
-  /// The best of all residuals was not reduced to that share in so many steps.
+  /// Whether the best residual was not reduced to the given fraction in the given number of steps.
   bool is(const Slow& slow) const {
     const auto steps = static_cast<std::size_t>(slow.steps);
     return best_.size() > steps && best_.back() > slow.share * best_[best_.size() - 1 - steps];
   }
 
-  /// In the second half of all steps the residual did not halve: more of them are no cure.
+  /// Whether the residual did not halve in the second half of all steps, so that more steps will not help.
   bool is_slow() const {
     return std::ssize(best_) > steady_parameters.least_steps && best_.back() > 0.5 * best_[best_.size() / 2];
   }
 
  private:
-  std::vector<double> best_;  ///< up to each step
+  std::vector<double> best_;  ///< best residual up to each step
 };
 
-/// Tells when something has been so for a number of steps on end; then it counts anew.
+/// Detects a condition that holds for a number of consecutive steps; then the count restarts.
 class Patience {
  public:
   explicit Patience(int steps) : steps_{steps} {}
@@ -47,7 +47,7 @@ class Patience {
   int steps_, count_ = 0;
 };
 
-/// Tells when the residual oscillates and does not fall: steps are too large for the flow to settle.
+/// Detects a residual that oscillates without falling: the steps are too large for the flow to settle.
 class SwingWatch {
  public:
   bool swings(double residual) {
@@ -77,8 +77,8 @@ class SwingWatch {
          lowest_before_ = std::numeric_limits<double>::infinity();
 };
 
-/// The share of the CFL number that a flow has borne so far: small after a setback, then growing to a limit
-/// that is lower than before.
+/// The fraction of the CFL number that the flow has tolerated so far: small after a setback, then growing to
+/// a lower limit than before.
 class CflLimit {
  public:
   double share() const { return share_; }
@@ -104,8 +104,7 @@ struct BestFlow {
     return true;
   }
 
-  /// Whether it is to be kept rather than a flow with this residual. A start that is no developed flow is
-  /// not.
+  /// Whether the best flow is to be kept rather than one with this residual. An undeveloped start is not.
   bool keeps(double last) const {
     return last > steady_parameters.setback.clearly_better * residual &&
            (iteration > 0 || residual < steady_parameters.developed);

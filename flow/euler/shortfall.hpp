@@ -7,11 +7,13 @@
 
 namespace quadloop {
 
-/// What a run that did not converge came to, and what helps: one line for the user, without a full stop.
+/// Returns one line for the user, without a full stop: the state of a run that did not converge, and a
+/// remedy.
 std::string shortfall(const EulerResult& result, const EulerOptions& options);
-/// The same of a goal's adjoint.
+/// The same for the adjoint of an output functional.
 std::string shortfall(const GoalValue& goal);
-/// All that a run did not come to, its goals too; of a mean over time but what line_of() tells of it.
+/// Returns these lines for the run and its functionals; for a time average only what line_of() does not
+/// report.
 std::vector<std::string> shortfalls(const EulerResult& result, const EulerOptions& options);
 
 }  // namespace quadloop

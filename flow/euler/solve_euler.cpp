@@ -20,7 +20,7 @@ using namespace euler;
 
 std::vector<std::string> flow_names() { return {euler_names.begin(), euler_names.end()}; }
 
-/// Whether the start was left by a flow that was a mean over time, and this one is to go on from its end.
+/// Whether the start is a time average and this run continues from its end.
 bool goes_on_in_time(const EulerOptions& options, const Field& start) {
   if (options.time == EulerOptions::Time::steady && options.unsteady == EulerOptions::Unsteady::stop)
     return false;
@@ -29,7 +29,7 @@ bool goes_on_in_time(const EulerOptions& options, const Field& start) {
   });
 }
 
-/// The owned nodes' states become those that the start has by these names.
+/// Sets the owned nodes' states from the variables of these names.
 void take_start(const DualMesh& dual, const Field& start, const std::vector<std::string>& names,
                 std::vector<State>& states) {
   const Field given = selected(start, names, "the starting state");
@@ -39,7 +39,7 @@ void take_start(const DualMesh& dual, const Field& start, const std::vector<std:
     std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
 }
 
-/// A state for each node; those of copies come later.
+/// Returns a state for each node; ghosts are set later.
 std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
                                 const FlowModel& model, const EulerOptions& options, const Field& start) {
   std::vector<State> states(dual.nodes(), model.free_stream);
@@ -56,7 +56,7 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
   return states;
 }
 
-/// Flow and forces of the run's states, with this friction on walls. *Collective.*
+/// Stores flow and forces of the run's states, with this wall friction. *Collective.*
 void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
                const std::vector<Point>& friction, EulerResult& result) {
   const bool viscous = run.model.is_viscous();
@@ -81,11 +81,11 @@ void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
   }
 }
 
-/// The flow that a run is to leave: its states, or what it came to over time. *Collective.*
+/// Stores the resulting flow of a run: its states or its time averages. *Collective.*
 void keep_flow(FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const TimeAverage& average,
                EulerResult& result) {
   if (average.empty()) {
-    if (run.model.is_viscous()) run.residual.evaluate(run.states);  // the flow kept may not be the last one
+    if (run.model.is_viscous()) run.residual.evaluate(run.states);  // the kept flow may not be the last one
     return take_flow(run, boundaries, run.residual.friction(), result);
   }
   const std::vector<State> at_end = run.states;
@@ -119,7 +119,7 @@ EulerResult march_as_steady(FlowRun& run) {
   return march_to_steady(run);
 }
 
-/// From the run's states to the end of what the options ask. *Collective.*
+/// Runs from the run's states to the end specified by the options. *Collective.*
 EulerResult march(FlowRun& run, const Field& start, TimeAverage& average) {
   const EulerOptions& options = run.options;
   if (options.time == EulerOptions::Time::accurate) return march_to_end_time(run, average);

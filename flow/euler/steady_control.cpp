@@ -44,7 +44,7 @@ SteadyControl::Decision SteadyControl::after_blow_up(const Flow& flow) {
   return {Next::return_to_best};
 }
 
-/// What the best residual of a flow that was given has to come to.
+/// Residual below which a given flow counts as a good start.
 double SteadyControl::proof() const {
   return std::max(steady_parameters.developed, steady_parameters.trial.share * first_residual_);
 }
@@ -63,8 +63,8 @@ SteadyControl::Decision SteadyControl::start_over() {
                                    best.residual, best.iteration)}};
 }
 
-/// Whether the flow is on the way to a worse one than the best. More returns than are borne have no effect: a
-/// flow that has no steady state may swing as it likes then.
+/// Whether the flow returns to the best one because it deteriorates. After too many returns it does not: a
+/// flow without a steady state may then oscillate freely.
 bool SteadyControl::sets_back(const Flow& flow, Decision& decision) {
   const auto& setback = steady_parameters.setback;
   const bool stands = standstill_.ends(flow.residual == last_residual_),
@@ -120,7 +120,7 @@ bool SteadyControl::learn(const Flow& flow, double share, double left_over) {
   return freezes;
 }
 
-/// With frozen factors the residual is another one, which Newton steps may be good for at once.
+/// Frozen factors change the residual, so Newton steps may succeed immediately.
 void SteadyControl::begin_newton_anew() {
   if (phase_ == Phase::pause) phase_ = Phase::newton;
   newton_cfl_ = 0;

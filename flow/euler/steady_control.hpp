@@ -7,51 +7,51 @@
 
 namespace quadloop::euler {
 
-/// How a steady march goes on, decided by its residuals alone. The phases and their transitions:
+/// Control of a steady march, based on its residuals alone. Phases and transitions:
 ///
 ///     trial  -> plain    the given flow proved good, or start_over() left it for the free stream
 ///     plain  -> newton   the flow is near its end, or plain steps bring it no farther
 ///     newton -> pause    a Newton step failed
-///     pause  -> newton   after some plain steps, or at once where the limiter is frozen anew
+///     pause  -> newton   after some plain steps, or at once where the limiter is frozen again
 class SteadyControl {
  public:
   enum class Phase {
-    trial,   ///< plain steps from a flow that was given and may lead nowhere
+    trial,   ///< plain steps from a given flow that may not converge
     plain,   ///< implicit Euler steps with local time steps
-    newton,  ///< Newton steps, where the flow is developed
-    pause    ///< plain steps after a Newton step that failed
+    newton,  ///< Newton steps, once the flow is developed
+    pause    ///< plain steps after a failed Newton step
   };
   enum class Limiter { none, live, frozen };
 
-  /// What there is to decide upon at a flow.
+  /// Input of a decision.
   struct Flow {
     int iteration = 0;
     double residual = 0;
     Limiter limiter = Limiter::none;
-    bool ends = false;  ///< the tolerance is met, or the steps are used up
+    bool ends = false;  ///< the tolerance is met, or the maximum number of steps reached
   };
   enum class Next { plain_step, newton_step, return_to_best, start_over, finish, fail };
   struct Decision {
     Next next = Next::plain_step;
-    bool is_best = false;         ///< so far: the flow is to be remembered
-    bool freeze_limiter = false;  ///< and then, before the step
-    bool mirror = false;          ///< a flow that is meant to be its own image is to be made so
+    bool is_best = false;         ///< best flow so far: store it
+    bool freeze_limiter = false;  ///< after storing it, before the step
+    bool mirror = false;          ///< make the flow mirror-symmetric
     std::vector<std::string> messages = {};
   };
 
-  /// `is_given`: the march does not begin with the free stream. `may_leave`: it may end before it converged,
-  /// to go on in time.
+  /// `is_given`: the march does not start from the free stream. `may_leave`: it may end before convergence,
+  /// to continue in time.
   SteadyControl(bool is_given, bool may_leave)
       : may_leave_{may_leave}, phase_{is_given ? Phase::trial : Phase::plain} {}
 
   Decision decide(const Flow& flow);
 
-  /// Of the Newton step that was decided: which share of the change lowered the residual, and what was left
-  /// of the linear system's. Tells whether the limiter is to be frozen, since live factors are what such
-  /// steps fail at.
+  /// Updates the control after a Newton step: the fraction of the change that lowered the residual, and the
+  /// remaining residual of the linear system. Returns whether the limiter should be frozen, as live limiter
+  /// factors make such steps fail.
   bool learn(const Flow& flow, double share, double left_over);
 
-  /// Of a plain step, where the first is to be `first`; of a Newton step, where a plain one would have
+  /// CFL number of a plain step, if the first one has `first`; of a Newton step, if a plain one would have
   /// `plain`.
   double cfl(double first, double residual) const;
   double newton_cfl(double plain);

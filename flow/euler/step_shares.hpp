@@ -7,29 +7,29 @@
 
 namespace quadloop::euler {
 
-/// Which share of the CFL number each node's step has. The first-order matrix of an implicit step may be too
-/// weak by more than a half for what a single node's second-order fluxes answer, as where sizes change
-/// abruptly: its changes then swing to and fro and grow, at large CFL numbers alone. Where changes turn back
-/// again and again, the node's share is halved, until they no longer do; it grows again slowly.
+/// Share of the CFL number for each node. The first-order matrix of an implicit step may be too weak by more
+/// than a half for the second-order fluxes at a single node, e.g. where cell sizes change abruptly: its
+/// changes then oscillate and grow, at large CFL numbers only. If changes reverse repeatedly, the node's
+/// share is halved until they no longer do; it grows again slowly.
 class StepShares {
  public:
   explicit StepShares(std::size_t owned_nodes);
 
-  /// Looks at the owned nodes' changes of one more step.
+  /// Updates the shares with the owned nodes' changes of one more step.
   void follow(const std::vector<Change>& change);
 
-  /// The changes before count no longer: the flow was set back.
+  /// Forgets previous changes: the flow was reset.
   void forget();
 
-  /// All is learnt anew: the residual is another one.
+  /// Restarts completely: the residual has changed.
   void restart();
 
-  const std::vector<double>& shares() const { return shares_; }  ///< of each owned node
+  const std::vector<double>& shares() const { return shares_; }  ///< for each owned node
 
  private:
   std::vector<double> shares_;
   std::vector<Change> last_;
-  std::vector<std::int8_t> turns_;  ///< how often in a row the node's change went back on the one before
+  std::vector<std::int8_t> turns_;  ///< number of consecutive reversals of the node's change
 };
 
 }  // namespace quadloop::euler

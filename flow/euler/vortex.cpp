@@ -7,7 +7,7 @@ namespace quadloop::euler {
 
 State Vortex::state(Point at, double time) const {
   const double strength =
-      5 / std::sqrt(gas.gamma);  // the usual 5 counts speeds in units of sqrt(pressure / density)
+      5 / std::sqrt(gas.gamma);  // the usual 5 is for speeds in units of sqrt(pressure / density)
   const double x = (at.x - centre.x - free_stream[1] * time) / radius,
                y = (at.y - centre.y - free_stream[2] * time) / radius;
   const double turning = strength / (2 * std::numbers::pi) * std::exp(0.5 * (1 - x * x - y * y));

@@ -4,15 +4,15 @@
 
 namespace quadloop::euler {
 
-/// The isentropic vortex of strength 5 that the free stream carries along unchanged (Yee, Sandham and
-/// Djomehri 1999), in a gas of density 1 and speed of sound 1 far away; it turns counter-clockwise.
+/// The isentropic vortex of strength 5, which the free stream convects unchanged (Yee, Sandham and Djomehri
+/// 1999), in a gas of density 1 and speed of sound 1 at infinity; counter-clockwise.
 struct Vortex {
   Gas gas;
   State free_stream{};
   Point centre;       ///< at time 0
-  double radius = 1;  ///< where it turns fastest
+  double radius = 1;  ///< of the largest rotational speed
 
-  /// The exact flow.
+  /// Returns the exact flow.
   State state(Point at, double time) const;
 };
 

@@ -10,12 +10,12 @@ namespace quadloop {
 
 namespace {
 
-/// Of one boundary's edges on this rank.
+/// Forces on one boundary's edges on this rank.
 struct EdgeForces {
   std::vector<double> lift, drag, lift_friction, drag_friction;
 };
 
-/// `flow` has rows of copies.
+/// `flow` must have ghost rows.
 EdgeForces forces_on(const Mesh& mesh, const BoundaryEdges& boundary, const Field& flow,
                      const FreeStream& stream) {
   const FlowColumns columns(flow, "the flow");

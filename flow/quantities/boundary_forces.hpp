@@ -10,17 +10,17 @@
 
 namespace quadloop {
 
-/// What the flow does to one boundary: force per depth over dynamic pressure and reference length, across and
-/// along the free stream.
+/// Force of the flow on one boundary: lift and drag per unit depth, divided by dynamic pressure and reference
+/// length.
 struct BoundaryForce {
   std::string boundary;
-  double cl = 0, cd = 0;                    ///< by pressure, less the free stream's, and friction
-  double cl_friction = 0, cd_friction = 0;  ///< the part of friction
+  double cl = 0, cd = 0;                    ///< by pressure, minus the free-stream pressure, and friction
+  double cl_friction = 0, cd_friction = 0;  ///< friction only
 };
 
-/// The forces on the boundaries named, in their order, of any solver's nodal flow: pressure and, where the
-/// flow has a variable wall_shear, friction, both linear along each edge. 0 where the free stream rests. The
-/// same bits on any number of ranks. *Collective.*
+/// Returns the forces on the named boundaries, in their order, for any solver's nodal solution: pressure and,
+/// if there is a variable wall_shear, friction, both linear along each edge. 0 if the free stream is at rest.
+/// Bitwise independent of the number of ranks. *Collective.*
 std::vector<BoundaryForce> boundary_forces(const Communicator& comm, const Mesh& mesh, const Field& flow,
                                            const FreeStream& stream, const std::vector<std::string>& walls);
 

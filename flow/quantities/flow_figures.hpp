@@ -9,16 +9,16 @@
 
 namespace quadloop {
 
-/// What a flow came to beside its coefficients.
+/// Results of a flow other than its coefficients.
 struct FlowTables {
-  std::vector<BoundaryForce> forces;     ///< of each boundary that feels a force
-  std::optional<UnsteadyFlow> unsteady;  ///< where flow and forces are means over time
-  std::vector<GoalValue> goals;          ///< what it was solved for, with an estimate of the error
+  std::vector<BoundaryForce> forces;     ///< of each boundary with a force
+  std::optional<UnsteadyFlow> unsteady;  ///< if flow and forces are time averages
+  std::vector<GoalValue> goals;          ///< output functionals with error estimates
 };
 
-/// The same by any solver.
+/// Results of a flow, for any solver.
 struct FlowFigures : FlowTables {
-  std::optional<double> cl, cd, residual;  ///< where the solver knows them
+  std::optional<double> cl, cd, residual;  ///< if the solver provides them
 };
 
 }  // namespace quadloop

@@ -17,7 +17,7 @@ std::optional<std::size_t> only_like(const std::vector<std::string>& names, cons
   return found[0];
 }
 
-/// To rows of values.
+/// Appends the quantities to rows of values.
 void append_quantities(std::vector<std::string>& variables, std::vector<double>& values,
                        const std::vector<std::string>& names, const FreeStream& stream) {
   const FlowColumns columns(variables, "the flow");

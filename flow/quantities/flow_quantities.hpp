@@ -10,14 +10,14 @@
 
 namespace quadloop {
 
-/// The names of what follows from a flow at each node, as files have them: "mach", "pressure_coefficient".
+/// Names in files of quantities derived from the flow at each node: "mach", "pressure_coefficient".
 inline constexpr const char* mach_name = "mach";
 inline constexpr const char* pressure_coefficient_name = "pressure_coefficient";
 const std::vector<std::string>& quantity_names();
 
-/// Where a solution has the variables of a flow: velocity and pressure; density where the flow is
-/// compressible; wall_shear where it has friction. Throws InputError, which begins with `where`, for one
-/// without velocity or pressure.
+/// Columns of the flow variables in a solution: velocity and pressure; density in compressible flow;
+/// wall_shear if there is friction. Throws InputError, which begins with `where`, for a solution without
+/// velocity or pressure.
 class FlowColumns {
  public:
   FlowColumns(const std::vector<std::string>& names, const std::string& where);
@@ -25,15 +25,15 @@ class FlowColumns {
 
   bool has_shear() const { return shear_.has_value(); }
   bool has_density() const { return density_.has_value(); }
-  /// Of one row of values.
+  /// Values in one row.
   Point velocity(std::span<const double> row) const { return {row[x_velocity_], row[y_velocity_]}; }
   double pressure(std::span<const double> row) const { return row[pressure_]; }
   double shear(std::span<const double> row) const { return shear_ ? row[*shear_] : 0; }
   double density(std::span<const double> row, const FreeStream& stream) const {
     return density_ ? row[*density_] : stream.density;
   }
-  /// The local speed by the speed of sound there; 0 where the solution has no density, as that of an
-  /// incompressible flow, or where the speed of sound is not above 0.
+  /// Returns the local Mach number; 0 if the solution has no density (incompressible flow), or the square of
+  /// the speed of sound is not positive.
   double mach(std::span<const double> row, double gamma) const;
 
  private:
@@ -41,11 +41,12 @@ class FlowColumns {
   std::optional<std::size_t> density_, shear_;
 };
 
-/// The pressure less the free stream's over the dynamic pressure; 0 where the free stream rests.
+/// Returns the pressure minus the free-stream pressure over the dynamic pressure; 0 if the free stream is at
+/// rest.
 double pressure_coefficient(double pressure, const FreeStream& stream);
 
-/// The flow with these quantities (of quantity_names()) behind its variables, in the place of any that it has
-/// by these names: at the nodes where it has velocity and pressure there, else in the cells.
+/// Appends these quantities (of quantity_names()) to the flow's variables, replacing existing ones of the
+/// same name: at the nodes if velocity and pressure are nodal, else in the cells.
 Field with_quantities(const Field& flow, const std::vector<std::string>& names, const FreeStream& stream);
 
 }  // namespace quadloop

@@ -2,12 +2,12 @@
 
 namespace quadloop {
 
-/// The undisturbed flow that coefficients are relative to, in the units that the solution has.
+/// The undisturbed flow, reference of the coefficients, in the units of the solution.
 struct FreeStream {
   double density = 1, pressure = 1 / 1.4, speed = 0;
   double alpha = 0;             ///< degrees above the x axis
   double gamma = 1.4;           ///< ratio of specific heats
-  double viscosity = 0;         ///< dynamic; 0: the flow has no friction
+  double viscosity = 0;         ///< dynamic; 0: inviscid
   double reference_length = 1;  ///< of the forces, in the mesh's units
 
   double dynamic_pressure() const { return 0.5 * density * speed * speed; }

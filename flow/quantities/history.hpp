@@ -5,17 +5,17 @@
 
 namespace quadloop {
 
-/// What follows the prefix of a solution's file in the name of its history.
+/// Suffix of the history file; it follows the prefix of the solution's file.
 inline constexpr const char* history_suffix = ".history.csv";
 
-/// How far a solver had come after so many steps.
+/// State of a solver after a number of steps.
 struct HistoryRow {
   int step = 0;
   double residual = 0, cl = 0, cd = 0;
   double time = 0;
 };
 
-/// The history as the text of a table: columns step, residual, cl, cd, and where any row has a time, time.
+/// Returns the history as the text of a table: columns step, residual, cl, cd, and time if any row has one.
 std::string history_table(const std::vector<HistoryRow>& history);
 
 }  // namespace quadloop

@@ -6,12 +6,11 @@
 
 namespace quadloop {
 
-/// What stands above the owned nodes of walls: of each owned node the neighbour in the direction nearest to
-/// the walls' normal.
+/// For each owned wall node the neighbour in the direction closest to the wall normal.
 struct NodesAboveWalls {
-  std::vector<double> heights;  ///< along the normal; 0 where no neighbour lies on that side, or off walls
-  std::vector<NodeId> nodes;    ///< where the height is above 0: the neighbour, of the halo mesh
-  std::vector<Point> inward;    ///< the unit normal of the node's wall edges together; 0 off walls
+  std::vector<double> heights;  ///< along the normal; 0 off walls, or if no neighbour is on that side
+  std::vector<NodeId> nodes;    ///< if the height is above 0: the neighbour, in the halo mesh
+  std::vector<Point> inward;    ///< unit normal averaged over the node's wall edges; 0 off walls
 };
 
 /// `is_wall` has an entry for each of the mesh's boundaries.

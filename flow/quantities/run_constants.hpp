@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// What a solution of the built-in solver keeps of its run, beside the flow, as constants in this order.
+/// Constants of the run in a solution of the built-in solver, in this order.
 struct RunConstants {
   double steps = 0, time = 0, mach = 0;
   double alpha = 0;  ///< degrees
@@ -13,7 +13,7 @@ struct RunConstants {
 
   std::vector<double> values() const { return {steps, time, mach, alpha, cl, cd, residual}; }
 
-  /// None where these are no such constants.
+  /// Empty if these are not such constants.
   static std::optional<RunConstants> of(const std::vector<double>& c) {
     if (c.size() != 7) return {};
     return RunConstants{c[0], c[1], c[2], c[3], c[4], c[5], c[6]};

@@ -11,11 +11,12 @@ namespace {
 
 using Coefficient = double HistoryRow::*;
 
-constexpr double noise = 1e-8;       ///< of a coefficient: no swing
-constexpr double beside_mean = 0.3;  ///< of half the swing: what has gone as far as that is on one side
-constexpr double irregular = 0.3;    ///< of the mean interval: more is no period
+constexpr double noise = 1e-8;  ///< amplitude of a coefficient that counts as no oscillation
+/// Relative to half the oscillation range: distance from the mean that counts as being on one side.
+constexpr double beside_mean = 0.3;
+constexpr double irregular = 0.3;  ///< relative to the mean interval: a larger variation is not periodic
 
-/// By trapezia between the rows.
+/// Trapezoidal rule over the rows.
 Swing swing_of(const std::vector<HistoryRow>& rows, Coefficient value) {
   Swing swing{0, rows.front().*value, rows.front().*value};
   double sum = 0;
@@ -29,7 +30,7 @@ Swing swing_of(const std::vector<HistoryRow>& rows, Coefficient value) {
   return swing;
 }
 
-/// The times at which the coefficient went up through its mean, from well below it to well above it.
+/// Returns the times at which the coefficient rises through its mean, from well below it to well above it.
 std::vector<double> rises(const std::vector<HistoryRow>& rows, Coefficient value, const Swing& swing) {
   const double beside = beside_mean * 0.5 * (swing.largest - swing.smallest);
   std::vector<double> times;

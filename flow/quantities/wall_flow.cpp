@@ -20,19 +20,19 @@ namespace quadloop {
 
 namespace {
 
-/// What a wall's node or edge has.
+/// State of a wall node or edge.
 struct WallState {
   Point velocity;
   double pressure = 0, density = 0, shear = 0;
 };
 
-/// A direction along a wall, turned the way of the free stream.
+/// Returns a direction along a wall, oriented downstream.
 Point downstream(Point along, const FreeStream& stream) {
   const double angle = stream.alpha * std::numbers::pi / 180;
   return dot(along, {std::cos(angle), std::sin(angle)}) < 0 ? -1.0 * along : along;
 }
 
-/// The walls asked for, by the mesh's boundaries: 1 or 0.
+/// Flags of the requested walls, for the mesh's boundaries: 1 or 0.
 struct Walls {
   Walls(const Mesh& mesh, const std::vector<std::string>& names, const FreeStream& stream) {
     for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -67,7 +67,7 @@ class WallRows {
   bool has_density_, has_shear_;
 };
 
-/// The columns of SU2's skin friction, a force by area over the dynamic pressure.
+/// Finds the columns of SU2's skin friction, shear stress over dynamic pressure.
 std::optional<std::array<std::size_t, 2>> skin_friction_columns(const std::vector<std::string>& names) {
   const auto along_x = variables_like(names, "Skin_Friction_Coefficient_x"),
              along_y = variables_like(names, "Skin_Friction_Coefficient_y");
@@ -75,7 +75,7 @@ std::optional<std::array<std::size_t, 2>> skin_friction_columns(const std::vecto
   return {{along_x.front(), along_y.front()}};
 }
 
-/// Of each owned node. *Collective.*
+/// For each owned node. *Collective.*
 std::vector<double> shear_at_nodes(const Communicator& comm, const Mesh& mesh, const Field& solution,
                                    const FlowColumns& columns, const FreeStream& stream,
                                    const std::vector<char>& rough) {
@@ -120,14 +120,14 @@ Field from_nodes(const Communicator& comm, const Mesh& mesh, const Field& soluti
   return rows.take();
 }
 
-/// An edge of a wall, by the global numbers of its nodes, with what the cell beside it has.
+/// A wall edge, by the global numbers of its nodes, with the values of the adjacent cell.
 struct CellAtWall {
   std::int64_t from = 0, to = 0;
   double length = 0;
   WallState state;
 };
 
-/// The state at the wall of a cell beside the edge.
+/// Returns the state at the wall of the cell adjacent to the edge.
 WallState state_at(const Mesh& mesh, const std::array<NodeId, 2>& edge, const FlowColumns& columns,
                    std::span<const double> row, Point centroid, const FreeStream& stream, bool rough) {
   const Point from = mesh.point(edge[0]), edge_along = mesh.point(edge[1]) - from;
@@ -140,7 +140,7 @@ WallState state_at(const Mesh& mesh, const std::array<NodeId, 2>& edge, const Fl
   return state;
 }
 
-/// Those of this rank. *Collective.*
+/// Returns those of this rank. *Collective.*
 std::vector<CellAtWall> cells_at_walls(const Communicator& comm, const Mesh& mesh, const CellValues& cells,
                                        const FreeStream& stream, const Walls& walls,
                                        const std::string& where) {
@@ -173,7 +173,7 @@ std::vector<CellAtWall> cells_at_walls(const Communicator& comm, const Mesh& mes
   return at_walls;
 }
 
-/// A mean, each state by its weight.
+/// A weighted mean of states.
 class MeanState {
  public:
   void add(const WallState& state, double weight) {
@@ -193,7 +193,7 @@ class MeanState {
   double weight_ = 0;
 };
 
-/// Linear along the wall between the middles of the two edges at a node. *Collective.*
+/// Interpolates linearly along the wall between the midpoints of the two edges at a node. *Collective.*
 Field from_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells,
                  const FreeStream& stream, const Walls& walls, const std::string& where) {
   const std::vector<CellAtWall> own = cells_at_walls(comm, mesh, cells, stream, walls, where);

@@ -15,13 +15,13 @@ namespace quadloop {
 
 namespace {
 
-/// What the table says of a node.
+/// A node's row of the table.
 struct WallRow {
   std::int64_t number = 0;
   double pressure_coefficient = 0, mach = 0, friction_coefficient = 0, y_plus = 0;
 };
 
-/// All ranks' nodes on the walls, by their global numbers.
+/// Returns all ranks' nodes on the walls, by their global numbers.
 std::unordered_map<std::int64_t, WallRow> rows_of(const Communicator& comm, const Mesh& mesh,
                                                   const Field& flow, const FreeStream& stream,
                                                   const std::vector<char>& is_wall) {
@@ -55,7 +55,7 @@ std::unordered_map<std::int64_t, WallRow> rows_of(const Communicator& comm, cons
   return rows;
 }
 
-/// All ranks' edges of a boundary, in the order of ranks.
+/// Returns all ranks' edges of a boundary, in the order of ranks.
 std::vector<WallEdge> edges_of(const Communicator& comm, const Mesh& mesh, const BoundaryEdges& boundary) {
   std::vector<WallEdge> own;
   const auto node_at = [&](NodeId node) { return WallNode{mesh.global(node).value(), mesh.point(node)}; };
@@ -63,14 +63,14 @@ std::vector<WallEdge> edges_of(const Communicator& comm, const Mesh& mesh, const
   return comm.all_gather_values(std::span<const WallEdge>(own));
 }
 
-/// The shortest text that reads back to the same double.
+/// Appends the shortest text that reads back to the same double.
 void append(std::string& text, double value, char before) {
   std::array<char, 32> digits{};
   text += before;
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-/// A field of a table, in quotes where its signs would divide it.
+/// Quotes a field if it contains separators.
 std::string quoted(const std::string& name) {
   if (name.find_first_of(",\"\n") == std::string::npos) return name;
   std::string text = "\"";

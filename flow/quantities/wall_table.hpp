@@ -10,17 +10,16 @@
 
 namespace quadloop {
 
-/// What follows the prefix of a solution's file in the name of its wall table.
+/// Suffix of the wall table; it follows the prefix of the solution's file.
 inline constexpr const char* wall_table_suffix = ".walls.csv";
 
-/// The flow along the boundaries named, in their order, as the text of a table on the root, elsewhere empty:
-/// columns boundary, s, x, y, Cp, Mach, and where the free stream has a viscosity Cf, y+; a row a node in the
-/// order in which the boundary is walked, the domain to the left. `s` is the length walked: an open chain
-/// from its end, a loop from its node farthest along x, the lowest of those, an airfoil's trailing edge. The
-/// first node of a loop stands at its end again. With each chain `s` begins at 0, and chains come in the
-/// order of the mesh's edges. Cf is the variable wall_shear over the dynamic pressure, positive the way of
-/// the free stream; y+ is that of the nearest nodes above the wall. The same text on any number of ranks.
-/// *Collective.*
+/// Returns the flow along the named boundaries, in their order, as the text of a table on the root (empty
+/// elsewhere): columns boundary, s, x, y, Cp, Mach, and Cf, y+ if the free stream has a viscosity; one row
+/// per node in the direction of the boundary, with the domain to the left. `s` is the arc length: an open
+/// chain begins at its end, a loop at its node of largest x, the lowest of those (the trailing edge of an
+/// airfoil). The first node of a loop is repeated at its end. `s` restarts at 0 for each chain; chains are in
+/// the order of the mesh's edges. Cf is wall_shear over the dynamic pressure, positive downstream; y+ is that
+/// of the first nodes above the wall. Independent of the number of ranks. *Collective.*
 std::string wall_table(const Communicator& comm, const Mesh& mesh, const Field& flow,
                        const FreeStream& stream, const std::vector<std::string>& walls);
 

@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// Which edges leave a node, the first of them last.
+/// Edges that start at a node, the first of them last.
 using Leaving = std::map<std::int64_t, std::vector<std::size_t>>;
 
 Leaving leaving_edges(const std::vector<WallEdge>& edges) {
@@ -17,7 +17,7 @@ Leaving leaving_edges(const std::vector<WallEdge>& edges) {
   return leaving;
 }
 
-/// From a node on, as far as edges lead that were not walked.
+/// Follows unvisited edges from a node as far as possible.
 std::vector<WallNode> chain_from(const std::vector<WallEdge>& edges, const WallNode& first,
                                  Leaving& leaving) {
   std::vector<WallNode> chain{first};
@@ -43,7 +43,7 @@ void turn_to_trailing_edge(std::vector<WallNode>& loop) {
 }  // namespace
 
 std::vector<std::vector<WallNode>> walk(const std::vector<WallEdge>& edges) {
-  std::map<std::int64_t, int> surplus;  // edges that leave a node less those that reach it
+  std::map<std::int64_t, int> surplus;  // number of edges that start at a node minus those that end there
   for (const WallEdge& edge : edges) {
     ++surplus[edge.from.number];
     --surplus[edge.to.number];

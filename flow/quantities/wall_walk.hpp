@@ -17,9 +17,9 @@ struct WallEdge {
   WallNode from, to;
 };
 
-/// The edges as chains of nodes, each walked the way of its edges: from the end of an open chain, of a loop
-/// from the node farthest along x, the lowest of those, which then stands at the end again. In the order in
-/// which the edges name the chains.
+/// Returns the edges as chains of nodes in the direction of the edges: an open chain from its end, a loop
+/// from the node of largest x, the lowest of those, which is repeated at the end. Chains are in the order of
+/// the edges.
 std::vector<std::vector<WallNode>> walk(const std::vector<WallEdge>& edges);
 
 }  // namespace quadloop

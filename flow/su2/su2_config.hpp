@@ -6,28 +6,29 @@
 
 namespace quadloop {
 
-/// A configuration of SU2: lines "KEY= value", keys in any case, '%' begins a comment. A line that ends with
-/// a backslash goes on in the next one. Everything that is not set anew stays as its user wrote it.
+/// An SU2 configuration: lines "KEY= value", keys in any case, '%' begins a comment. A line that ends with a
+/// backslash continues on the next one. Everything that is not set remains as the user wrote it.
 class Su2Config {
  public:
-  /// Throws InputError, which begins with `path` and a line's number, where a line is none of these or a key
-  /// is there twice: SU2 refuses both.
+  /// Throws InputError, which begins with `path` and a line number, for any other line and for a duplicate
+  /// key, which SU2 rejects too.
   Su2Config(const std::string& text, const std::string& path);
 
-  /// Without blanks around it and without its comment; none where the key is not there.
+  /// Returns the value without surrounding blanks and comment; empty if there is no such key.
   std::optional<std::string> value(const std::string& key) const;
-  /// The words of a value, which blanks, commas and parentheses divide; none where the key is not there.
+  /// Returns the words of a value, separated by blanks, commas and parentheses; empty if there is no such
+  /// key.
   std::vector<std::string> words(const std::string& key) const;
 
-  /// In the place of its old value; a new key comes last.
+  /// Replaces the value of a key; a new key is appended.
   void set(const std::string& key, const std::string& value);
 
   std::string text() const;
 
  private:
   struct Line {
-    std::string text;  ///< as it stands, several where it goes on
-    std::string key;   ///< in capitals; empty where it has none
+    std::string text;  ///< unchanged text; several lines if continued
+    std::string key;   ///< in upper case; empty if there is none
     std::string value;
   };
 

@@ -27,7 +27,7 @@ std::optional<double> number(const std::string& text) {
   return value;
 }
 
-/// A row's numbers by the names of their columns.
+/// A row's numbers by column name.
 using Row = std::map<std::string, double>;
 
 Row row_of(const std::vector<std::string>& names, const std::string& text) {

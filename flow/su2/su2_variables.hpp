@@ -4,13 +4,13 @@
 
 namespace quadloop {
 
-/// A flow as SU2 leaves it, with what sensors and users name behind its own variables: x_velocity,
-/// y_velocity, pressure and mach, each unless it is there by a usual name, from its density, momentum and
-/// energy (a volume's) by the law of an ideal gas of this ratio of specific heats. A flow without these four
-/// is left as it is. Where the pressure is not positive the Mach number is 0.
+/// Returns an SU2 solution extended by the usual variables of sensors and users: x_velocity, y_velocity,
+/// pressure and mach, unless it has them under a usual name. They are computed from density, momentum and
+/// energy (per volume) for an ideal gas with this ratio of specific heats. A solution without these four is
+/// unchanged. The Mach number is 0 if the pressure is not positive.
 Field with_primitive_variables(Field flow, double gamma);
 
-/// The same without what with_primitive_variables() has added: as SU2 restarts from it.
+/// Returns the solution without the variables of with_primitive_variables(), from which SU2 restarts.
 Field without_primitive_variables(const Field& flow);
 
 }  // namespace quadloop

@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/cgns only.
+// For io/cgns only.
 #include <cstddef>
 
 #include "io/cgns/cgns_handle.hpp"
@@ -8,7 +8,7 @@
 
 namespace quadloop {
 
-/// The elements of a kind of cells; their nodes are in the order of FileMesh.
+/// CGNS element type of a kind of cells; the node order is that of FileMesh.
 template <CellKind kind>
 inline constexpr ElementType_t cgns_type_of = kind == CellKind::triangle      ? TRI_3
                                               : kind == CellKind::quad        ? QUAD_4
@@ -17,13 +17,13 @@ inline constexpr ElementType_t cgns_type_of = kind == CellKind::triangle      ? 
                                               : kind == CellKind::prism       ? PENTA_6
                                                                               : HEXA_8;
 
-/// The number of nodes of an element, and its dimensions.
+/// Number of nodes and dimension of an element.
 struct CgnsShape {
   std::size_t width = 0;
   int dimension = 0;
 };
 
-/// None (width 0) of elements that are no bars and no cells of ours.
+/// Returns width 0 for elements that are neither bars nor supported cells.
 inline CgnsShape shape_of_cgns(int type) {
   if (type == BAR_2) return {2, 1};
   CgnsShape shape;

@@ -52,7 +52,7 @@ constexpr std::array scalars{Quantity{"CoefPressure", none},
                              Quantity{"ViscosityKinematic", of_diffusion},
                              Quantity{"ViscosityMolecular", of_viscosity}};
 
-/// Their components end in X, Y or Z.
+/// Names of their components end in X, Y or Z.
 constexpr std::array vectors{Quantity{"CoefSkinFriction", none},    Quantity{"Coordinate", of_length},
                              Quantity{"Force", {1, 1, -2}},         Quantity{"Momentum", of_momentum},
                              Quantity{"SkinFriction", of_pressure}, Quantity{"Velocity", of_velocity},

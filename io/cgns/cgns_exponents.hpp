@@ -6,11 +6,11 @@
 
 namespace quadloop {
 
-/// Of mass, length, time, temperature and angle.
+/// Exponents of mass, length, time, temperature and angle.
 using CgnsExponents = std::array<float, 5>;
 
-/// The dimensions of a quantity by its name in the standard (SIDS, annex A): {1, -3} for "Density", all 0 for
-/// "Mach". Nothing for names that are none of the standard's, or of no flow's.
+/// Returns the dimensions of a quantity by its standard name (SIDS, annex A): {1, -3} for "Density", all 0
+/// for "Mach". Empty for names that are not in the standard, or are not flow quantities.
 std::optional<CgnsExponents> cgns_exponents(std::string_view name);
 
 }  // namespace quadloop

@@ -10,17 +10,17 @@
 
 namespace quadloop {
 
-/// The elements of a zone that may lie on its boundary, BAR_2 or of a 3D mesh TRI_3 and QUAD_4, in the order
-/// of its sections, until boundaries take them by their element numbers.
+/// The elements of a zone that may be on its boundary, BAR_2 or, in a 3D mesh, TRI_3 and QUAD_4, in the order
+/// of its sections. Boundaries take them by their element numbers.
 class CgnsFaces {
  public:
   using Face = FileBoundary::Face;
 
   void begin_section(const std::string& name) { sections_.push_back({name, faces_.size()}); }
-  /// To the section that was begun last.
+  /// Adds a face to the last section.
   void add(std::int64_t element, const Face& face) { faces_.push_back({element, face, false}); }
 
-  /// All sections are there.
+  /// Call after the last section.
   void sort() {
     by_element_.resize(faces_.size());
     for (std::size_t i = 0; i < faces_.size(); ++i) by_element_[i] = i;
@@ -29,7 +29,7 @@ class CgnsFaces {
 
   std::size_t size() const { return faces_.size(); }
 
-  /// Nothing where no face has that number, or another boundary has taken it.
+  /// Empty if no face has that number, or another boundary has taken it.
   std::optional<Face> take(std::int64_t element) {
     for (auto at = first_of(element); at != by_element_.end() && faces_[*at].element == element; ++at) {
       if (faces_[*at].taken) continue;
@@ -39,14 +39,14 @@ class CgnsFaces {
     return {};
   }
 
-  /// The first face of that number, taken or not.
+  /// Returns the first face of that number, taken or not.
   std::optional<Face> find(std::int64_t element) const {
     const auto at = first_of(element);
     if (at == by_element_.end() || faces_[*at].element != element) return {};
     return faces_[*at].nodes;
   }
 
-  /// `visit(section's name, face)` for those that nobody took.
+  /// Calls `visit(section's name, face)` for the faces not taken.
   template <class Visit>
   void for_each_left(const Visit& visit) const {
     for (std::size_t s = 0; s < sections_.size(); ++s) {
@@ -60,7 +60,7 @@ class CgnsFaces {
  private:
   struct Section {
     std::string name;
-    std::size_t first;  ///< of its faces
+    std::size_t first;  ///< index of its first face
   };
   struct Entry {
     std::int64_t element;

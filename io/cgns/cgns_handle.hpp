@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/ only: the one header that names the CGNS library, for the sources that talk to it.
+// For io/ only: the only header that includes the CGNS library.
 #include <cgnslib.h>
 
 #include <array>
@@ -15,12 +15,12 @@
 
 namespace quadloop {
 
-/// An open CGNS file; `Failure` is the error that a failed call becomes. Serial: one rank owns it. A file
-/// that could not be written is never closed: the libraries may crash on it.
+/// An open CGNS file; a failed call throws `Failure`. Serial: used by one rank. A file that could not be
+/// written is never closed, as the libraries may crash on it.
 template <class Failure>
 class CgnsFile {
  public:
-  /// `shown` names the file in messages.
+  /// `shown` is the name of the file in messages.
   CgnsFile(const std::string& path, std::string shown, int mode) : shown_{std::move(shown)} {
     check(cg_open(path.c_str(), mode, &id_));
     hdf5_.listen();
@@ -35,7 +35,7 @@ class CgnsFile {
   int id() const { return id_; }
   const std::string& shown() const { return shown_; }
 
-  /// To be wrapped around every call of the library.
+  /// Checks the status of a library call; to be used for every call.
   void check(int status) const {
     if (status == CG_OK) return;
     if constexpr (std::is_same_v<Failure, OutputError>) {
@@ -44,7 +44,7 @@ class CgnsFile {
     }
     throw Failure(shown_ + ": the CGNS library refuses: " + cg_get_error());
   }
-  /// The text of the last descriptor of this name below the node that was gone to, if it has one.
+  /// Returns the text of the last descriptor of this name below the current node, if there is one.
   std::optional<std::string> descriptor_here(const std::string& name) const {
     int descriptors = 0;
     check(cg_ndescriptors(&descriptors));
@@ -58,7 +58,7 @@ class CgnsFile {
     }
     return result;
   }
-  /// What was buffered may fail only here; the destructor can say nothing.
+  /// Writing buffered data may fail only here; the destructor cannot report it.
   void close() {
     open_ = false;
     check(cg_close(id_));
@@ -71,7 +71,7 @@ class CgnsFile {
   mutable bool open_ = false;
 };
 
-/// The first base of a file, of which alone meshes are read.
+/// The first base of a file; meshes are read only from this one.
 struct CgnsBase {
   int cell_dimension = 0, zones = 0;
 };

@@ -30,7 +30,7 @@ std::string range_text(cgsize_t first, cgsize_t last) {
   return std::to_string(first) + " to " + std::to_string(last);
 }
 
-/// The boundary conditions of families by their names; "none" for a family that says nothing.
+/// The boundary conditions of families by name; "none" for a family without one.
 class CgnsFamilies {
  public:
   BoundaryCondition condition_of(const File& file, const std::string& family) {
@@ -58,10 +58,10 @@ class CgnsFamilies {
   std::optional<std::unordered_map<std::string, BoundaryCondition>> conditions_;
 };
 
-/// Rows of cells of each kind.
+/// Cell rows of each kind.
 using ValuesByKind = std::array<std::vector<double>, cell_kinds>;
 
-/// Reads one zone into the mesh; nodes are numbered after those that are already there.
+/// Reads one zone into the mesh; its nodes are numbered after the existing ones.
 class ZoneReader {
  public:
   ZoneReader(const File& file, int zone, FileMesh& mesh, CgnsFamilies& families, ValuesByKind& cell_values)
@@ -149,9 +149,7 @@ class ZoneReader {
     });
   }
 
-  bool is_read(const CgnsShape& shape) const {
-    return shape.width > 0 && shape.dimension <= mesh_.dimension;
-  }
+  bool is_read(const CgnsShape& shape) const { return shape.width > 0 && shape.dimension <= mesh_.dimension; }
 
   void read_section(int section) {
     Name name{};
@@ -180,7 +178,7 @@ class ZoneReader {
            " elements, where its range " + range_text(first, last) + " is of " + std::to_string(elements));
   }
 
-  /// How many elements the section holds.
+  /// Returns the number of elements of the section.
   std::int64_t read_rows(int section, int type, std::vector<cgsize_t>& data, std::int64_t element) {
     file_.check(cg_elements_read(file_.id(), 1, zone_, section, data.data(), nullptr));
     const CgnsShape shape = shape_of_cgns(type);
@@ -189,8 +187,8 @@ class ZoneReader {
     return data.size() / shape.width;
   }
 
-  /// Each element is its type, then its nodes. Where each begins follows from that: the file's own offsets,
-  /// of which the library does not tell how many it is going to write, are left alone.
+  /// Each element is stored as its type followed by its nodes, from which the offsets follow. The file's own
+  /// offsets are not read, as the library does not report how many it will write.
   std::int64_t read_mixed(int section, std::vector<cgsize_t>& data, std::int64_t element) {
     file_.check(cg_poly_elements_read(file_.id(), 1, zone_, section, data.data(), nullptr, nullptr));
     const std::int64_t first = element;
@@ -225,8 +223,8 @@ class ZoneReader {
     file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", number, "end"));
   }
 
-  /// The faces of a condition are named by a list, or by the two ends of a range. One that names nodes is
-  /// passed over: its faces, if the file has them, come as a section.
+  /// The faces of a condition are given by a list, or by the two ends of a range. A condition on nodes is
+  /// skipped: its faces, if in the file, are a section.
   void read_boundary(int number) {
     Name name{};
     BCType_t type = BCTypeNull;
@@ -260,7 +258,7 @@ class ZoneReader {
       refuse("boundary " + boundary.name + " is of the elements " + range_text(first, last) +
              ", which is no range");
     for (std::int64_t element = first; element <= last; ++element)
-      take_face(element, boundary);  // ends at the first that is no face
+      take_face(element, boundary);  // ends at the first element that is not a face
   }
 
   void take_face(std::int64_t element, FileBoundary& boundary) {
@@ -272,15 +270,15 @@ class ZoneReader {
     boundary.faces.push_back(*face);
   }
 
-  /// Of the condition that was gone to. One of type FamilySpecified has its type with the family.
+  /// Returns the condition at the current node. For type FamilySpecified it is that of the family.
   BoundaryCondition condition_of(BCType_t type) {
     std::array<char, 660> family{};
     if (type != FamilySpecified || cg_famname_read(family.data()) != CG_OK) return condition_of_cgns(type);
     return families_.condition_of(file_, family.data());
   }
 
-  /// Nodes of connectivities that have a node Periodic_t, on this zone's side; each side has its own as a
-  /// rule.
+  /// Reads the nodes on this zone's side of connectivities with a Periodic_t node; usually each side has its
+  /// own.
   void read_periodic() {
     int count = 0;
     file_.check(cg_nconns(file_.id(), 1, zone_, &count));
@@ -354,7 +352,8 @@ class ZoneReader {
   std::string name_;
   std::int32_t block_ = 0;
   cgsize_t nodes_ = 0, cells_ = 0;
-  std::array<std::vector<std::int64_t>, cell_kinds> elements_;  ///< of each kind: their numbers in the zone
+  /// For each kind: element numbers in the zone.
+  std::array<std::vector<std::int64_t>, cell_kinds> elements_;
   std::size_t first_node_ = 0;
   CgnsFaces faces_;
 };

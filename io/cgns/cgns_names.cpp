@@ -27,7 +27,7 @@ constexpr std::array<std::pair<const char*, const char*>, 10> known_variables{{{
                                                                                {"y_momentum", "MomentumY"},
                                                                                {"z_momentum", "MomentumZ"}}};
 
-/// Of each condition the first type is what is written.
+/// For each condition the first type is written.
 constexpr std::array<std::pair<BoundaryCondition, BCType_t>, 15> condition_types{
     {{BoundaryCondition::wall, BCWall},
      {BoundaryCondition::viscous_wall, BCWallViscous},
@@ -45,7 +45,7 @@ constexpr std::array<std::pair<BoundaryCondition, BCType_t>, 15> condition_types
      {BoundaryCondition::outflow, BCTunnelOutflow},
      {BoundaryCondition::symmetry, BCSymmetryPlane}}};
 
-/// Cut at a character, not inside one of several bytes (UTF-8).
+/// Truncates a name, not inside a multi-byte UTF-8 character.
 std::string shortened(const std::string& name, std::size_t length) {
   if (name.size() <= length) return name;
   while (length > 0 && (name[length] & 0xC0U) == 0x80U) --length;
@@ -58,7 +58,7 @@ std::string standard_name(const std::string& name) {
   return known == known_variables.end() ? name : known->second;
 }
 
-/// Names of siblings beside the nodes that are `used`.
+/// Returns names distinct from each other and from the `used` sibling nodes.
 std::vector<std::string> names_beside(std::initializer_list<const char*> used,
                                       const std::vector<std::string>& names) {
   DistinctNames distinct;
@@ -78,7 +78,7 @@ std::vector<std::string> names_beside(std::initializer_list<const char*> used,
 }  // namespace
 
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
-  // Sections stand in the zone and families in the base, beside these nodes.
+  // Sections are siblings of these nodes in the zone, families in the base.
   return names_beside({"ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4", "PYRA_5", "PENTA_6",
                        "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution", "CellSolution", "domain",
                        "DataClass", "DimensionalUnits", strips_descriptor, "Part"},

@@ -10,9 +10,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t name_size = 33, type_size = 3;  // with the 0 at the end, as the standard has them
+constexpr std::size_t name_size = 33, type_size = 3;  // including the terminating 0, as in the standard
 constexpr hsize_t largest_small_data =
-    1024;  // numbers that HDF5 keeps beside the node instead of in a place of their own
+    1024;  // maximum number of values that HDF5 stores in the object header
 constexpr const char* data_name = " data";
 
 Hdf5Handle text_type(std::size_t size) {
@@ -42,12 +42,12 @@ CgnsNodes::CgnsNodes(const StagedFile& staged) : shown_{staged.path} {
   groups_ = checked(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_obj_track_times(groups_.id(), false);
   H5Pset_link_creation_order(groups_.id(),
-                             H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);  // the order of children
+                             H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);  // order of the children
   small_data_ = creation_of_datasets(H5D_COMPACT);
   large_data_ = creation_of_datasets(H5D_CONTIGUOUS);
 }
 
-/// What failed stays as it is: HDF5 may crash on a file that it could not write.
+/// After a failure the file is not touched: HDF5 may crash on a file that it could not write.
 void CgnsNodes::check(bool good) const {
   if (good) return;
   file_.abandon();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/ only: names the HDF5 library.
+// For io/ only: includes the HDF5 library.
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace quadloop {
 
-/// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns walks over all its
-/// siblings, so that boundaries cost it the square of their number (40 s for 5000); this is linear. A node is
-/// a group with its name, label and type as attributes and a dataset " data", as the CGNS standard maps it to
-/// HDF5. What fails is an OutputError that names the output.
+/// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns traverses all its
+/// siblings, so that its time is quadratic in the number of boundaries (40 s for 5000); this is linear. A
+/// node is a group with its name, label and type as attributes and a dataset " data", as specified by the
+/// CGNS mapping to HDF5. Failures are OutputErrors that name the output.
 class CgnsNodes {
  public:
   using Node = Hdf5Handle;
 
   explicit CgnsNodes(const StagedFile& staged);
 
-  /// The node at a path of names ("/Base/domain").
+  /// Returns the node at a path of names ("/Base/domain").
   Node at(const std::string& path) const;
 
-  /// A new child without data, with text, or with integers (`rows` x `columns` in the order of C; a list
-  /// where `columns` is 0).
+  /// Add a child without data, with text, or with integers (`rows` x `columns` in C order; a list if
+  /// `columns` is 0).
   Node add(const Node& parent, const std::string& name, const char* label) const;
   Node add_text(const Node& parent, const std::string& name, const char* label,
                 const std::string& text) const;
   Node add_integers(const Node& parent, const std::string& name, const char* label,
                     std::span<const std::int32_t> values, std::size_t columns = 0) const;
 
-  /// A list of `count` integers that comes in pieces; it goes before the file does.
+  /// A list of `count` integers written in pieces; must be destroyed before the file.
   class Array {
    public:
     void put(std::span<const std::int32_t> values);
@@ -59,7 +59,7 @@ class CgnsNodes {
 
   QuietHdf5 quiet_;  // first, so that it outlives what the handles release
   std::string shown_;
-  mutable Hdf5Handle file_;  ///< abandoned where a write fails
+  mutable Hdf5Handle file_;  ///< abandoned after a failed write
   Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_;
 };
 

@@ -67,7 +67,7 @@ void CgnsPatches::put_strips(const std::vector<StripLayers>& strips) {
 void CgnsPatches::close() {
   elements_.reset();
   for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_})
-    *node = {};  // HDF5 keeps a file open as long as anything in it is
+    *node = {};  // HDF5 keeps a file open as long as any object in it is open
   nodes_.close();
 }
 

@@ -12,7 +12,8 @@ namespace quadloop {
 
 namespace {
 
-/// Each edge between two zones once: its first mention, with its cell of the smaller block to the left.
+/// Keeps each edge between two zones once: its first occurrence, with the cell of the smaller block on its
+/// left.
 void keep_first_mentions(LoadedMesh& loaded) {
   Mesh& mesh = loaded.mesh;
   const EdgeTable table(mesh);

@@ -12,7 +12,8 @@ void CgnsSink::begin_zone(std::int64_t nodes, std::int64_t cells) {
   const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
   file_->check(cg_base_write(id(), base_name, dimension_, dimension_, &base_));
   file_->check(cg_goto(id(), base_, "end"));
-  file_->check(cg_dataclass_write(NormalizedByUnknownDimensional));  // the unit of length is the user's own
+  // the unit of length is chosen by the user
+  file_->check(cg_dataclass_write(NormalizedByUnknownDimensional));
   file_->check(cg_zone_write(id(), base_, zone_name, size.data(), Unstructured, &zone_));
 }
 
@@ -63,7 +64,7 @@ std::unique_ptr<CgnsSink::File> CgnsSink::open(const StagedFile& staged) {
   cg_set_file_type(CG_FILE_HDF5);
   try {
     return std::make_unique<File>(staged.temporary, staged.path, CG_MODE_WRITE);
-  } catch (const OutputError&) {  // without the reason; a byte of our own may tell it
+  } catch (const OutputError&) {  // the reason is unknown; writing a byte may reveal it
     OutputFile probe(staged);
     probe.write("?");
     probe.close();
@@ -81,7 +82,7 @@ void CgnsSink::take_column(std::span<const double> rows, std::size_t width, std:
   for (std::size_t i = 0; i < column_.size(); ++i) column_[i] = rows[i * width + k];
 }
 
-/// Mass, length, time, temperature, angle: the coordinates are lengths.
+/// Sets the exponents of mass, length, time, temperature, angle: coordinates are lengths.
 void CgnsSink::put_length_dimension(int coordinate) {
   const std::array<float, 5> exponents{0, 1, 0, 0, 0};
   file_->check(
@@ -89,7 +90,7 @@ void CgnsSink::put_length_dimension(int coordinate) {
   file_->check(cg_exponents_write(RealSingle, exponents.data()));
 }
 
-/// Values have dimensions, and stand in units of the solver's own, or have none.
+/// Sets the dimensions of a variable; the units are those of the solver, or it is non-dimensional.
 void CgnsSink::describe_variable(int field, const std::string& variable, const std::string& name) {
   file_->check(
       cg_goto(id(), base_, "Zone_t", zone_, "FlowSolution_t", solution_, "DataArray_t", field, "end"));

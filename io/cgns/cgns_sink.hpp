@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/cgns only.
+// For io/cgns only.
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -14,11 +14,11 @@
 
 namespace quadloop {
 
-/// The most entries that an array of the file may have.
+/// Maximum number of entries of an array in the file.
 constexpr std::int64_t largest_cgns_size = std::numeric_limits<cgsize_t>::max();
 
-/// What stands on rank 0 while a CGNS file is written: the file, its one base and zone, and where the next
-/// piece of the array under way goes.
+/// State of a CGNS file being written, on rank 0: the file, its single base and zone, and the position of the
+/// next piece in the current array.
 class CgnsSink {
  public:
   static constexpr const char *base_name = "Base", *zone_name = "domain", *base_path = "/Base",
@@ -30,11 +30,11 @@ class CgnsSink {
   void begin_zone(std::int64_t nodes, std::int64_t cells);
 
   void begin_rows() { next_row_ = 1; }
-  /// Of so many coordinates for each node as the space has dimensions.
+  /// Each node has as many coordinates as the space has dimensions.
   void put_coordinates(std::span<const double> rows);
-  /// At the vertices, or in the cells: each place has a solution of its own.
+  /// Begins a solution at the vertices, or in the cells: each location has its own.
   void begin_solution(GridLocation_t location = Vertex);
-  /// `variables` are named as ours are; the file has cgns_variable_names() of them.
+  /// `variables` are our names; in the file they are cgns_variable_names().
   void put_solution(std::span<const double> rows, const std::vector<std::string>& variables);
 
   void begin_section(const std::string& name, ElementType_t type, std::int64_t elements);

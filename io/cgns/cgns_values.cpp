@@ -12,7 +12,7 @@ namespace {
 
 using Name = std::array<char, 33>;
 
-/// As its descriptor keeps it, or else as the standard has it.
+/// Returns the name in its descriptor, else the equivalent of the standard name.
 std::string own_name(const CgnsZone& from, int solution, int field, const std::string& name) {
   const auto& file = from.file;
   file.check(cg_goto(file.id(), from.base, "Zone_t", from.zone, "FlowSolution_t", solution, "DataArray_t",
@@ -21,7 +21,7 @@ std::string own_name(const CgnsZone& from, int solution, int field, const std::s
   return kept.empty() ? variable_name_of_cgns(name) : kept;
 }
 
-/// One variable after the other, `rows` values of each.
+/// Reads one variable after another, `rows` values each.
 std::vector<double> read_columns(const CgnsZone& from, int solution, cgsize_t rows,
                                  std::vector<std::string>& names) {
   const auto& file = from.file;
@@ -45,7 +45,7 @@ void append_row(const std::vector<double>& columns, std::size_t rows, std::size_
   for (std::size_t at = row; at < columns.size(); at += rows) values.push_back(columns[at]);
 }
 
-/// In the file rows stand in the order of the elements.
+/// In the file rows are in the order of the elements.
 void read_in_cells(const CgnsZone& from, int solution, std::span<const std::vector<std::int64_t>> kinds,
                    CellValues& result) {
   std::vector<std::int64_t> sorted;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/cgns only.
+// For io/cgns only.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,15 +11,15 @@
 
 namespace quadloop {
 
-/// A zone of an open file, and how many nodes and cells it is said to have.
+/// A zone of an open file, with its declared numbers of nodes and cells.
 struct CgnsZone {
   const CgnsFile<InputError>& file;
   int base = 1, zone = 1;
   cgsize_t nodes = 0, cells = 0;
 };
 
-/// The solution of a zone: the first at the vertices, and the first in the cells. `elements` are for each
-/// kind of cells the numbers of its elements in the zone; rows stand kind after kind, in the order of these.
+/// Reads the solution of a zone: the first at the vertices, and the first in the cells. `elements` are, for
+/// each kind of cells, its element numbers in the zone; rows are ordered by kind, then in the order of these.
 /// Throws InputError.
 Field read_cgns_values(const CgnsZone& zone, std::span<const std::vector<std::int64_t>> elements);
 

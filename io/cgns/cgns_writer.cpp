@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-/// Rows of an array type as one list of numbers.
+/// Returns rows of an array type as one list of numbers.
 template <class Number, std::size_t width>
 std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
   return {rows.empty() ? nullptr : rows.front().data(), rows.size() * width};
@@ -106,7 +106,7 @@ class CgnsWriter {
     });
   }
 
-  /// The ranks' next rows of the solution under way.
+  /// Writes the next rows of all ranks in the current solution.
   template <class Value>
   void write_values(const std::vector<std::string>& names, std::int64_t count, const Value& value) {
     const std::size_t wide = names.size();
@@ -124,7 +124,7 @@ class CgnsWriter {
         [&](std::span<const double> values) { sink_->put_solution(values, names); });
   }
 
-  /// Last of all: libcgns is done with the file.
+  /// Must be last: libcgns has closed the file.
   void write_boundaries() {
     stream_.on_root([&] {
       sink_->close();
@@ -136,7 +136,7 @@ class CgnsWriter {
     stream_.on_root([&] { patches_->close(); });
   }
 
-  /// Names are those of all boundaries, also of those without edges.
+  /// Names are assigned to all boundaries, including those without edges.
   void write_edges() {
     const std::vector<BoundaryEdges>& boundaries = stream_.extruded()->plane.boundaries;
     std::vector<std::string> names;
@@ -163,7 +163,7 @@ class CgnsWriter {
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) write_patch(n);
   }
 
-  /// A patch, on rank 0: its section of quads, after it one of triangles.
+  /// Begins a patch, on rank 0: its section of quads, then one of triangles.
   void begin(std::size_t patch, std::int64_t triangles, std::int64_t quads) {
     const StreamedPatch& about = stream_.patches()[patch];
     patches_->begin_patch();
@@ -171,7 +171,7 @@ class CgnsWriter {
     if (triangles == 0) patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
   }
 
-  /// One that is none of the sides.
+  /// Writes a patch that is not a side.
   void write_patch(std::size_t patch) {
     const StreamedPatch& about = stream_.patches()[patch];
     if (about.faces() == 0) return;
@@ -192,8 +192,9 @@ class CgnsWriter {
   const MeshStream& stream_;
   const StreamCellValues cells_;
   StagedFile staged_;
-  std::vector<std::string>
-      names_;  ///< of patches, then of the triangles of those that are no sides; the next two on rank 0 only
+  /// Names of patches, then of the triangles of those that are not sides; this and the next two on rank 0
+  /// only.
+  std::vector<std::string> names_;
   std::unique_ptr<CgnsSink> sink_;
   std::unique_ptr<CgnsPatches> patches_;
 };

@@ -13,7 +13,7 @@
 
 namespace quadloop {
 
-/// A number as another machine has it, its bytes in the order `order`.
+/// Converts a number to the byte order `order`.
 template <std::endian order, class Number>
 Number in_order(Number value) {
   if constexpr (order == std::endian::native) return value;

@@ -11,7 +11,7 @@ namespace quadloop {
 namespace {
 
 constexpr std::int64_t edges_per_piece = std::int64_t{1}
-                                         << 12;  // 64 KB; rank 0 holds at most one piece of each rank
+                                         << 12;  // 64 KB; rank 0 stores at most one piece of each rank
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void BoundaryStream::run(const Begin& begin, const Put& put) const {
   });
 }
 
-/// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
+/// After a failure the other ranks' pieces are still received, as those ranks would otherwise wait forever.
 void BoundaryStream::take_all(const Begin& begin, const Put& put) const {
   std::vector<Incoming> incoming = all_incoming();
   std::exception_ptr failure;

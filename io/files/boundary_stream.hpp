@@ -12,29 +12,29 @@
 
 namespace quadloop {
 
-/// The edges of all boundaries as they pass through rank 0: boundary after boundary, of each first rank 0's,
-/// then rank 1's, and so on. What ranks say to each other does not grow with the number of boundaries: counts
-/// go round once, edges come in pieces that span boundaries.
+/// Streams the edges of all boundaries through rank 0: boundary after boundary, in each first those of rank
+/// 0, then of rank 1, and so on. The communication does not grow with the number of boundaries: counts are
+/// exchanged once, and pieces of edges may span boundaries.
 class BoundaryStream {
  public:
-  using Edge = std::array<std::int64_t, 2>;  ///< global numbers of its nodes, from 0
+  using Edge = std::array<std::int64_t, 2>;  ///< global node numbers, from 0
 
-  /// *Collective.* The mesh must outlive it.
+  /// The mesh must outlive the object. *Collective.*
   BoundaryStream(const Communicator& comm, const Mesh& mesh);
-  /// Of each edge two other numbers in the place of its nodes' own: this rank's edges, boundary after
+  /// Streams two other numbers for each edge instead of its nodes: those of this rank's edges, boundary after
   /// boundary.
   BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead);
 
   std::int64_t all_edges() const { return all_edges_; }
-  /// The boundaries that have edges on any rank, in their order; and how many.
+  /// The boundaries that have edges on any rank, in their order; and their numbers of edges.
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
   std::int64_t edges_of(std::size_t index) const { return edges_[index]; }
 
   using Begin = std::function<void(std::size_t index)>;
   using Put = std::function<void(std::span<const Edge> edges)>;
-  /// On rank 0, for each boundary that has edges, `begin(n)` with its index in present(), then
-  /// `put(std::span<const Edge>)` for each piece of it. *Collective*; what either throws ends on every rank,
-  /// and nobody hangs.
+  /// On rank 0, for each boundary with edges, calls `begin(n)` with its index in present(), then
+  /// `put(std::span<const Edge>)` for each piece. An exception in either ends the call on every rank, without
+  /// deadlock. *Collective.*
   void run(const Begin& begin, const Put& put) const;
 
  private:
@@ -43,11 +43,11 @@ class BoundaryStream {
     std::int64_t boundary, rank, edges;
   };
 
-  /// One rank's edges on their way: the piece under way, and what of it was handed on.
+  /// Edges being received from one rank: the current piece, and how much of it has been used.
   struct Incoming {
     std::vector<Edge> piece;
     std::size_t taken = 0;
-    std::int64_t asked_for = 0, all = 0;  ///< edges
+    std::int64_t asked_for = 0, all = 0;  ///< numbers of edges
   };
 
   void take_all(const Begin& begin, const Put& put) const;
@@ -61,8 +61,8 @@ class BoundaryStream {
   const Communicator& comm_;
   const Mesh& mesh_;
   std::vector<const BoundaryEdges*> present_;
-  std::vector<std::int64_t> edges_;  ///< of each of them, over all ranks
-  /// This rank's edges of the boundaries before each; the last entry is all of them.
+  std::vector<std::int64_t> edges_;  ///< for each of them, over all ranks
+  /// Number of this rank's edges of the boundaries before each; the last entry counts all.
   std::vector<std::int64_t> own_before_;
   std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank
   std::int64_t all_edges_ = 0;

@@ -6,22 +6,25 @@
 
 namespace quadloop {
 
-/// Keeps other runs from giving files of one folder their names, for a moment. The lock is on the file
-/// `.quadloop.lock` there, which goes with it; it ends with its process, however that ends. On a file system
-/// without locks it is none, and says nothing. On one rank.
+/// A lock on a folder. It ends with the process, however that ends. On a file system without locks on folders
+/// (NFS) it silently has no effect. On one rank.
 class FolderLock {
  public:
-  /// Nothing where another run holds it. To be called under SignalsWait, which must last as long as the lock.
+  /// Empty if another owner holds the lock.
   static std::optional<FolderLock> attempt(const std::string& folder);
 
   ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept;
-  FolderLock& operator=(FolderLock&&) = delete;
+  FolderLock(FolderLock&& other) noexcept : descriptor_{std::exchange(other.descriptor_, -1)} {}
+  FolderLock& operator=(FolderLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+
+  bool is_held() const { return descriptor_ >= 0; }
 
  private:
-  FolderLock(std::string file, int descriptor) : file_{std::move(file)}, descriptor_{descriptor} {}
+  explicit FolderLock(int descriptor) : descriptor_{descriptor} {}
 
-  std::string file_;
   int descriptor_ = -1;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Inside io/ only: the one header that names the HDF5 library. Ids never leave the sources of the tree file
-// and of cgns_nodes; libcgns keeps its own.
+// For io/ only: the only header that includes the HDF5 library. Ids are used only in the sources of the tree
+// file and of cgns_nodes; libcgns has its own.
 #include <hdf5.h>
 
 #include <charconv>
@@ -32,9 +32,9 @@ class Hdf5Handle {
 
   hid_t id() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  /// Releases now; a file may tell only here that the disk is full.
+  /// Releases the id; for a file, a full disk may be detected only here.
   herr_t close() { return release_(std::exchange(id_, -1)); }
-  /// Never releases it.
+  /// Drops the id without releasing it.
   void abandon() { id_ = -1; }
 
  private:
@@ -42,9 +42,8 @@ class Hdf5Handle {
   Release release_ = nullptr;
 };
 
-/// Keeps HDF5 from printing its own account of errors, which becomes one line of ours, and from touching
-/// files again when the process ends: after a write that failed it would crash there. To be made before HDF5
-/// is used in any other way.
+/// Suppresses HDF5's error output, which is replaced by a one-line message, and its exit handler: after a
+/// failed write it would crash there. Must be constructed before any other use of HDF5.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -57,14 +56,14 @@ class QuietHdf5 {
   QuietHdf5(const QuietHdf5&) = delete;
   QuietHdf5& operator=(const QuietHdf5&) = delete;
 
-  /// Again, where another library has told HDF5 to be silent.
+  /// Installs the handler again, after another library has silenced HDF5.
   void listen() { H5Eset_auto2(H5E_DEFAULT, &QuietHdf5::note, this); }
 
-  /// The errno of the first call of the system that failed within HDF5; 0 where none is known.
+  /// The errno of the first system call that failed within HDF5; 0 if none is known.
   int reason() const { return reason_; }
 
  private:
-  /// Called by HDF5 for each of its calls that fails, with the account of what led to it.
+  /// Called by HDF5 for each of its calls that fails, with the error stack.
   static herr_t note(hid_t account, void* self) {
     return H5Ewalk2(account, H5E_WALK_UPWARD, &QuietHdf5::read_entry, self);
   }
@@ -83,7 +82,7 @@ class QuietHdf5 {
   int reason_ = 0;
 };
 
-/// How a number lies in memory, and in a file: little-endian whatever the machine.
+/// Types of a number in memory and in a file: always little-endian in files.
 template <class T>
 hid_t memory_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;

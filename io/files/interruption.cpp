@@ -23,7 +23,7 @@ namespace {
 constexpr std::array requests{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU};
 constexpr std::array crashes{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
-/// What the handler looks at: it runs on the thread that changes these, between two of its steps.
+/// Accessed by the handler, which runs on the thread that changes these, between two of its steps.
 std::atomic<void*> newest_entry = nullptr;
 std::atomic<int> waits = 0;
 std::atomic<int> waiting_signal = 0;
@@ -40,7 +40,7 @@ bool is_crash(int number) {
 
 }  // namespace
 
-/// Async-signal-safe. Files first, so that their folder is empty.
+/// Async-signal-safe. Files are removed first, so that their folder is empty.
 void remove_registered_temporaries() {
   using Entry = Temporary::Entry;
   for (const auto remove : {&::unlink, &::rmdir}) {
@@ -67,7 +67,7 @@ void end_cleanly(int number, siginfo_t* information, void*) {
   }
   ::sigaction(number, &former_actions[number], nullptr);
   const bool repeats_itself = crash && number != SIGABRT && information->si_code > 0;
-  if (!repeats_itself) ::raise(number);  // comes when this handler is left
+  if (!repeats_itself) ::raise(number);  // delivered after this handler returns
   errno = error_before;
 }
 
@@ -87,7 +87,7 @@ void remove_temporaries_when_killed() {
   owner_process = ::getpid();
   owner_thread = ::pthread_self();
   ::signal(SIGXFSZ, SIG_IGN);
-  std::atexit([] {  // where a library ends the process
+  std::atexit([] {  // for libraries that end the process
     if (::getpid() == owner_process) remove_registered_temporaries();
   });
   for (const int number : requests) handle(number);

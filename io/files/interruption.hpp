@@ -4,13 +4,14 @@
 
 namespace quadloop {
 
-/// Once, at the start of a program, after MPI_Init: from here on a signal that ends this process (an
-/// interrupt, a termination, a crash), and exit(), first remove the temporaries below; the process then ends
-/// as it would have. Signals that are ignored stay so. A file that grows beyond the limit of files' sizes is
-/// an error of the write, not a signal. The calling thread is the one that works with temporaries.
+/// To be called once, at the start of a program, after MPI_Init: from then on a signal that ends this process
+/// (interrupt, termination, crash), and exit(), first remove the temporaries below; the process then ends as
+/// it would have. Ignored signals remain ignored. Exceeding the file size limit becomes a write error instead
+/// of a signal. The calling thread must be the one that uses temporaries.
 void remove_temporaries_when_killed();
 
-/// A file, or an empty folder, that goes when the process is killed by a signal. Named before it is made.
+/// A file, or an empty folder, that is removed if a signal kills the process. Must be registered before it is
+/// created.
 class Temporary {
  public:
   explicit Temporary(std::string path);
@@ -26,7 +27,7 @@ class Temporary {
   Entry* entry_ = nullptr;
 };
 
-/// While one exists, a signal that would end the process waits.
+/// While an object exists, signals that would end the process are delayed.
 class SignalsWait {
  public:
   SignalsWait();
@@ -34,7 +35,7 @@ class SignalsWait {
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
 
-  /// Whether one has come that ends the process when the last of these is gone.
+  /// Whether a delayed signal will end the process when the last object is destroyed.
   static bool has_come();
 };
 

@@ -1,7 +1,6 @@
 #include "io/files/new_folder.hpp"
 
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -17,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr mode_t open_to_all = 0777;  // less the user's umask
+constexpr mode_t open_to_all = 0777;  // minus the user's umask
 
 void refuse_others(const std::string& path, const std::vector<std::string>& files) {
   std::error_code failure;
@@ -31,29 +30,19 @@ void refuse_others(const std::string& path, const std::vector<std::string>& file
 
 }  // namespace
 
-NewFolder NewFolder::at(const std::string& path, const std::vector<std::string>& files) {
-  NewFolder folder;
+std::unique_ptr<Temporary> make_output_folder(const std::string& path,
+                                              const std::vector<std::string>& files) {
+  require_possible_folder(path);
   if (fs::is_directory(path)) {
     refuse_others(path, files);
-    return folder;
+    return nullptr;
   }
-  if (fs::exists(path)) throw OutputError(path + ": is no folder; choose another name");
-  const std::string parent = folder_of(path);
-  if (!fs::is_directory(parent))
-    throw OutputError(path + ": cannot be written: the folder '" + parent +
-                      "' does not exist; create it first");
-  folder.made_ = std::make_unique<Temporary>(path);
-  if (::mkdir(path.c_str(), open_to_all) != 0) {
-    const int reason = errno;
-    folder.keep();
-    if (reason != EEXIST || !fs::is_directory(path)) refuse_output(path, reason);
-    refuse_others(path, files);  // another run made it in the meantime
-  }
-  return folder;
-}
-
-NewFolder::~NewFolder() {
-  if (made_) ::rmdir(made_->path().c_str());
+  auto made = std::make_unique<Temporary>(path);
+  if (::mkdir(path.c_str(), open_to_all) == 0) return made;
+  const int reason = errno;
+  if (reason != EEXIST || !fs::is_directory(path)) refuse_output(path, reason);
+  refuse_others(path, files);  // another run created it in the meantime
+  return nullptr;
 }
 
 }  // namespace quadloop

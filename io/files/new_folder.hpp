@@ -8,22 +8,9 @@
 
 namespace quadloop {
 
-/// A folder that is itself an output: where it was made for it, it goes again, empty, unless it is kept. On
-/// one rank.
-class NewFolder {
- public:
-  /// Makes it, unless it is there already. Throws OutputError where it cannot be made, or holds anything but
-  /// `files` (names that begin with a dot do not count).
-  static NewFolder at(const std::string& path, const std::vector<std::string>& files);
-  ~NewFolder();
-  NewFolder(NewFolder&&) = default;
-  NewFolder& operator=(NewFolder&&) = delete;
-
-  void keep() { made_.reset(); }
-
- private:
-  NewFolder() = default;
-  std::unique_ptr<Temporary> made_;
-};
+/// Creates an output folder, unless it exists; a new one is registered for removal unless its files are
+/// completed. Throws OutputError if it cannot be created, or contains anything but `files` (names that begin
+/// with a dot are ignored). On one rank.
+std::unique_ptr<Temporary> make_output_folder(const std::string& path, const std::vector<std::string>& files);
 
 }  // namespace quadloop

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto patience =
-    std::chrono::seconds(60);  // with another run that gives its files their names, which takes milliseconds
+    std::chrono::seconds(60);  // with another run that is renaming its files, which takes milliseconds
 constexpr auto between_attempts = std::chrono::milliseconds(5);
 
 int open_for_appending(const StagedFile& file) {
@@ -38,8 +38,8 @@ FolderId id_of(const std::string& folder, const std::string& shown) {
   return {found.st_dev, found.st_ino};
 }
 
-/// Gives files their names, one after another. Ended before all have theirs, it puts back what stood there
-/// before, where the file system can keep that (as hard links).
+/// Renames files one after another. If interrupted, it restores the previous files, if the file system
+/// supports hard links.
 class Renaming {
  public:
   Renaming() = default;
@@ -75,7 +75,7 @@ class Renaming {
   std::vector<Step> steps_;
 };
 
-/// Of all folders, in one order for every run; nothing where another run holds one of them.
+/// Locks all folders, in the same order in every run; empty if another run has one of the locks.
 std::optional<std::vector<FolderLock>> lock_all(
     const std::map<FolderId, std::unique_ptr<StagingFolder>>& staging) {
   std::vector<FolderLock> locks;
@@ -91,6 +91,8 @@ std::optional<std::vector<FolderLock>> lock_all(
 
 OutputSet::~OutputSet() {
   for (const Written& file : written_) ::close(file.descriptor);
+  staging_.clear();  // the staging folder may be inside an output folder
+  for (const auto& folder : folders_) ::rmdir(folder->path().c_str());
 }
 
 StagingFolder& OutputSet::staging_beside(const std::string& target, const std::string& shown) {
@@ -116,7 +118,8 @@ StagedFile OutputSet::stage(const std::string& path) {
 std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
                                                 const std::vector<std::string>& files) {
   comm_.together([&] {
-    if (comm_.is_root()) folders_.push_back(NewFolder::at(path, files));
+    if (!comm_.is_root()) return;
+    if (auto made = make_output_folder(path, files)) folders_.push_back(std::move(made));
   });
   std::vector<StagedFile> staged;
   for (const std::string& file : files) staged.push_back(stage(path + "/" + file));
@@ -125,7 +128,8 @@ std::vector<StagedFile> OutputSet::stage_folder(const std::string& path,
 
 void OutputSet::commit() { commit_together(comm_, {this}); }
 
-/// A rank that a signal ends while the others wait for it leaves no name given: the launcher ends them too.
+/// If a signal ends a rank while the others wait for it, no file is renamed: the launcher ends the others
+/// too.
 void OutputSet::commit_together(const Communicator& comm, std::initializer_list<OutputSet*> sets) {
   for (OutputSet* set : sets) comm.together([&] { set->bring_to_disk(); });
   comm.barrier();
@@ -172,7 +176,6 @@ void OutputSet::put_in_place() {
     outputs_.clear();
     targets_.clear();
     staging_.clear();
-    for (NewFolder& folder : folders_) folder.keep();
     folders_.clear();
     return;
   }

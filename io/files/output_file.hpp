@@ -14,17 +14,16 @@
 
 namespace quadloop {
 
-/// An output on its way: written under `temporary` until the set it belongs to is committed. `temporary` is
-/// known on rank 0 only.
+/// An output file written as `temporary` until its set is committed. `temporary` is known on rank 0 only.
 struct StagedFile {
   std::string path;
   std::string temporary;
 };
 
-/// The outputs of one command: all of them appear whole, under their own names, or none does; of two runs
-/// with the same names at the same time one has all its files stand. A link is followed: its target is
-/// replaced. Rank 0 alone touches the disk, but for files that all ranks write; what fails there is the same
-/// OutputError on every rank.
+/// The outputs of one command: all of them appear completely, under their own names, or none does; if two
+/// runs write the same names at the same time, all files are those of one of them. Links are followed: the
+/// target is replaced. Only rank 0 accesses the disk, except for files that all ranks write; an error there
+/// is the same OutputError on every rank.
 class OutputSet {
  public:
   /// `comm` must outlive the set. Not collective.
@@ -36,37 +35,37 @@ class OutputSet {
 
   const Communicator& communicator() const { return comm_; }
 
-  /// Opens the temporary, empty, so that an output which cannot be written is refused before work goes into
-  /// it. *Collective.*
+  /// Creates the temporary file, empty, so that an output that cannot be written is rejected before any work.
+  /// *Collective.*
   StagedFile stage(const std::string& path);
 
-  /// The output that was staged last, for those who add to it once it is written. On rank 0 alone.
+  /// The last staged output, for appending to it. On rank 0 only.
   const StagedFile& staged_last() const { return outputs_.back().staged; }
 
-  /// An output that is a folder of these files: makes it where there is none, to be taken away again without
-  /// a commit, and stages them in it. Refuses one that holds anything else: it would go with other files than
-  /// these. *Collective.*
+  /// Stages an output folder with these files. Creates the folder if necessary; it is removed again without a
+  /// commit. Throws OutputError if it contains anything else, which would be mixed with these files.
+  /// *Collective.*
   std::vector<StagedFile> stage_folder(const std::string& path, const std::vector<std::string>& files);
 
-  /// What this rank wrote to the descriptor, of the output `path`, comes to the disk before any file gets its
-  /// name; until then other files are written. The set closes it. Not collective.
+  /// Transfers a descriptor of the output `path` to the set, which closes it. Its data are flushed to disk
+  /// before any file is renamed; meanwhile other files can be written. Not collective.
   void take_over(int descriptor, const std::string& path) { written_.push_back({descriptor, path}); }
 
-  /// Brings all outputs to the disk, then gives them their names. *Collective.*
+  /// Flushes all outputs to disk, then renames them. *Collective.*
   void commit();
 
-  /// The same of several sets, each of all ranks or of this one alone, as if they were one: a signal finds
-  /// all files of all ranks under their names, or none. Each set's files appear all or not at all in any
-  /// case. *Collective* over `comm`.
+  /// Commits several sets, each of all ranks or of this one only, as one: after a signal either all files of
+  /// all ranks have their names, or none. The files of each set appear all or not at all in any case.
+  /// *Collective* over `comm`.
   static void commit_together(const Communicator& comm, std::initializer_list<OutputSet*> sets);
 
  private:
   struct Output {
     StagedFile staged;
-    std::string target;  ///< where `staged.path` leads
+    std::string target;  ///< target of `staged.path`
   };
 
-  /// Of a file that rank 0 staged.
+  /// Data written to a file that rank 0 staged.
   struct Written {
     int descriptor;
     std::string path;
@@ -79,15 +78,15 @@ class OutputSet {
   void put_in_place();
 
   const Communicator& comm_;
-  std::vector<NewFolder> folders_;  ///< the first four on rank 0 only; before what is staged in them
+  std::vector<std::unique_ptr<Temporary>> folders_;  ///< created for outputs; the first four on rank 0 only
   std::vector<Output> outputs_;
-  std::set<std::string> targets_;  ///< theirs
+  std::set<std::string> targets_;  ///< of outputs_
   std::map<FolderId, std::unique_ptr<StagingFolder>> staging_;
   std::vector<Written> written_;
 };
 
-/// Appends text to a staged file; on rank 0 only. Every failure, a full disk too, is an OutputError that
-/// names the output.
+/// Appends text to a staged file; on rank 0 only. Every failure, including a full disk, is an OutputError
+/// that names the output.
 class OutputFile {
  public:
   explicit OutputFile(StagedFile staged);
@@ -96,7 +95,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view text);
-  /// A disk may tell only now that it is full; the destructor closes as well, but can say nothing.
+  /// A full disk may be detected only here; the destructor closes too, but cannot report it.
   void close();
 
  private:

@@ -15,7 +15,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr int most_links = 40;  // as the kernel's own limit
+constexpr int most_links = 40;  // the kernel's own limit
 
 std::string cure_of(int reason) {
   switch (reason) {
@@ -37,14 +37,14 @@ std::string cure_of(int reason) {
   throw OutputError(path + ": is " + kind + ", not a file; choose another name");
 }
 
-/// A stream of the process, which a rename would not reach although it may be a file.
+/// Whether it is a stream of the process, which a rename would not affect even if it is a file.
 bool is_stream(const std::string& path) {
   const std::string normal = std::filesystem::path(path).lexically_normal().string();
   return normal == "/dev/stdout" || normal == "/dev/stderr" || normal == "/dev/stdin" ||
          normal.starts_with("/dev/fd/") || normal.starts_with("/proc/");
 }
 
-/// What stands at the path can be replaced by a file, or there is nothing.
+/// Requires that the path can be replaced by a file, or does not exist.
 void require_file_or_nothing(const std::string& path) {
   if (is_stream(path)) refuse_kind(path, "a stream of the process");
   struct stat found = {};
@@ -68,7 +68,7 @@ void require_folder(const std::string& folder, const std::string& shown) {
     throw OutputError(shown + ": cannot be written: you may not write to the folder '" + folder + "'");
 }
 
-/// A link to a file that is not there yet is followed too, as a shell does.
+/// Follows links, also to a file that does not exist yet, as a shell does.
 std::string without_links(const std::string& path) {
   std::filesystem::path at = path;
   for (int links = 0; links < most_links; ++links) {
@@ -110,12 +110,12 @@ void require_possible_folder(const std::string& path) {
 
 void bring_to_disk(const std::string& path, const std::string& shown) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0 && errno == EACCES) return;  // what somebody else left for himself alone
+  if (descriptor < 0 && errno == EACCES) return;  // a file that only another user may read
   if (descriptor < 0) refuse_output(shown, errno);
   const int reason = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
-  const bool unknown_here =
-      reason == EINVAL || reason == EBADF || reason == ENOSYS || reason == ENOTSUP;  // to the file system
+  // not supported by the file system
+  const bool unknown_here = reason == EINVAL || reason == EBADF || reason == ENOSYS || reason == ENOTSUP;
   if (reason != 0 && !unknown_here) refuse_output(shown, reason);
 }
 

@@ -4,26 +4,25 @@
 
 namespace quadloop {
 
-/// Throws the OutputError of an output that cannot be written for `reason`, an errno: what it is, and what to
-/// do.
+/// Throws OutputError for an output that cannot be written for `reason`, an errno, with a remedy.
 [[noreturn]] void refuse_output(const std::string& path, int reason);
 
-/// The file that writing to `path` makes or replaces: `path` itself, or where it is a link, what it leads to.
-/// Throws OutputError where that cannot become a file: its folder is missing or may not be written to, its
-/// name is too long, or a folder, a pipe or a device stands there.
+/// Returns the file that writing to `path` creates or replaces: `path` itself or, for a link, its target.
+/// Throws OutputError if that cannot be a file: its folder is missing or not writable, its name is too long,
+/// or it is a folder, a pipe or a device.
 std::string output_target(const std::string& path);
 
-/// Refuses what output_target() refuses: found out before an hour of work goes into the output.
+/// Throws as output_target() does, before any work goes into the output.
 void require_possible_output(const std::string& path);
 
-/// The same for an output that is a folder: one there, or none, and leave to write to it or to make it.
+/// The same for an output folder: it must exist and be writable, or be possible to create.
 void require_possible_folder(const std::string& path);
 
-/// The folder of a file; "." where the path names none.
+/// Returns the folder of a file; "." if the path has none.
 std::string folder_of(const std::string& path);
 
-/// What was written to a file or folder outlives a loss of power only then; a full disk may tell only now.
-/// Throws OutputError that names `shown`.
+/// Flushes a file or folder to disk, so that it survives a loss of power; a full disk may be detected only
+/// here. Throws OutputError that names `shown`.
 void bring_to_disk(const std::string& path, const std::string& shown);
 
 }  // namespace quadloop

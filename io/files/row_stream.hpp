@@ -13,26 +13,25 @@
 
 namespace quadloop {
 
-/// Rows that are spread over the ranks, as they pass through rank 0 in pieces: all of rank 0's, then all of
-/// rank 1's, and so on.
+/// Streams distributed rows through rank 0 in pieces: all of rank 0, then all of rank 1, and so on.
 struct RowStream {
   const Communicator& comm;
   std::int64_t rows = 0;            ///< of this rank
-  std::int64_t rows_per_piece = 1;  ///< bounds what rank 0 holds at a time
+  std::int64_t rows_per_piece = 1;  ///< limits the memory on rank 0
 
   template <class T>
   using Make = std::function<std::vector<T>(std::int64_t begin, std::int64_t end)>;
   template <class T>
   using Consume = std::function<void(std::span<const T> piece)>;
 
-  static constexpr std::int64_t pieces_ahead = 8;  ///< made by a rank while it waits for its turn
+  static constexpr std::int64_t pieces_ahead = 8;  ///< created by a rank while it waits for its turn
 
   std::int64_t pieces() const { return (rows + rows_per_piece - 1) / rows_per_piece; }
   std::int64_t begin_of(std::int64_t piece) const { return std::min(rows, piece * rows_per_piece); }
 
-  /// `make(begin, end)` gives a std::vector<T> for the rank's own rows begin .. end-1 (its length is free);
-  /// `consume` gets a std::span<const T> for each piece, on rank 0 only. *Collective*; what either throws
-  /// ends on every rank, and nobody hangs.
+  /// `make(begin, end)` returns a std::vector<T> for the rank's own rows begin .. end-1 (of any length);
+  /// `consume` receives a std::span<const T> for each piece, on rank 0 only. An exception in either ends the
+  /// call on every rank, without deadlock. *Collective.*
   template <class T>
   void run(const Make<T>& make, const Consume<T>& consume) const {
     const std::vector<std::int64_t> pieces_of_rank = comm.all_gather(pieces());
@@ -46,7 +45,7 @@ struct RowStream {
   }
 
  private:
-  /// After a failure the other ranks' pieces are still received, else those ranks would wait for ever.
+  /// After a failure the other ranks' pieces are still received, as those ranks would otherwise wait forever.
   template <class T>
   void take_all(const std::vector<std::int64_t>& pieces_of_rank, const Make<T>& make,
                 const Consume<T>& consume) const {

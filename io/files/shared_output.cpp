@@ -15,9 +15,10 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t bytes_to_begin_with = std::int64_t{1} << 22;  // on the disk, while more is made
+// write-back starts from this size, while more data are created
+constexpr std::int64_t bytes_to_begin_with = std::int64_t{1} << 22;
 
-/// -1, and errno, where this rank cannot.
+/// Returns -1, and sets errno, if this rank cannot open the file.
 int open_staged(const std::string& temporary) {
   return ::open(temporary.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
 }
@@ -31,7 +32,7 @@ std::string name_on_all(const Communicator& comm, const StagedFile& staged) {
 SharedOutput::SharedOutput(OutputSet& outputs, std::string path)
     : outputs_{outputs}, path_{std::move(path)} {}
 
-// From here on the destructor is due, also where another rank cannot open the file.
+// From here on the destructor is called, even if another rank cannot open the file.
 SharedOutput::SharedOutput(OutputSet& outputs, const StagedFile& staged, Writers writers)
     : SharedOutput(outputs, staged.path) {
   const Communicator& comm = outputs.communicator();
@@ -64,7 +65,7 @@ void SharedOutput::write_at(std::int64_t offset, std::string_view bytes) {
   if (waiting_ >= bytes_to_begin_with) begin_on_disk();
 }
 
-/// Without waiting; where it cannot, later.
+/// Starts write-back without waiting; if this fails, it is done later.
 void SharedOutput::begin_on_disk() {
   ::sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE);
   waiting_ = 0;

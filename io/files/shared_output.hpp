@@ -9,9 +9,9 @@
 
 namespace quadloop {
 
-/// A staged file into which all ranks write at once, each at places that it knows: nothing passes through
-/// rank 0. The ranks' machines must share the folder; where they do not, rank 0 may write all. Every failure
-/// is an OutputError that names the output, the same one on all ranks.
+/// A staged file that all ranks write concurrently, each at known offsets, without rank 0. The machines of
+/// the ranks must share the folder; otherwise rank 0 may write everything. Every failure is an OutputError
+/// that names the output, the same on all ranks.
 class SharedOutput {
  public:
   enum class Writers { all, root };
@@ -22,11 +22,12 @@ class SharedOutput {
   SharedOutput(const SharedOutput&) = delete;
   SharedOutput& operator=(const SharedOutput&) = delete;
 
-  /// By a writer; not collective: call it within Communicator::together(). No two ranks write the same byte.
+  /// For writing ranks; not collective: call it within Communicator::together(). Ranks must not write the
+  /// same byte.
   void write_at(std::int64_t offset, std::string_view bytes);
 
-  /// No rank writes any more. The disk has begun with what there is; the set, which `outputs` must be until
-  /// then, waits for it when it is committed. *Collective.*
+  /// Call after the last write. Write-back has started; the set, which `outputs` must be until then, waits
+  /// for it on commit. *Collective.*
   void close();
 
  private:
@@ -34,12 +35,12 @@ class SharedOutput {
   void begin_on_disk();
 
   OutputSet& outputs_;
-  std::string path_;  ///< as messages name it
+  std::string path_;  ///< as shown in messages
   int descriptor_ = -1;
-  std::int64_t waiting_ = 0;  ///< bytes of this rank that the disk was not told of
+  std::int64_t waiting_ = 0;  ///< bytes of this rank for which write-back has not started
 };
 
-/// Whether all ranks could write the staged file: their machines share the folder. *Collective.*
+/// Whether all ranks can write the staged file, i.e. their machines share the folder. *Collective.*
 bool reached_by_all(const Communicator& comm, const StagedFile& staged);
 
 }  // namespace quadloop

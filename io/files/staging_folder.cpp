@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr mode_t mine_alone = 0700;
-constexpr mode_t readable_by_all = 0666;  // less the user's umask
+constexpr mode_t readable_by_all = 0666;  // minus the user's umask
 constexpr const char* ending = ".part";
 
-/// How the names of this machine's folders begin: whether a lock on a folder is still held, its own kernel
-/// alone is sure to know.
+/// Prefix of the names of this machine's folders: only its own kernel reliably knows whether a lock on a
+/// folder is still held.
 std::string beginning() {
   std::array<char, 65> host = {};
   if (::gethostname(host.data(), host.size() - 1) != 0) host = {};
@@ -39,17 +38,11 @@ std::string random_letters() {
   return fmt::format("{:016x}", number);
 }
 
-int open_folder(const std::string& path) {
-  return ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-}
-
-/// Removes the folder of a run that was killed; that of a living run is locked.
+/// Removes the folder of a killed run; that of a running one is locked.
 void remove_if_forsaken(const fs::path& folder) {
-  const int descriptor = open_folder(folder);
-  if (descriptor < 0) return;
   std::error_code ignored;
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(folder, ignored);
-  ::close(descriptor);
+  const std::optional<FolderLock> lock = FolderLock::attempt(folder);
+  if (lock && lock->is_held()) fs::remove_all(folder, ignored);
 }
 
 void remove_forsaken(const std::string& parent) {
@@ -66,16 +59,18 @@ void remove_forsaken(const std::string& parent) {
 
 StagingFolder::StagingFolder(const std::string& parent, const std::string& shown) : parent_{parent} {
   remove_forsaken(parent);
-  // Another run may take the folder for forsaken between making and locking it.
+  std::error_code ignored;
+  // Another run may remove the folder as abandoned between creation and locking. Without locks the folder is
+  // used anyway.
   do {
     make(shown);
-  } while (!lock());
+    lock_ = FolderLock::attempt(folder_->path());
+  } while (!lock_ || !fs::is_directory(folder_->path(), ignored));
 }
 
 StagingFolder::~StagingFolder() {
   std::error_code ignored;
   fs::remove_all(folder_->path(), ignored);
-  if (lock_ >= 0) ::close(lock_);
 }
 
 void StagingFolder::make(const std::string& shown) {
@@ -85,17 +80,6 @@ void StagingFolder::make(const std::string& shown) {
   const int reason = errno;
   folder_.reset();
   refuse_output(shown, reason);
-}
-
-/// False where another run has taken the folder. Without locks (some file systems of networks) it is nobody's
-/// but ours all the same.
-bool StagingFolder::lock() {
-  if (lock_ >= 0) ::close(lock_);
-  lock_ = open_folder(folder_->path());
-  if (lock_ < 0) return errno != ENOENT;
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
-  struct stat there = {};
-  return ::stat(folder_->path().c_str(), &there) == 0;
 }
 
 std::string StagingFolder::new_file(const std::string& shown) {

@@ -9,25 +9,24 @@
 
 namespace quadloop {
 
-/// Writes a mesh file of Fluent of two or three dimensions, ASCII, into the set; the bytes are the same on
-/// any number of ranks. Nodes keep their numbers, and so do cells where there is one block; those of several
-/// blocks are in the file block by block, a zone each. A zone of faces for each boundary, of its name and
-/// condition
-/// ("none" is a wall); a plane edge has its first cell to its left, a face of a 3D mesh looks into its first
-/// cell. *Collective.* Throws OutputError on all ranks.
+/// Writes a 2D or 3D Fluent mesh file, ASCII, into the set; the bytes are the same on any number of ranks.
+/// Nodes keep their numbers, and so do cells if there is one block; several blocks are written one after
+/// another, a zone each. Each boundary is a zone of faces, with its name and condition ("none" is a wall). A
+/// 2D edge has its first cell on its left, the normal of a 3D face points into its first cell. Throws
+/// OutputError on all ranks. *Collective.*
 void write_fluent(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Names of zones: letters, digits and "_-.+".
+/// Returns valid zone names: letters, digits and "_-.+".
 std::vector<std::string> fluent_zone_names(const std::vector<std::string>& names);
 
-/// Whether a file begins as those of Fluent do.
+/// Whether a file begins like a Fluent mesh file.
 bool is_fluent(const std::string& path);
 
-/// Reads a mesh file of Fluent of two or three dimensions, ASCII, on the calling rank alone: triangles and
-/// quadrilaterals, or tetrahedra, pyramids, prisms and hexahedra. Zones of cells become blocks, zones of
-/// faces boundaries with their conditions; faces inside a block are left out. A plane cell begins with any of
-/// its nodes. A plane mesh is cleaned up by plane_mesh(). Throws InputError "file:line: ..." also for meshes
-/// in binary, with hanging nodes, polygons or polyhedra.
+/// Reads a 2D or 3D Fluent mesh file, ASCII, on the calling rank only: triangles and quadrilaterals, or
+/// tetrahedra, pyramids, prisms and hexahedra. Cell zones become blocks, face zones boundaries with their
+/// conditions; faces inside a block are omitted. The first node of a 2D cell is arbitrary. A 2D mesh is
+/// cleaned up by plane_mesh(). Throws InputError "file:line: ...", also for binary meshes, hanging nodes,
+/// polygons and polyhedra.
 MeshOfFile read_fluent(const std::string& path);
 
 }  // namespace quadloop

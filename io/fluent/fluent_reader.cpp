@@ -57,7 +57,7 @@ class FluentReader {
                              fmt::format("cell {} {}", cell, fault));
   }
 
-  /// From node to node over its faces; the first face has the cell to its left.
+  /// Connects the cell's faces node by node; the first face has the cell on its left.
   void add_plane_cell(std::int32_t cell) {
     const std::span<const std::int32_t> own = file_.faces_of(cell);
     const std::vector<FluentFace>& faces = file_.faces();
@@ -86,7 +86,7 @@ class FluentReader {
     }
   }
 
-  /// The other end of a face, not used yet, at this node; -1 where there is none.
+  /// Returns the other end of an unused face at this node; -1 if there is none.
   std::int32_t next_node(std::span<const std::int32_t> own, std::array<bool, 4>& used,
                          std::int32_t node) const {
     for (std::size_t k = 1; k < own.size(); ++k) {
@@ -102,9 +102,9 @@ class FluentReader {
     return face.is_inside() && (face.type == fluent_interior || face.type == 0);
   }
 
-  /// Zones of faces inside, of which some have the same block on both sides: no boundary, also where two
-  /// blocks meet. One with edges between blocks alone is their boundary, unless it has the name that our
-  /// writer gives the others.
+  /// Returns the zones of inner faces some of which have the same block on both sides: these are not
+  /// boundaries, even where two blocks meet. A zone with only edges between blocks is their boundary, unless
+  /// it has the name that our writer uses for the others.
   std::set<std::int64_t> inner_zones() const {
     std::set<std::int64_t> zones;
     for (const FluentFace& face : file_.faces()) {
@@ -116,7 +116,7 @@ class FluentReader {
     return zones;
   }
 
-  /// In a 3D mesh faces of one cell alone, turned so that they look out of it.
+  /// In a 3D mesh only faces with one cell, reversed such that their normals point outwards.
   void add_boundaries() {
     const std::set<std::int64_t> inner = inner_zones();
     for (const FluentFace& face : file_.faces()) {
@@ -132,7 +132,7 @@ class FluentReader {
 
   FluentSections file_;
   FileMesh mesh_;
-  std::vector<std::int32_t> block_of_;  ///< of each cell, from 1
+  std::vector<std::int32_t> block_of_;  ///< for each cell, from 1
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-/// Numbers of sections.
+/// Section numbers.
 enum FluentSection : std::int64_t {
   fluent_dimension_section = 2,
   fluent_nodes = 10,
@@ -22,7 +22,7 @@ enum FluentSection : std::int64_t {
   fluent_zone_again = 45
 };
 
-/// Kinds of faces; others are numbers of nodes.
+/// Kinds of faces; other values are numbers of nodes.
 constexpr std::int64_t mixed_faces = 0, polygonal_faces = 5;
 
 }  // namespace
@@ -79,14 +79,14 @@ FluentSections::Head FluentSections::read_head() {
   return head;
 }
 
-/// That as many rows of so many bytes at least can follow.
+/// Throws unless the rest of the file can contain as many rows of at least this many bytes.
 void FluentSections::require_room(const Head& head, std::size_t bytes_each, const char* of) const {
   if (static_cast<std::size_t>(head.count()) > scan_.bytes_left() / bytes_each)
     scan_.refuse(fmt::format("the file cannot hold its {} {}; it is cut short, or this count is wrong",
                              head.count(), of));
 }
 
-/// Zone 0 tells how many there are.
+/// The head with zone 0 contains only the total number.
 void FluentSections::read_nodes() {
   const Head head = read_head();
   if (head.zone == 0) return scan_.skip_list();
@@ -164,7 +164,7 @@ std::int32_t FluentSections::number(const char* expected) {
   return static_cast<std::int32_t>(value);
 }
 
-/// "(zone type name ...)(...)", the zone decimal.
+/// "(zone type name ...)(...)"; the zone number is decimal.
 void FluentSections::read_zone() {
   scan_.expect("(");
   const std::int64_t zone = scan_.decimal("the number of a zone");
@@ -179,7 +179,7 @@ std::string FluentSections::zone_name(std::int64_t zone) const {
   return found == zone_names_.end() ? fmt::format("zone_{}", zone) : found->second;
 }
 
-/// The faces of each cell, one cell's after the other's.
+/// Lists the faces of each cell, cell by cell.
 void FluentSections::collect_faces() {
   std::int32_t cells = 0;
   for (const FluentFace& face : faces_) cells = std::max({cells, face.cells[0], face.cells[1]});

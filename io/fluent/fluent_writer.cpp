@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-/// Fluent's numbers for kinds of cells.
+/// Fluent's numbers of cell kinds.
 template <CellKind kind>
 constexpr int fluent_kind = kind == CellKind::triangle      ? 1
                             : kind == CellKind::quad        ? 3
@@ -23,7 +23,7 @@ constexpr int fluent_kind = kind == CellKind::triangle      ? 1
                             : kind == CellKind::prism       ? 6
                                                             : 4;
 
-/// Zones: 1 the nodes, 2, 3, ... the cells of each block, then the faces inside, then the patches.
+/// Zones: 1 for the nodes, 2, 3, ... for the cells of each block, then the inner faces, then the patches.
 class FluentWriter {
  public:
   FluentWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
@@ -87,8 +87,9 @@ class FluentWriter {
     file_.write("\n)");
   }
 
-  /// Fluent's face looks into its first cell, and its edge has that to its left. Where faces have different
-  /// numbers of nodes each tells its own. Cells are counted from 0, and StreamFaces::no_cell becomes 0.
+  /// The normal of a Fluent face points into its first cell; an edge has it on its left. With mixed numbers
+  /// of nodes each face starts with its own. Cells are numbered from 0 here, and StreamFaces::no_cell becomes
+  /// 0.
   template <class Nodes>
   static void put_face(TextRows& text, bool mixed, const Nodes& nodes, std::int64_t owner,
                        std::int64_t neighbour) {
@@ -99,7 +100,7 @@ class FluentWriter {
     text.put_hexadecimal(owner + 1, ' ');
     text.put_hexadecimal(neighbour + 1, '\n');
   }
-  static constexpr std::size_t face_width = 7;  ///< its count of nodes, four of them, two cells
+  static constexpr std::size_t face_width = 7;  ///< its number of nodes, up to four nodes, two cells
 
   void write_faces() {
     const std::int64_t inner = faces_->internal();
@@ -134,7 +135,7 @@ class FluentWriter {
            fluent_hexadecimal(last) + " " + fluent_hexadecimal(type) + " " + std::to_string(kind) + ")(\n";
   }
 
-  /// The number of nodes of a face of the patch, 0 where they differ.
+  /// Returns the number of nodes of the patch's faces, 0 if it varies.
   static int kind_of(const StreamedPatch& patch) {
     if (patch.edges > 0) return 2;
     return patch.triangles > 0 && patch.quads > 0 ? 0 : patch.triangles > 0 ? 3 : 4;
@@ -143,7 +144,7 @@ class FluentWriter {
   std::int64_t number_of(std::size_t n) const {
     return faces_->is_interface(n) ? fluent_interior : fluent_number(outer_condition(n));
   }
-  /// An interface that has no other side here is no interface there.
+  /// An interface without the other side in this file is not an interface.
   BoundaryCondition outer_condition(std::size_t n) const {
     const BoundaryCondition condition = stream_.patches()[n].condition;
     return condition == BoundaryCondition::interface ? BoundaryCondition::none : condition;
@@ -157,9 +158,9 @@ class FluentWriter {
     if (faces_->internal() > 0) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     const std::vector<std::string> names = fluent_zone_names(stream_.patch_names());
     for (std::size_t n = 0; n < names.size(); ++n)
-      text +=
-          fluent_zone_name(zone_of_patch(n),
-                           fluent_word(faces_->is_interface(n) ? BoundaryCondition::interface : outer_condition(n)), names[n]);
+      text += fluent_zone_name(
+          zone_of_patch(n),
+          fluent_word(faces_->is_interface(n) ? BoundaryCondition::interface : outer_condition(n)), names[n]);
     file_.write(text);
   }
 

@@ -16,7 +16,7 @@ struct FluentZone {
   const char* word;
 };
 
-/// Of each condition the first is what is written.
+/// For each condition the first entry is written.
 constexpr std::array<FluentZone, 14> zones{{{BoundaryCondition::wall, 3, "wall"},
                                             {BoundaryCondition::farfield, 9, "pressure-far-field"},
                                             {BoundaryCondition::inflow, 10, "velocity-inlet"},

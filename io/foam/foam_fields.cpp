@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* field_blanks = " \t\r\n";
 
-/// A field's file as text, and where its values stand in it.
+/// The text of a field file, with the position of its values.
 struct FoamText {
   std::string path, text;
   std::size_t components = 0;      ///< 1 or 3
@@ -33,7 +33,7 @@ struct FoamText {
   }
 };
 
-/// Where the value after a key at the beginning of a line stands.
+/// Returns the position of the value after a key at the beginning of a line.
 std::size_t value_of_key(const std::string& text, const std::string& key) {
   for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
     const std::size_t line = text.find_last_not_of(" \t", at - std::min<std::size_t>(at, 1));
@@ -50,7 +50,7 @@ std::string word_at(const std::string& text, std::size_t at) {
   return text.substr(at, text.find_first_of(" \t\r\n;", at) - at);
 }
 
-/// Nothing where the file is no field of cells.
+/// Empty if the file is not a cell field.
 std::optional<FoamText> field_in(const std::string& path) {
   FoamText field{path, read_input(path), 0, 0, 0};
   const std::string plain = without_foam_comments(field.text);
@@ -87,14 +87,14 @@ std::vector<FoamText> fields_in(const std::string& folder) {
   return fields;
 }
 
-/// A value of a field as text: of internalField, or of a patch.
+/// A value of a field in the text: of internalField, or of a patch.
 struct ValueText {
   const FoamText& field;
   std::size_t begin, end;
   std::string name, of, whole;  ///< for messages: "internalField", "cells", "the mesh"
 };
 
-/// The numbers of a piece of text, whatever brackets stand between them.
+/// Reads the numbers in a part of the text, ignoring brackets.
 class Numbers {
  public:
   Numbers(const ValueText& value, std::size_t at)
@@ -123,7 +123,7 @@ class Numbers {
   const char *at_, *end_;
 };
 
-/// `count` rows of the field's components.
+/// Reads `count` rows of the field's components.
 std::vector<double> values_of(const ValueText& value, std::size_t count) {
   const FoamText& field = value.field;
   const std::string word = word_at(field.text, value.begin);
@@ -152,7 +152,7 @@ std::vector<double> values_of_cells(const FoamText& field, std::size_t cells) {
   return values_of({field, field.begin, field.end, "internalField", "cells", "the mesh"}, cells);
 }
 
-/// What a field has on a patch; nothing where it tells none.
+/// Returns the values of a field on a patch; empty if there are none.
 std::vector<double> values_of_patch(const FoamText& field, const FoamPatch& patch) {
   const std::string plain = without_foam_comments(field.text);
   const auto boundary = foam_entry(foam_entries(plain), "boundaryField");
@@ -165,7 +165,7 @@ std::vector<double> values_of_patch(const FoamText& field, const FoamPatch& patc
                    patch.cells.size());
 }
 
-/// A patch's values in the columns of the field's variables.
+/// Stores a patch's values in the columns of the field's variables.
 void put_on_cells(const FoamText& field, const FoamPatch& patch, CellValues& cells) {
   const std::vector<double> values = values_of_patch(field, patch);
   const std::vector<std::string> variables = field.variables();

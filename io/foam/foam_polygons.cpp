@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// Dynamic programming over the polygons between two corners, which a chord cuts off.
+/// Dynamic programming over the sub-polygons cut off by the chord between two corners.
 class PolygonDivision {
  public:
   explicit PolygonDivision(std::span<const Point3> corners)
@@ -30,27 +30,27 @@ class PolygonDivision {
 
  private:
   struct Best {
-    double worst = std::numeric_limits<double>::infinity();  ///< of an edge: nothing is cut off
-    PolygonPiece piece{-1, -1, -1, -1};                      ///< the one on the chord
+    double worst = std::numeric_limits<double>::infinity();  ///< infinite for an edge, which cuts off nothing
+    PolygonPiece piece{-1, -1, -1, -1};                      ///< piece at the chord
     std::int32_t pieces = 0;
   };
 
   Best& at(std::int32_t i, std::int32_t j) { return best_[i * count_ + j]; }
 
-  /// The sine at a corner, seen from the polygon's front.
+  /// Returns the sine of a corner angle, seen from the front of the polygon.
   double corner(std::int32_t before, std::int32_t i, std::int32_t after) const {
     const Point3 u = corners_[after] - corners_[i], v = corners_[before] - corners_[i];
     return dot(cross(u, v), normal_) / (length(u) * length(v) * length(normal_));
   }
 
-  /// The worst corner, 1 for an equilateral triangle and for a square.
+  /// Returns the worst corner, 1 for an equilateral triangle and for a square.
   double shape(const PolygonPiece& p) const {
     constexpr double of_equilateral = 0.8660254037844386;  // sine of 60 degrees
     const std::size_t width = p[3] < 0 ? 3 : 4;
     double worst = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < width; ++k) {
       const double sine = corner(p[(k + width - 1) % width], p[k], p[(k + 1) % width]);
-      if (!(sine >= worst)) worst = sine;  // also where edges have no length
+      if (!(sine >= worst)) worst = sine;  // also for edges of zero length (NaN)
     }
     return width == 3 ? worst / of_equilateral : worst;
   }

@@ -66,7 +66,7 @@ class FoamReader {
     return std::ranges::any_of(patches_, [](const FoamPatch& patch) { return patch.type == "empty"; });
   }
 
-  /// A polygon of a plane mesh has no nodes among the faces; it is kept apart.
+  /// A polygon of a plane mesh has no entry in the face nodes; it is stored separately.
   void read_face(FoamScanner& scan) {
     const std::int64_t width = scan.integer("the number of a face's points");
     const bool is_polygon = width > 4 && is_plane();
@@ -94,7 +94,7 @@ class FoamReader {
       std::ranges::copy(nodes, face.begin());
   }
 
-  /// Sides of each cell, one cell's after the other's, from owners and neighbours.
+  /// Lists the sides of each cell, cell by cell, from owners and neighbours.
   void make_cells() {
     std::vector<std::int64_t> ends;
     const auto count = [&](const std::vector<std::int32_t>& labels) {
@@ -131,7 +131,8 @@ class FoamReader {
     }
   }
 
-  /// A cell between two polygons becomes prisms and hexahedra. What is wrong where it is no such cell.
+  /// Adds a cell between two polygons as prisms and hexahedra. Returns an error message if it is no such
+  /// cell.
   std::string add_polygonal_cell(std::span<const CellSide> sides, std::span<const std::size_t> faces,
                                  std::int32_t block) {
     std::vector<CellSide> quads;
@@ -179,7 +180,7 @@ class FoamReader {
     for (std::size_t end = 0; end < 2; ++end) polygons_[ends[end]].pieces.push_back(faces[end]);
   }
 
-  /// Zones of cells, where there are any; of a cell in several the first counts.
+  /// Reads cell zones, if there are any; for a cell in several the first counts.
   std::vector<std::int32_t> blocks_of_cells(std::int64_t cells) {
     std::vector<std::int32_t> block_of(cells, -1);
     std::int64_t again = 0;
@@ -206,7 +207,7 @@ class FoamReader {
     std::vector<std::string> cyclic;
     for (const FoamPatch& given : patches_) {
       const std::int64_t start = given.first_face;
-      if (given.faces < 0 || start < std::ssize(neighbour_) || start + given.faces > std::ssize(faces_))
+      if (given.faces < 0 || start < std::ssize(neighbour_) || given.faces > std::ssize(faces_) - start)
         throw InputError(fmt::format("{}: patch {} is of {} faces from {} on, of which there are {}",
                                      file("boundary"), given.name, given.faces, start, faces_.size()));
       FileBoundary& patch = mesh_.boundaries.emplace_back();
@@ -226,7 +227,7 @@ class FoamReader {
                                            path_, divided_, pieces_));
   }
 
-  /// Of a polygon the pieces into which its cell is divided.
+  /// For a polygon, adds the pieces of its cell.
   void put_face(FileBoundary& patch, std::size_t face) const {
     const auto polygon = polygons_.find(face);
     if (polygon == polygons_.end())
@@ -241,7 +242,7 @@ class FoamReader {
                                                            : BoundaryCondition::none;
   }
 
-  /// A face of more than four points, and the pieces of its cell on it.
+  /// A face with more than four points, with the pieces of its cell at it.
   struct Polygon {
     std::vector<std::int32_t> nodes;
     std::vector<FileBoundary::Face> pieces;
@@ -250,7 +251,7 @@ class FoamReader {
   std::string path_;
   std::vector<FoamPatch> patches_;
   std::vector<FileBoundary::Face> faces_;
-  std::unordered_map<std::size_t, Polygon> polygons_;  ///< by their places among the faces
+  std::unordered_map<std::size_t, Polygon> polygons_;  ///< by face number
   std::int64_t divided_ = 0, pieces_ = 0;
   std::vector<std::int32_t> owner_, neighbour_;
   FileMesh mesh_;

@@ -7,11 +7,11 @@
 
 namespace quadloop {
 
-/// The tokens of one of OpenFOAM's text files, held whole: words and numbers, and each of ( ) { } ; for
-/// itself; comments are passed over. Refusals are InputErrors "file:line: ...".
+/// Tokens of an OpenFOAM text file, in memory: words and numbers, and each of ( ) { } ; separately; comments
+/// are skipped. Errors are InputErrors "file:line: ...".
 class FoamScanner {
  public:
-  /// Passes over the file's header, which must be that of an ASCII file.
+  /// Skips the file's header, which must be that of an ASCII file.
   explicit FoamScanner(std::string path);
 
   bool at_end();
@@ -19,9 +19,10 @@ class FoamScanner {
   void expect(std::string_view sign);
   std::int64_t integer(std::string_view expected);
   double real(std::string_view expected);
-  /// The size of a list and its "(": at most as many as the file can still hold, of so many bytes each.
+  /// Reads the size of a list and its "("; the size must not exceed what the rest of the file can contain
+  /// with `bytes_each` bytes per entry.
   std::size_t begin_list(const std::string& of, std::size_t bytes_each);
-  /// After the entries of a list: its ")" and nothing else.
+  /// Call after the entries of a list: expects ")" and nothing else.
   void end_file();
 
   [[noreturn]] void refuse(const std::string& message) const;

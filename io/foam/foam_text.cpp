@@ -41,7 +41,7 @@ class Entries {
     return text_.substr(begin, end - begin);
   }
 
-  /// False where the value has no end.
+  /// Returns false if the value has no end.
   bool read_value(FoamEntry& entry) {
     entry.is_block = text_[at_] == '{';
     entry.begin = entry.is_block ? ++at_ : at_;

@@ -7,29 +7,29 @@
 
 namespace quadloop {
 
-/// Comments become blanks, so that places stay.
+/// Replaces comments by blanks, so that positions do not change.
 std::string without_foam_comments(std::string text);
 
-/// An entry of a dictionary: its key, without quotes, and where its value stands in the text: up to the
-/// semicolon, or of a sub-dictionary what is between its braces.
+/// An entry of a dictionary: its key, without quotes, and the position of its value in the text: up to the
+/// semicolon or, for a sub-dictionary, the contents of its braces.
 struct FoamEntry {
   std::string key;
   std::size_t begin = 0, end = 0;
   bool is_block = false;
 };
 
-/// The entries between two places of a text without comments, not those of the sub-dictionaries in it.
-/// Directives, as #include, are passed over, and what does not end.
+/// Returns the entries between two positions of a text without comments, excluding those of sub-dictionaries.
+/// Directives, e.g. #include, and unterminated entries are skipped.
 std::vector<FoamEntry> foam_entries(const std::string& text, std::size_t begin = 0,
                                     std::size_t end = std::string::npos);
 
-/// Of several the last, as OpenFOAM takes it.
+/// Returns the last of several entries with this key, as OpenFOAM does.
 std::optional<FoamEntry> foam_entry(const std::vector<FoamEntry>& entries, const std::string& key);
 
-/// The first word of a value, without quotes.
+/// Returns the first word of a value, without quotes.
 std::string foam_word(const std::string& text, const FoamEntry& entry);
 
-/// As OpenFOAM writes them: switches that are on.
+/// Whether a word switches something on in OpenFOAM.
 bool is_foam_true(const std::string& word);
 
 }  // namespace quadloop

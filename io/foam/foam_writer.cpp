@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-/// The files of a polyMesh: the five that each has, and of several blocks the zones of cells.
+/// Returns the files of a polyMesh: the five mandatory ones and, for several blocks, the cell zones.
 std::vector<std::string> foam_files(const StreamBlocks& blocks) {
   std::vector<std::string> files{"points", "faces", "owner", "neighbour", "boundary"};
   if (blocks.several()) files.emplace_back("cellZones");
@@ -28,13 +28,13 @@ std::string foam_head(const std::string& type, const std::string& object, const 
   return head + "    location    \"constant/polyMesh\";\n    object      " + object + ";\n}\n\n";
 }
 
-/// The type of a patch for Boundary::condition.
+/// Returns the patch type for Boundary::condition.
 std::string foam_patch_type(BoundaryCondition condition) {
   if (condition.is_wall()) return "wall";
   return condition == BoundaryCondition::symmetry ? "symmetry" : "patch";
 }
 
-/// A face takes room for one number more than it has nodes.
+/// A face needs space for one number more than it has nodes.
 template <class Node, std::size_t width>
 void put_foam_face(TextRows& text, const std::array<Node, width>& nodes) {
   text.put(width, '(');
@@ -95,7 +95,7 @@ class FoamWriter {
            "  nInternalFaces:" + std::to_string(faces_.internal());
   }
 
-  /// Of the face's cells that with the lower number.
+  /// Writes the cell of lower number of each face.
   void write_owner() {
     TextOutput file(comm_, staged_[2]);
     file.write(foam_head("labelList", "owner", counts_note()) + std::to_string(faces_.all()) + "\n(\n");
@@ -119,7 +119,7 @@ class FoamWriter {
     finish(file);
   }
 
-  /// The patches, whose faces follow the internal ones.
+  /// Writes the patches, whose faces follow the inner ones.
   void write_boundary() {
     const std::vector<StreamedPatch>& patches = stream_.patches();
     const std::vector<std::string> names = foam_patch_names(stream_.patch_names());
@@ -144,7 +144,7 @@ class FoamWriter {
     return foam_patch_type(stream_.patches()[patch].condition);
   }
 
-  /// The file `cellZones`: a zone for each block.
+  /// Writes the file `cellZones`: a zone for each block.
   void write_zones() {
     TextOutput file(comm_, staged_[5]);
     const std::vector<std::string> names = foam_patch_names(blocks_.names());
@@ -179,7 +179,7 @@ class FoamWriter {
   std::vector<StagedFile> staged_;
 };
 
-/// Without the boundary edges that have cells on both sides. *Collective.*
+/// Returns the mesh without the boundary edges that have cells on both sides. *Collective.*
 Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
   Mesh result = mesh;
   const std::vector<std::int64_t> right = cells_right_of_boundaries(comm, mesh);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/files/reading/input_file.hpp"
+#include "io/input/geometry_file.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -29,12 +30,12 @@ Number number_in(std::string_view text) {
   return number;
 }
 
-/// The pairs of lines that a drawing is made of: a code, and a value.
+/// The pairs of lines of a drawing: a code, and a value.
 class DxfPairs {
  public:
   explicit DxfPairs(std::string_view text) : text_{text} {}
 
-  /// False at the end, and if a line that should be a group code is no number.
+  /// Returns false at the end, and if a line that should be a group code is not a number.
   bool next() {
     begin_ = at_;
     const std::string_view code = line();
@@ -45,7 +46,7 @@ class DxfPairs {
   int code() const { return code_; }
   std::string_view value() const { return value_; }
   bool is(int code, std::string_view value) const { return code_ == code && value_ == value; }
-  std::size_t begin() const { return begin_; }  ///< of the pair, in the text
+  std::size_t begin() const { return begin_; }  ///< position of the pair in the text
   bool at_end() const { return trimmed(text_.substr(begin_)).empty(); }
   std::int64_t line_number() const { return 1 + std::ranges::count(text_.substr(0, begin_), '\n'); }
   std::size_t end() const { return at_; }
@@ -61,6 +62,64 @@ class DxfPairs {
   std::string_view text_, value_;
   std::size_t at_ = 0, begin_ = 0;
   int code_ = 0;
+};
+
+/// The names of a drawing's layers, or of its blocks: equal ones may differ in case.
+class DxfNames {
+ public:
+  /// The first spelling of the name; the name itself where it is new.
+  const std::string& spelling_of(std::string_view name) {
+    return names_.try_emplace(lower_case(name), name).first->second;
+  }
+  bool contains(std::string_view name) const { return names_.contains(lower_case(name)); }
+  std::vector<std::string> all() const {
+    std::vector<std::string> spellings;
+    for (const auto& [lower, name] : names_) spellings.push_back(name);
+    return spellings;
+  }
+
+ private:
+  std::map<std::string, std::string> names_;  ///< by lower case
+};
+
+/// Calls `take` for each pair within a section, with the section's name and the type of the table entry or
+/// entity that the pair belongs to.
+template <class Take>
+void for_each_pair(std::string_view text, Take take) {
+  DxfPairs pairs(text);
+  std::string_view section, type;
+  while (pairs.next()) {
+    if (pairs.is(0, "SECTION")) {
+      if (!pairs.next()) return;
+      section = pairs.value();
+    }
+    if (pairs.code() == 0) type = pairs.value();
+    take(pairs, section, type);
+  }
+}
+
+/// What a drawing defines.
+struct DxfDefinitions {
+  DxfNames layers, blocks;
+
+  explicit DxfDefinitions(std::string_view text) {
+    constexpr int external = 4;  // a flag of a block: its content is in another file
+    std::string_view block;
+    bool is_head = false;
+    for_each_pair(text, [&](const DxfPairs& pair, std::string_view section, std::string_view type) {
+      if (section == "TABLES" && type == "LAYER" && pair.code() == 2) layers.spelling_of(pair.value());
+      if (section != "BLOCKS") return;
+      if (pair.code() == 0) {
+        if (is_head && !block.empty()) blocks.spelling_of(block);
+        is_head = type == "BLOCK";
+        block = {};
+      } else if (is_head && pair.code() == 2) {
+        block = pair.value();
+      } else if (is_head && pair.code() == 70 && (number_in<int>(pair.value()) & external) != 0) {
+        is_head = false;
+      }
+    });
+  }
 };
 
 /// One entity while its pairs are read.
@@ -92,7 +151,7 @@ struct PartEntity {
   }
 };
 
-/// The units of the variable $INSUNITS, by its value.
+/// Returns the unit for a value of $INSUNITS.
 std::string unit_named(int value) {
   constexpr std::array<const char*, 17> names{"",   "inch",   "foot",      "mile", "mm",   "cm",
                                               "m",  "km",     "microinch", "mil",  "yard", "angstrom",
@@ -105,13 +164,13 @@ void refuse_binary(const std::string& path, std::string_view text) {
     throw InputError(path + ": is a binary DXF, which is not read; export it as ASCII DXF");
 }
 
-/// GDAL 3.6 reads some drawings that end within a section without end.
+/// GDAL 3.6 loops forever on some drawings that end within a section.
 [[noreturn]] void refuse_damaged(const std::string& path, const DxfPairs& pairs, const std::string& what) {
   throw InputError(fmt::format("{}:{}: {}; the drawing is truncated or damaged, export it again", path,
                                pairs.line_number(), what));
 }
 
-/// The curve's point at `t`, in the span of knots that begins at `span`.
+/// Returns the curve's point at `t`, in the knot span that begins at `span`.
 Point point_at(const DxfSpline& spline, std::size_t span, double t) {
   struct Weighted {
     Point p;
@@ -160,9 +219,35 @@ std::vector<Point> points_of(const DxfSpline& spline) {
   return points;
 }
 
+bool DxfDrawing::correct_names(std::string& text) {
+  DxfDefinitions defined(text);
+  layers_ = defined.layers.all();
+  bool any = false;
+  const auto spell = [&](std::string_view name, const std::string& spelling) {
+    if (name == spelling) return;
+    any = true;
+    std::ranges::copy(spelling, text.begin() + (name.data() - text.data()));  // only the case differs
+  };
+  std::string layer;
+  for_each_pair(text, [&](const DxfPairs& pair, std::string_view section, std::string_view type) {
+    if (section != "BLOCKS" && section != "ENTITIES") return;
+    if (pair.code() == 8) {
+      layer = defined.layers.spelling_of(pair.value());
+      spell(pair.value(), layer);
+    }
+    if (type != "INSERT" || pair.code() != 2) return;
+    if (defined.blocks.contains(pair.value()))
+      spell(pair.value(), defined.blocks.spelling_of(pair.value()));
+    else
+      missing_blocks_.emplace_back(pair.value(), layer);
+  });
+  return any;
+}
+
 DxfDrawing::DxfDrawing(const std::string& path) {
-  const std::string text = read_input(path);
+  std::string text = read_input(path);
   refuse_binary(path, text);
+  const bool is_corrected = correct_names(text);
   DxfPairs pairs(text);
   std::string section, first_section, variable;
   std::size_t section_begin = 0;
@@ -188,7 +273,7 @@ DxfDrawing::DxfDrawing(const std::string& path) {
       if (section == "ENTITIES") {
         keep();
         if (first_section != "HEADER" && first_section != "ENTITIES")
-          entities_alone_ = text.substr(section_begin, pairs.end() - section_begin) + "  0\nEOF\n";
+          corrected_ = text.substr(section_begin, pairs.end() - section_begin) + "  0\nEOF\n";
       }
       section.clear();
     } else if (section == "ENTITIES") {
@@ -205,6 +290,7 @@ DxfDrawing::DxfDrawing(const std::string& path) {
   }
   if (!section.empty()) refuse_damaged(path, pairs, "section " + section + " does not end with ENDSEC");
   if (!pairs.at_end() && !pairs.is(0, "EOF")) refuse_damaged(path, pairs, "a group code is expected here");
+  if (corrected_.empty() && is_corrected) corrected_ = std::move(text);
 }
 
 const DxfEntity* DxfDrawing::find(const std::string& handle) const {

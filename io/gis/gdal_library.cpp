@@ -24,7 +24,7 @@ const GdalLibrary& GdalLibrary::instance() {
   return library;
 }
 
-/// It stays loaded to the end of the process: its libraries have exit handlers.
+/// Never unloaded, as its libraries have exit handlers.
 GdalLibrary::GdalLibrary() {
   void* library = dlopen(QUADLOOP_GDAL, RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) refuse();

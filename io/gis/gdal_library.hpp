@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -8,13 +9,13 @@
 
 namespace quadloop {
 
-// What is called of GDAL's C interface.
+// The functions used of GDAL's C interface.
 // clang-format moves these lines about each time.
 // clang-format off
 #define QUADLOOP_FOR_EACH_GDAL_FUNCTION(DO)                                                                 \
   DO(CPLErrorReset)                                                                                         \
   DO(CPLGetLastErrorMsg) DO(CPLGetLastErrorType) DO(CPLPopErrorHandler) DO(CPLPushErrorHandler)             \
-      DO(CPLQuietErrorHandler) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
+      DO(CPLQuietErrorHandler) DO(CPLSetThreadLocalConfigOption) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
           DO(GDALDatasetGetLayerCount) DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID)                    \
               DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex) DO(OGR_F_GetGeometryRef)                   \
                   DO(OGR_F_IsFieldSetAndNotNull) DO(OGR_G_Clone) DO(OGR_G_DestroyGeometry)                  \
@@ -26,11 +27,11 @@ namespace quadloop {
                                           DO(VSIFileFromMemBuffer) DO(VSIUnlink)
 // clang-format on
 
-/// GDAL, loaded when it is first asked for: with all that it depends on that takes longer than the rest of
-/// the program, and few runs read maps. Its members are the functions of the same names.
+/// GDAL, loaded on first use: with its dependencies this takes longer than the rest of the program, and few
+/// runs read maps. Its members are the functions of the same names.
 class GdalLibrary {
  public:
-  /// Throws InputError where GDAL is not installed, or not the version that this program was built with.
+  /// Throws InputError if GDAL is not installed, or not the version used at build time.
   static const GdalLibrary& instance();
 
 #define QUADLOOP_DECLARE(function) decltype(&::function) function = nullptr;

@@ -2,8 +2,8 @@
 
 namespace quadloop {
 
-/// From here on geometry may stand in .dxf, .geojson, .shp and .gpkg files too; GDAL reads them. In the whole
-/// process; calls beyond the first do nothing new.
+/// Enables geometry files in .dxf, .geojson, .shp and .gpkg formats, read by GDAL, for the whole process.
+/// Further calls have no effect.
 void add_gis_formats();
 
 }  // namespace quadloop

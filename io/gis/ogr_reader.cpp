@@ -23,7 +23,6 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
-#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 namespace quadloop {
 
@@ -31,7 +30,7 @@ namespace {
 
 const GdalLibrary& gdal() { return GdalLibrary::instance(); }
 
-/// Handles of GDAL's, which are pointers to void, each with the function that ends it.
+/// GDAL handles, which are void pointers, with their release functions.
 template <auto end>
 struct End {
   void operator()(void* handle) const { (gdal().*end)(handle); }
@@ -40,16 +39,18 @@ using Dataset = std::unique_ptr<void, End<&GdalLibrary::GDALClose>>;
 using Feature = std::unique_ptr<void, End<&GdalLibrary::OGR_F_Destroy>>;
 using OwnGeometry = std::unique_ptr<void, End<&GdalLibrary::OGR_G_DestroyGeometry>>;
 
-/// Where memory ends GDAL would call abort(). All else it keeps as its last message.
+/// GDAL would call abort() when memory runs out. Other errors are kept as its last message.
 void throw_out_of_memory(CPLErr kind, CPLErrorNum number, const char* message) {
   if (kind == CE_Fatal && number == CPLE_OutOfMemory) throw std::bad_alloc();
   gdal().CPLQuietErrorHandler(kind, number, message);
 }
 
-/// GDAL would print its own lines on stderr; its last message goes into ours instead.
+/// GDAL would print its own lines on stderr; its last message goes into ours instead. It gives each entity of
+/// a DXF block as one feature with the entity's own layer, not one feature for a reference to the block.
 class QuietGdal {
  public:
   QuietGdal() {
+    gdal().CPLSetThreadLocalConfigOption("DXF_MERGE_BLOCK_GEOMETRIES", "FALSE");
     gdal().CPLPushErrorHandler(throw_out_of_memory);
     gdal().CPLErrorReset();
   }
@@ -68,7 +69,7 @@ std::string without_blanks(std::string name) {
   return name;
 }
 
-/// An attribute, its name in any case; empty where the feature has none.
+/// Returns an attribute, ignoring the case of its name; empty if the feature has none.
 std::string text_of(OGRFeatureH feature, const char* attribute) {
   const int field = gdal().OGR_F_GetFieldIndex(feature, attribute);
   if (field < 0 || gdal().OGR_F_IsFieldSetAndNotNull(feature, field) == 0) return {};
@@ -83,10 +84,10 @@ std::string name_of(OGRFeatureH feature, OGRLayerH layer) {
   return without_blanks(gdal().OGR_L_GetName(layer));
 }
 
-/// How many of each kind there are, for a warning.
+/// Counts omitted features by kind, for a warning.
 class LeftOut {
  public:
-  /// What has one handle counts once: GDAL makes several features of a dimension.
+  /// Features with the same handle count once: GDAL makes several features of a dimension.
   void add(const std::string& kind, const std::string& handle) {
     if (handle.empty() || seen_.insert(kind + handle).second) ++counts_[kind];
   }
@@ -103,12 +104,29 @@ class LeftOut {
   std::set<std::string> seen_;
 };
 
-/// Gathers the chains of one feature after another.
+/// Collects the chains of one feature after another.
 class Collector {
  public:
-  /// `drawing` is null where the file is none.
+  /// `drawing` is null if the file is not a drawing.
   Collector(std::vector<Chain>& chains, const LayerNames& layers, const DxfDrawing* drawing)
-      : chains_{chains}, layers_{layers}, drawing_{drawing} {}
+      : chains_{chains}, layers_{layers}, drawing_{drawing} {
+    if (drawing == nullptr) return;
+    known_layers_.insert(drawing->layers().begin(), drawing->layers().end());
+    for (const auto& [block, layer] : drawing->missing_blocks()) {
+      if (is_wanted(layer))
+        left_out_.add(fmt::format("INSERT of block '{}', whose content is not in the file", block), {});
+    }
+  }
+
+  void add_layer(OGRLayerH layer, const std::string& path) {
+    if (drawing_ == nullptr) known_layers_.insert(gdal().OGR_L_GetName(layer));
+    while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) add_feature(feature.get(), layer, path);
+  }
+
+  const LeftOut& left_out() const { return left_out_; }
+  const std::set<std::string>& known_layers() const { return known_layers_; }
+
+ private:
 
   void add_feature(OGRFeatureH feature, OGRLayerH layer, const std::string& path) {
     const std::string layer_name = drawing_ ? text_of(feature, "Layer") : gdal().OGR_L_GetName(layer);
@@ -133,27 +151,26 @@ class Collector {
     add(straight.get(), name, source);
   }
 
-  const LeftOut& left_out() const { return left_out_; }
-  const std::set<std::string>& known_layers() const { return known_layers_; }
-
- private:
   bool is_wanted(const std::string& layer) const {
     return layers_.empty() ||
-           std::ranges::any_of(layers_, [&](const std::string& pattern) { return matches(pattern, layer); });
+           std::ranges::any_of(layers_, [&](const std::string& name) { return matches_layer(name, layer); });
   }
 
-  /// Of a drawing: the kind of what is no outline, or not seen; empty where it is to be read.
+  /// For a drawing: returns the kind of a feature that is not part of the geometry, or not visible; empty if
+  /// it is to be read.
   std::string why_left_out(OGRFeatureH feature, const std::string& handle, const std::string& layer) const {
     if (drawing_ == nullptr) return {};
     const std::string type = type_of(feature, handle);
-    if (text_of(feature, "PaperSpace") == "1") return fmt::format("{} in paper space", type);
+    if (text_of(feature, "PaperSpace") == "1")
+      return fmt::format("{} in paper space", type.empty() ? "entity" : type);
     const char* const style = gdal().OGR_F_GetStyleString(feature);
     const bool hidden = style != nullptr && has_hidden_colour(style);
-    if (hidden && layers_.empty()) return fmt::format("{} not visible on layer '{}'", type, layer);
+    if (hidden && layers_.empty())
+      return fmt::format("{} not visible on layer '{}'", type.empty() ? "entity" : type, layer);
     return is_outline(type) ? std::string() : fmt::format("{} on layer '{}'", type, layer);
   }
 
-  /// The entity's type, of a block's content its class.
+  /// Returns the entity's type; for the contents of a block its class.
   std::string type_of(OGRFeatureH feature, const std::string& handle) const {
     const DxfEntity* const entity = drawing_->find(handle);
     if (entity != nullptr && entity->type != "INSERT") return entity->type;
@@ -169,7 +186,7 @@ class Collector {
     return types.contains(type);
   }
 
-  /// GDAL gives what is on a layer that is off or frozen, or not visible itself, a colour without opacity.
+  /// GDAL gives features on a layer that is off or frozen, and invisible ones, a transparent colour.
   static bool has_hidden_colour(std::string_view style) {
     const std::size_t colour = style.find("c:#");
     return colour != std::string_view::npos && style.substr(colour + 3, 8).size() == 8 &&
@@ -212,19 +229,19 @@ class Collector {
   std::set<std::string> known_layers_;
 };
 
-/// A box of longitudes and latitudes, if it can be one: some programs write metres into files that declare
+/// Whether a box may be in longitudes and latitudes: some programs write metres to files that declare
 /// degrees.
 bool are_degrees(const Box& box) {
   return box.low.x >= -360 && box.high.x <= 360 && box.low.y >= -90 && box.high.y <= 90;
 }
 
-/// The projection for the zone of 6 degrees that the box's middle lies in (UTM).
+/// Returns the code of the UTM zone (6 degrees wide) of the box's centre.
 int utm_code(Point middle) {
   const int zone = std::clamp(static_cast<int>(std::floor((middle.x + 180) / 6)) + 1, 1, 60);
   return (middle.y >= 0 ? 32600 : 32700) + zone;
 }
 
-/// Lengths in degrees are seldom meant: a spacing would be in degrees, and cells too narrow along x.
+/// Lengths in degrees are seldom intended: spacings would be in degrees, and cells too narrow along x.
 void warn_of_degrees(const std::string& path, std::span<const Chain> chains,
                      std::vector<std::string>& warnings) {
   Box box;
@@ -247,7 +264,7 @@ bool is_in_degrees(OGRLayerH layer) {
   return reference != nullptr && gdal().OSRIsGeographic(reference) != 0;
 }
 
-/// Of a map in a projection; of layers in different units none.
+/// Records the unit of a projected map; none if layers have different units.
 void note_unit(OGRLayerH layer, FileUnit& unit) {
   const OGRSpatialReferenceH reference = gdal().OGR_L_GetSpatialRef(layer);
   if (reference == nullptr || gdal().OSRIsGeographic(reference) != 0) return;
@@ -256,12 +273,11 @@ void note_unit(OGRLayerH layer, FileUnit& unit) {
   if (unit.metres != 0 && unit.metres != metres)
     unit = {};
   else
-    unit = {name, metres};
+    unit = {name, metres, {}};
 }
 
 void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
-  while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)})
-    collector.add_feature(feature.get(), layer, path);
+  collector.add_layer(layer, path);
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
     throw InputError(fmt::format("{}: {}; correct the file or export it again", path,
                                  one_line(gdal().CPLGetLastErrorMsg())));
@@ -278,7 +294,7 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  static constexpr const char* name = "/vsimem/entities.dxf";
+  static constexpr const char* name = "/vsimem/corrected.dxf";
 
  private:
   std::string text_;
@@ -304,9 +320,9 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
   if (suffix_of(path) == ".dxf") drawing.emplace(path);
   gdal().GDALAllRegister();
   const QuietGdal quiet;
-  std::optional<MemoryFile> entities_alone;
-  if (drawing && !drawing->entities_alone().empty()) entities_alone.emplace(drawing->entities_alone());
-  const Dataset data{gdal().GDALOpenEx(entities_alone ? MemoryFile::name : path.c_str(),
+  std::optional<MemoryFile> corrected;
+  if (drawing && !drawing->corrected().empty()) corrected.emplace(drawing->corrected());
+  const Dataset data{gdal().GDALOpenEx(corrected ? MemoryFile::name : path.c_str(),
                                        GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
@@ -328,7 +344,9 @@ std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
   warn_of_degrees(path, in_degrees, warnings);
   if (!collector.left_out().empty())
     warnings.push_back(fmt::format("{}: left out: {}", path, collector.left_out().text()));
-  if (drawing && !drawing->unit().empty()) unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0)};
+  if (drawing && !drawing->unit().empty())
+    unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0), {}};
+  unit.layers.assign(collector.known_layers().begin(), collector.known_layers().end());
   return chains;
 }
 

@@ -13,7 +13,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double blunt = 0.05;  ///< share of the chord that a trailing edge may be thick
+constexpr double blunt = 0.05;  ///< maximum thickness of a trailing edge, relative to the chord
 
 double chord_of(const std::vector<Point>& rows) {
   Box box;
@@ -22,15 +22,15 @@ double chord_of(const std::vector<Point>& rows) {
 }
 
 bool is_count(double value) {
-  constexpr double most = 1e9;  // more points than a file holds
+  constexpr double most = 1e9;  // more points than any file contains
   return value >= 2 && value <= most && value == std::floor(value);
 }
 
-/// Two integers from 2 on are the point counts of a Lednicer file, since coordinates are fractions of the
+/// Two integers of at least 2 are the point counts of a Lednicer file, as coordinates are relative to the
 /// chord.
 bool are_counts(Point p) { return is_count(p.x) && is_count(p.y); }
 
-/// A third column of zeros is that of files in three dimensions.
+/// A third column of zeros occurs in 3D files.
 bool has_no_third(const LineReader& lines) {
   return lines.words().size() == 2 || (lines.words().size() == 3 && lines.is_number(2) && lines.real(2) == 0);
 }
@@ -46,21 +46,21 @@ bool is_point(const LineReader& lines) {
   return has_no_third(lines) && lines.is_number(0) && lines.is_number(1);
 }
 
-/// A file without a name begins with a point; "2412 63" is a name all the same.
+/// A file without a name begins with a point; "2412 63" is nevertheless a name.
 bool is_name(const LineReader& lines) {
   return !is_point(lines) || lines.row().find('.') == std::string_view::npos;
 }
 
-/// Words alone are a remark; a row that begins with a number was meant to be a point. In the head a remark
+/// A row of words is a remark; one that begins with a number was meant to be a point. In the header a remark
 /// may begin with a number.
 bool is_remark(const LineReader& lines, bool in_head) {
   return !lines.is_number(0) || (in_head && lines.words().size() > 2 && !lines.is_number(1));
 }
 
-/// "999. 999." divides the elements of an airfoil with flaps or slats.
+/// "999. 999." separates the elements of an airfoil with flaps or slats.
 bool is_divider(Point p) { return p.x == p.y && p.x >= 999 && p.x < 1000; }
 
-/// The second row of a file for MSES, the box of its grid: XINL XOUTL YBOT YTOP.
+/// Whether the row is the second one of an MSES file, the box of its grid: XINL XOUTL YBOT YTOP.
 bool is_grid_box(const LineReader& lines) {
   if (lines.words().size() != 4) return false;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -69,7 +69,7 @@ bool is_grid_box(const LineReader& lines) {
   return true;
 }
 
-/// Rows that are no points of the airfoil.
+/// Rows that are not points of the airfoil.
 struct PassedOver {
   std::int64_t count = 0, first_line = 0;
   std::string first_row;
@@ -82,12 +82,11 @@ struct PassedOver {
   }
 };
 
-/// The numbers of one element: its points in their order, and before them the counts where the file is
-/// Lednicer's.
+/// The rows of one element: its points in order, preceded by the counts in a Lednicer file.
 class AirfoilRows {
  public:
-  /// Reads to the row that divides the elements, or to the end of the file. What stands in the head beside
-  /// the name, between the surfaces as words, and after the last point is passed over.
+  /// Reads up to the row that separates elements, or to the end of the file. Text in the header other than
+  /// the name, words between the surfaces, and rows after the last point are skipped.
   AirfoilRows(LineReader& lines, bool first) {
     if (first) read_head(lines);
     while (!divided_ && lines.next()) take(lines);
@@ -127,7 +126,7 @@ class AirfoilRows {
     if (divided_) return;
     const bool after_gap = lines.line() - last_point_line_ > usual_step_ || ended_;
     if (is_point(lines) && !(after_gap && is_whole())) return add_point(lines);
-    if (!is_whole() && !is_remark(lines, rows_.empty() && !counts_)) read_point(lines);  // refuses
+    if (!is_whole() && !is_remark(lines, rows_.empty() && !counts_)) read_point(lines);  // throws
     passed_.add(lines);
     ended_ = ended_ || is_whole();
   }
@@ -149,7 +148,7 @@ class AirfoilRows {
     return static_cast<std::size_t>(counts_->x) + static_cast<std::size_t>(counts_->y);
   }
 
-  /// Whether the points go round the section: as many as the head says, or back to where they began.
+  /// Whether the element is complete: as many points as counted in the header, or closed.
   bool is_whole() const {
     if (counts_) return rows_.size() >= expected();
     return rows_.size() >= 3 && length(rows_.back() - rows_.front()) <= blunt * chord_of(rows_);
@@ -159,17 +158,18 @@ class AirfoilRows {
   std::vector<Point> rows_;
   PassedOver passed_;
   std::int64_t last_point_line_ = 0, usual_step_ = 1, first_line_ = 0;
-  bool ended_ = false;    ///< what follows is no part of the airfoil
-  bool divided_ = false;  ///< the last row read divides elements
+  bool ended_ = false;    ///< what follows is not part of the airfoil
+  bool divided_ = false;  ///< the last row is a separator
 };
 
-/// Two surfaces that both run the same way between the edges, though no counts say so.
+/// Two surfaces in the same direction between the edges, without counts.
 struct TwoSurfaces {
-  std::size_t second = 0;  ///< where the second one begins; 0 where the file has one line round the airfoil
+  /// Index of the first point of the second surface; 0 if the file has one line around the airfoil.
+  std::size_t second = 0;
   bool from_leading_edge = true;
 };
 
-/// Told by the one step over most of the chord, back to the edge at which the first surface began.
+/// Detected by the single step over most of the chord, back to the edge where the first surface began.
 TwoSurfaces two_surfaces(const std::vector<Point>& rows) {
   constexpr double most = 0.8;
   TwoSurfaces found;
@@ -184,26 +184,26 @@ TwoSurfaces two_surfaces(const std::vector<Point>& rows) {
   return found;
 }
 
-/// From the trailing edge over the upper side to the leading edge and back along the lower one, as Selig has
-/// it.
+/// Returns the points from the trailing edge along the upper side to the leading edge and back along the
+/// lower side (Selig order).
 std::vector<Point> around(const std::vector<Point>& rows, std::size_t upper) {
   std::vector<Point> points(rows.begin(), rows.begin() + upper);
   std::reverse(points.begin(), points.end());
   const std::size_t skip =
-      upper < rows.size() && rows[upper] == rows.front() ? 1 : 0;  // the leading edge stands in both lists
+      upper < rows.size() && rows[upper] == rows.front() ? 1 : 0;  // the leading edge is in both lists
   points.insert(points.end(), rows.begin() + (upper + skip), rows.end());
   return points;
 }
 
-/// Only says which way to walk; assemble() decides exactly.
+/// Determines only the direction; assemble() checks it exactly.
 double area(const std::vector<Point>& points) {
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) sum += cross(points[i], points[(i + 1) % points.size()]);
   return 0.5 * sum;
 }
 
-/// The trailing edge may be blunt, even very blunt, but no airfoil is open over half of its chord: one side
-/// is missing then, or a point that is none of the outline stands in the file.
+/// The trailing edge may be blunt, even very blunt, but no airfoil is open over half of its chord: then one
+/// side is missing, or the file has an extraneous point.
 void check_gap(const std::vector<Point>& rows, const std::string& source,
                std::vector<std::string>& warnings) {
   if (rows.size() < 2) return;
@@ -221,7 +221,7 @@ void check_gap(const std::vector<Point>& rows, const std::string& source,
                   source, rows.front().x, rows.front().y, rows.back().x, rows.back().y, gap));
 }
 
-/// The outline of one element, clockwise.
+/// Returns the loop of one element, clockwise.
 Chain chain_of(AirfoilRows& airfoil, const std::string& path, const std::string& source,
                std::vector<std::string>& warnings) {
   std::vector<Point> rows = std::move(airfoil.rows());

@@ -20,14 +20,14 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// KEY=VALUE, the key split at its dots. A part may stand in quotes and then hold dots and more:
-/// boundary."a.b=c".spacing. Shells eat quotes, so a part without them may be a pattern or hold blanks as
-/// well.
+/// KEY=VALUE, with the key split at its dots. A part may be quoted and then contain dots etc.:
+/// boundary."a.b=c".spacing. As shells remove quotes, a part without quotes may be a pattern or contain
+/// blanks too.
 struct Assignment {
   std::vector<std::string> parts{{}};
   std::string value;
   bool has_value = false;
-  bool has_slash = false;  ///< outside quotes, in the key
+  bool has_slash = false;  ///< unquoted, in the key
 
   explicit Assignment(std::string_view text) {
     char quote = 0;
@@ -63,20 +63,19 @@ struct Assignment {
   }
 };
 
-/// The value as TOML, or as the plain text that it is.
+/// Parses the value as TOML, else takes it as plain text.
 toml::table parse_value(const std::string& text) {
   try {
     toml::table parsed = toml::parse("value = " + text + "\n");
     if (parsed.size() == 1) return parsed;
-  } catch (
-      const toml::parse_error&) {  // a text without quotes: the shell has eaten them, or nobody wrote any
+  } catch (const toml::parse_error&) {  // text without quotes, removed by the shell or never written
   }
   toml::table plain;
   plain.insert("value", text);
   return plain;
 }
 
-/// The table or list one step down, made where it is missing.
+/// Returns the table or list one level down, created if missing.
 toml::node* step_down(toml::node& node, const std::string& part, const std::string& place) {
   if (toml::array* list = node.as_array()) {
     std::size_t index = 0;
@@ -94,7 +93,7 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
   return table->get(part);
 }
 
-/// Row `number`, from 1 on, of a text.
+/// Returns row `number` of a text, from 1.
 std::string row_of(const std::string& text, std::uint32_t number) {
   std::istringstream rows(text);
   std::string row;
@@ -102,8 +101,8 @@ std::string row_of(const std::string& text, std::uint32_t number) {
   return row;
 }
 
-/// The slips that beginners make, told from the row that is not TOML: a pattern or a text without quotes, a
-/// decimal comma.
+/// Returns a hint about a frequent mistake in a row that is not valid TOML: a pattern or a text without
+/// quotes, a decimal comma.
 std::string hint_for(const std::string& row) {
   const auto begin = row.find_first_not_of(" \t");
   if (begin == std::string::npos) return "";
@@ -132,7 +131,7 @@ std::string CaseTable::Data::place(const std::string& path, const toml::node* no
     const auto dot = prefix.rfind('.');
     prefix.resize(dot == std::string::npos ? 0 : dot);
   }
-  const auto below = assigned.lower_bound(path + ".");  // a table that exists through an assignment alone
+  const auto below = assigned.lower_bound(path + ".");  // a table that exists only by an assignment
   const auto line = node == nullptr ? 0 : node->source().begin.line;
   if (line == 0 && below != assigned.end() && below->first.starts_with(path + "."))
     return "--set " + below->second;

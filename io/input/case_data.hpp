@@ -10,20 +10,20 @@
 
 namespace quadloop {
 
-/// The parsed file and what was laid over it. Private to io/input: the one header of ours that shows toml++.
+/// The parsed file with its assignments. Private to io/input: the only header that exposes toml++.
 struct CaseTable::Data {
   std::string file;
   toml::table root;
   std::vector<std::string> warnings;
   std::map<std::string, std::string> assigned;  ///< dotted key -> the assignment that set it
 
-  /// The place of a dotted key whose node (if there is one) is given.
+  /// Returns the location of a dotted key, given its node, if there is one.
   std::string place(const std::string& path, const toml::node* node) const;
 };
 
-/// Reads and parses; no assignments yet.
+/// Reads and parses the file, without assignments.
 void parse_case(CaseTable::Data& data, const std::string& path);
-/// Lays one "key=value" over the tables.
+/// Applies one "key=value" to the tables.
 void assign(CaseTable::Data& data, const std::string& assignment);
 
 }  // namespace quadloop

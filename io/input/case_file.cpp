@@ -17,7 +17,7 @@ namespace {
 
 const toml::table& as_table(const void* table) { return *static_cast<const toml::table*>(table); }
 
-/// What the user wrote, in words.
+/// Returns the type of the user's value, for messages.
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table: return "a table";
@@ -32,14 +32,14 @@ std::string kind_of(const toml::node& node) {
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
-/// A number, or a whole number as the nearest one; none where it is neither.
+/// Returns a floating-point or integer value; empty for other types.
 std::optional<double> number_in(const toml::node& node) {
   if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
   if (const auto* number = node.as_floating_point()) return number->get();
   return std::nullopt;
 }
 
-/// A value as JSON on one line; 1 and 1.0 are the same number.
+/// Returns a value as JSON on one line; 1 and 1.0 are equal.
 std::string json_of(const toml::node& node) {
   if (const auto number = number_in(node)) return fmt::format("{}", *number);
   std::vector<std::string> parts;
@@ -85,7 +85,7 @@ std::string Range::text() const {
   return text.empty() ? "finite" : text;
 }
 
-/// Lookups of one table with the refusals that they share.
+/// Lookup of a key, with the common error messages.
 class Lookup {
  public:
   Lookup(const CaseTable& table, const std::string& key, const Range& range = {})
@@ -236,7 +236,7 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
   std::vector<CaseTable> result;
   const std::string wanted = "a list of tables, each begun by [[" + full_name(key) + "]]";
   const toml::node& node = *as_table(table_).get(key);
-  if (node.is_table() && node.source().begin.line == 0) {  // made by an assignment to key.0.x
+  if (node.is_table() && node.source().begin.line == 0) {  // created by an assignment to key.0.x
     refuse(key, "has nothing in the case file that --set could change; write a [[" + full_name(key) +
                     "]] there first (the first is number 0)");
   }
@@ -248,7 +248,7 @@ std::vector<CaseTable> CaseTable::tables(const std::string& key) const {
 }
 
 std::vector<std::string> CaseTable::keys() const {
-  std::vector<std::pair<std::uint64_t, std::string>> by_line;  // toml++ keeps keys in alphabetical order
+  std::vector<std::pair<std::uint64_t, std::string>> by_line;  // toml++ stores keys in alphabetical order
   for (const auto& [key, node] : as_table(table_)) {
     const auto line = node.source().begin.line;
     by_line.emplace_back(line == 0 ? std::numeric_limits<std::uint64_t>::max() : line,

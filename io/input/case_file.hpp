@@ -11,24 +11,24 @@
 
 namespace quadloop {
 
-/// Which numbers a key may take. Values that are not finite are never in range.
+/// Valid range of a number. Values that are not finite are never in range.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;   ///< low itself is out
-  bool high_open = false;  ///< high itself is out
+  bool low_open = false;   ///< low itself is excluded
+  bool high_open = false;  ///< high itself is excluded
 
   static Range positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
   bool contains(double value) const;
   std::string text() const;
 };
 
-/// One table of a case file. Refusals are InputErrors that begin with the place: "case.toml:12: " or, for
-/// what came from the command line, "--set spacing.min=x: ". Which keys a table may have is not its concern
+/// A table of a case file. Errors are InputErrors that begin with the location: "case.toml:12: " or, for the
+/// command line, "--set spacing.min=x: ". The valid keys of a table are defined elsewhere
 /// (quadloop/case/key_table). A view: cheap to copy, and it keeps the file's data alive.
 class CaseTable {
  public:
-  struct Data;  ///< of the whole file; toml++ stays behind it
+  struct Data;  ///< of the whole file; hides toml++
   CaseTable(std::shared_ptr<Data> data, const void* table, std::string path);
 
   CaseTable root() const;  ///< of the same file
@@ -40,12 +40,13 @@ class CaseTable {
   std::optional<std::int64_t> whole(const std::string& key, const Range& range) const;
   std::optional<std::string> text(const std::string& key) const;
   std::optional<bool> flag(const std::string& key) const;
-  /// The word, which the key has. Throws InputError with the nearest of the words unless it is one of them.
+  /// Returns the value of a key, which must exist. Throws InputError with the nearest valid word unless it is
+  /// one of them.
   std::string known_word(const std::string& key, const std::string& word,
                          const std::vector<std::string>& words) const;
   std::optional<std::vector<double>> numbers(const std::string& key, std::size_t count,
                                              const Range& range = {}) const;
-  /// Both "a" and ["a", "b"] are lists of texts, both 1 and [1, 2] lists of numbers.
+  /// Both "a" and ["a", "b"] are lists of strings, both 1 and [1, 2] lists of numbers.
   std::vector<std::string> texts(const std::string& key) const;
   std::vector<double> numbers_or_one(const std::string& key, const Range& range = {}) const;
   /// A list of points, [x, y] or [[x, y], ...].
@@ -54,23 +55,23 @@ class CaseTable {
   std::optional<CaseTable> table(const std::string& key) const;
   /// Every [[key]], in the order of the file.
   std::vector<CaseTable> tables(const std::string& key) const;
-  /// Those of this table, in the order of the file.
+  /// Returns the keys of this table, in the order of the file.
   std::vector<std::string> keys() const;
 
-  /// Where the key stands (this table, if it is absent), for messages of the caller's own.
+  /// Returns the location of the key (of this table, if it is absent), for messages.
   std::string place(const std::string& key) const;
   std::string place() const;
-  /// All values below this table with all assignments, by their dotted names in alphabetical order, each
-  /// value as JSON on one line; without the keys and tables of the dotted names given. The same for every way
-  /// to write the same case.
+  /// Returns all values below this table, including assignments, by their dotted names in alphabetical order,
+  /// each as JSON on one line; without the given dotted keys and tables. Independent of the way the case is
+  /// written.
   std::vector<std::pair<std::string, std::string>> values(const std::vector<std::string>& without) const;
-  /// The value of a key, which the table has, as values() gives it.
+  /// Returns the value of a key, which must exist, in the format of values().
   std::string json(const std::string& key) const;
-  /// The dotted name of a key.
+  /// Returns the dotted name of a key.
   std::string full_name(const std::string& key) const;
-  /// Notes a warning of the file, which begins with the place of the key as a refusal does.
+  /// Adds a warning about the file that begins with the location of the key, as errors do.
   void warn(const std::string& key, const std::string& message) const;
-  const std::vector<std::string>& warnings() const;  ///< those of all tables
+  const std::vector<std::string>& warnings() const;  ///< of all tables
   [[noreturn]] void refuse(const std::string& key, const std::string& message) const;
 
  private:
@@ -79,13 +80,12 @@ class CaseTable {
   std::string path_;
 };
 
-/// Whether a word of the command line is KEY=VALUE, its key a path of TOML keys: neither an option nor the
-/// path of a file.
+/// Whether a word of the command line is KEY=VALUE with a TOML key path: neither an option nor the path of a
+/// file.
 bool is_assignment(std::string_view word);
 
-/// Reads a case file (TOML) and lays `assignments` ("spacing.min=0.1", as --set has them) over it, in their
-/// order. A value is TOML, or a plain text where it is not. Throws InputError "file:line: ...". On the
-/// calling rank alone.
+/// Reads a case file (TOML) and applies `assignments` ("spacing.min=0.1", from --set) in their order. A value
+/// is TOML, else plain text. On the calling rank only. Throws InputError "file:line: ...".
 CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments = {});
 
 }  // namespace quadloop

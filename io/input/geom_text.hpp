@@ -7,11 +7,12 @@
 
 namespace quadloop {
 
-/// Reads a `.geom` file. Throws InputError "file:line: ..." on anything that is not one.
+/// Reads a `.geom` file. Throws InputError "file:line: ..." if it is invalid.
 std::vector<Chain> read_geom(const std::string& path);
 
-/// The geometry as the text of a `.geom` file that reads back to the same coordinates: a loop of one boundary
-/// as it is, a loop of several as one open chain for each run of segments of one boundary.
+/// Returns the geometry as the text of a `.geom` file that reads back to the same coordinates: a loop of one
+/// boundary is written unchanged, a loop of several as one open chain for each run of segments of one
+/// boundary.
 std::string geom_text(const Geometry& geometry);
 
 }  // namespace quadloop

@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 namespace quadloop {
 
@@ -28,6 +29,18 @@ std::map<std::string, GeometryReader>& readers() {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+bool matches_layer(const std::string& pattern, const std::string& layer) {
+  return matches(lower_case(pattern), lower_case(layer));
+}
 
 bool is_airfoil_file(const std::string& path) { return suffix_of(path) == ".dat"; }
 

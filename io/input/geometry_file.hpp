@@ -3,40 +3,48 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
 
-/// Names of layers of a drawing or map, with the wildcards * and ?. None: all layers, of a drawing those that
-/// are visible.
+/// Names of layers of a drawing or map, with the wildcards * and ?. Empty: all layers; in a drawing the
+/// visible ones.
 using LayerNames = std::vector<std::string>;
 
-/// The unit of length that a file declares for its coordinates.
+/// The letters a to z in lower case.
+std::string lower_case(std::string_view text);
+
+/// Whether the layer has this name, in upper or lower case.
+bool matches_layer(const std::string& pattern, const std::string& layer);
+
+/// What a file declares: the unit of length of its coordinates, and its layers.
 struct FileUnit {
   std::string name;   ///< empty where it declares none
   double metres = 0;  ///< in one of it; 0: not known
+  std::vector<std::string> layers;  ///< of a drawing or map; ascending
 };
 
 /// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
 /// gis_suffixes where add_geometry_reader() has brought a reader for them; of those the layers given. On the
 /// calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix says. What
-/// was left out of the file is told by a warning each. `unit` is set where the file declares one.
+/// was left out of the file is told by a warning each. `unit` receives what the file declares.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
                                  const LayerNames& layers = {}, FileUnit* unit = nullptr);
 
-/// Whether the suffix is that of a file of airfoil coordinates, which outline a body.
+/// Whether the suffix is that of airfoil coordinates, which describe a body.
 bool is_airfoil_file(const std::string& path);
 
-/// The same as an outline, whose domain is known from a mesh on it: nobody is told of loops that were turned,
-/// nor of several domains. Throws InputError as assemble() does too.
+/// Reads the same as a geometry whose domain is known from a mesh: without warnings about reversed loops or
+/// several domains. Throws InputError as assemble() does too.
 Geometry read_outline(const std::string& path, std::vector<std::string>& warnings);
 
-/// Drawings and maps, read by a library of their own (io/gis).
+/// Drawings and maps, read by a separate library (io/gis).
 inline const std::array<std::string, 4> gis_suffixes{".dxf", ".geojson", ".shp", ".gpkg"};
 
-/// Those of all geometry files, whether or not this program reads drawings and maps.
+/// Returns the suffixes of all geometry files, whether or not this program can read drawings and maps.
 std::vector<std::string> geometry_suffixes();
 
 /// Whether files of this suffix have layers.
@@ -45,7 +53,7 @@ bool has_layers_of_drawings(const std::string& path);
 using GeometryReader = std::vector<Chain> (*)(const std::string& path, const LayerNames& layers,
                                               std::vector<std::string>& warnings, FileUnit& unit);
 
-/// From here on files of this suffix are read by `reader`, in the whole process.
+/// Registers `reader` for files of this suffix, in the whole process.
 void add_geometry_reader(const std::string& suffix, GeometryReader reader);
 
 }  // namespace quadloop

@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// Units of length by name, and the metres in one of each.
+/// Units of length by name, with metres per unit.
 inline constexpr std::array<std::pair<const char*, double>, 17> length_units{{{"m", 1},
                                                                               {"mm", 1e-3},
                                                                               {"cm", 1e-2},
@@ -28,7 +28,7 @@ inline constexpr std::array<std::pair<const char*, double>, 17> length_units{{{"
                                                                               {"microinch", 2.54e-8},
                                                                               {"us_foot", 1200.0 / 3937}}};
 
-/// Empty where no unit has this name.
+/// Empty if no unit has this name.
 inline std::optional<double> metres_in(std::string_view unit) {
   for (const auto& [name, metres] : length_units) {
     if (unit == name) return metres;

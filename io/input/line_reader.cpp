@@ -17,14 +17,14 @@ namespace quadloop {
 
 namespace {
 
-/// The old end-of-file character (0x1A) of DOS is a blank too.
+/// Includes the DOS end-of-file character (0x1A).
 bool is_blank(char c) {
   return c == '\x1a' || c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == ',';
 }
 
-constexpr std::string_view between_numbers = " \t\r\f\v;";  // of a row whose commas are decimal ones
+constexpr std::string_view between_numbers = " \t\r\f\v;";  // in rows with decimal commas
 
-/// The number that is the whole word; infinite where it is too large for a double; nothing where it is no
+/// Returns the number that is the whole word; infinity if it is too large for a double; empty if it is not a
 /// number.
 std::optional<double> number_of(std::string_view word) {
   double value = 0;
@@ -34,7 +34,7 @@ std::optional<double> number_of(std::string_view word) {
 /// By the byte order mark.
 bool is_utf16(std::string_view text) { return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"); }
 
-/// Without the byte order mark. Characters beyond the first plane become '?': coordinates and names have
+/// Without the byte order mark. Characters outside the basic plane become '?': coordinates and names have
 /// none.
 std::string utf8_of_utf16(std::string_view text) {
   const std::size_t low = text.starts_with("\xFF\xFE") ? 0 : 1;
@@ -65,11 +65,11 @@ LineReader::LineReader(const std::string& path) : path_{path}, file_{path} {
     fill();
   }
   const bool has_old_line_ends = row_end_ == text_.size() && text_.find('\r') != std::string::npos;
-  if (has_old_line_ends) {  // of the Mac before 2001
+  if (has_old_line_ends) {  // Mac line ends before 2001
     std::ranges::replace(text_, '\r', '\n');
     fill();
   }
-  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of some editors
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark of some editors
 }
 
 void LineReader::read_rest() {

@@ -10,34 +10,34 @@
 
 namespace quadloop {
 
-/// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed
-/// over; LF, CRLF and CR are line ends; UTF-16 is read where a byte order mark tells it. Every refusal is an
-/// InputError "file:line: what, what to do".
+/// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are skipped;
+/// line ends may be LF, CRLF or CR; UTF-16 is read if it has a byte order mark. Errors are InputErrors
+/// "file:line: what, what to do".
 class LineReader {
  public:
-  /// Opens the file, which is never held whole; InputError where it cannot be read.
+  /// Opens the file, which is never stored completely; InputError if it cannot be read.
   explicit LineReader(const std::string& path);
 
-  /// Goes to the next row; false at the end of the file.
+  /// Goes to the next row; returns false at the end of the file.
   bool next();
-  /// The same, but the file may not end here: `expected` says what is missing.
+  /// The same, but the end of the file is an error: `expected` is what is missing.
   void require_next(const std::string& expected);
 
-  /// Goes to the next row where that is two finite numbers and nothing else, written as most programs do, and
-  /// gives them. Otherwise stays where it is, and next() tells more.
+  /// If the next row is two finite numbers and nothing else, in the usual notation, goes to it and returns
+  /// them. Otherwise stays in place; next() then gives more detail.
   bool next_point(Point& point);
-  /// No fewer than the rows of that kind that can follow.
+  /// Returns an upper bound of the number of such rows that can follow.
   std::size_t most_points_left() const;
 
   /// The row's words, split at blanks. Valid until the next row is read.
   const std::vector<std::string_view>& words() const { return words_; }
-  /// The row as it stands, without comment.
+  /// The row, without comment.
   std::string_view row() const { return row_; }
-  /// The row's number in the file, from 1 on.
+  /// The row's number in the file, from 1.
   std::int64_t line() const { return line_; }
   std::string place() const { return path_ + ":" + std::to_string(line_); }
 
-  /// A word of the row as a finite number, with or without a Fortran exponent (1.0D-3), the same in every
+  /// Returns a word of the row as a finite number, with or without a Fortran exponent (1.0D-3), in any
   /// locale.
   double real(std::size_t word) const;
   std::int64_t count(std::size_t word, const std::string& of_what) const;
@@ -47,17 +47,17 @@ class LineReader {
   [[noreturn]] void refuse(const std::string& message) const;
 
  private:
-  /// A row of two coordinates, each with a decimal comma, must not pass for four words.
+  /// Rejects a row of two coordinates with decimal commas, which could be taken for four words.
   void refuse_decimal_commas() const;
 
-  /// Makes text_ hold the whole file.
+  /// Reads the whole file into text_.
   void read_rest();
-  /// Makes text_ hold the rest of the row at at_, or of the file.
+  /// Reads the rest of the row at at_, or of the file, into text_.
   void fill();
 
   std::string path_;
   InputPieces file_;
-  std::string text_;  ///< what is held of the file
+  std::string text_;  ///< the part of the file in memory
   bool all_read_ = false;
   std::size_t at_ = 0, row_end_ = 0;
   std::int64_t line_ = 0;

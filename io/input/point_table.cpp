@@ -29,7 +29,7 @@ std::map<Coordinates, std::int32_t> vertices_by_place(const Geometry& outline) {
   return vertices;
 }
 
-/// The cells of a row, without blanks and quotes around them.
+/// Returns the fields of a row, without surrounding blanks and quotes.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
@@ -41,10 +41,10 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// The places of boundary, x, y and both components in a row.
+/// Columns of boundary, x, y and both components.
 using Columns = std::array<std::size_t, 5>;
 
-/// Throws InputError for a line that does not name just these columns, in any order.
+/// Throws InputError unless the line names exactly these columns, in any order.
 Columns columns_of(const std::string& line, const std::string& place, const ComponentNames& components) {
   const std::array<std::string, 5> wanted{"boundary", "x", "y", components[0], components[1]};
   const std::string cure = fmt::format("; begin the table with the line {}", fmt::join(wanted, ","));
@@ -83,7 +83,7 @@ PointRow row_of(const std::string& line, const Columns& columns, const std::stri
                    "order of the first line");
 }
 
-/// The vertex that a row is of. Throws InputError where the outline has none, or on other boundaries.
+/// Returns the vertex of a row. Throws InputError if the geometry has none, or on other boundaries.
 std::int32_t vertex_of(const PointRow& row, const std::map<Coordinates, std::int32_t>& vertices,
                        const Geometry& outline, const std::string& place) {
   const auto vertex = vertices.find({row.place.x, row.place.y});

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view medit_boundary = "boundary_";
 
-/// Of a name "boundary_<reference>"; 0 for any other.
+/// Returns the reference of a name "boundary_<reference>"; 0 for any other name.
 std::int32_t reference_in(const std::string& name) {
   if (!name.starts_with(medit_boundary)) return 0;
   std::int32_t reference = 0;

@@ -8,8 +8,7 @@
 
 namespace quadloop {
 
-/// The faces of a cell by places among its nodes, each counter-clockwise as seen from outside; -1: a
-/// triangle.
+/// The faces of a cell as local node indices, each counter-clockwise as seen from outside; -1: a triangle.
 template <std::size_t nodes>
 struct CellFaces;
 
@@ -40,7 +39,7 @@ struct CellFaces<8> {
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 };
 
-/// Calls `visit(nodes, number)` for each cell, an array of its nodes and its number from 0 over all kinds:
+/// Calls `visit(nodes, number)` for each cell with its nodes and its number, from 0 over all kinds:
 /// tetrahedra, pyramids, prisms, hexahedra.
 template <class Visit>
 void for_each_cell(const FileMesh& mesh, const Visit& visit) {
@@ -59,7 +58,7 @@ inline std::span<const std::int32_t> corners_of(const FileBoundary::Face& face) 
   return std::span(face).first(is_triangle(face) ? 3 : 4);
 }
 
-/// A cell's face by the mesh's nodes.
+/// Returns a cell's face with the mesh's node numbers.
 template <std::size_t width>
 FileBoundary::Face face_of(const std::array<std::int32_t, width>& cell, const LocalFace& local) {
   FileBoundary::Face face;
@@ -67,7 +66,7 @@ FileBoundary::Face face_of(const std::array<std::int32_t, width>& cell, const Lo
   return face;
 }
 
-/// The signed volume within flat faces, quads cut along a diagonal: above 0 for nodes in the order of
+/// Returns the signed volume within flat faces, quads split along a diagonal: positive for the node order of
 /// FileMesh.
 template <std::size_t width>
 double cell_volume(const FileMesh& mesh, const std::array<std::int32_t, width>& cell) {

@@ -13,9 +13,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::ptrdiff_t most_kept = 20;  // faults of one rule
+constexpr std::ptrdiff_t most_kept = 20;  // maximum number of recorded errors per rule
 
-/// The sum of many values of one sign, with what rounding loses (Neumaier 1974).
+/// Compensated sum of many values of one sign (Neumaier 1974).
 class LongSum {
  public:
   void add(double value) {
@@ -50,7 +50,7 @@ class SolidCheck {
     if (same < most_kept) figures_.faults.push_back({rule, what, place});
   }
 
-  /// Of the cell with this number over all kinds: "prism 17", each kind counted from 1.
+  /// Returns the name of the cell with this number over all kinds: "prism 17", each kind counted from 1.
   std::string cell_name(std::int64_t cell) const {
     std::string name;
     const auto take = [&]<std::size_t width>(const std::vector<std::array<std::int32_t, width>>& cells) {
@@ -76,7 +76,7 @@ class SolidCheck {
     return (1 / std::max(count, 1.0)) * sum;
   }
 
-  /// Whether a list of nodes names existing ones, none twice.
+  /// Whether the nodes exist and are distinct.
   bool is_sound(std::span<const std::int32_t> nodes) const {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (nodes[i] < 0 || nodes[i] >= std::ssize(mesh_.points)) return false;
@@ -109,7 +109,7 @@ class SolidCheck {
     }
   }
 
-  /// Twice the area vector; of a quad from its diagonals.
+  /// Returns twice the area vector; for a quad from its diagonals.
   Point3 twice_area(const FileBoundary::Face& face) const {
     const auto at = [&](std::size_t i) { return mesh_.points[face[i]]; };
     if (is_triangle(face)) return cross(at(1) - at(0), at(2) - at(0));
@@ -150,7 +150,7 @@ class SolidCheck {
     }
   }
 
-  /// All whose one face is; patches come first.
+  /// Checks all occurrences of one face; patches come first.
   void judge_face(std::int32_t lowest, std::span<const FaceMention> same) {
     const auto patches = std::ranges::count_if(same, [](const FaceMention& face) { return face.owner < 0; });
     const auto cells = std::ssize(same) - patches;

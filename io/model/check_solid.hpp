@@ -8,15 +8,15 @@
 
 namespace quadloop {
 
-/// What every 3D mesh obeys.
+/// Rules that every 3D mesh satisfies.
 enum class SolidRule {
-  indices,    ///< cells and faces name existing nodes, none twice; coordinates are finite
+  indices,    ///< cells and faces refer to existing nodes, without repetition; coordinates are finite
   positive,   ///< volumes are positive
-  conforming  ///< each face of a cell is that of one other cell, or on exactly one patch
+  conforming  ///< each face of a cell belongs to one other cell, or to exactly one patch
 };
 const char* name_of(SolidRule rule);
 
-/// One broken rule at one place.
+/// A violated rule with its location.
 struct SolidFault {
   SolidRule rule;
   std::string what;
@@ -38,15 +38,15 @@ struct BlockFigures {
 struct SolidFigures {
   double volume = 0;
   double least_volume = 0;  ///< of a cell; 0 without cells
-  Point3 least_place;       ///< the middle of that cell
+  Point3 least_place;       ///< centre of that cell
   std::vector<PatchFigures> patches;
-  std::vector<BlockFigures> blocks;  ///< where there are several
+  std::vector<BlockFigures> blocks;  ///< if there are several
   std::vector<SolidFault> faults;    ///< the first few of each rule
   std::int64_t all_faults = 0;
 };
 
-/// Volumes are those within flat faces, quads cut along a diagonal. Where connectivity or coordinates make no
-/// sense the later rules are not looked at. Linear in time and memory.
+/// Checks a 3D mesh. Volumes are those within flat faces, quads split along a diagonal. If connectivity or
+/// coordinates are invalid, the later rules are skipped. Linear in time and memory.
 SolidFigures check_solid(const FileMesh& mesh);
 
 }  // namespace quadloop

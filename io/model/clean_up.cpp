@@ -21,7 +21,7 @@ namespace {
 
 using Face = FileBoundary::Face;
 
-/// With the rows of `width` values that begin at `rows`.
+/// Sorts cells and their rows of `width` values, which start at `rows`.
 template <class Cells>
 void sort_by_block(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::vector<double>::iterator rows,
                    std::size_t width) {
@@ -45,8 +45,8 @@ std::int64_t size_of_group(const std::vector<std::int64_t>& sizes, std::int32_t 
   return group < std::ssize(sizes) ? sizes[group] : 0;
 }
 
-/// Drops the cells of one kind that stand for others. Takes their rows from the front of `rows`, and appends
-/// those of the cells that stay to `kept_values`.
+/// Removes duplicate cells of one kind. Takes their rows from the front of `rows`, and appends those of the
+/// remaining cells to `kept_values`.
 template <class Cells>
 void drop_repeated_cells(Cells& cells, std::vector<std::int32_t>& cell_to_block, std::size_t width,
                          std::span<const std::string> block_names, const GroupSizes& sizes,
@@ -108,8 +108,8 @@ void for_each_named_node(FileMeshOrConst& mesh, const Visit& visit) {
   }
 }
 
-/// Keeps the nodes whose `new_id` is not negative, and gives all that name a node the new number. The new
-/// numbers ascend.
+/// Keeps the nodes whose `new_id` is not negative, and renumbers all references. The new numbers must be
+/// ascending.
 void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
   for_each_named_node(mesh, [&](std::int32_t& node) { node = new_id[node]; });
   std::ranges::for_each(mesh.periodic_nodes, [&](std::int32_t& node) { node = new_id[node]; });
@@ -126,7 +126,7 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
                              boundary.name, a.x, a.y, b.x, b.y));
 }
 
-/// Gives the edges to their boundaries, or to inner curves of the same names where they lie inside a block.
+/// Assigns the edges to their boundaries, or to inner curves of the same names if they lie inside a block.
 void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded, const TextScanner& scan) {
   const EdgeTable table(loaded.mesh);
   for (const FileBoundary& boundary : boundaries) {
@@ -171,7 +171,7 @@ void add_outer_boundary(Mesh& mesh) {
   if (!outer.edges.empty()) mesh.boundaries.push_back(std::move(outer));
 }
 
-/// The cells of one kind with typed node numbers.
+/// Converts the cells of one kind to typed node numbers.
 template <std::size_t width>
 std::vector<std::array<NodeId, width>> with_ids(const std::vector<std::array<std::int32_t, width>>& cells) {
   std::vector<std::array<NodeId, width>> result;
@@ -183,7 +183,7 @@ std::vector<std::array<NodeId, width>> with_ids(const std::vector<std::array<std
   return result;
 }
 
-/// All but the boundaries.
+/// Converts everything except the boundaries.
 LoadedMesh cells_and_points(FileMesh& file) {
   LoadedMesh loaded;
   Mesh& mesh = loaded.mesh;
@@ -286,7 +286,7 @@ void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes) {
       points[kept] = points[i];
       new_id[i] = kept++;
     } else {
-      new_id[i] = new_id[first_of[i]];  // the first comes before
+      new_id[i] = new_id[first_of[i]];  // the first one comes earlier
     }
   }
   points.resize(kept);

@@ -17,7 +17,7 @@ std::string free_name(const Mesh& mesh, const std::string& wanted) {
   return name;
 }
 
-/// The column of "x_velocity" and the like, whatever its name there; none where it cannot be told.
+/// Returns the column of "x_velocity" etc., under whatever name; none if it is ambiguous or missing.
 std::int64_t column_of(const std::vector<std::string>& names, const std::string& wanted) {
   const std::vector<std::size_t> found = variables_like(names, wanted);
   return found.size() == 1 ? static_cast<std::int64_t>(found.front()) : ExtrudedVariable::zero;

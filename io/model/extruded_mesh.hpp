@@ -12,37 +12,38 @@
 
 namespace quadloop {
 
-/// Where a plane mesh is drawn out to: along z the plane keeps its x and y; along y its y becomes z, so that
-/// flow and angle of attack lie in the x-z plane.
+/// Direction of extrusion: along z, x and y are unchanged; along y, the plane's y becomes z, so that flow and
+/// angle of attack are in the x-z plane.
 enum class ExtrusionAxis { y, z };
 
-/// Heights of `layers` layers of the same thickness, from 0 to `thickness`, which is that of all together.
+/// Returns the heights of `layers` layers of equal thickness, from 0 to `thickness` in total.
 std::vector<double> even_heights(std::int64_t layers, double thickness);
 
 /// A node of the 3D mesh, numbered over all ranks, from 0.
 using NodeNumber = std::int64_t;
 
-/// The blocks of a plane mesh, those of this rank's cells by their places among the names, which are the same
-/// on all ranks.
+/// The blocks of a plane mesh: the block of each of this rank's cells, as index into the names, which are the
+/// same on all ranks.
 struct PlaneBlocks {
   std::vector<std::string> names;
   std::vector<std::int32_t> of_triangles, of_quads;
 };
 
-/// A 3D mesh of prisms and hexahedra that is never held: a distributed plane mesh and the levels on which its
-/// nodes stand. Level 0 is the back, the last the front, from which the plane looks as it was drawn: cells
-/// are right-handed on both axes, the first three or four nodes of each on the level nearer to the back and
-/// counter-clockwise as seen from the front, the others in front of them (the order of CGNS).
-/// Numbers over all ranks, each from 0: node n of the plane on level k is n * levels() + k; between the
-/// levels k and k + 1 stands cell c * layers() + k on cell c of the plane, triangles before quads.
-/// Rows below are this rank's, in the order of those numbers.
+/// A 3D mesh of prisms and hexahedra that is never stored: a distributed plane mesh and the levels of its
+/// nodes. Level 0 is the back, the last the front, from which the plane is seen unmirrored. Cells are
+/// right-handed for both axes: the first three or four nodes of each are on the level closer to the back and
+/// counter-clockwise as seen from the front, followed by the others in front of them (CGNS order). Numbers
+/// over all ranks, each from 0: node n of the plane on level k is n * levels() + k; the cell on cell c of the
+/// plane (triangles before quads) between levels k and k + 1 is c * layers() + k. Rows below are those of
+/// this rank, in the order of these numbers.
 struct ExtrudedMesh {
-  const Mesh& plane;            ///< outlives it
+  const Mesh& plane;            ///< must outlive the object
   std::vector<double> heights;  ///< coordinates of the levels along the axis, from back to front; at least 2
   ExtrusionAxis axis = ExtrusionAxis::z;
-  std::string back = "back", front = "front";  ///< names of the two ends; no boundary has one of them
-  const Field* solution = nullptr;             ///< the same on each level, and in each layer
-  const PlaneBlocks* blocks = nullptr;         ///< of the plane; null: one
+  /// Names of the two end patches; distinct from all boundary names.
+  std::string back = "back", front = "front";
+  const Field* solution = nullptr;      ///< the same on each level, and in each layer
+  const PlaneBlocks* blocks = nullptr;  ///< of the plane; null: one block
 
   std::int64_t levels() const { return std::ssize(heights); }
   std::int64_t layers() const { return levels() - 1; }
@@ -63,11 +64,12 @@ struct ExtrudedMesh {
   std::array<NodeNumber, 6> prism(std::int64_t row) const { return column(plane.triangles, row); }
   std::array<NodeNumber, 8> hexahedron(std::int64_t row) const { return column(plane.quads, row); }
 
-  /// The face of layer `layer` on a boundary edge of the plane, seen from outside counter-clockwise.
+  /// Returns the face of layer `layer` on a boundary edge of the plane, counter-clockwise as seen from
+  /// outside.
   std::array<NodeNumber, 4> side(GlobalNodeId from, GlobalNodeId to, std::int64_t layer) const {
     return {node(from, layer), node(to, layer), node(to, layer + 1), node(from, layer + 1)};
   }
-  /// The faces of a cell of the plane on the two ends, seen from outside counter-clockwise.
+  /// Return the faces of a plane cell on the two ends, counter-clockwise as seen from outside.
   template <std::size_t width>
   std::array<NodeNumber, width> back_face(const std::array<NodeId, width>& cell) const {
     std::array<NodeNumber, width> face;
@@ -78,7 +80,7 @@ struct ExtrudedMesh {
   std::array<NodeNumber, width> front_face(const std::array<NodeId, width>& cell) const {
     return face_at(cell, layers());
   }
-  /// As seen from the front counter-clockwise.
+  /// Counter-clockwise as seen from the front.
   template <std::size_t width>
   std::array<NodeNumber, width> face_at(const std::array<NodeId, width>& cell, std::int64_t level) const {
     std::array<NodeNumber, width> face;
@@ -100,8 +102,8 @@ struct ExtrudedMesh {
   }
 };
 
-/// `heights` ascend; the ends get names that no boundary has: "front" or the first of "front_2", ... that is
-/// free, "back" likewise.
+/// `heights` must be ascending. The ends get names that no boundary has: "front" or the first free one of
+/// "front_2", ..., and likewise "back".
 ExtrudedMesh extruded(const Mesh& plane, std::vector<double> heights, ExtrusionAxis axis,
                       const Field* solution = nullptr);
 
@@ -115,16 +117,16 @@ struct ExtrudedCounts {
   std::int64_t cells() const { return prisms + hexahedra; }
 };
 
-/// A variable of the 3D solution: that column of the plane's, or 0 everywhere.
+/// A variable of the 3D solution: a column of the plane's solution, or 0 everywhere.
 struct ExtrudedVariable {
   static constexpr std::int64_t zero = -1;
   std::string name;
   std::int64_t column = zero;
 };
 
-/// The variables of a solution in space, by their names in the plane. Components of velocity and of momentum
-/// stay in the plane: where it is drawn out along y, that along the plane's y becomes the one along z; of a
-/// pair that is complete the third component is there too, 0.
+/// Returns the variables of the 3D solution for those of the plane. Velocity and momentum remain in the
+/// plane: for extrusion along y, the component along the plane's y becomes that along z. A complete pair gets
+/// the third component, which is 0.
 std::vector<ExtrudedVariable> extruded_variables(const std::vector<std::string>& plane, ExtrusionAxis axis);
 
 }  // namespace quadloop

@@ -13,27 +13,28 @@
 
 namespace quadloop {
 
-/// The boundary faces under one name: edges in a plane mesh, triangles and quads in a 3D mesh.
+/// The boundary faces of one name: edges in a plane mesh, triangles and quads in a 3D mesh.
 struct FileBoundary {
   static constexpr std::int32_t no_node = -1;
-  using Face = std::array<std::int32_t, 4>;  ///< nodes in turn; no_node after the last of an edge or triangle
+  /// Nodes in order; no_node after the last of an edge or triangle.
+  using Face = std::array<std::int32_t, 4>;
 
   std::string name;
   BoundaryCondition condition = {};
   std::vector<Face> faces;
   bool is_empty = false;     ///< an end of a plane mesh that is one cell thick ("empty" in OpenFOAM)
-  bool is_periodic = false;  ///< its nodes have partners on another boundary ("cyclic" in OpenFOAM)
+  bool is_periodic = false;  ///< whether its nodes have partners on another boundary ("cyclic" in OpenFOAM)
   WallLayers layers = {};    ///< in a plane mesh
   std::vector<std::size_t> places = {};  ///< of the faces in the file, for messages; may be empty
 };
 
-/// The kinds of cells: the first two are those of a plane mesh, the others those of a 3D mesh.
+/// Kinds of cells: the first two occur in plane meshes, the others in 3D meshes.
 enum class CellKind : std::uint8_t { triangle, quad, tetrahedron, pyramid, prism, hexahedron };
 inline constexpr std::size_t cell_kinds = 6;
 
-/// A mesh as a file has it, of two or three dimensions, whole on one rank. Nodes are counted from 0. The
-/// nodes of a 3D cell are in the order of CGNS: the first three or four counter-clockwise as seen from the
-/// others, which follow in the same order.
+/// A 2D or 3D mesh as stored in a file, whole on one rank. Nodes are numbered from 0. The nodes of a 3D cell
+/// are in CGNS order: the first three or four counter-clockwise as seen from the others, which follow in the
+/// same order.
 struct FileMesh {
   std::int32_t dimension = 3;
   std::vector<Point3> points;  ///< z = 0 in a plane mesh
@@ -44,15 +45,15 @@ struct FileMesh {
   std::vector<std::array<std::int32_t, 6>> prisms;
   std::vector<std::array<std::int32_t, 8>> hexahedra;
   std::vector<FileBoundary> boundaries;
-  std::optional<Field> solution;  ///< rows of cells are in the order of the kinds
+  std::optional<Field> solution;  ///< cell rows are in the order of the kinds
   std::vector<std::string> block_names;
-  /// For each kind the block of each cell, an index into block_names; empty where nothing is known of blocks.
+  /// For each kind the block of each cell, an index into block_names; empty if there is no block information.
   std::array<std::vector<std::int32_t>, cell_kinds> cell_to_block;
-  std::vector<std::int32_t> periodic_nodes;  ///< of sides that a plane file marks as periodic
+  std::vector<std::int32_t> periodic_nodes;  ///< on sides that a plane file marks as periodic
   std::vector<StripLayers> strips;           ///< of a plane mesh
-  std::vector<std::string> warnings;         ///< what the reader changed or left out, with the file's name
+  std::vector<std::string> warnings;         ///< what the reader changed or omitted, with the file's name
 
-  /// The index of the boundary, or block, of this name, which is added if there is none.
+  /// Return the index of the boundary, or block, of this name, which is added if necessary.
   std::int32_t boundary_named(const std::string& name) {
     const auto [number, is_new] = boundary_numbers.entry_of(name);
     if (is_new) boundaries.push_back({name, {}, {}});
@@ -65,11 +66,11 @@ struct FileMesh {
   }
   bool has_blocks() const { return block_names.size() > 1; }
 
-  /// Of the names that were given to the functions above, by which they are found again.
+  /// Index of the names passed to the functions above.
   NameIndex boundary_numbers = {}, block_numbers = {};
 };
 
-/// The cells of a kind.
+/// Returns the cells of a kind.
 template <CellKind kind, class FileMeshOrConst>
 auto& cells_of(FileMeshOrConst& mesh) {
   if constexpr (kind == CellKind::triangle) return mesh.triangles;
@@ -80,7 +81,7 @@ auto& cells_of(FileMeshOrConst& mesh) {
   if constexpr (kind == CellKind::hexahedron) return mesh.hexahedra;
 }
 
-/// The number of nodes of a cell.
+/// Number of nodes of a cell.
 template <CellKind kind>
 inline constexpr std::size_t cell_width = kind == CellKind::triangle                                ? 3
                                           : kind == CellKind::quad || kind == CellKind::tetrahedron ? 4
@@ -88,7 +89,7 @@ inline constexpr std::size_t cell_width = kind == CellKind::triangle            
                                           : kind == CellKind::prism                                 ? 6
                                                                                                     : 8;
 
-/// The kind of 3D cells with so many nodes.
+/// Returns the kind of 3D cells with this number of nodes.
 template <std::size_t width>
 constexpr CellKind kind_of_width() {
   static_assert(width == 4 || width == 5 || width == 6 || width == 8);
@@ -98,7 +99,7 @@ constexpr CellKind kind_of_width() {
                       : CellKind::hexahedron;
 }
 
-/// The 3D cells with so many nodes.
+/// Returns the 3D cells with this number of nodes.
 template <std::size_t width, class FileMeshOrConst>
 auto& cells_of(FileMeshOrConst& mesh) {
   return cells_of<kind_of_width<width>()>(mesh);
@@ -115,7 +116,7 @@ void for_each_kind(const Visit& visit) {
   visit.template operator()<CellKind::hexahedron>();
 }
 
-/// Calls `visit.operator()<width>()` for the widths of 3D cells, in the order of their kinds.
+/// Calls `visit.operator()<width>()` for the numbers of nodes of 3D cells, in the order of their kinds.
 template <class Visit>
 void for_each_kind_of_cell(const Visit& visit) {
   visit.template operator()<4>();
@@ -124,21 +125,21 @@ void for_each_kind_of_cell(const Visit& visit) {
   visit.template operator()<8>();
 }
 
-/// Adds a cell of a block.
+/// Adds a cell to a block.
 template <CellKind kind, class Nodes>
 void add_cell(FileMesh& mesh, const Nodes& nodes, std::int32_t block) {
   cells_of<kind>(mesh).push_back(nodes);
   mesh.cell_to_block[static_cast<std::size_t>(kind)].push_back(block);
 }
 
-/// The number of cells of all kinds.
+/// Returns the number of cells of all kinds.
 inline std::int64_t cell_count(const FileMesh& mesh) {
   std::int64_t count = 0;
   for_each_kind([&]<CellKind kind>() { count += std::ssize(cells_of<kind>(mesh)); });
   return count;
 }
 
-/// The block of each cell, in the order of the kinds.
+/// Returns the block of each cell, in the order of the kinds.
 inline std::vector<std::int32_t> blocks_of_cells(const FileMesh& mesh) {
   std::vector<std::int32_t> all;
   for (const auto& blocks : mesh.cell_to_block) all.insert(all.end(), blocks.begin(), blocks.end());

@@ -29,7 +29,7 @@ class Fixed {
     for (const auto& edge : curve.edges) fix(edge);
   }
 
-  /// Whether anything has the name.
+  /// Returns whether anything has this name.
   bool fix_named(const std::string& name) {
     bool found = false;
     for (const auto* curves : {&loaded_.mesh.boundaries, &loaded_.inner_curves}) {
@@ -62,7 +62,7 @@ std::vector<std::string> known_names(const LoadedMesh& loaded) {
   return {names.begin(), names.end()};
 }
 
-/// Boundaries with an edge whose nodes are both periodic.
+/// Returns boundaries with an edge whose nodes are both periodic.
 std::vector<std::string> periodic_boundaries(const LoadedMesh& loaded) {
   NodeFlags periodic(loaded.mesh.points.size(), 0);
   for (const NodeId node : loaded.periodic_nodes) periodic[node] = 1;

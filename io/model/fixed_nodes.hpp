@@ -8,10 +8,10 @@
 
 namespace quadloop {
 
-/// Flags further nodes that must stay where they are when the mesh from the file `path` is smoothed: those of
-/// periodic sides, of inner curves, and of the boundaries, inner curves and blocks of these names. `flags`
-/// has a flag for each node, or none; it stays empty where no node is flagged. Returns notes of the first
-/// two. Throws InputError where the mesh has nothing of a name.
+/// Flags further nodes that must not move when the mesh from the file `path` is smoothed: those on periodic
+/// sides and inner curves, and those of the named boundaries, inner curves and blocks. `flags` has a flag for
+/// each node, or is empty; it remains empty if no node is flagged. Returns notes about the periodic sides and
+/// inner curves. Throws InputError if a name does not exist in the mesh.
 std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std::string> names,
                                    const std::string& path, NodeFlags& flags);
 

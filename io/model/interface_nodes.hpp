@@ -4,11 +4,11 @@
 
 namespace quadloop {
 
-/// Flags the nodes that cells of two blocks share.
+/// Flags the nodes shared by cells of two blocks.
 NodeFlags interface_nodes(const LoadedMesh& loaded);
 
-/// These, and nodes at the same place as another, on the two sides of a crack: they must not part. Empty
-/// where there are none.
+/// Flags these and coincident nodes on the two sides of a crack, which must not separate. Empty if there are
+/// none.
 NodeFlags nodes_that_stay(const LoadedMesh& loaded);
 
 }  // namespace quadloop

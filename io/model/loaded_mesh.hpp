@@ -12,16 +12,17 @@
 
 namespace quadloop {
 
-/// A whole mesh as a file gives it, on one rank: every node is owned.
+/// A whole mesh from a file, on one rank: every node is owned.
 struct LoadedMesh {
   Mesh mesh;
   std::int32_t blocks = 1;
-  std::vector<std::int32_t> triangle_to_block, quad_to_block;  ///< from 0; a block's cells follow each other
+  /// From 0; the cells of a block are contiguous.
+  std::vector<std::int32_t> triangle_to_block, quad_to_block;
   std::vector<std::string> block_names;
-  std::vector<BoundaryEdges> inner_curves = {};  ///< named edges inside a block: no boundary
-  std::vector<NodeId> periodic_nodes = {};       ///< of sides that the file marks as periodic
+  std::vector<BoundaryEdges> inner_curves = {};  ///< named edges inside a block: not boundaries
+  std::vector<NodeId> periodic_nodes = {};       ///< on sides that the file marks as periodic
   std::optional<Field> solution = {};
-  std::vector<std::string> warnings = {};  ///< what the reader turned round or left out, with the file's name
+  std::vector<std::string> warnings = {};  ///< what the reader reversed or omitted, with the file's name
 };
 
 /// Whether there are several blocks, or one with a name of its own.
@@ -29,13 +30,13 @@ inline bool has_named_blocks(const LoadedMesh& loaded) {
   return loaded.blocks > 1 || (!loaded.block_names.empty() && loaded.block_names[0] != "domain");
 }
 
-/// The block of a cell; quads are counted after triangles.
+/// Returns the block of a cell; quads are numbered after triangles.
 inline std::int32_t block_of_cell(const LoadedMesh& loaded, std::int32_t cell) {
   const std::int32_t triangles = static_cast<std::int32_t>(loaded.triangle_to_block.size());
   return cell < triangles ? loaded.triangle_to_block[cell] : loaded.quad_to_block[cell - triangles];
 }
 
-/// The cells of one block, which follow each other.
+/// Returns the cells of one block, which are contiguous.
 template <class Cell>
 std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,
                                      const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {

@@ -9,14 +9,14 @@
 
 namespace quadloop {
 
-/// A solution as a file gives it, whole on one rank, with what the file says of its mesh. Names are words
-/// (distinct_words()); variable() finds one.
+/// A solution from a file, whole on one rank, with what the file contains of its mesh. Names are words
+/// (distinct_words()), to be found by variable().
 struct LoadedSolution {
   std::string path;
   Field solution;
   std::int64_t nodes = 0;          ///< rows of the solution
-  std::optional<LoadedMesh> mesh;  ///< the file's, its solution taken out; none in a table of values alone
-  std::vector<Point> points;       ///< of such a table, where it has coordinates
+  std::optional<LoadedMesh> mesh;  ///< mesh of the file, without its solution; empty for a table of values
+  std::vector<Point> points;       ///< of such a table, if it has coordinates
 };
 
 }  // namespace quadloop

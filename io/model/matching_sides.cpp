@@ -9,10 +9,11 @@ namespace quadloop {
 
 namespace {
 
-constexpr double matching = 1e-9;  // of the mesh's extent
-constexpr int most_trials = 16;    // of sides that look alike, for each side
+constexpr double matching = 1e-9;  // relative to the mesh's extent
+constexpr int most_trials = 16;    // maximum number of similar sides tested per side
 
-/// The nodes of a boundary from end to end with the domain to the left; none where it is closed or in parts.
+/// Returns the nodes of a boundary from end to end with the domain on the left; empty if it is closed or in
+/// several parts.
 std::vector<NodeId> chain_of(const BoundaryEdges& boundary) {
   auto edges = boundary.edges;
   std::ranges::sort(edges);
@@ -31,16 +32,16 @@ std::vector<NodeId> chain_of(const BoundaryEdges& boundary) {
   return chain.size() == edges.size() + 1 ? chain : std::vector<NodeId>{};
 }
 
-/// An open side, and what a rigid motion keeps of it.
+/// An open side, with quantities invariant under rigid motion.
 struct OpenSide {
   std::vector<NodeId> nodes;
-  double from_first = 0, from_last = 0;  ///< distances of all nodes from an end, added up
+  double from_first = 0, from_last = 0;  ///< sums of the distances of all nodes from each end
 };
 
-/// p times q as complex numbers.
+/// Product of p and q as complex numbers.
 Point product(Point p, Point q) { return {p.x * q.x - p.y * q.y, p.x * q.y + p.y * q.x}; }
 
-/// Whether the one walked forwards lies on the other walked backwards after the rigid motion of its ends.
+/// Whether the rigid motion that maps the ends maps `one` to the reverse of `other`.
 bool match(const Mesh& mesh, const OpenSide& one, const OpenSide& other, double enough) {
   const Point from = mesh.point(one.nodes.front()), to = mesh.point(other.nodes.back());
   const Point before = mesh.point(one.nodes.back()) - from, after = mesh.point(other.nodes.front()) - to;
@@ -70,7 +71,7 @@ std::vector<OpenSide> open_sides(const Mesh& mesh, double enough) {
   return sides;
 }
 
-/// The first of the sorted sides whose image `side` is.
+/// Returns the first of the sorted sides that `side` is the image of.
 const OpenSide* partner_of(const OpenSide& side, const std::vector<OpenSide>& sides, const Mesh& mesh,
                            double enough) {
   const std::size_t count = side.nodes.size();

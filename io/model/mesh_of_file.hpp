@@ -8,17 +8,17 @@
 
 namespace quadloop {
 
-/// What the reader of a format returns: a plane mesh, cleaned up, or a 3D mesh.
+/// Result of the reader of a format: a cleaned-up plane mesh, or a 3D mesh.
 using MeshOfFile = std::variant<LoadedMesh, FileMesh>;
 
-/// A plane mesh in the form that readers fill.
+/// Converts a plane mesh to the form that readers fill.
 FileMesh file_mesh_of(const LoadedMesh& loaded);
 
-/// The way back: nothing is corrected (plane_mesh() does that).
+/// Inverse conversion, without corrections (see plane_mesh()).
 LoadedMesh loaded_mesh_of(FileMesh file);
 
-/// The plane mesh, also of a 3D mesh that is one cell thick (plane_of_solid()); throws InputError, with
-/// `path`, where the file holds another 3D mesh.
+/// Returns the plane mesh, also from a 3D mesh that is one cell thick (plane_of_solid()). Throws InputError,
+/// with `path`, for any other 3D mesh.
 LoadedMesh plane_of(MeshOfFile mesh, const std::string& path);
 
 }  // namespace quadloop

@@ -9,16 +9,16 @@ namespace quadloop {
 
 namespace {
 
-/// An edge as one cell has it.
+/// An edge of a cell.
 struct EdgeOfCell {
   NodeId low, high;
   std::int32_t cell;
-  bool rising;  ///< whether the cell runs from low to high
+  bool rising;  ///< whether the cell traverses it from low to high
 
   bool same_edge(const EdgeOfCell& other) const { return low == other.low && high == other.high; }
 };
 
-/// Sides of the same edge stand one after another.
+/// Sides of the same edge are adjacent.
 std::vector<EdgeOfCell> sorted_edges(const Mesh& mesh) {
   std::vector<EdgeOfCell> sides;
   sides.reserve(3 * mesh.triangles.size() + 4 * mesh.quads.size());
@@ -59,7 +59,7 @@ void for_each_plane_cell(AnyMesh& mesh, const Visit& visit) {
   mesh.for_each_cell([&](auto& nodes) { visit(nodes, cell++); });
 }
 
-/// For each root twice the signed area of its piece, run as the root runs now.
+/// Returns for each root twice the signed area of its component, for the root's present orientation.
 std::vector<double> areas_of(const Mesh& mesh, ParitySets& pieces) {
   std::vector<double> areas(mesh.cell_count(), 0);
   for_each_plane_cell(mesh, [&](const auto& nodes, std::size_t cell) {
@@ -85,7 +85,7 @@ std::int64_t orient_cells(Mesh& mesh) {
   for_each_plane_cell(mesh, [&](auto& nodes, std::size_t cell) {
     const auto [root, opposed] = pieces.member_of(cell);
     const double area = opposed ? -areas[root] : areas[root];
-    if (!(area < 0) || pieces.is_torn(root)) return;  // an area that is no number turns nothing
+    if (!(area < 0) || pieces.is_torn(root)) return;  // a NaN area reverses nothing
     std::reverse(nodes.begin() + 1, nodes.end());
     ++turned;
   });

@@ -7,16 +7,16 @@
 
 namespace quadloop {
 
-/// Whether orient_cells() surely has nothing to turn: all cells run counter-clockwise, and no two have an
-/// edge in the same direction. Linear.
+/// Whether orient_cells() certainly has nothing to reverse: all cells are counter-clockwise, and no two have
+/// an edge in the same direction. Linear.
 bool surely_oriented(const Mesh& mesh, const EdgeTable& table);
 
-/// Turns the cells of a mesh that is whole on this rank so that any two that share an edge run it in opposite
-/// directions, and so that in each piece (cells that hang together over edges of two cells) the signed areas
-/// add up to more than zero. A cell is therefore counter-clockwise as its neighbours have it: one that moved
-/// nodes have inverted stays inverted. Edges of more than two cells join nothing. Pieces that no directions
-/// suit (a Moebius strip), or whose areas add up to nothing, stay as they are; validate() has them. The
-/// number of cells turned. The nodes that the cells name must exist. O(n log n).
+/// Reverses cells of a mesh that is whole on this rank such that cells traverse a shared edge in opposite
+/// directions, and the signed areas of each component (cells connected by edges of two cells) have a positive
+/// sum. The orientation of a cell is thus consistent with its neighbours: one that was inverted by moved
+/// nodes remains inverted. Edges of more than two cells do not connect. Components without a consistent
+/// orientation (a Moebius strip), or with zero total area, are unchanged and left to validate(). Returns the
+/// number of reversed cells. The cells' nodes must exist. O(n log n).
 std::int64_t orient_cells(Mesh& mesh);
 
 }  // namespace quadloop

@@ -13,21 +13,21 @@ namespace quadloop {
 
 namespace {
 
-/// Of each cell, numbered over all kinds.
+/// Returns the volume of each cell, numbered over all kinds.
 std::vector<double> volumes_of(const FileMesh& mesh) {
   std::vector<double> volumes;
   for_each_cell(mesh, [&](const auto& nodes, std::int64_t) { volumes.push_back(cell_volume(mesh, nodes)); });
   return volumes;
 }
 
-/// Whether a face runs from its lowest node to the lower of that node's two neighbours.
+/// Whether a face is traversed from its lowest node to the lower of that node's two neighbours.
 bool runs_to_lower(const FileBoundary::Face& face) {
   const auto corners = corners_of(face);
   const std::size_t width = corners.size(), lowest = std::ranges::min_element(corners) - corners.begin();
   return corners[(lowest + 1) % width] < corners[(lowest + width - 1) % width];
 }
 
-/// The direction of each face of each cell: six bits a cell.
+/// Returns the direction of each face of each cell: six bits per cell.
 std::vector<std::uint8_t> directions_of(const FileMesh& mesh) {
   std::vector<std::uint8_t> directions;
   for_each_cell(mesh, [&]<std::size_t width>(const std::array<std::int32_t, width>& nodes, std::int64_t) {
@@ -54,7 +54,7 @@ ParitySets solid_pieces(const FileMesh& mesh, std::size_t cells) {
   return pieces;
 }
 
-/// The same cell with its faces seen from the other side.
+/// Returns the same cell with the opposite orientation.
 std::array<std::int32_t, 4> turned(const std::array<std::int32_t, 4>& n) { return {n[0], n[2], n[1], n[3]}; }
 std::array<std::int32_t, 5> turned(const std::array<std::int32_t, 5>& n) {
   return {n[0], n[3], n[2], n[1], n[4]};
@@ -72,7 +72,7 @@ std::int64_t orient_solid(FileMesh& mesh) {
   const std::vector<double> volumes = volumes_of(mesh);
   if (std::ranges::none_of(volumes, [](double volume) { return volume < 0; })) return 0;
   ParitySets pieces = solid_pieces(mesh, volumes.size());
-  std::vector<double> of_piece(volumes.size(), 0);  // of a root: as the root runs in the file
+  std::vector<double> of_piece(volumes.size(), 0);  // for each root, with the orientation in the file
   for (std::size_t cell = 0; cell < volumes.size(); ++cell) {
     const auto [root, opposed] = pieces.member_of(cell);
     of_piece[root] += opposed ? -volumes[cell] : volumes[cell];

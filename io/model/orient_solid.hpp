@@ -6,12 +6,12 @@
 
 namespace quadloop {
 
-/// Turns cells that are inside out, as files of other programs have them that number a prism's nodes in
-/// another order: so that any two cells with a common face have it in opposite directions, and so that in
-/// each piece (cells that hang together over faces of two cells) the signed volumes add up to more than zero.
-/// A cell is therefore as its neighbours have it: one that moved nodes have inverted stays inverted. Pieces
-/// that no directions suit stay as they are; check_solid() reports them. The number of cells turned. The
-/// nodes that cells and patches name must exist. O(n log n); linear where all volumes are positive.
+/// Reverses inverted cells, e.g. from programs that number a prism's nodes in another order, such that two
+/// cells have a common face in opposite directions, and the signed volumes of each component (cells connected
+/// by faces of two cells) have a positive sum. The orientation of a cell is thus consistent with its
+/// neighbours: one that was inverted by moved nodes remains inverted. Components without a consistent
+/// orientation are unchanged; check_solid() reports them. Returns the number of reversed cells. The nodes of
+/// cells and patches must exist. O(n log n); linear if all volumes are positive.
 std::int64_t orient_solid(FileMesh& mesh);
 
 }  // namespace quadloop

@@ -32,8 +32,9 @@ void pass_fields(Pipe& pipe, FileMesh& mesh) {
   for (std::vector<std::int32_t>& blocks : mesh.cell_to_block) pass(pipe, blocks);
 }
 
-/// Throws InputError where a mesh that came through a pipe names a node or a block that it has not, or has
-/// other numbers of values than of nodes and cells: a damaged file may have damaged the process that read it.
+/// Throws InputError if a mesh received through a pipe refers to a node or a block that does not exist, or if
+/// its numbers of values do not match those of nodes and cells: a damaged file may have corrupted the process
+/// that read it.
 void require_consistent(const FileMesh& mesh, const std::string& path);
 
 }  // namespace quadloop

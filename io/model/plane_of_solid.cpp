@@ -18,7 +18,7 @@ namespace quadloop {
 
 namespace {
 
-/// The plane's own axes and the one across it: u, v and across are right-handed.
+/// Axes of the plane and the axis across it: u, v and across are right-handed.
 struct PlaneAxes {
   char across = 'z';
 
@@ -28,7 +28,7 @@ struct PlaneAxes {
   double along(Point3 p) const { return across == 'z' ? p.z : across == 'x' ? p.x : -p.y; }
 };
 
-/// Twice the area vector of a face; of a quad from its diagonals.
+/// Returns twice the area vector of a face; for a quad from its diagonals.
 Point3 twice_area(const FileMesh& mesh, const FileBoundary::Face& face) {
   const auto at = [&](std::size_t i) { return mesh.points[face[i]]; };
   return is_triangle(face) ? cross(at(1) - at(0), at(2) - at(0)) : cross(at(2) - at(0), at(3) - at(1));
@@ -47,10 +47,10 @@ PlaneAxes axes_of(const FileMesh& mesh) {
   return {sum.x >= sum.y ? 'x' : 'y'};
 }
 
-/// A face of a cell that is on an empty patch.
+/// A face of a cell on an empty patch.
 struct EmptyFace {
-  std::int32_t patch = -1, number = -1;  ///< where it stands
-  std::int32_t local = -1;               ///< which of the cell's faces it is
+  std::int32_t patch = -1, number = -1;  ///< location of the face
+  std::int32_t local = -1;               ///< local face number in the cell
 };
 
 class PlaneMaker {
@@ -72,10 +72,11 @@ class PlaneMaker {
   }
 
  private:
-  static constexpr double most_lean = 1e-6;  // of an edge across the plane, by its length
+  // maximum deviation of an edge across the plane, relative to its length
+  static constexpr double most_lean = 1e-6;
 
   struct Back {
-    FileBoundary::Face nodes;  ///< as the patch has them, or the other way round, so that they look outwards
+    FileBoundary::Face nodes;  ///< in the order of the patch, or reversed, so that the normal points outwards
     std::int64_t cell;
   };
 
@@ -98,7 +99,7 @@ class PlaneMaker {
     });
   }
 
-  /// Which of a cell's two empty faces is the back.
+  /// Determines which of a cell's two empty faces is the back.
   template <std::size_t width>
   void sort_out(const std::array<std::int32_t, width>& nodes, std::int64_t cell) {
     auto [back, front] = empty_[cell];
@@ -116,7 +117,7 @@ class PlaneMaker {
     for (const std::int32_t node : corners_of(own)) new_node_[node] = 0;
   }
 
-  /// The nodes of `given`, which are those of `own`, in the direction of `own`.
+  /// Returns the nodes of `given`, which are those of `own`, in the direction of `own`.
   static FileBoundary::Face in_order_of(const FileBoundary::Face& own, FileBoundary::Face given) {
     const std::size_t width = corners_of(own).size();
     const auto at = std::find(own.begin(), own.end(), given[0]) - own.begin();
@@ -124,7 +125,7 @@ class PlaneMaker {
     return given;
   }
 
-  /// Edges between back and front run along the axis.
+  /// Requires that the edges between back and front are parallel to the axis.
   template <std::size_t width>
   void require_upright(const std::array<std::int32_t, width>& nodes, const FileBoundary::Face& back,
                        const FileBoundary::Face& front, std::int64_t cell) const {
@@ -155,7 +156,7 @@ class PlaneMaker {
     }
   }
 
-  /// From a back face, which is clockwise as seen from the front.
+  /// Adds a cell from a back face, which is clockwise as seen from the front.
   void add_cell(const FileBoundary::Face& face) {
     const auto node = [&](std::size_t k) { return NodeId{new_node_[face[k]]}; };
     if (is_triangle(face)) {
@@ -181,7 +182,7 @@ class PlaneMaker {
     }
   }
 
-  /// The edge that a side has on the back, in the side's own direction.
+  /// Returns the edge of a side face on the back, in the direction of the face.
   std::array<NodeId, 2> edge_of(const FileBoundary::Face& face, const std::string& patch) const {
     const auto corners = corners_of(face);
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -207,7 +208,7 @@ class PlaneMaker {
     }
   }
 
-  /// Those of the prisms and hexahedra.
+  /// Takes the blocks of the prisms and hexahedra.
   void take_blocks() {
     plane_.triangle_to_block = solid_.cell_to_block[static_cast<std::size_t>(CellKind::prism)];
     plane_.quad_to_block = solid_.cell_to_block[static_cast<std::size_t>(CellKind::hexahedron)];
@@ -223,7 +224,7 @@ class PlaneMaker {
   PlaneAxes axes_;
   std::vector<std::array<EmptyFace, 2>> empty_;  ///< of each cell
   std::vector<Back> backs_;                      ///< in the order of the cells
-  std::vector<std::int32_t> new_node_;  ///< of each node, in the plane; -1 where it is not on the back
+  std::vector<std::int32_t> new_node_;  ///< number of each node in the plane; -1 if it is not on the back
   LoadedMesh plane_;
 };
 

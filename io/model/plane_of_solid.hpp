@@ -9,15 +9,15 @@
 
 namespace quadloop {
 
-/// Whether some patch says that the mesh is a plane one, one cell thick.
+/// Whether a patch marks the mesh as a plane one that is one cell thick.
 bool is_one_cell_thick(const FileMesh& mesh);
 
-/// The plane mesh of which a 3D one is one layer, between patches that are empty, across z, or x, or y: its
-/// plane is then x-y, y-z, or x-z, as seen from the largest z or x, or the smallest y. Nodes are those of the
-/// back in their order, with their own coordinates; prisms become triangles and hexahedra quads, in their
-/// order, each from the first node of its back face on; patches that are not empty become boundaries. Throws
-/// InputError, with `path`, where cells do not lie so: each between two empty faces, one on either side, its
-/// other edges along the axis to a millionth of its thickness. The nodes that cells name must exist.
+/// Returns the plane mesh of a 3D mesh with a single layer of cells between empty patches, across z, x or y:
+/// its plane is then x-y, y-z, or x-z, as seen from the largest z or x, or the smallest y. Nodes are those of
+/// the back in their order, with their own coordinates; prisms become triangles and hexahedra quads, in their
+/// order, each starting with the first node of its back face; patches that are not empty become boundaries.
+/// Throws InputError, with `path`, unless each cell is between two empty faces, one on each side, with its
+/// other edges parallel to the axis to a millionth of its thickness. The cells' nodes must exist.
 LoadedMesh plane_of_solid(const FileMesh& solid, const std::string& path);
 
 }  // namespace quadloop

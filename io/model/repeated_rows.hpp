@@ -10,8 +10,8 @@
 
 namespace quadloop {
 
-/// Of each row the one that stays of those with the same nodes, in any order: the smallest by `size_of(i)`,
-/// else the first.
+/// For each row, returns which one of those with the same nodes, in any order, is kept: the smallest by
+/// `size_of(i)`, else the first.
 template <class Row, class NodesOf, class SizeOf>
 std::vector<std::size_t> kept_rows(const std::vector<Row>& rows, const NodesOf& nodes_of,
                                    const SizeOf& size_of) {
@@ -32,7 +32,7 @@ std::vector<std::size_t> kept_rows(const std::vector<Row>& rows, const NodesOf& 
   return kept;
 }
 
-/// Takes those out of rows that stand for others; `kept` is of kept_rows().
+/// Removes the duplicate rows; `kept` is the result of kept_rows().
 template <class Rows>
 void keep_rows(Rows& rows, const std::vector<std::size_t>& kept) {
   std::size_t count = 0;
@@ -42,14 +42,14 @@ void keep_rows(Rows& rows, const std::vector<std::size_t>& kept) {
   rows.resize(count);
 }
 
-/// How many elements stood in a second group too, by the names of the group that was taken and the other.
+/// Number of elements that are also in a second group, by the names of the group that was kept and the other.
 using RepeatedElements = std::map<std::pair<std::string, std::string>, std::int64_t>;
 
-/// Adds a line for each pair of groups, at most five, and one for elements that stood in one group twice.
+/// Adds a line for each pair of groups, at most five, and one for elements that are in one group twice.
 void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
                       std::vector<std::string>& warnings);
 
-/// "'inlet', 'wall' and 3 more": at most five, for a warning.
+/// Returns "'inlet', 'wall' and 3 more" for a warning, with at most five names.
 std::string some_names(const std::vector<std::string>& names);
 
 }  // namespace quadloop

@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-/// `visit(nodes, owner, number)` for each face of a cell and of a patch.
+/// Calls `visit(nodes, owner, number)` for each face of a cell and of a patch.
 template <class Visit>
 void for_each_mention(const FileMesh& mesh, const Visit& visit) {
   for_each_cell(mesh,
@@ -30,7 +30,7 @@ void for_each_mention(const FileMesh& mesh, const Visit& visit) {
 
 void for_each_face(const FileMesh& mesh,
                    const std::function<void(std::int32_t lowest, std::span<const FaceMention>)>& visit) {
-  std::vector<std::int64_t> ends(mesh.points.size() + 1, 0);  // mentions are put together by lowest node
+  std::vector<std::int64_t> ends(mesh.points.size() + 1, 0);  // mentions are grouped by lowest node
   for_each_mention(mesh, [&](const FileBoundary::Face& face, std::int32_t, std::int32_t) {
     ++ends[std::ranges::min(corners_of(face))];
   });

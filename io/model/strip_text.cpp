@@ -23,10 +23,10 @@ std::optional<std::int32_t> whole_number(std::string_view word) {
   return number;
 }
 
-/// The strip under way while comments are read line by line.
+/// The current strip while comments are read line by line.
 struct Unfinished {
   StripLayers strip;
-  std::size_t wanted = 0;  ///< nodes
+  std::size_t wanted = 0;  ///< expected number of nodes
 
   bool is_whole() const { return strip.nodes.size() == wanted; }
 };
@@ -49,7 +49,7 @@ std::optional<Unfinished> begun(std::string_view text) {
   return begun;
 }
 
-/// Nodes of one line; false where it holds anything else, or too many.
+/// Reads the nodes of one line; returns false if it contains anything else, or too many.
 bool add_nodes(std::string_view text, Unfinished& to) {
   for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
     const std::size_t dash = word.find('-');

@@ -26,7 +26,7 @@ void move_row(Field& solution, std::size_t from, std::size_t to) {
     std::copy_n(solution.values.begin() + from * width, width, solution.values.begin() + to * width);
 }
 
-/// A strip with a node of no cell is none.
+/// Renumbers strips; a strip with a node that has no cell is removed.
 void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLayers>& strips) {
   const auto number = [&](GlobalNodeId node) {
     return new_id[NodeId{static_cast<std::int32_t>(node.value())}];
@@ -39,7 +39,7 @@ void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLa
   }
 }
 
-/// Inner curves are edges of cells, but a periodic node may have lost its cells.
+/// Inner curves consist of cell edges, but a periodic node may have lost its cells.
 void renumber_marks(const IdVector<NodeId, NodeId>& new_id, LoadedMesh& loaded) {
   for (BoundaryEdges& curve : loaded.inner_curves) {
     for (auto& edge : curve.edges) edge = {new_id[edge[0]], new_id[edge[1]]};
@@ -48,7 +48,7 @@ void renumber_marks(const IdVector<NodeId, NodeId>& new_id, LoadedMesh& loaded) 
   std::erase_if(loaded.periodic_nodes, [](NodeId node) { return !node.valid(); });
 }
 
-/// A node that a boundary edge alone names is kept: that edge is a fault, not the node.
+/// A node that only a boundary edge uses is kept: the error is in the edge, not in the node.
 std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   Mesh& mesh = loaded.mesh;
   IdVector<NodeId, NodeId> new_id(mesh.points.size());
@@ -71,7 +71,7 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   return dropped;
 }
 
-/// Of an edge between two blocks either direction will do.
+/// An edge between two blocks may have either direction.
 std::int64_t turn_edges(Mesh& mesh, const EdgeTable& table) {
   std::int64_t turned = 0;
   for (BoundaryEdges& boundary : mesh.boundaries) {

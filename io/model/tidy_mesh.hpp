@@ -6,13 +6,12 @@
 
 namespace quadloop {
 
-/// Mends in a mesh from a file what has one cure alone, so that it can be worked on; what was changed is
-/// added to its warnings, with `path`: nodes that belong to no cell are left out, and their rows of the
-/// solution; cells that run clockwise are turned (orient_cells), so that inverted ones stay for validate()
-/// and untangling; boundary edges with their cell to the right are turned, boundaries without edges left out;
-/// edges of one cell that no boundary names become a boundary of their own, "boundary" or the first of
-/// "boundary_2" ... that is free, of condition none. `check` must not do this: it is there to report it. The
-/// nodes that cells and edges name must exist. O(n log n).
+/// Repairs errors of a mesh from a file that have a unique remedy. Each change is added to its warnings, with
+/// `path`: nodes without cells are removed, with their rows of the solution; clockwise cells are reversed
+/// (orient_cells), so that inverted ones are left to validate() and untangling; boundary edges with their
+/// cell on the right are reversed, boundaries without edges removed; edges of one cell without a boundary
+/// form a new boundary, "boundary" or the first free one of "boundary_2" ..., with condition none. Not used
+/// by `check`, which reports these errors. The nodes of cells and edges must exist. O(n log n).
 void tidy_mesh(LoadedMesh& loaded, const std::string& path);
 
 }  // namespace quadloop

@@ -8,27 +8,27 @@
 
 namespace quadloop {
 
-/// The physical groups of an MSH file: their names, and the points, curves, surfaces and volumes in them.
+/// The physical groups of an MSH file: their names, and their points, curves, surfaces and volumes.
 class MshGroups {
  public:
-  /// Of dimension 0 (points), 1 (curves), 2 (surfaces) or 3 (volumes); the tag's sign says nothing but a
+  /// Dimension 0 is for points, 1 for curves, 2 for surfaces, 3 for volumes; the sign of the tag only gives a
   /// direction.
   void name_physical(int dimension, std::int64_t physical, std::string name);
   void put_in_physical(int dimension, std::int64_t entity, std::int64_t physical);
 
-  /// The physical group of a point, curve, surface or volume; 0 where it is in none. Of several the one that
-  /// has the fewest of them, the first where several are as small; so it is to be asked when all are put in.
+  /// Returns the physical group of a point, curve, surface or volume; 0 if it is in none. Of several groups
+  /// the smallest, the first of equally small ones; so call it after all members have been added.
   std::int64_t physical_of(int dimension, std::int64_t entity) const;
 
-  /// How many entities a group has.
+  /// Returns the number of entities of a group.
   std::int64_t members_of(int dimension, std::int64_t physical) const;
 
-  /// For warnings, without the file's name: entities of that dimension or more in several groups, and named
-  /// groups of fewer dimensions, which are left out.
+  /// Return warnings, without the file's name: entities of at least that dimension in several groups, and
+  /// named groups of lower dimension, which are omitted.
   std::vector<std::string> overlaps(int lowest) const;
   std::vector<std::string> dropped(int lowest) const;
 
-  /// The name of a physical group; "physical_<tag>" where the file gives none.
+  /// Returns the name of a physical group; "physical_<tag>" if the file has none.
   std::string name_of(int dimension, std::int64_t physical) const;
 
  private:
@@ -36,7 +36,7 @@ class MshGroups {
 
   std::map<Key, std::string> names_;                        ///< by dimension and tag
   std::map<Key, std::vector<std::int64_t>> entity_groups_;  ///< by dimension and tag
-  std::map<Key, std::int64_t> members_;                     ///< of groups, by dimension and tag
+  std::map<Key, std::int64_t> members_;  ///< number of members of groups, by dimension and tag
 };
 
 }  // namespace quadloop

@@ -13,7 +13,7 @@ std::int64_t NodeTags::sort() {
 
 NodeId NodeTags::node_of(std::int64_t tag) const {
   if (entries_.empty() || tag < entries_.front().tag || tag > entries_.back().tag) return {};
-  const std::size_t guess = tag - entries_.front().tag;  // right where the tags have no gaps
+  const std::size_t guess = tag - entries_.front().tag;  // correct if the tags have no gaps
   if (guess < entries_.size() && entries_[guess].tag == tag) return NodeId{entries_[guess].node};
   const auto found = std::lower_bound(entries_.begin(), entries_.end(), tag,
                                       [](const Entry& entry, std::int64_t t) { return entry.tag < t; });

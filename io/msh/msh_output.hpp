@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/msh only: what the writers of both dimensions share.
+// For io/msh only: shared by the writers of both dimensions.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -14,14 +14,14 @@
 
 namespace quadloop {
 
-/// A physical group and the one curve, surface or volume in it, of the same number.
+/// A physical group with its only curve, surface or volume, which has the same number.
 struct MshOutputGroup {
   int dimension;
   std::string name;
 };
 
-/// An MSH file under way, in either version. Groups are numbered 1, 2, ... over all dimensions together, as
-/// some readers know them by number alone; elements as they come. All of it is *collective*.
+/// An MSH file being written, in either version. Groups are numbered 1, 2, ... over all dimensions, as some
+/// readers identify them by number only; elements in the order of writing. All functions are *collective*.
 class MshOutput {
  public:
   MshOutput(OutputSet& outputs, const std::string& path, MshVersion version,
@@ -30,7 +30,7 @@ class MshOutput {
 
   const Communicator& communicator() const { return file_.communicator(); }
 
-  /// This rank's nodes, `point(i)` each; their numbers follow those of the ranks before. In the new version
+  /// Writes this rank's nodes, `point(i)` each; their numbers follow those of lower ranks. In version 4.1
   /// they are nodes of the last group.
   template <class PointOf>
   void write_nodes(std::int64_t rows, const PointOf& point) {
@@ -49,21 +49,21 @@ class MshOutput {
     file_.write("$EndNodes\n");
   }
 
-  /// `blocks` is how often begin_block() follows.
+  /// `blocks` is the number of blocks that follow.
   void begin_elements(std::int64_t blocks, std::int64_t all) {
     file_.write(is_new_ ? "$Elements\n" + std::to_string(blocks) + " " + std::to_string(all) + " 1 " +
                               std::to_string(all) + "\n"
                         : "$Elements\n" + std::to_string(all) + "\n");
   }
 
-  /// What stands before elements of one type and group, so many over all ranks.
+  /// Returns the text before `count` elements, over all ranks, of one type and group.
   std::string block_head(int type, std::int64_t group, std::int64_t count) const {
     if (!is_new_) return {};
     return std::to_string(groups_[group - 1].dimension) + " " + std::to_string(group) + " " +
            std::to_string(type) + " " + std::to_string(count) + "\n";
   }
 
-  /// A block of them, this rank's rows: `nodes(i)` are numbers from 0.
+  /// Writes a block of elements from this rank's rows: `nodes(i)` are numbers from 0.
   template <std::size_t width, class Nodes>
   void write_elements(int type, std::int64_t group, std::int64_t rows, const Nodes& nodes) {
     const std::int64_t all = communicator().sum(rows);
@@ -76,8 +76,8 @@ class MshOutput {
     });
   }
 
-  /// Elements on the edges of boundaries, `on_each` of them on each edge, made by `nodes(edge, k)`; boundary
-  /// n is group n + 1.
+  /// Writes elements on the boundary edges, `on_each` per edge, with nodes `nodes(edge, k)`; boundary n is
+  /// group n + 1.
   template <std::size_t width, class Nodes>
   void write_on_boundaries(const BoundaryStream& boundaries, int type, std::int64_t on_each,
                            const Nodes& nodes) {
@@ -98,7 +98,7 @@ class MshOutput {
   }
 
  private:
-  using Box = std::array<double, 6>;  ///< the smallest x, y and z, then the largest
+  using Box = std::array<double, 6>;  ///< minimum x, y and z, then the maxima
 
   template <class PointOf>
   Box box_of(std::int64_t rows, const PointOf& point) const {
@@ -122,12 +122,11 @@ class MshOutput {
     return box;
   }
 
-  /// Version, names, and in the new version entities, each with the box of the whole mesh.
+  /// Writes version, names and, in version 4.1, entities, each with the bounding box of the whole mesh.
   void write_head(const Box& box);
   std::string new_nodes_head(std::int64_t all) const;
 
-  /// In the old version number, type, two tags, the group and the entity, nodes; in the new one number and
-  /// nodes.
+  /// Version 2.2: number, type, two tags (group and entity), nodes; version 4.1: number and nodes.
   template <std::size_t width, class Nodes>
   void put_element(TextRows& text, std::int64_t number, int type, std::int64_t group,
                    const Nodes& nodes) const {

@@ -17,13 +17,13 @@ namespace quadloop {
 
 namespace {
 
-/// The elements of one kind, in their order in the file.
+/// The elements of one kind, in file order.
 template <std::size_t width>
 struct ElementList {
   std::vector<std::array<std::int32_t, width>> nodes;
   std::vector<std::int64_t> tags;
-  std::vector<std::int32_t> groups;  ///< what gives them their block or boundary, by number
-  std::vector<std::size_t> places;   ///< in the text; of lines
+  std::vector<std::int32_t> groups;  ///< number of the group that defines their block or boundary
+  std::vector<std::size_t> places;   ///< positions in the text; for lines only
 
   void add(const MshElement& element, std::int32_t group) {
     nodes.push_back(element.as<width>());
@@ -33,10 +33,10 @@ struct ElementList {
   }
 };
 
-/// What names a block or a boundary: a physical group, or without one an entity.
+/// The group that defines a block or a boundary: a physical group or, without one, an entity.
 struct ElementGroup {
   int dimension;
-  std::int64_t physical, entity;  ///< 0 where it is the other that counts
+  std::int64_t physical, entity;  ///< 0 for the unused one
 
   friend auto operator<=>(const ElementGroup&, const ElementGroup&) = default;
 };
@@ -107,7 +107,7 @@ class MshReader {
     return last_group_ = found->second;
   }
 
-  /// Those of the mesh's dimension are blocks, those of one less boundaries.
+  /// Groups of the mesh's dimension are blocks, those of one less boundaries.
   void name_groups() {
     for (const ElementGroup& group : groups_) {
       const bool is_block = group.dimension == mesh_.dimension;
@@ -167,7 +167,7 @@ class MshReader {
     }
   }
 
-  /// Nodes that drop_unused_nodes() is going to drop need no values.
+  /// Nodes that drop_unused_nodes() will remove need no values.
   void keep_used_tags() {
     const std::vector<char> is_used = used_nodes(mesh_);
     std::size_t at = 0;
@@ -202,8 +202,8 @@ class MshReader {
 
   MshText text_;
   FileMesh mesh_;
-  std::optional<std::pair<std::int64_t, std::size_t>>
-      off_plane_;  ///< a node's tag, and its place in the text
+  /// A node's tag, and its position in the text.
+  std::optional<std::pair<std::int64_t, std::size_t>> off_plane_;
   ElementList<2> lines_;
   ElementList<3> triangles_;
   ElementList<4> quads_, tetrahedra_;
@@ -213,7 +213,7 @@ class MshReader {
   std::vector<ElementGroup> groups_;
   std::map<ElementGroup, std::int32_t> numbers_;
   std::int32_t last_group_ = 0;
-  std::vector<std::int32_t> number_of_group_;  ///< of its block or boundary; -1: of neither
+  std::vector<std::int32_t> number_of_group_;  ///< number of its block or boundary; -1: neither
   std::vector<std::int64_t> node_tags_, cell_tags_;
 };
 

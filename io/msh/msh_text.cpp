@@ -41,7 +41,7 @@ std::string element_name(std::int64_t type) {
   }
 }
 
-/// Nodes of an element; 0 for a type that is not read.
+/// Returns the number of nodes of an element; 0 for a type that is not read.
 std::size_t width_of(std::int64_t type) {
   switch (type) {
     case msh_point: return 1;
@@ -80,7 +80,7 @@ void MshText::read(const PutPoint& put_point, const PutElement& put_element) {
   read_periodic();
 }
 
-/// In version 2.2 drop_repeated() reports elements of several groups.
+/// In version 2.2 drop_repeated() reports elements in several groups.
 std::vector<std::string> MshText::warnings(int lowest) const {
   std::vector<std::string> lines = groups_.dropped(lowest);
   if (!is_old_) std::ranges::move(groups_.overlaps(lowest), std::back_inserter(lines));
@@ -200,7 +200,7 @@ std::int64_t MshText::node_tag() {
   return tag;
 }
 
-/// With parameters each row goes on with the entity's dimension and tag, and what the point's place on it is.
+/// With parameters each row also has the entity's dimension and tag, and the point's parameters on it.
 void MshText::read_old_nodes() {
   const bool parametric = go_to_section("ParametricNodes");
   if (!parametric) go_to_needed("Nodes");
@@ -275,7 +275,7 @@ void MshText::read_old_elements() {
   end_section("Elements");
 }
 
-/// Elements of one entity follow each other.
+/// Elements of an entity are consecutive.
 void MshText::note_member(int dimension, std::int64_t entity, std::int64_t physical) {
   const std::array member{std::int64_t{dimension}, entity, physical};
   if (physical != 0 && member != last_member_) groups_.put_in_physical(dimension, entity, physical);
@@ -311,7 +311,7 @@ void MshText::read_periodic() {
   end_section("Periodic");
 }
 
-/// "Affine" and numbers on a line of its own, or in version 4.1 a count and so many numbers.
+/// "Affine" and numbers on a line of its own or, in version 4.1, a count and that many numbers.
 void MshText::pass_over_transformation() {
   if (!is_old_) {
     for (std::size_t left = scan_.count("numbers of a transformation", 1); left > 0; --left)

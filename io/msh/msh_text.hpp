@@ -15,7 +15,7 @@
 
 namespace quadloop {
 
-/// The numbers by which Gmsh names kinds of elements.
+/// Gmsh's numbers of element types.
 enum MshType : std::uint8_t {
   msh_line = 1,
   msh_triangle = 2,
@@ -31,10 +31,10 @@ enum MshType : std::uint8_t {
 struct MshElement {
   std::int64_t tag = 0, type = 0;
   std::int64_t physical = 0, entity = 0;  ///< its groups: 0 for none
-  std::array<std::int32_t, 8> nodes{};    ///< as many as the type has, by their places among the points
-  std::size_t place = 0;                  ///< in the file's text, for a refusal
+  std::array<std::int32_t, 8> nodes{};    ///< as many as the type has, as indices of the points
+  std::size_t place = 0;                  ///< position in the file's text, for error messages
 
-  /// The first ones.
+  /// Returns the first `width` nodes.
   template <std::size_t width>
   std::array<std::int32_t, width> as() const {
     std::array<std::int32_t, width> result;
@@ -43,8 +43,8 @@ struct MshElement {
   }
 };
 
-/// The text of an MSH file, version 2.2 or 4.1, whatever its dimension: its points and elements one after
-/// another. Refusals are InputErrors "file:line: ...".
+/// The text of an MSH file, version 2.2 or 4.1, of any dimension: its points and elements one after another.
+/// Errors are InputErrors "file:line: ...".
 class MshText {
  public:
   using PutPoint = std::function<void(std::int64_t tag, Point3 point)>;
@@ -52,53 +52,54 @@ class MshText {
 
   explicit MshText(const std::string& path) : scan_{path, TextScanner::no_comments} {}
 
-  /// All points, then all elements.
+  /// Reads all points, then all elements.
   void read(const PutPoint& put_point, const PutElement& put_element);
 
-  /// What the file has of a solution, after read().
+  /// Reads the solution in the file; call after read().
   MshSolution read_values() { return read_msh_values(scan_); }
-  /// Whether the word of that length stands at the beginning of its line, alone.
+  /// Whether the word of that length is alone on its line.
   static bool is_line(std::string_view text, std::size_t at, std::size_t length);
 
-  /// Nodes that the file pairs with others, on its periodic curves or surfaces, after read(); by their places
-  /// among the points.
+  /// Nodes that the file pairs with others on periodic curves or surfaces, after read(); as indices of the
+  /// points.
   const std::vector<std::int32_t>& periodic_nodes() const { return periodic_nodes_; }
 
-  /// Whether an element that belongs to several groups stands there once for each (version 2.2).
+  /// Whether an element in several groups is stored once for each (version 2.2).
   bool may_repeat() const { return is_old_; }
   const TextScanner& scan() const { return scan_; }
   const MshGroups& groups() const { return groups_; }
-  /// On groups, where those of `lowest` dimensions are boundaries.
+  /// Returns warnings about groups, where those of dimension `lowest` are boundaries.
   std::vector<std::string> warnings(int lowest) const;
 
  private:
-  /// Goes behind the line "$name"; false where the file has no such section.
+  /// Goes to after the line "$name"; returns false if the file has no such section.
   bool go_to_section(const std::string& name);
   void go_to_needed(const std::string& name);
   void end_section(const std::string& name);
-  /// True for version 2.2, false for 4.1.
+  /// Returns true for version 2.2, false for 4.1.
   bool read_format();
   std::int64_t physical_tag();
   void read_names();
   void read_entities();
-  /// Tag, six numbers of a box, the physical groups, and what bounds it.
+  /// Tag, six numbers of a box, the physical groups, and bounding entities.
   void read_entity(int dimension, const char* expected);
   void read_point(std::int64_t tag);
   void end_nodes(const std::string& section);
   std::int64_t node_tag();
   void read_old_nodes();
-  /// Blocks, all nodes, smallest and largest tag; then blocks of nodes on one entity, first their tags, then
-  /// their coordinates.
+  /// Numbers of blocks and nodes, smallest and largest tag; then blocks of nodes on one entity, first their
+  /// tags, then their coordinates.
   void read_nodes();
   void refuse_unknown(std::int64_t type) const;
   void read_element(std::int64_t tag, std::int64_t type, std::int64_t physical, std::int64_t entity);
-  /// Each row: number, type, tags (the first the physical group, the second the entity), nodes.
+  /// Each row: number, type, tags (the first is the physical group, the second the entity), nodes.
   void read_old_elements();
   void note_member(int dimension, std::int64_t entity, std::int64_t physical);
-  /// Blocks, all elements, smallest and largest tag; then blocks of elements of one type on one entity.
+  /// Numbers of blocks and elements, smallest and largest tag; then blocks of elements of one type on one
+  /// entity.
   void read_elements();
   std::size_t read_element_block();
-  /// Links of two entities: their dimension and tags, perhaps a transformation, then pairs of nodes.
+  /// Links of two entities: their dimension and tags, an optional transformation, then pairs of nodes.
   void read_periodic();
   void pass_over_transformation();
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view node_section = "$NodeData", element_section = "$ElementData",
                            corner_section = "$ElementNodeData";
 
-/// A text to the end of its line, without the quotes around it.
+/// Reads a string up to the end of its line, without its quotes.
 std::string read_text(TextScanner& scan) {
   scan.token("a string");
   scan.go_to(scan.place());
@@ -23,8 +23,8 @@ std::string read_text(TextScanner& scan) {
   return std::string(text);
 }
 
-/// Behind the line "$NodeData": texts (the first is the name), reals (time), integers (step, components,
-/// rows, partition), then the rows, each its tag and values.
+/// Reads after the line "$NodeData": strings (the first is the name), reals (time), integers (step,
+/// components, rows, partition), then the rows, each with its tag and values.
 MshValues read_section(TextScanner& scan, std::string_view head) {
   MshValues section;
   const std::size_t texts = scan.count("strings", 1);
@@ -64,7 +64,7 @@ void put(std::vector<MshValues>& sections, MshValues section) {
     *same = std::move(section);
 }
 
-/// One component of the rows that `row_of` names.
+/// Returns one component of the rows given by `row_of`.
 std::vector<double> component(const MshValues& section, std::span<const NodeId> row_of, std::size_t k) {
   std::vector<double> column;
   column.reserve(row_of.size());

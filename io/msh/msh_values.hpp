@@ -19,7 +19,7 @@ struct MshValues {
   std::vector<double> values;
 };
 
-/// What an MSH file tells of a solution.
+/// The solution in an MSH file.
 struct MshSolution {
   std::vector<MshValues> at_nodes, in_elements;
   std::int64_t others = 0;  ///< sections of values that are not read: at the nodes of each element
@@ -27,13 +27,13 @@ struct MshSolution {
   bool empty() const { return at_nodes.empty() && in_elements.empty() && others == 0; }
 };
 
-/// All sections of values in the text, in their order; of several of one name, as of steps in time, the last
-/// counts. Throws InputError.
+/// Reads all sections of values in the text, in their order; of several with one name, e.g. time steps, the
+/// last counts. Throws InputError.
 MshSolution read_msh_values(TextScanner& scan);
 
-/// The columns of values for entries of these tags, row after row: a vector's are NAME_x and NAME_y (and
-/// NAME_z unless all are 0), a tensor's NAME_1 to NAME_9. One that not all entries have is left out; `losses`
-/// says so.
+/// Returns the columns of values for entries with these tags, row after row: vectors become NAME_x and NAME_y
+/// (and NAME_z unless all are 0), tensors NAME_1 to NAME_9. A variable that is missing for some entries is
+/// omitted and reported in `losses`.
 CellValues msh_columns(const std::vector<MshValues>& sections, std::span<const std::int64_t> tags,
                        const char* of, std::vector<std::string>& losses);
 

@@ -46,7 +46,7 @@ class MshWriter {
   }
 
  private:
-  /// Of elements of one type in one group.
+  /// Number of runs of elements of one type in one group.
   std::int64_t runs() const {
     std::int64_t count = 0;
     for (const StreamedPatch& patch : stream_.patches())

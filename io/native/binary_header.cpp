@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t alignment = 8;  // of the numbers, for programs that map the file
+constexpr std::size_t alignment = 8;  // of the numbers, for programs that memory-map the file
 
 std::string one_line(std::string name) {
   std::ranges::replace_if(
@@ -28,7 +28,7 @@ class HeaderParser {
       : text_{text}, size_{size}, path_{path} {}
 
   BinaryHeader parse() {
-    next();  // the first two, which are known to be right
+    next();  // the first two, already checked
     next();
     next();
     if (take("nodes "))
@@ -94,7 +94,7 @@ class HeaderParser {
     return word;
   }
 
-  /// Of things that take a byte of the file at least: so sums of their bytes stay in range.
+  /// Reads a number of items that take at least one byte each, so that sums of their sizes cannot overflow.
   std::int64_t count(const char* of) {
     const std::string_view text = word();
     std::int64_t value = -1;
@@ -177,7 +177,8 @@ std::string text_of(const BinaryHeader& header) {
   lines += header.strips + "end";
   constexpr std::size_t digits = 12;
   const std::size_t before = binary_first_line.size() + std::string_view("header \n").size() + digits;
-  const std::size_t size = (before + lines.size() + alignment) / alignment * alignment;  // with a line end
+  // including a line end
+  const std::size_t size = (before + lines.size() + alignment) / alignment * alignment;
   lines.append(size - before - lines.size() - 1, ' ');
   return fmt::format("{}header {:{}}\n{}\n", binary_first_line, size, digits, lines);
 }

@@ -23,7 +23,7 @@ namespace {
 class BinaryReader {
  public:
   explicit BinaryReader(const std::string& path) : path_{path} {
-    require_input_file(path);  // no pipe: the size must be known
+    require_input_file(path);  // not a pipe, as the size must be known
     file_.emplace(path);
     size_ = static_cast<std::int64_t>(file_->bytes_left());
   }

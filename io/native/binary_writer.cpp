@@ -64,7 +64,7 @@ class BinaryWriter {
                                 std::ranges::count(blocks->of_quads, b)});
   }
 
-  /// Rank 0's bytes.
+  /// Writes rank 0's bytes.
   void at_root(std::string_view bytes) {
     comm_.together([&] {
       if (comm_.is_root()) file_.write_at(end_, bytes);
@@ -72,7 +72,7 @@ class BinaryWriter {
     end_ += std::ssize(bytes);
   }
 
-  /// The ranks' rows in the order of ranks, each an array that `make(i)` gives.
+  /// Writes the rows of all ranks in the order of ranks, each an array `make(i)`.
   template <class Make>
   void write_rows(std::size_t rows, const Make& make) {
     using Row = decltype(make(0));
@@ -104,7 +104,7 @@ class BinaryWriter {
     write_edges<Number>();
   }
 
-  /// Boundary after boundary: they come to rank 0 in that order.
+  /// Boundary by boundary, the order in which they arrive on rank 0.
   template <class Number>
   void write_edges() {
     std::int64_t at = end_;
@@ -141,7 +141,7 @@ class BinaryWriter {
   const BoundaryStream& boundaries_;
   SharedOutput file_;
   BinaryHeader header_;
-  std::int64_t end_ = 0;  ///< of what is written, over all ranks
+  std::int64_t end_ = 0;  ///< end of the written data, over all ranks
 };
 
 }  // namespace

@@ -98,14 +98,14 @@ class NativeReader {
     }
   }
 
-  /// What the comment "# layers NAME COUNT THICKNESS" tells, if the boundary has one.
+  /// Returns the layers in the comment "# layers NAME COUNT THICKNESS", if the boundary has one.
   WallLayers layers_of(const std::string& name) const {
     const std::string head = "# layers " + name + " ";
     const std::string_view comment = scan_.last_comment_with(head);
     return comment.starts_with(head) ? layers_of_text(comment.substr(head.size())) : WallLayers{};
   }
 
-  /// From comments behind the boundaries.
+  /// Reads strips from comments after the boundaries.
   void read_strips() {
     scan_.forget_comments();
     scan_.at_end();
@@ -117,7 +117,7 @@ class NativeReader {
           "' does not list the nodes of a strip; its cells are treated as ordinary cells");
   }
 
-  /// What stands in the brackets of "#Number of edges for boundary 1 (name)".
+  /// Returns the name in the brackets of "#Number of edges for boundary 1 (name)".
   static std::string name_in(std::string_view comment) {
     const std::size_t open = comment.find('('), close = comment.rfind(')');
     if (open == std::string_view::npos || close == std::string_view::npos || close < open) return {};
@@ -129,7 +129,7 @@ class NativeReader {
 
   void read_solution() {
     Field solution;
-    // A comment tells the values of cells from other sections, and from rows too many.
+    // A comment distinguishes cell values from other sections and from extra rows.
     const auto at_cells = [this] {
       return !scan_.at_end() && !scan_.last_comment_with("cell variables").empty();
     };

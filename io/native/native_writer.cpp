@@ -48,7 +48,7 @@ class NativeWriter {
   void close() { file_.close(); }
 
  private:
-  /// The cells of a block follow each other.
+  /// The cells of a block are contiguous.
   template <class Cells>
   std::span<const typename Cells::value_type> cells_in(const Cells& cells,
                                                        std::vector<std::int32_t> PlaneBlocks::*of_cells,
@@ -74,7 +74,7 @@ class NativeWriter {
     write_real_rows(mesh_.quads.size(), cells.values.data() + triangles * cells.width(), cells.width());
   }
 
-  /// `rows` of this rank, each of `width` numbers.
+  /// Writes `rows` rows of this rank, each of `width` numbers.
   void write_real_rows(std::size_t rows, const double* values, std::size_t width) {
     if (width == 0) return;
     file_.write_rows(rows, width, [&](TextRows& text, std::size_t i) {
@@ -115,7 +115,7 @@ class NativeWriter {
 
   const Communicator& comm_;
   const Mesh& mesh_;
-  const PlaneBlocks* blocks_;  ///< null: one
+  const PlaneBlocks* blocks_;  ///< null: one block
   std::string path_;
   TextOutput file_;
 };

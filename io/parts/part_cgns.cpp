@@ -14,7 +14,7 @@ namespace quadloop {
 void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int32_t parts) {
   constexpr const char *data = "UserDefinedData_t", *array = "DataArray_t";
   CgnsNodes nodes(staged);
-  {  // HDF5 keeps a file open as long as anything in it is
+  {  // HDF5 keeps a file open as long as any object in it is open
     const CgnsNodes::Node zone = nodes.at(CgnsSink::zone_path), here = nodes.add(zone, "Part", data);
     const auto put = [&](const CgnsNodes::Node& parent, const std::string& name, const auto& numbers,
                          const auto& number_of) {

@@ -9,28 +9,28 @@
 
 namespace quadloop {
 
-/// What the parts of a mesh are written in, by suffix: those of `formats` that are written in parts. CGNS
-/// files of parts have one zone: not where there are several blocks.
+/// Returns the formats, by suffix, in which partitions are written: those of `formats` that support it. CGNS
+/// files of partitions have one zone, so they are excluded if there are several blocks.
 std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::int32_t blocks = 1);
 
-/// The names of all files of a set.
+/// Returns the names of all files of a set.
 std::vector<std::string> part_file_names(const std::string& prefix, std::int32_t parts,
                                          const std::vector<std::string>& formats);
 
-/// The files of a mesh in parts: each rank writes those of the parts that it holds, the root rank what is
-/// one for all. The bytes do not depend on the number of ranks.
+/// The files of a partitioned mesh: each rank writes those of its parts, the root rank the common ones. The
+/// bytes do not depend on the number of ranks.
 class PartFiles {
  public:
-  /// `comm` must outlive it. Not collective.
+  /// `comm` must outlive the object. Not collective.
   explicit PartFiles(const Communicator& comm) : comm_{comm}, alone_{MPI_COMM_SELF}, outputs_{alone_} {}
 
-  /// Writes under temporary names. `index` counts on the root rank alone but for its formats and blocks;
-  /// formats are of part_formats(). *Collective.* Throws OutputError on all ranks.
+  /// Writes the files under temporary names. Of `index`, formats and blocks are used on every rank, the rest
+  /// on the root only; formats must be from part_formats(). Throws OutputError on all ranks. *Collective.*
   void write(const std::string& prefix, const PartIndex& index, const std::vector<MeshPart>& parts);
 
-  /// Gives the files their names, those of `whole` with them: a signal finds all of them or none. What a disk
-  /// refuses of one rank's files takes back all of that rank's alone. *Collective.* Throws OutputError on all
-  /// ranks.
+  /// Renames the files, together with those of `whole`: after a signal either all have their names or none.
+  /// If a rank's disk rejects a file, only the files of that rank are discarded. Throws OutputError on all
+  /// ranks. *Collective.*
   void commit(OutputSet& whole);
   void commit();
 
@@ -42,8 +42,8 @@ class PartFiles {
   OutputSet outputs_;
 };
 
-/// What the index of a set says, on the root rank; elsewhere without the numbers of edges. `blocks` are the
-/// names of the whole's. *Collective.*
+/// Returns the index of a set on the root rank; on other ranks without the numbers of edges. `blocks` are the
+/// names of the whole mesh's blocks. *Collective.*
 PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t parts,
                      const std::vector<std::string>& formats, const std::vector<std::string>& blocks);
 

@@ -36,7 +36,7 @@ void read_boundary(TextScanner& scan, PartIndex& index) {
   index.boundaries.push_back(std::move(boundary));
 }
 
-/// Those of comments that do not fit are named in a warning.
+/// Invalid strips in comments are named in a warning.
 void read_strips(const TextScanner& scan, PartIndex& index) {
   StripsInText found = strips_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes));
   index.strips = std::move(found.strips);

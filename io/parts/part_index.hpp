@@ -9,15 +9,15 @@
 
 namespace quadloop {
 
-/// What PREFIX.parts tells of a set and of the whole mesh.
+/// Contents of PREFIX.parts: a set of partitions and the whole mesh.
 struct PartIndex {
   std::int32_t parts = 0;
   std::vector<std::string> formats;  ///< of the parts, by suffix
   std::int64_t nodes = 0, triangles = 0, quads = 0;
   std::vector<std::string> blocks;        ///< names
-  std::vector<BoundaryEdges> boundaries;  ///< without their edges
-  std::vector<std::int64_t> edges;        ///< of each boundary
-  std::vector<StripLayers> strips;        ///< of the whole, in its numbers
+  std::vector<BoundaryEdges> boundaries;  ///< without edges
+  std::vector<std::int64_t> edges;        ///< number of edges of each boundary
+  std::vector<StripLayers> strips;        ///< with the node numbers of the whole mesh
   std::vector<std::string> warnings;      ///< of the reader
 };
 
@@ -25,13 +25,14 @@ struct PartIndex {
 inline constexpr const char* part_index_suffix = ".parts";
 bool is_part_index(const std::string& path);
 
-/// Of a set that is written to `prefix`, the file of one part (from 0); `suffix` is a format's, or "links".
+/// Returns the file of one part (from 0) in a set written to `prefix`; `suffix` is that of a format, or
+/// "links".
 std::string part_path(const std::string& prefix, std::int32_t part, const std::string& suffix);
 
 /// On the set's only rank. Throws OutputError.
 void write_part_index(OutputSet& outputs, const PartIndex& index, const std::string& path);
 
-/// On the calling rank alone. Throws InputError.
+/// On the calling rank only. Throws InputError.
 PartIndex read_part_index(const std::string& path);
 
 }  // namespace quadloop

@@ -52,7 +52,7 @@ class LinksWriter {
   TextOutput file_;
 };
 
-/// Numbers stand from 1 in the file; those of the whole are checked where they are used.
+/// Numbers in the file are from 1; those of the whole mesh are checked where they are used.
 class LinksReader {
  public:
   explicit LinksReader(const std::string& path) : scan_{path} {}
@@ -93,7 +93,7 @@ class LinksReader {
     part_.neighbours.push_back(std::move(neighbour));
   }
 
-  /// A number from 1 to `last`, as one from 0.
+  /// Reads a number from 1 to `last`; returns it from 0.
   std::int32_t up_to(std::int64_t last, const char* what) {
     const std::int64_t number = scan_.integer(what);
     if (number < 1 || number > last)

@@ -10,24 +10,24 @@
 
 namespace quadloop {
 
-/// A mesh in parts, beside the whole.
+/// Request to write partitions of a mesh.
 struct PartRequest {
   std::string prefix;
   std::int32_t parts = 0;
-  std::vector<std::string> formats;              ///< as part_formats() gives them
+  std::vector<std::string> formats;              ///< from part_formats()
   std::vector<std::string> blocks = {"domain"};  ///< names
 };
 
-/// Divides a distributed mesh and writes its parts under temporary names; `files` is yet to be committed.
-/// *Collective.* Throws InputError or OutputError on all ranks.
+/// Partitions a distributed mesh and writes its parts under temporary names; `files` must be committed
+/// afterwards. Throws InputError or OutputError on all ranks. *Collective.*
 PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
                         const PartRequest& request);
 
-/// The same for one that is divided already.
+/// The same for an existing partition.
 PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const CellParts& cells,
                         const PartData& data, const PartRequest& request);
 
-/// The same for a mesh that the root rank holds whole; prefix, number and formats count on every rank.
+/// The same for a mesh that is whole on the root rank; prefix, number and formats are used on every rank.
 /// *Collective.*
 PartFigures write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
                                 PartRequest request);

@@ -8,8 +8,8 @@
 
 namespace quadloop {
 
-/// Writes PREFIX.pvtu, which lists the parts' .vtu files as pieces; `field` tells the variables. On
-/// the set's only rank. Throws OutputError.
+/// Writes PREFIX.pvtu, which lists the parts' .vtu files as pieces, with the variables of `field`. On the
+/// set's only rank. Throws OutputError.
 void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const Field& field,
                      const std::string& prefix);
 

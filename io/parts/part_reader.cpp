@@ -67,7 +67,8 @@ class PartReader {
   }
 
  private:
-  /// Of the whole, as far as the parts can fill it: what the index says is no size of memory before.
+  /// Returns the size of the whole mesh, limited by what the parts contain: the numbers of the index are not
+  /// trusted for memory allocation.
   WholeCounts counts(const std::vector<MeshPart>& parts) const {
     std::int64_t nodes = 0, triangles = 0, quads = 0;
     std::vector<std::int64_t> edges(index_.edges.size(), 0);
@@ -89,7 +90,7 @@ class PartReader {
     return counts;
   }
 
-  /// The part's mesh and values, from its own file.
+  /// Reads the part's mesh and values from its own file.
   void fill(MeshPart& part, const std::string& path) {
     LoadedMesh loaded = read_piece(path, format_);
     number_blocks(loaded, path);
@@ -108,7 +109,7 @@ class PartReader {
     std::ranges::move(loaded.warnings, std::back_inserter(warnings_));
   }
 
-  /// As the whole does. In `.vtu` a part has the blocks of its own cells alone, by their names.
+  /// Numbers blocks as in the whole mesh. In `.vtu` a part has only the blocks of its own cells, by name.
   void number_blocks(LoadedMesh& loaded, const std::string& path) const {
     if (loaded.blocks == std::ssize(index_.blocks)) return;
     std::vector<std::int32_t> numbers;

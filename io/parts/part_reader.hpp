@@ -6,9 +6,8 @@
 
 namespace quadloop {
 
-/// The whole mesh that PREFIX.parts and the files that it names are the parts of, as it was divided: nodes,
-/// cells and boundary edges in their order, coordinates and values to the bit. On the calling rank alone.
-/// Throws InputError.
+/// Returns the whole mesh of PREFIX.parts and its files, as before partitioning: nodes, cells and boundary
+/// edges in their order, coordinates and values bitwise. On the calling rank only. Throws InputError.
 LoadedMesh read_parts(const std::string& path);
 
 }  // namespace quadloop

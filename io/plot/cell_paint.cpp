@@ -57,7 +57,7 @@ CellPaint paint_blocks(const LoadedMesh& loaded, const std::vector<std::size_t>&
   return paint;
 }
 
-/// Numbers that are not finite (a diverged solution) are grey.
+/// Values that are not finite (a diverged solution) are grey.
 CellPaint paint_values(const std::vector<double>& values, const ColourBar& bar) {
   CellPaint paint;
   for (std::size_t i = 0; i < bar_colours; ++i)
@@ -86,7 +86,7 @@ CellPaint paint_quality(const LoadedMesh& loaded, const std::vector<std::size_t>
   return paint_values(values, {"quality", 0, 1, quality_colour});
 }
 
-/// The range that is asked for; else the values', or one round a value that is the same all over.
+/// Sets the requested range, else that of the values, or one around a constant value.
 void settle_range(ColourBar& bar, const PlotOptions& options) {
   if (options.range) {
     bar.low = (*options.range)[0];
@@ -101,7 +101,7 @@ void settle_range(ColourBar& bar, const PlotOptions& options) {
   bar.high += around;
 }
 
-/// Values of nodes from those of the cells round them.
+/// Averages cell values to nodes.
 std::vector<double> spread_to_nodes(const Mesh& mesh, const std::vector<double>& of_cells) {
   std::vector<double> sums(mesh.points.size(), 0), counts(mesh.points.size(), 0);
   for (std::size_t cell = 0; cell < of_cells.size(); ++cell) {
@@ -114,7 +114,7 @@ std::vector<double> spread_to_nodes(const Mesh& mesh, const std::vector<double>&
   return sums;
 }
 
-/// Values of cells as means of their corners'.
+/// Averages nodal values to cells.
 std::vector<double> means_of_corners(const Mesh& mesh, const std::vector<double>& of_nodes) {
   std::vector<double> means;
   for (std::size_t cell = 0; cell < cell_count(mesh); ++cell) {

@@ -12,27 +12,27 @@
 
 namespace quadloop {
 
-/// All cells of a mesh in one row: triangles, then quads.
+/// Number of cells, and nodes of a cell; triangles come before quads.
 std::size_t cell_count(const Mesh& mesh);
 std::span<const NodeId> cell_nodes(const Mesh& mesh, std::size_t cell);
 
-/// A colour for each of some cells, with what the legend says of it.
+/// A colour for each of some cells, with the legend.
 struct CellPaint {
   std::vector<Colour> palette;
-  std::vector<std::uint16_t> colours;  ///< of palette, one for each cell of the list
+  std::vector<std::uint16_t> colours;  ///< indices into palette, one for each cell of the list
   std::vector<LegendEntry> legend;
   std::optional<ColourBar> bar;
 };
 
-/// A variable of the solution, at nodes and in cells (cell_nodes()): what the file has in one place only is
-/// the mean of the other's values there.
+/// A variable of the solution, at nodes and in cells (cell_nodes()): values that the file lacks are averaged
+/// from the others.
 struct FieldValues {
   std::vector<double> of_nodes, of_cells;
 };
-/// Throws InputError where there is none of that name.
+/// Throws InputError if there is no variable of this name.
 FieldValues field_values(const LoadedMesh& loaded, const std::string& field);
 
-/// Colours `cells` (numbers as for cell_nodes). Throws InputError where the field is not there.
+/// Colours `cells` (numbers as for cell_nodes). Throws InputError if the field does not exist.
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options);
 

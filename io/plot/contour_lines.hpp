@@ -7,10 +7,10 @@
 
 namespace quadloop {
 
-/// `count` values evenly between low and high, which are not among them.
+/// Returns `count` equidistant values between low and high, exclusively.
 std::vector<double> contour_levels(double low, double high, int count);
 
-/// Where the value over the piece is one of the levels, which ascend: a line for each that crosses it.
+/// Appends the contour lines of the piece for the levels, which must be ascending.
 void append_contours(const LinearPiece& piece, const std::vector<double>& levels,
                      std::vector<std::array<Point, 2>>& lines);
 

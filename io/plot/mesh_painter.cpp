@@ -15,13 +15,12 @@ namespace quadloop {
 namespace {
 
 constexpr Colour edge_ink{0.13, 0.17, 0.25}, line_ink{0.08, 0.08, 0.1};
-constexpr std::size_t batch = 4000;  // polygons or lines in one path
-constexpr double smallest = 1.3;     // pixels between two edges that are still drawn one by one
-constexpr double darkest =
-    0.42;  // share of ink that edges, or the shade in their place, give an area at most
+constexpr std::size_t batch = 4000;  // polygons or lines per path
+constexpr double smallest = 1.3;     // pixels between two edges that are still drawn individually
+constexpr double darkest = 0.42;     // maximum fraction of ink in an area with edges, or with shading instead
 constexpr std::size_t width_classes = 48;
 
-/// An edge between two nodes, the lower first, and how thick a cell beside it is there, in pixels.
+/// An edge between two nodes, the lower first, with the thickness in pixels of an adjacent cell.
 struct Edge {
   NodeId a, b;
   double thickness = 0;
@@ -53,7 +52,7 @@ std::vector<Edge> edges_of(const Mesh& mesh, std::size_t cell, double scale) {
   return edges;
 }
 
-/// A small triangle that tells the way of a line at its middle.
+/// Returns a small triangle at the middle of a line that shows its direction.
 std::array<Point, 3> arrow_on(const std::vector<Point>& line) {
   constexpr double size = 9;
   const std::size_t middle = line.size() / 2;

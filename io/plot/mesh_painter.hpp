@@ -9,22 +9,22 @@
 
 namespace quadloop {
 
-/// Draws one mesh on one canvas, layer by layer.
+/// Draws a mesh on a canvas, layer by layer.
 class MeshPainter {
  public:
   MeshPainter(const Mesh& mesh, const PlotView& view, Canvas& canvas)
       : mesh_{mesh}, view_{view}, canvas_{canvas} {}
 
-  /// Each cell in its colour. Cells too thin for their edges to be drawn are shaded instead; not where colour
-  /// stands for a number.
+  /// Fills each cell with its colour. Cells too thin for drawing their edges are shaded instead, unless
+  /// colours represent values.
   void fill(const std::vector<std::size_t>& cells, const CellPaint& paint);
 
-  /// Each edge once, by the thicker of its cells; the closer edges lie, the thinner and paler they are, so
-  /// that a fine mesh does not turn black. In one ink all over: one that followed the colours below would
-  /// draw a line where it changes.
+  /// Draws each edge once, by the thicker of its cells; the closer the edges, the thinner and paler they are,
+  /// so that a fine mesh does not turn black. All edges have the same ink: if it depended on the colours
+  /// below, it would look like a line where these change.
   void stroke_edges(const std::vector<std::size_t>& cells, double strength);
 
-  /// Thinner where its edges are short: a coast drawn in bold would fill its own bays.
+  /// Thinner where edges are short: a coast drawn in bold would fill its own bays.
   void stroke_boundary(const BoundaryEdges& boundary, Colour colour);
 
  private:
@@ -36,10 +36,10 @@ class MeshPainter {
   Canvas& canvas_;
 };
 
-/// Draws what a field is over a mesh. `values` has one for each node.
+/// Draws a field on a mesh. `values` has one entry for each node.
 class FieldPainter {
  public:
-  /// `resolution`: pixels of the picture that make up one of the sheet.
+  /// `resolution`: pixels of the picture per pixel of the sheet.
   FieldPainter(const Mesh& mesh, const std::vector<std::size_t>& cells, const PlotView& view, Canvas& canvas,
                double resolution)
       : mesh_{mesh}, cells_{cells}, view_{view}, canvas_{canvas}, resolution_{resolution} {}

@@ -71,7 +71,7 @@ bool is_seen(const Mesh& mesh, const BoundaryEdges& boundary, const Box& window)
   });
 }
 
-/// The boundaries that the window shows, unless they are too many to name.
+/// Adds the boundaries within the window, unless there are too many.
 void add_boundary_names(const Mesh& mesh, const Box& window, std::vector<LegendEntry>& legend) {
   std::vector<LegendEntry> names;
   for (std::size_t i = 0; i < mesh.boundaries.size(); ++i) {
@@ -81,7 +81,7 @@ void add_boundary_names(const Mesh& mesh, const Box& window, std::vector<LegendE
   if (names.size() <= most_boundary_names) legend.insert(legend.end(), names.begin(), names.end());
 }
 
-/// Means of the cells round each node.
+/// Averages the cells around each node.
 std::vector<double> at_nodes(const Mesh& mesh, const std::vector<double>& of_cells) {
   std::vector<double> sums(mesh.points.size(), 0);
   std::vector<int> counts(mesh.points.size(), 0);
@@ -95,7 +95,7 @@ std::vector<double> at_nodes(const Mesh& mesh, const std::vector<double>& of_cel
   return sums;
 }
 
-/// A part of the velocity by node: of the variables at nodes, else of those in cells.
+/// Returns a velocity component by node, from the nodal variables, else from those in cells.
 std::vector<double> velocity_part(const LoadedMesh& loaded, const char* name) {
   const Field& solution = *loaded.solution;
   const CellValues& cells = solution.cells;
@@ -106,7 +106,7 @@ std::vector<double> velocity_part(const LoadedMesh& loaded, const char* name) {
   return solution.column(variable(all, name, "streamlines need a velocity"));
 }
 
-/// The fields that a picture shows, by node.
+/// The fields shown in a picture, by node.
 struct ShownFields {
   std::vector<double> field, x_velocity, y_velocity;
 };

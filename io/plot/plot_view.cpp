@@ -14,10 +14,10 @@ constexpr double narrowest = 420;
 constexpr double left = 106, right = 28, right_with_bar = 150, top = 24, below_axis = 64, legend_row = 27,
                  swatch = 24, gap = 26;
 constexpr double room =
-    64;  // pixels around the frame that are still drawn, so that clipped edges do not show
+    64;  // pixels around the frame that are still drawn, so that clipped edges are not visible
 constexpr Colour ink{0.2, 0.2, 0.2};
 
-/// What of a convex polygon lies where side(p) >= 0; `side` is linear.
+/// Returns the part of a convex polygon where side(p) >= 0; `side` is linear.
 template <class Side>
 std::vector<Point> cut_off(const std::vector<Point>& corners, Side side) {
   std::vector<Point> kept;
@@ -43,7 +43,7 @@ PlotView::PlotView(const Box& window, double longer_side, const std::vector<Lege
   const Point most = sheet ? *sheet : Point{longer_side, longer_side};
   const double beside = left + (has_bar ? right_with_bar : right);
   double below = below_axis + legend_row;
-  for (int pass = 0; pass < 3; ++pass) {  // the legend's rows hang on the width, the width on them
+  for (int pass = 0; pass < 3; ++pass) {  // the number of legend rows and the width depend on each other
     scale_ = std::min((most.x - beside) / window.width(), (most.y - top - below) / window.height());
     const double wide = std::max(1.0, scale_ * window.width()),
                  high = std::max(1.0, scale_ * window.height());

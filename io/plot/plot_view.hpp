@@ -17,38 +17,37 @@ struct LegendEntry {
   bool is_line = false;  ///< a boundary rather than cells
 };
 
-/// A bar beside the picture that tells what number a colour stands for.
+/// A colour bar beside the picture.
 struct ColourBar {
   std::string title;
   double low = 0, high = 1;
   ColourMap colour = nullptr;
 };
 
-/// The part of the line from a to b that lies in the box.
+/// Returns the part of the line from a to b inside the box.
 std::optional<std::array<Point, 2>> part_within(const Box& box, Point a, Point b);
 
-/// Where a window of the plane lies on a sheet whose longer side has so many pixels, legend and axes
-/// included; or on one of this width and height, which it need not fill.
+/// The position of a window of the plane on a sheet with this number of pixels along its longer side,
+/// including legend and axes; or on one of this width and height, which it need not fill.
 class PlotView {
  public:
   PlotView(const Box& window, double longer_side, const std::vector<LegendEntry>& legend, bool has_bar,
            std::optional<Point> sheet = {});
 
-  /// The window made larger in one direction, so that on a sheet of this width and height it fills what a
-  /// legend of one row leaves of it.
+  /// Returns the window enlarged in one direction such that, on a sheet of this width and height, it fills
+  /// the space left by a legend of one row.
   static Box filling(const Box& window, Point sheet, bool has_bar);
 
   const Box& window() const { return window_; }
   const Box& frame() const { return frame_; }  ///< in pixels
-  double scale() const { return scale_; }      ///< pixels for a unit of length
+  double scale() const { return scale_; }      ///< pixels per unit of length
   double width() const { return width_; }
   double height() const { return height_; }
   Point pixel(Point p) const {
     return {frame_.low.x + scale_ * (p.x - window_.low.x), frame_.high.y - scale_ * (p.y - window_.low.y)};
   }
 
-  /// The part of a cell or edge that can be seen, with some room around, so that no coordinate is too large
-  /// to draw.
+  /// Return the visible part of a cell or edge, with a margin, so that coordinates are not too large to draw.
   std::vector<Point> visible_part(std::vector<Point> corners) const;
   std::optional<std::array<Point, 2>> visible_part(Point a, Point b) const;
 

@@ -11,8 +11,8 @@ namespace quadloop {
 namespace {
 
 constexpr double line_step = 1.5;    ///< pixels along a line
-constexpr double too_close = 0.5;    ///< share of the distance at which a line ends
-constexpr double least_length = 25;  ///< pixels; shorter ones say nothing
+constexpr double too_close = 0.5;    ///< fraction of the distance at which a line ends
+constexpr double least_length = 25;  ///< pixels; shorter lines are omitted
 
 class Tracer {
  public:
@@ -24,7 +24,7 @@ class Tracer {
         across_{static_cast<int>(box_.width() / distance) + 1},
         buckets_(static_cast<std::size_t>(across_) * (static_cast<int>(box_.height() / distance) + 1)) {}
 
-  /// Lines begin in the middle, then beside those that are there, then wherever there is room left.
+  /// Lines start at the centre, then beside existing ones, then wherever there is space.
   std::vector<std::vector<Point>> trace() {
     std::vector<std::vector<Point>> lines;
     std::deque<Point> seeds{box_.centre()};
@@ -64,7 +64,7 @@ class Tracer {
     return true;
   }
 
-  /// Of length 1 on the sheet; none where there is no flow.
+  /// Returns a unit vector on the sheet; empty if there is no flow.
   std::optional<Point> direction(Point at) const {
     const Point velocity{x_velocity_.at(at), -y_velocity_.at(at)};
     const double speed = length(velocity);
@@ -72,7 +72,8 @@ class Tracer {
     return (1 / speed) * velocity;
   }
 
-  /// From the seed, without it, as far as there is room; `sense` is 1 with the flow, -1 against it.
+  /// Returns the line from the seed, excluding it, as far as there is space; `sense` is 1 along the flow, -1
+  /// against it.
   std::vector<Point> half_line(Point seed, double sense) {
     std::vector<Point> points;
     const auto most = static_cast<std::size_t>(4 * (box_.width() + box_.height()) / line_step);
@@ -84,7 +85,7 @@ class Tracer {
       if (!middle || dot(*first, *middle) < 0) break;
       at = at + sense * line_step * *middle;
       if (!box_.contains(at) || !is_free(at, too_close * distance_)) break;
-      if (points.size() > 8 && length(at - seed) < line_step) break;  // once round
+      if (points.size() > 8 && length(at - seed) < line_step) break;  // closed
       points.push_back(at);
     }
     return points;
@@ -117,7 +118,7 @@ class Tracer {
   Box box_;
   double distance_;
   int across_;
-  std::vector<std::vector<Point>> buckets_;  ///< of squares of that distance: the points of lines there
+  std::vector<std::vector<Point>> buckets_;  ///< points of lines in each square of that size
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr int most_divisions = 64;
 constexpr float none = std::numeric_limits<float>::quiet_NaN(),
                 not_finite = std::numeric_limits<float>::infinity();
 
-/// A place on a quadrilateral and the value there, bilinear.
+/// A point of a quadrilateral with its bilinear value.
 struct Sample {
   Point at;
   double value = 0;
@@ -37,7 +37,7 @@ struct Quadrilateral {
   }
 };
 
-/// Those that lie on the window's seen side do not need more pieces than the sheet has room for.
+/// Number of divisions, limited for large cells by the size of the sheet.
 int divisions(const Quadrilateral& quad, const PlotView& view) {
   double longest = 0;
   for (std::size_t k = 0; k < 4; ++k)
@@ -48,7 +48,7 @@ int divisions(const Quadrilateral& quad, const PlotView& view) {
   return std::clamp(static_cast<int>(std::ceil(std::min(longest, most) / piece_size)), 1, most_divisions);
 }
 
-/// Four triangles about the middle.
+/// Adds four triangles around the centre.
 void append_quadrilateral(const Quadrilateral& quad, int n, std::vector<LinearPiece>& pieces) {
   const double step = 1.0 / n;
   for (int i = 0; i < n; ++i) {
@@ -65,9 +65,10 @@ void append_quadrilateral(const Quadrilateral& quad, int n, std::vector<LinearPi
   }
 }
 
-/// Where 0 <= a + b x on a row. An edge along the row bounds nothing: rows beyond it are not looked at.
+/// Narrows the range to 0 <= a + b x on a row. An edge parallel to the row does not limit it: rows beyond it
+/// are not visited.
 void narrow(double a, double b, double& low, double& high) {
-  constexpr double rounding = 1e-9;  // pieces that meet leave no pixel out
+  constexpr double rounding = 1e-9;  // adjacent pieces leave no pixel out
   if (std::abs(b) < 1e-300) return;
   if (b > 0) {
     low = std::max(low, -a / b - rounding);
@@ -120,7 +121,7 @@ void ValueRaster::add(const LinearPiece& piece) {
                                      [](double value) { return std::isfinite(value); });
   for (double y = first; y <= last; ++y) {
     double low = 0, high = width_ - 1.0;
-    std::array<double, 3> at_zero{}, slope{};  // of the three shares along the row
+    std::array<double, 3> at_zero{}, slope{};  // of the three barycentric coordinates along the row
     for (std::size_t k = 0; k < 3; ++k) {
       const Point a = p[(k + 1) % 3], along = p[(k + 2) % 3] - a;
       at_zero[k] = (along.x * (y - a.y) + along.y * a.x) / twice;

@@ -12,31 +12,31 @@
 
 namespace quadloop {
 
-/// A triangle on the sheet over which a value is linear.
+/// A triangle on the sheet with a linear value.
 struct LinearPiece {
   std::array<Point, 3> corners;
   std::array<double, 3> values;
 };
 
-/// The cell as pieces on the sheet: a triangle is one; a quadrilateral, over which the value is bilinear, is
-/// divided as finely as its size on the sheet asks for. `values` are those of the mesh's nodes.
+/// Appends the cell as pieces on the sheet: a triangle is one; a quadrilateral, whose value is bilinear, is
+/// divided as finely as its size on the sheet requires. `values` are those of the mesh's nodes.
 void append_pieces(const Mesh& mesh, const PlotView& view, std::size_t cell,
                    const std::vector<double>& values, std::vector<LinearPiece>& pieces);
 
 /// Values at the pixels of a part of a sheet.
 class ValueRaster {
  public:
-  /// Over at least `frame`, whole pixels of which `resolution` make up one of the sheet.
+  /// Covers at least `frame`, in whole pixels; `resolution` is the number of pixels per unit of the sheet.
   ValueRaster(const Box& frame, double resolution);
 
-  /// What of the piece lies here: the value at each pixel's middle.
+  /// Adds the part of the piece inside this raster: the value at each pixel's centre.
   void add(const LinearPiece& piece);
 
-  /// The value at a place of the sheet, linear between the pixels' middles; not a number outside the pieces
-  /// and beside them.
+  /// Returns the value at a point of the sheet, linear between pixel centres; NaN outside the pieces and next
+  /// to their border.
   double at(Point place) const;
 
-  /// Pixels without a value are left out, values that are not finite are grey.
+  /// Pixels without a value are transparent, values that are not finite are grey.
   Image image(const ColourBar& bar) const;
 
   const Box& box() const { return box_; }
@@ -47,7 +47,7 @@ class ValueRaster {
   Box box_;
   double resolution_;
   int width_, height_;
-  std::vector<float> values_;  ///< not a number: none; infinite: one that is not finite
+  std::vector<float> values_;  ///< NaN: no value; infinity: a value that is not finite
 };
 
 }  // namespace quadloop

@@ -1,6 +1,6 @@
-// quadloop-reader: reads one file with libcgns or HDF5 and sends what it holds to the program that started it
-// (io/files/reading/separate_reader.hpp). A damaged file may crash these libraries, or make them loop or take
-// all memory: that ends this process alone, in silence.
+// quadloop-reader: reads one file with libcgns or HDF5 and sends its contents to the program that started it
+// (io/files/reading/separate_reader.hpp). A damaged file may crash these libraries, or make them loop or use
+// all memory: this ends only this process, silently.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace quadloop {
 
 namespace {
 
-/// Bytes of memory that this process may write to, as RLIMIT_DATA counts them.
+/// Returns the writable memory of this process, in bytes, as counted by RLIMIT_DATA.
 rlim_t own_data() {
   std::ifstream file("/proc/self/statm");
   std::array<rlim_t, 6> pages{};
@@ -42,38 +42,42 @@ void limit_costs(rlim_t seconds, rlim_t bytes) {
   if (const rlim_t data = own_data(); data > 0) limit(RLIMIT_DATA, data + bytes);
 }
 
-template <class Value>
-void send(PipeWriter& pipe, int status, Value value) {
+void send_error(PipeWriter& pipe, int status, std::string message) {
   pass(pipe, status);
-  pass(pipe, value);
+  pass(pipe, message);
 }
 
-void send_file(PipeWriter& pipe, const std::vector<std::string>& arguments) {
-  const std::string &kind = arguments.at(2), &path = arguments.at(3);
-  if (kind == "cgns") {
-    send(pipe, ReaderProtocol::done, read_cgns_by_library(path));
-  } else {
-    send(pipe, ReaderProtocol::done,
-         read_tree_share(path, std::stoll(arguments.at(4)), std::stoll(arguments.at(5))));
-  }
-}
-
-void answer(const std::vector<std::string>& arguments) {
+/// What `read()` gives, or its error.
+template <class Read>
+void answer(const Read& read) {
+  using Value = decltype(read());
   PipeWriter pipe(ReaderProtocol::descriptor);
-  std::uint64_t begin = ReaderProtocol::begin, end = ReaderProtocol::end;
+  std::uint64_t begin = ReaderProtocol::begin<Value>(), end = ReaderProtocol::end;
   pass(pipe, begin);
   pipe.flush();
   try {
-    send_file(pipe, arguments);
+    Value value = read();
+    int status = ReaderProtocol::done;
+    pass(pipe, status);
+    pass(pipe, value);
   } catch (const Error& error) {
-    send(pipe, static_cast<int>(error.status()), std::string(error.what()));
+    send_error(pipe, static_cast<int>(error.status()), error.what());
   } catch (const std::bad_alloc&) {
-    send(pipe, ReaderProtocol::too_much_memory, std::string());
+    send_error(pipe, ReaderProtocol::too_much_memory, "");
   } catch (const std::exception& error) {
-    send(pipe, static_cast<int>(ExitStatus::fault), std::string(error.what()));
+    send_error(pipe, static_cast<int>(ExitStatus::fault), error.what());
   }
   pass(pipe, end);
   pipe.flush();
+}
+
+void answer_to(const std::vector<std::string>& arguments) {
+  const std::string& path = arguments.at(3);
+  if (arguments.at(2) == "cgns") {
+    answer([&] { return read_cgns_by_library(path); });
+  } else {
+    answer([&] { return read_tree_share(path, std::stoll(arguments.at(4)), std::stoll(arguments.at(5))); });
+  }
 }
 
 }  // namespace
@@ -86,8 +90,8 @@ int main(int count, char** texts) {
   std::signal(SIGPIPE, SIG_IGN);
   std::atexit([] {
     ::_exit(EXIT_FAILURE);
-  });  // libcgns calls exit() where memory runs out; what libraries do at the end could crash on what they read
+  });  // libcgns calls exit() when memory runs out; exit handlers of libraries could crash on the data read
   quadloop::limit_costs(std::stoull(arguments[0]), std::stoull(arguments[1]));
-  quadloop::answer(arguments);
+  quadloop::answer_to(arguments);
   ::_exit(EXIT_SUCCESS);
 }

@@ -12,7 +12,7 @@ using Face = FileBoundary::Face;
 
 std::size_t width_of(const Face& face) { return face[3] == FileBoundary::no_node ? 3 : 4; }
 
-/// The face's nodes counter-clockwise as seen from inside the cell.
+/// Returns the face's nodes counter-clockwise as seen from inside the cell.
 std::vector<std::int32_t> seen_from_inside(const CellSide& side) {
   std::vector<std::int32_t> nodes(side.nodes.begin(), side.nodes.begin() + width_of(side.nodes));
   if (side.looks_out) std::ranges::reverse(nodes);

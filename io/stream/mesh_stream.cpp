@@ -49,7 +49,7 @@ MeshStream::MeshStream(const Communicator& comm, const LoadedMesh& whole)
     : MeshStream(comm, whole.mesh, whole.solution ? &*whole.solution : nullptr,
                  has_named_blocks(whole) ? std::optional(plane_blocks(whole)) : std::nullopt) {}
 
-/// Counts, and the boundaries of the plane.
+/// Sets the counts, and the boundaries of the plane.
 void MeshStream::take_extruded(const ExtrudedMesh& mesh) {
   extruded_ = &mesh;
   counts_.nodes = comm_.sum(mesh.point_rows());

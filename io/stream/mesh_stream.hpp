@@ -16,13 +16,13 @@
 
 namespace quadloop {
 
-/// A boundary of a mesh on its way into a file.
+/// A boundary of a mesh that is written to a file.
 struct StreamedPatch {
   std::string name;
   BoundaryCondition condition = {};
   std::int64_t edges = 0;                 ///< of a plane mesh
-  std::int64_t triangles = 0, quads = 0;  ///< of a 3D mesh
-  char axis = ' ';                        ///< the one that it is normal to: 'x', 'y', 'z', where it is known
+  std::int64_t triangles = 0, quads = 0;  ///< for a 3D mesh
+  char axis = ' ';                        ///< normal axis: 'x', 'y', 'z', if known
 
   std::int64_t faces() const { return edges + triangles + quads; }
 };
@@ -34,37 +34,37 @@ struct StreamCounts {
 
   std::int64_t of(CellKind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
   std::int64_t cells() const { return std::accumulate(of_kind.begin(), of_kind.end(), std::int64_t{0}); }
-  /// The length of the longest array: of the nodes, or of the nodes of a kind of cells.
+  /// Returns the length of the longest array: of the nodes, or of the node numbers of a kind of cells.
   std::int64_t largest_array() const;
 };
 
-/// A mesh as it passes through rank 0 into a file, in bounded pieces: a plane mesh or an extruded one, of
-/// which each rank makes its own rows, or one that the only rank holds as a file had it. Rows are this
-/// rank's, from 0. All members that say so are *collective*.
+/// A mesh that is written to a file by rank 0 in bounded pieces: a plane or extruded mesh, of which each rank
+/// creates its own rows, or one stored on the only rank as it was in a file. Rows are those of this rank,
+/// from 0. Members are *collective* where stated.
 class MeshStream {
  public:
-  /// The mesh and what belongs to it must outlive it. *Collective.*
+  /// The mesh and its data must outlive the object. *Collective.*
   MeshStream(const Communicator& comm, const ExtrudedMesh& mesh);
-  /// A plane mesh, with its solution unless that is null, and its blocks where they have names.
+  /// A plane mesh, with its solution unless that is null, and its blocks if they have names.
   MeshStream(const Communicator& comm, const Mesh& plane, const Field* solution = nullptr,
              std::optional<PlaneBlocks> blocks = {});
-  /// The same of a mesh that the only rank holds whole.
+  /// The same for a mesh that is whole on the only rank.
   MeshStream(const Communicator& comm, const LoadedMesh& whole);
-  /// A 3D mesh; `comm` has one rank.
+  /// A 3D mesh; `comm` must have one rank.
   MeshStream(const Communicator& comm, const FileMesh& mesh);
   MeshStream(const MeshStream&) = delete;
   MeshStream& operator=(const MeshStream&) = delete;
 
   const Communicator& communicator() const { return comm_; }
   bool is_plane() const { return extruded_ != nullptr && extruded_->layers() == 0; }
-  /// The one that it streams, of a plane mesh one of a single level; null for the other.
+  /// The streamed mesh (for a plane mesh, one with a single level); null for the other kind.
   const ExtrudedMesh* extruded() const { return extruded_; }
   const FileMesh* held() const { return held_; }
   const StreamCounts& counts() const { return counts_; }
-  /// Of an extruded mesh boundaries with edges in their order, the back, the front.
+  /// For an extruded mesh: boundaries with edges in their order, the back, the front.
   const std::vector<StreamedPatch>& patches() const { return patches_; }
-  /// How many patches come first that sides() streams: those of an extruded mesh but its ends, all of a plane
-  /// mesh. The others have face_rows().
+  /// Number of leading patches that sides() streams: those of an extruded mesh except its ends, all of a
+  /// plane mesh. The others have face_rows().
   std::size_t side_patches() const { return side_patches_; }
   std::vector<std::string> patch_names() const;
   std::int64_t patch_triangles() const;  ///< of all patches
@@ -96,7 +96,7 @@ class MeshStream {
     return {};
   }
 
-  /// Triangles (width 3), or quads (4), of a patch that is none of the sides.
+  /// Triangles (width 3), or quads (4), of a patch that is not a side.
   template <std::size_t width>
   std::int64_t face_rows(std::size_t patch) const {
     if (held_ != nullptr) return std::ssize(held_faces<width>(patch));
@@ -110,15 +110,15 @@ class MeshStream {
     return patch == side_patches_ ? extruded_->back_face(cell) : extruded_->front_face(cell);
   }
 
-  /// For text, in the place of sides(): the edges of a plane or extruded mesh's boundaries, null for one that
-  /// is held; on each edge of an extruded mesh one face of each layer.
+  /// For text formats, instead of sides(): the boundary edges of a plane or extruded mesh, null for a stored
+  /// mesh; each edge of an extruded mesh has one face per layer.
   const BoundaryStream* boundaries() const { return boundaries_ ? &*boundaries_ : nullptr; }
   std::int64_t layers() const { return extruded_ != nullptr ? extruded_->layers() : 0; }
   std::array<NodeNumber, 4> side(const BoundaryStream::Edge& edge, std::int64_t layer) const {
     return extruded_->side(GlobalNodeId{edge[0]}, GlobalNodeId{edge[1]}, layer);
   }
 
-  /// The solution at the nodes: names, and the value of a variable at a row's point.
+  /// The nodal solution: names, and the value of a variable at a row's point.
   const std::vector<std::string>& variables() const { return variables_; }
   double value(std::int64_t row, std::size_t variable) const {
     if (held_ != nullptr) return held_->solution->values[row * variables_.size() + variable];
@@ -136,8 +136,8 @@ class MeshStream {
     });
   }
 
-  /// The ranks' rows, an array or a number each: `make(i)` is this rank's row i, `put(span of rows)` gets
-  /// them on rank 0. *Collective.*
+  /// Streams the rows of all ranks, each an array or a number: `make(i)` creates this rank's row i, `put(span
+  /// of rows)` receives them on rank 0. *Collective.*
   template <class Make, class Put>
   void rows(std::int64_t count, const Make& make, const Put& put) const {
     using Row = decltype(make(std::int64_t{0}));
@@ -152,8 +152,8 @@ class MeshStream {
         put);
   }
 
-  /// Faces of the sides of an extruded mesh: `begin(patch)`, then pieces of its faces, made by `make(nodes)`,
-  /// go to `put`; all on rank 0. *Collective.*
+  /// Streams the side faces of an extruded mesh: calls `begin(patch)`, then `put` for pieces of its faces,
+  /// converted by `make(nodes)`, all on rank 0. *Collective.*
   template <class Begin, class Make, class Put>
   void sides(const Begin& begin, const Make& make, const Put& put) const {
     using Row = decltype(make(std::array<NodeNumber, 4>{}));
@@ -174,7 +174,7 @@ class MeshStream {
     });
   }
 
-  /// Triangles, or quads, of a patch that is none of the sides. *Collective.*
+  /// Streams the triangles, or quads, of a patch that is not a side. *Collective.*
   template <std::size_t width, class Make, class Put>
   void faces(std::size_t patch, const Make& make, const Put& put) const {
     rows(
@@ -209,20 +209,21 @@ class MeshStream {
   static constexpr std::int64_t bytes_per_piece = std::int64_t{1} << 20;
 
   const Communicator& comm_;
-  const ExtrudedMesh* extruded_ = nullptr;  ///< this or the next
+  const ExtrudedMesh* extruded_ = nullptr;  ///< either this or the next is set
   const FileMesh* held_ = nullptr;
   StreamCounts counts_;
-  std::optional<PlaneBlocks> own_blocks_;                               ///< of a plane mesh
-  std::optional<ExtrudedMesh> own_plane_;                               ///< one of a single level
-  std::optional<BoundaryStream> boundaries_;                            ///< of a plane or extruded mesh
-  std::vector<std::vector<std::int32_t>> held_triangles_, held_quads_;  ///< of each patch: which of its faces
+  std::optional<PlaneBlocks> own_blocks_;     ///< of a plane mesh
+  std::optional<ExtrudedMesh> own_plane_;     ///< with a single level
+  std::optional<BoundaryStream> boundaries_;  ///< of a plane or extruded mesh
+  /// For each patch: indices of its faces.
+  std::vector<std::vector<std::int32_t>> held_triangles_, held_quads_;
   std::vector<StreamedPatch> patches_;
   std::size_t side_patches_ = 0;
   std::vector<std::string> variables_;
-  std::vector<std::int64_t> columns_;  ///< of an extruded mesh: of each variable
+  std::vector<std::int64_t> columns_;  ///< of an extruded mesh: column of each variable
 };
 
-/// A row in another type of number, `more` added to each.
+/// Converts a row to another number type, adding `more`.
 template <class Number, std::size_t width>
 std::array<Number, width> as(const std::array<NodeNumber, width>& nodes, NodeNumber more = 0) {
   std::array<Number, width> result;

@@ -21,11 +21,11 @@ class BlockRows {
   std::int64_t operator[](std::int64_t i) const { return cells_[i / layers_] * layers_ + i % layers_; }
 
  private:
-  std::vector<std::int32_t> cells_;  ///< of the plane, or those that are held
+  std::vector<std::int32_t> cells_;  ///< of the plane, or of the stored mesh
   std::int64_t layers_;
 };
 
-/// The blocks of a mesh on its way into a file. A mesh that has none is one block, "domain".
+/// The blocks of a mesh that is written to a file. A mesh without blocks is one block, "domain".
 class StreamBlocks {
  public:
   explicit StreamBlocks(const MeshStream& stream);
@@ -36,12 +36,12 @@ class StreamBlocks {
   const std::vector<std::string>& names() const { return names_; }
   std::int32_t count() const { return static_cast<std::int32_t>(names_.size()); }
 
-  /// The block of a cell, from 0; the row is one of the stream's.
+  /// Returns the block of a cell, from 0, by its row in the stream.
   template <CellKind kind>
   std::int32_t of(std::int64_t row) const {
     return several() ? of_[static_cast<std::size_t>(kind)][row / layers_] : 0;
   }
-  /// This rank's cells of a kind in a block, in the stream's order.
+  /// Returns this rank's cells of a kind in a block, in the stream's order.
   template <CellKind kind>
   BlockRows rows(std::int32_t block) const {
     std::vector<std::int32_t> cells;
@@ -54,17 +54,17 @@ class StreamBlocks {
 
  private:
   const MeshStream& stream_;
-  std::int64_t layers_;  ///< rows that are of one block; 1 of a mesh that is held
+  std::int64_t layers_;  ///< number of rows per block entry; 1 for a stored mesh
   std::vector<std::string> names_;
-  std::array<std::vector<std::int32_t>, cell_kinds> of_;  ///< of the cells of each kind, one for so many rows
+  /// For the cells of each kind, one entry per `layers_` rows.
+  std::array<std::vector<std::int32_t>, cell_kinds> of_;
 };
 
-/// Those of a whole mesh, named; one that has no name is "block_2", ... by its number.
+/// Returns the blocks of a whole mesh; unnamed ones are named "block_2", ... by their number.
 PlaneBlocks plane_blocks(const LoadedMesh& whole);
 
-/// This rank's cells of the plane, its triangles, then its quads, numbered over all ranks from 0 so that the
-/// cells of a block follow each other: block by block, of each triangles before quads, each in their order.
-/// *Collective.*
+/// Returns global numbers, from 0, of this rank's plane cells, triangles, then quads, such that the cells of
+/// a block are contiguous: block by block, in each triangles before quads, each in their order. *Collective.*
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks);
 
 }  // namespace quadloop

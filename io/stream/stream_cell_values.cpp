@@ -56,7 +56,7 @@ BoundaryStream StreamCellValues::along_sides(std::size_t variable) const {
   return {stream_.communicator(), mesh.plane, std::move(bits)};
 }
 
-/// Patches come first among those that have a face.
+/// Among the occurrences of a face patches come first.
 void StreamCellValues::find_cells_beside() {
   std::vector<std::vector<std::int32_t>> beside;
   for (const FileBoundary& patch : held_->boundaries) beside.emplace_back(patch.faces.size(), -1);

@@ -10,18 +10,18 @@
 
 namespace quadloop {
 
-/// The solution in the cells of a mesh on its way into a file: of an extruded one each cell has the values
-/// of the plane's cell that it stands on. Rows are those of the stream. Faces of patches have the values of
-/// the cell beside them, for formats that keep cells and faces in one list.
+/// The cell values of a mesh that is written to a file: each cell of an extruded mesh has the values of the
+/// plane cell below it. Rows are those of the stream. Faces of patches have the values of the adjacent cell,
+/// for formats with cells and faces in one list.
 class StreamCellValues {
  public:
-  /// The stream must outlive it. *Collective.* Throws OutputError where a face of a patch that is held
-  /// belongs to no cell.
+  /// The stream must outlive the object. Throws OutputError if a patch face of a stored mesh belongs to no
+  /// cell. *Collective.*
   explicit StreamCellValues(const MeshStream& stream);
 
   const std::vector<std::string>& names() const { return names_; }
 
-  /// Of a cell.
+  /// Value of a cell.
   template <CellKind kind>
   double of_cell(std::int64_t row, std::size_t variable) const {
     if (held_ != nullptr)
@@ -30,7 +30,7 @@ class StreamCellValues {
     return of_plane(row / layers_ + (is_quad ? plane_triangles() : 0), variable);
   }
 
-  /// Of a triangle (width 3), or a quad (4), of a patch that is none of the sides.
+  /// Value of a triangle (width 3), or a quad (4), of a patch that is not a side.
   template <std::size_t width>
   double of_face(std::size_t patch, std::int64_t row, std::size_t variable) const {
     if (held_ != nullptr) {
@@ -40,7 +40,7 @@ class StreamCellValues {
     return of_plane(row + (width == 4 ? plane_triangles() : 0), variable);
   }
 
-  /// Those at the faces of the sides, in the stream's order: pieces of them go to `put` on rank 0.
+  /// Streams the values at the side faces, in the stream's order: `put` receives pieces of them on rank 0.
   /// *Collective.*
   template <class Put>
   void sides(std::size_t variable, const Put& put) const {
@@ -56,7 +56,7 @@ class StreamCellValues {
   }
 
  private:
-  /// Among all cells that are held, kind after kind.
+  /// Returns the row among all stored cells, kind after kind.
   template <CellKind kind>
   std::int64_t held_row(std::int64_t row) const {
     for_each_kind([&]<CellKind before>() {
@@ -66,17 +66,18 @@ class StreamCellValues {
   }
   std::int64_t plane_triangles() const { return std::ssize(stream_.extruded()->plane.triangles); }
   double of_plane(std::int64_t cell, std::size_t variable) const;
-  /// The plane's boundary edges, in the place of their nodes the bits of the value beside them.
+  /// The plane's boundary edges; instead of node numbers each has the bits of the adjacent cell's value.
   BoundaryStream along_sides(std::size_t variable) const;
   void find_cells_beside();
 
   const MeshStream& stream_;
   const FileMesh* held_;
-  std::int64_t layers_;  ///< rows on each cell of the plane
+  std::int64_t layers_;  ///< rows per cell of the plane
   std::vector<std::string> names_;
-  std::vector<std::int64_t> columns_;  ///< of an extruded mesh: of each variable
-  std::vector<double> at_edges_;       ///< and rows of the plane's columns at its boundary edges
-  std::vector<std::vector<std::int32_t>> of_triangles_, of_quads_;  ///< of a held mesh: cells beside patches
+  std::vector<std::int64_t> columns_;  ///< of an extruded mesh: column of each variable
+  std::vector<double> at_edges_;       ///< plane columns at its boundary edges, row by row
+  /// Of a stored mesh: cells adjacent to patch faces.
+  std::vector<std::vector<std::int32_t>> of_triangles_, of_quads_;
 };
 
 }  // namespace quadloop

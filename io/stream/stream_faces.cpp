@@ -80,7 +80,7 @@ void StreamFaces::require_conforming(const std::string& path) const {
       "mesh has others (`quadloop check` says where)");
 }
 
-/// Block by block, of each kind after kind.
+/// Numbers cells block by block, in each kind after kind.
 void StreamFaces::number_by_block() {
   if (!held_) {
     numbers_ = numbers_by_block(stream_.communicator(), *stream_.extruded()->blocks);
@@ -94,7 +94,7 @@ void StreamFaces::number_by_block() {
   for (const std::int32_t block : block_of) numbers_.push_back(next[block]++);
 }
 
-/// Of the cells beside boundaries too.
+/// Also renumbers the cells adjacent to boundaries.
 void StreamFaces::renumber_across() {
   const Communicator& comm = stream_.communicator();
   const auto has_cell = [](std::int64_t cell) { return cell != EdgeCells::none; };
@@ -112,8 +112,8 @@ void StreamFaces::renumber_across() {
   }
 }
 
-/// The boundary edges of the plane: in the place of their two nodes both in one number, and the cells to
-/// their left and right, that from 1.
+/// The boundary edges of the plane; instead of two node numbers each has both nodes packed in one number, and
+/// the cells on its left and right (the latter from 1) in the other.
 BoundaryStream StreamFaces::sides() const {
   const Mesh& plane = stream_.extruded()->plane;
   std::vector<BoundaryStream::Edge> edges;

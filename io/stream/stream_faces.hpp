@@ -17,29 +17,30 @@
 
 namespace quadloop {
 
-/// The faces of a mesh on its way into a file, for formats of faces, with the cells on their two sides: the
-/// edges of a plane mesh, faces of three or four nodes of a 3D mesh. A face inside stands with its cell of
-/// the lower number; those of one cell of a 3D mesh by their other cell (OpenFOAM's upper-triangular order).
-/// Nodes are counter-clockwise as seen from outside the first cell; an edge has it to its left. Cells and
-/// nodes are counted from 0 over all ranks.
+/// The faces of a mesh that is written to a file, for face-based formats, with the cells on both sides: edges
+/// of a plane mesh, faces of three or four nodes of a 3D mesh. An inner face is listed with its cell of lower
+/// number; those of one cell of a 3D mesh are ordered by their other cell (OpenFOAM's upper-triangular
+/// order). Nodes are counter-clockwise as seen from outside the first cell; an edge has it on its left. Cells
+/// and nodes are numbered from 0 over all ranks.
 class StreamFaces {
  public:
   static constexpr std::int64_t no_cell = -1;
 
-  /// How the file numbers cells: as the stream does, or those of a block one after another.
+  /// Numbering of cells in the file: as in the stream, or with the cells of a block contiguous.
   enum class CellNumbers { as_streamed, by_block };
 
-  /// The stream must outlive it. *Collective.* Throws OutputError, with `path`, unless each face lies between
-  /// two cells or belongs to one cell and one patch. In a plane mesh with blocks a face of a patch may lie
-  /// between two cells; such a mesh is whole on one rank.
+  /// The stream must outlive the object. Throws OutputError, with `path`, unless each face is between two
+  /// cells or belongs to one cell and one patch. In a plane mesh with blocks a face of a patch may be between
+  /// two cells; such a mesh is whole on one rank. *Collective.*
   StreamFaces(const MeshStream& stream, CellNumbers numbers, const std::string& path);
 
   std::int64_t internal() const { return internal_; }
   std::int64_t all() const;
-  /// Whether the faces of a patch lie between cells.
+  /// Whether the faces of a patch are between cells.
   bool is_interface(std::size_t patch) const;
 
-  /// Those inside: `put(text, nodes, owner, neighbour)` puts at most `width` numbers for one. *Collective.*
+  /// Writes the inner faces: `put(text, nodes, owner, neighbour)` writes at most `width` numbers for one.
+  /// *Collective.*
   template <class Put>
   void write_internal(TextOutput& file, std::size_t width, const Put& put) const {
     if (held_) {
@@ -57,8 +58,8 @@ class StreamFaces {
     }
   }
 
-  /// Those of the patches that have any: `head(patch)` is the text before, which counts on rank 0;
-  /// `put(text, patch, nodes, owner, neighbour)`, with no_cell but for an interface. *Collective.*
+  /// Writes the faces of non-empty patches: `head(patch)` is the text before them, used on rank 0; `put(text,
+  /// patch, nodes, owner, neighbour)` has neighbour no_cell except for an interface. *Collective.*
   template <class Head, class Put>
   void write_patches(TextOutput& file, std::size_t width, const Head& head, const Put& put) const {
     if (stream_.boundaries() != nullptr) write_sides(file, width, head, put);
@@ -70,12 +71,11 @@ class StreamFaces {
   }
 
  private:
-  /// Two numbers below 2^31 as one.
+  /// Packs two numbers below 2^31 into one.
   static std::int64_t packed(std::int64_t first, std::int64_t second) { return first << 32 | second; }
   static std::array<std::int64_t, 2> unpacked(std::int64_t both) { return {both >> 32, both & 0xffffffff}; }
 
-  /// Cells of the plane by the edges of which they have one: the neighbours with higher numbers, each with
-  /// the place of the edge in the cell.
+  /// The neighbours with higher numbers of a plane cell, each with the local number of the common edge.
   struct HigherNeighbours {
     struct Entry {
       std::int64_t cell;
@@ -106,7 +106,8 @@ class StreamFaces {
     return found;
   }
 
-  /// Of the cells of the plane with so many corners; `before` of this rank's others come before them.
+  /// Writes the inner faces of the plane cells with this number of corners; `before` of this rank's cells
+  /// precede them.
   template <std::size_t corners, class Put>
   void write_internal_of(TextOutput& file, std::size_t width,
                          const std::vector<std::array<NodeId, corners>>& plane_cells, std::int64_t before,
@@ -183,14 +184,14 @@ class StreamFaces {
     is_triangle(face) ? use(std::array{face[0], face[1], face[2]}) : use(face);
   }
 
-  /// Cells, or faces of the side, that stand on a cell, or on an edge, of the plane.
+  /// Number of cells, or side faces, on a cell, or edge, of the plane.
   std::int64_t rows_on_cell() const { return stream_.is_plane() ? 1 : stream_.layers(); }
-  /// The number in the file of a cell that is held, or of one of this rank's cells of the plane.
+  /// Returns the number in the file of a stored cell, or of one of this rank's plane cells.
   std::int64_t number(std::int64_t cell) const {
     if (!numbers_.empty()) return numbers_[cell];
     return held_ ? cell : own_number(cell);
   }
-  /// That of the stream, of this rank's cell of the plane.
+  /// Returns the number in the stream of one of this rank's plane cells.
   std::int64_t own_number(std::int64_t cell) const {
     const std::int64_t triangles = std::ssize(stream_.extruded()->plane.triangles);
     return cell < triangles ? cells_.first_triangle + cell : cells_.first_quad + cell - triangles;
@@ -209,17 +210,17 @@ class StreamFaces {
   BoundaryStream sides() const;
 
   const MeshStream& stream_;
-  std::optional<HeldFaces> held_;  ///< this, or what follows but for the numbers
+  std::optional<HeldFaces> held_;  ///< either this or the following members, except for the numbers
   EdgeCells cells_;
-  std::vector<std::int64_t> right_of_boundary_;              ///< of interfaces alone; may be empty
+  std::vector<std::int64_t> right_of_boundary_;              ///< interfaces only; may be empty
   std::set<std::pair<std::int32_t, std::int32_t>> between_;  ///< edges of interfaces
-  std::vector<std::int64_t> numbers_;                        ///< of this rank's cells; empty: the stream's
-  std::vector<std::int64_t> across_numbers_;  ///< at each edge of this rank's cells; empty: the stream's
+  std::vector<std::int64_t> numbers_;         ///< of this rank's cells; empty: as in the stream
+  std::vector<std::int64_t> across_numbers_;  ///< at each edge of this rank's cells; empty: as in the stream
   std::int64_t internal_ = 0;
 };
 
-/// The cell to the right of each boundary edge of this rank, boundary after boundary; EdgeCells::none where
-/// there is none. *Collective.*
+/// Returns the cell on the right of each boundary edge of this rank, boundary after boundary; EdgeCells::none
+/// if there is none. *Collective.*
 std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

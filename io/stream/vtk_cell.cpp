@@ -25,7 +25,7 @@ const char* vtk_first_order_name(std::int64_t type) {
   }
 }
 
-/// What a cell of higher order is when its edges are straight.
+/// Returns the linear cell type of a higher-order one.
 std::int64_t straight_type(std::int64_t type) {
   switch (type) {
     case 21:

@@ -8,7 +8,7 @@
 
 namespace quadloop {
 
-/// The numbers by which VTK names kinds of cells.
+/// VTK's numbers of cell types.
 enum VtkCell : std::uint8_t {
   vtk_vertex = 1,
   vtk_poly_vertex = 2,
@@ -33,22 +33,22 @@ inline constexpr VtkCell vtk_type_of = kind == CellKind::triangle      ? vtk_tri
                                        : kind == CellKind::prism       ? vtk_wedge
                                                                        : vtk_hexahedron;
 
-/// The nodes of a prism in VTK's order, which SU2 shares, from the order of FileMesh (that of CGNS), and
-/// back: the first triangle of a VTK wedge looks outwards (documentation of vtkWedge).
+/// Converts the nodes of a prism from the order of FileMesh (CGNS) to that of VTK and SU2, and back: the
+/// normal of the first triangle of a VTK wedge points outwards (documentation of vtkWedge).
 template <class Node>
 std::array<Node, 6> vtk_wedge_order(const std::array<Node, 6>& n) {
   return {n[0], n[2], n[1], n[3], n[5], n[4]};
 }
 
-/// The nodes of any cell in VTK's order.
+/// Returns the nodes of any cell in VTK's order.
 template <class Node, std::size_t width>
 std::array<Node, width> in_vtk_order(const std::array<Node, width>& nodes) {
   if constexpr (width == 6) return vtk_wedge_order(nodes);
   return nodes;
 }
 
-/// "12 (hexahedron)"; of cells of higher order "22 (triangle of second order)", and "205 (triangle of order
-/// 3)" in the numbers that SU2 has for those.
+/// Returns "12 (hexahedron)"; for higher-order cells "22 (triangle of second order)", and "205 (triangle of
+/// order 3)" for SU2's numbers of those.
 std::string vtk_cell_name(std::int64_t type);
 
 }  // namespace quadloop

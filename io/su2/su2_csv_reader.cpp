@@ -37,7 +37,7 @@ class Su2CsvReader {
   }
 
  private:
-  /// Passes over empty lines.
+  /// Skips empty lines.
   bool next_line() {
     const std::string_view text = scan_.text();
     while (next_ < text.size()) {
@@ -123,7 +123,7 @@ class Su2CsvReader {
                       fmt::format("z is {}, before {}; a mesh lies in a plane z = constant", z, *plane_));
   }
 
-  /// Each row to the place that its PointID tells.
+  /// Moves each row to the position given by its PointID.
   void sort_rows() {
     const std::size_t rows = loaded_.nodes, width = variables_.size();
     std::vector<std::size_t> row_of(rows, rows);

@@ -96,7 +96,7 @@ class Su2DatReader {
   }
 
   std::string bytes_;
-  bool turned_ = false;  ///< the file's bytes stand in the other order
+  bool turned_ = false;  ///< the file has the other byte order
   std::size_t columns_ = 0;
   std::size_t x_ = std::numeric_limits<std::size_t>::max(), y_ = x_;
   std::vector<std::size_t> variables_;  ///< their columns

@@ -34,12 +34,12 @@ class Su2Reader {
 
   LoadedMesh read_plane() {
     LoadedMesh loaded = plane_mesh(std::move(mesh_), text_.scan());
-    // The configuration alone says which sides are periodic.
+    // Periodic sides are specified only in the configuration.
     loaded.periodic_nodes = nodes_of_matching_sides(loaded.mesh);
     return loaded;
   }
 
-  /// Zones keep their own nodes, also where they touch; markers of one name are one boundary.
+  /// Zones keep their own nodes, even where they touch; markers of the same name form one boundary.
   void read_zone(const std::string& block) {
     if (text_.dimension() != mesh_.dimension)
       text_.scan().refuse("a zone of other dimensions than the first");

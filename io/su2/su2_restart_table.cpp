@@ -12,13 +12,13 @@ namespace {
 constexpr std::array<const char*, 4> conservative{"Density", "Momentum_x", "Momentum_y", "Energy"};
 constexpr std::array<const char*, 4> primitive{"density", "x_velocity", "y_velocity", "pressure"};
 
-/// As SU2's incompressible solvers leave their own variables: they restart from these, in this order.
+/// Whether these are the variables of SU2's incompressible solvers, which restart from them in this order.
 bool is_incompressible(std::span<const std::string> variables) {
   constexpr std::array<const char*, 3> first{"Pressure", "Velocity_x", "Velocity_y"};
   return variables.size() >= first.size() && std::equal(first.begin(), first.end(), variables.begin());
 }
 
-/// A name that is read back as that of a variable: no comma or quote, no number, no coordinate.
+/// Returns a name that is read back as a variable: no comma or quote, no number, no coordinate.
 std::string column_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == ',' || c == '"'; }, '_');
@@ -49,7 +49,7 @@ Su2RestartTable::Su2RestartTable(std::span<const std::string> variables, double 
     names_.push_back(distinct(column_name(variables[as_they_are_[i]])));
 }
 
-/// Where each of the wanted variables stands; nothing unless all are there, each once.
+/// Returns the columns of the wanted variables; empty unless each occurs exactly once.
 std::optional<Su2RestartTable::Columns> Su2RestartTable::columns_of(
     std::span<const std::string> names, const std::array<const char*, 4>& wanted) {
   Columns columns{};

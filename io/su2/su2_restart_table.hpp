@@ -9,16 +9,16 @@
 
 namespace quadloop {
 
-/// The columns of SU2's restart files behind the coordinates: its four conservative variables in front, where
-/// a solution has them or density, velocity and pressure from which they follow, then all other variables as
-/// they are. A solution of SU2's incompressible solvers, which begins with Pressure, Velocity_x, Velocity_y,
-/// stays as it is.
+/// The columns of SU2's restart files after the coordinates: first its four conservative variables, if the
+/// solution has them or density, velocity and pressure from which they follow, then all other variables
+/// unchanged. A solution of SU2's incompressible solvers, which begins with Pressure, Velocity_x, Velocity_y,
+/// is unchanged.
 class Su2RestartTable {
  public:
   /// `gamma` is the ratio of specific heats.
   Su2RestartTable(std::span<const std::string> variables, double gamma);
 
-  /// Each is read back as a variable's name: no comma or quote, no number, no coordinate, no two the same.
+  /// Each name is read back as a variable: no comma or quote, no number, no coordinate, no duplicates.
   const std::vector<std::string>& names() const { return names_; }
 
   /// Calls `put(value)` for each column, from a row of the solution.
@@ -39,7 +39,7 @@ class Su2RestartTable {
   std::array<double, 4> conserved(std::span<const double> row) const;
 
   double gamma_;
-  std::optional<Columns> made_from_;  ///< where the first four columns are computed: from these
+  std::optional<Columns> made_from_;  ///< if the first four columns are computed: from these
   std::vector<std::size_t> as_they_are_;
   std::vector<std::string> names_;
 };

@@ -21,7 +21,7 @@ Su2Text::Su2Text(const std::string& path) : scan_{path, '%'} {
   find_zones();
 }
 
-/// The keys may stand in any order, so that their lines are found first: those where a "=" follows.
+/// Keys may be in any order, so their lines are found first: those where "=" follows.
 void Su2Text::find_keys() {
   const std::string_view text = scan_.text();
   std::size_t line_end = 0;
@@ -37,7 +37,7 @@ void Su2Text::find_keys() {
   check_rows_end_before(0);
 }
 
-/// Each begins with its IZONE, what stands before the first is the head; a file without is one zone.
+/// Each zone begins with its IZONE, after the header; a file without is one zone.
 void Su2Text::find_zones() {
   for (std::size_t key = 0; key < keys_.size(); ++key) {
     if (keys_[key].key == "IZONE") zone_begins_.push_back(key);
@@ -123,7 +123,7 @@ void Su2Text::read_points(std::size_t dimension, const std::function<void(std::s
   check_rows_end_before(key + 1);
 }
 
-/// SU2 takes the first numbers of the row. Behind them usually stands the point's number.
+/// SU2 takes the first numbers of the row; usually the point's number follows.
 void Su2Text::pass_over_rest_of_point() {
   if (scan_.at_line_end()) return;
   const std::string_view rest = scan_.rest_of_line();
@@ -131,7 +131,7 @@ void Su2Text::pass_over_rest_of_point() {
   if (odd_rows_++ == 0) first_odd_row_ = scan_.place();
 }
 
-/// A row is one line: a number that is missing is not taken from the next.
+/// A row is one line: a missing number is not taken from the next line.
 void Su2Text::expect_in_row(const std::string& expected) {
   if (!scan_.at_line_end()) return;
   scan_.refuse((scan_.at_end() ? "the file ends where " : "this line ends where ") + expected +
@@ -161,7 +161,7 @@ void Su2Text::check_rows_end_before(std::size_t next) {
                "\"; a row too many, or a count too small");
 }
 
-/// MARKER_ELEMS belongs to the MARKER_TAG before it.
+/// MARKER_ELEMS belongs to the preceding MARKER_TAG.
 void Su2Text::read_markers(const std::function<void(std::size_t, const std::string&)>& read) {
   std::size_t tags = 0;
   std::string name;

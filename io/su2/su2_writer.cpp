@@ -23,7 +23,7 @@ class Su2Writer {
   }
 
  private:
-  /// Rows of a plane mesh end with their numbers over all ranks; `number` is that of the row.
+  /// Rows of a plane mesh end with their global number `number`.
   void end_row(TextRows& text, std::int64_t number) const {
     if (stream_.is_plane()) {
       text.mark(' ');
@@ -59,7 +59,7 @@ class Su2Writer {
     });
   }
 
-  /// Its type and nodes, without an end of the row.
+  /// Writes type and nodes, without a line end.
   template <std::size_t width>
   static void put_element(TextRows& text, int type, const std::array<NodeNumber, width>& nodes) {
     text.put(type);
@@ -87,7 +87,7 @@ class Su2Writer {
     }
   }
 
-  /// A line of a plane mesh, or a quad of each layer.
+  /// A line of a plane mesh, or a quad per layer.
   void put_sides(TextRows& text, const BoundaryStream::Edge& edge) const {
     if (stream_.is_plane()) {
       put_element(text, vtk_line, edge);
@@ -109,7 +109,7 @@ class Su2Writer {
 
   const MeshStream& stream_;
   TextOutput file_;
-  std::int64_t written_ = 0;  ///< cells, over all ranks
+  std::int64_t written_ = 0;  ///< number of cells, over all ranks
 };
 
 }  // namespace

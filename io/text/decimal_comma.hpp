@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// "0,5: a decimal comma; write 0.5" where the word is a number written so; else empty.
+/// Returns "0,5: a decimal comma; write 0.5" if the word is such a number; else an empty string.
 std::string decimal_comma_in(std::string_view word);
 
 }  // namespace quadloop

@@ -10,11 +10,11 @@
 
 namespace quadloop {
 
-/// Numbers names in the order in which they come, and finds them again in constant time: a file may name
+/// Numbers names in the order of their first occurrence and finds them in constant time: a file may have
 /// hundreds of thousands of boundaries.
 class NameIndex {
  public:
-  /// The name's number; `is_new` where it is asked for the first time.
+  /// The name's number; `is_new`: first occurrence.
   struct Entry {
     std::int32_t number;
     bool is_new;
@@ -28,8 +28,7 @@ class NameIndex {
   std::unordered_map<std::string, std::int32_t> numbers_;
 };
 
-/// Gives each name that is asked for a form that no other has: the wanted one, or with the first free suffix
-/// _2, _3, ...
+/// Makes names distinct: returns the wanted name, or that with the first free suffix _2, _3, ...
 class DistinctNames {
  public:
   void reserve(const std::string& name) { used_.insert(name); }
@@ -39,8 +38,7 @@ class DistinctNames {
   std::string name(const std::string& wanted, const WithSuffix& with_suffix) {
     std::string result = wanted;
     if (used_.contains(result)) {
-      std::int64_t& number =
-          next_suffix_.try_emplace(wanted, 2).first->second;  // those below are taken for good
+      std::int64_t& number = next_suffix_.try_emplace(wanted, 2).first->second;  // lower numbers are used up
       while (used_.contains(result = with_suffix(suffix_of(number)))) ++number;
     }
     used_.insert(result);

@@ -5,9 +5,9 @@
 
 namespace quadloop {
 
-/// Names of letters, digits and "_-.+" alone, as readers of text want them, all different: any other sign
-/// becomes "_", an empty name too, and names that are then the same get a number. Bytes above ASCII, parts of
-/// letters in UTF-8, stay. The same names always give the same answer.
+/// Returns distinct names of letters, digits and "_-.+" only, for readers of text formats: any other
+/// character, or an empty name, becomes "_", and duplicates get a number. Non-ASCII bytes (parts of UTF-8
+/// letters) are kept. Deterministic.
 std::vector<std::string> plain_names(const std::vector<std::string>& names);
 
 /// The same, each beginning with a letter or "_", for files in which a name must not look like a number.

@@ -14,12 +14,11 @@
 
 namespace quadloop {
 
-/// Grows a text number by number into room that was made once. Numbers are the shortest that read back as
-/// they are.
+/// Appends numbers to a text in preallocated memory. Numbers are the shortest that read back bitwise.
 class TextRows {
  public:
   static constexpr std::size_t longest_number =
-      25;  // with the blank or line end after it: -1.7976931348623157e+308
+      25;  // including a blank or line end: -1.7976931348623157e+308
 
   TextRows(std::int64_t rows, std::size_t width) : text_(rows * width * longest_number) {}
 
@@ -39,8 +38,7 @@ class TextRows {
     *end = after;
     used_ += end - begin + 1;
   }
-  /// One sign, as after a number that was put without one; rows must have asked for enough numbers that there
-  /// is room for it.
+  /// Appends one character, e.g. after a number without one; the reserved numbers must leave space for it.
   void mark(char sign) { text_[used_++] = sign; }
   std::vector<char> take() {
     text_.resize(used_);
@@ -52,21 +50,21 @@ class TextRows {
   std::size_t used_ = 0;
 };
 
-/// A text file that all ranks write together, through rank 0; the file under way exists there alone.
-/// *Collective*, all of it.
+/// A text file that all ranks write together, through rank 0, where it is stored until committed. All
+/// functions are *collective*.
 class TextOutput {
  public:
   TextOutput(OutputSet& outputs, const std::string& path);
-  /// A file that is staged already.
+  /// For a file that is already staged.
   TextOutput(const Communicator& comm, const StagedFile& staged);
 
   const Communicator& communicator() const { return comm_; }
 
-  /// Rank 0's text.
+  /// Writes rank 0's text.
   void write(const std::string& text);
 
-  /// The ranks' rows in the order of ranks, in bounded pieces: `put(text, i)` puts at most `width` numbers
-  /// for this rank's row i.
+  /// Writes the rows of all ranks in the order of ranks, in bounded pieces: `put(text, i)` appends at most
+  /// `width` numbers for this rank's row i.
   template <class Put>
   void write_rows(std::int64_t rows, std::size_t width, const Put& put) {
     const RowStream stream{comm_, rows, rows_per_piece(width)};
@@ -81,20 +79,20 @@ class TextOutput {
         });
   }
 
-  /// Rows that rank 0 alone makes.
+  /// Writes rows from rank 0 only.
   template <class Put>
   void write_root_rows(std::int64_t rows, std::size_t width, const Put& put) {
     write_rows(comm_.is_root() ? rows : 0, width, put);
   }
 
-  /// The edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n, edge)`
-  /// puts at most `width` numbers for one.
+  /// Writes the edges of all boundaries: `head(n)` is the text before those of present()[n], `put(text, n,
+  /// edge)` appends at most `width` numbers for one.
   template <class Head, class Put>
   void write_boundaries(const BoundaryStream& boundaries, std::size_t width, const Head& head,
                         const Put& put) {
     const std::int64_t most = rows_per_piece(width);
     std::size_t under_way = 0;
-    std::string waiting;  // boundaries of a few edges each would be as many small writes
+    std::string waiting;  // combines the writes of boundaries with few edges
     boundaries.run(
         [&](std::size_t n) {
           under_way = n;

@@ -18,7 +18,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t longest_quote = 40;  // of a wrong token, in a message
+constexpr std::size_t longest_quote = 40;  // of an invalid token, in a message
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
@@ -27,7 +27,7 @@ const char* end_of_line(const char* at, const char* end) {
   return found == nullptr ? end : static_cast<const char*>(found);
 }
 
-/// Fortran writes 1.0D-03; the text is changed in a copy, of this one token.
+/// Converts a Fortran exponent (1.0D-03) in a copy of this token.
 std::string with_c_exponent(std::string_view token) {
   std::string copy(token);
   for (char& c : copy) {
@@ -36,13 +36,13 @@ std::string with_c_exponent(std::string_view token) {
   return copy;
 }
 
-/// What strtod() makes of a number that no double holds, whatever the locale.
+/// Result of strtod() for a number outside the range of doubles, in any locale.
 double nearest_double(const std::string& number) {
   static const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);
   return strtod_l(number.c_str(), nullptr, c_locale);
 }
 
-/// from_chars, but values that underflow are taken as the nearest number, as other programs do.
+/// As from_chars, but values that underflow are rounded, as in other programs.
 bool parse_c_real(std::string_view token, double& value) {
   if (token.starts_with("+-")) return false;
   if (token.starts_with('+')) token.remove_prefix(1);

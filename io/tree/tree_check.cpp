@@ -22,7 +22,7 @@ std::string text_of(const LeafRecord& leaf) {
 
 std::int64_t edge_of(const LeafRecord& leaf) { return std::int64_t{tree_lattice_edge} >> leaf.level; }
 
-/// What is wrong with a leaf by itself, with gaps for its numbers; null where nothing is.
+/// Returns an error of a single leaf, as a format string; null if there is none.
 const char* fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
   const auto within = [](auto value, auto low, auto high) { return value >= low && value <= high; };
   if (!within(leaf.tree_x, 0, attributes.trees_x - 1) || !within(leaf.tree_y, 0, attributes.trees_y - 1))
@@ -47,7 +47,7 @@ std::string text_of(const char* fault, const LeafRecord& leaf) {
          fmt::format(fmt::runtime(fault), fmt::arg("wanted", leaf.wanted), fmt::arg("adapted", leaf.adapted));
 }
 
-/// Along the curve within a tree: bits of y and x in turn.
+/// Returns the position on the curve within a tree: interleaved bits of y and x.
 std::int64_t curve_key(const LeafRecord& leaf) {
   return static_cast<std::int64_t>(
       morton_key(static_cast<std::uint32_t>(leaf.x), static_cast<std::uint32_t>(leaf.y)));
@@ -82,7 +82,7 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
   if (!std::isfinite(root_x) || !std::isfinite(root_y))
     refuse(fmt::format("its root lies at ({}, {})", root_x, root_y));
   if (!(tree_edge > 0) || !std::isfinite(tree_edge)) refuse(fmt::format("its tree edge is {}", tree_edge));
-  const auto are_near = [](double a, double b, double side) {  // but for rounding
+  const auto are_near = [](double a, double b, double side) {  // up to rounding
     return std::abs(a - b) <= 1e-9 * side + 1e-15 * (std::abs(a) + std::abs(b));
   };
   const Point end = Point{root_x, root_y} + Point{trees_x * tree_edge, trees_y * tree_edge};
@@ -113,7 +113,8 @@ void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
                         const std::optional<LeafRecord>& before, const std::string& path) {
   std::int64_t begun = 0, ended = 0, triangles = 0, quads = 0;
   comm.together([&] {
-    if (before && fault_of(*before, tree.attributes) != nullptr) return;  // the rank that has it says so
+    // reported by the rank that has the leaf
+    if (before && fault_of(*before, tree.attributes) != nullptr) return;
     std::optional<LeafRecord> last = before;
     for (const LeafRecord& leaf : tree.leaves) {
       if (const char* const fault = fault_of(leaf, tree.attributes); fault != nullptr)

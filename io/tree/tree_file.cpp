@@ -18,10 +18,10 @@ namespace quadloop {
 
 namespace {
 
-/// How many leaves are turned into columns at a time.
+/// Number of leaves converted to columns at a time.
 constexpr std::int64_t rows_per_piece = std::int64_t{1} << 15;
 
-/// The file but for its leaves, whose places it keeps: HDF5 writes it on rank 0.
+/// The file without its leaves, for which only space is reserved: HDF5 writes it on rank 0.
 class TreeFrame {
  public:
   TreeFrame(const StagedFile& staged, std::int64_t leaves) : shown_{staged.path}, rows_{leaves} {
@@ -35,7 +35,7 @@ class TreeFrame {
     for_each_tree_dataset([&](const char* name, const auto& members) { create_dataset(name, members); });
   }
 
-  /// Where in the file each dataset begins, in their order.
+  /// Offsets of the datasets in the file, in their order.
   const std::vector<std::int64_t>& places() const { return places_; }
 
   void put_attributes(TreeAttributes attributes) {
@@ -64,7 +64,7 @@ class TreeFrame {
   void close() { check(file_.close() >= 0); }
 
  private:
-  /// What failed stays as it is: HDF5 may crash on a file that it could not write.
+  /// After a failure the file is not touched: HDF5 may crash on a file that it could not write.
   void check(bool good) {
     if (good) return;
     file_.abandon();
@@ -72,7 +72,7 @@ class TreeFrame {
     throw OutputError(shown_ + ": cannot be written; is the disk full?");
   }
 
-  /// One run of bytes, which has its place at once and is not filled.
+  /// Contiguous, allocated immediately and not filled.
   template <class Value, std::size_t width>
   void create_dataset(const char* name, const std::array<Value LeafRecord::*, width>&) {
     const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows_), width};
@@ -113,13 +113,13 @@ class TreeFrame {
   std::vector<std::int64_t> places_;
 };
 
-/// The file's leaves, each rank's written by itself.
+/// The file's leaves, which each rank writes itself.
 class LeafColumns {
  public:
   LeafColumns(SharedOutput& file, std::vector<std::int64_t> places)
       : file_{file}, places_{std::move(places)} {}
 
-  /// `first`: the place of the first of them among all leaves.
+  /// `first`: global index of the first of them.
   void write(std::int64_t first, std::span<const LeafRecord> leaves) {
     auto place = places_.begin();
     for_each_tree_dataset(
@@ -144,7 +144,7 @@ class LeafColumns {
   std::vector<std::int64_t> places_;
 };
 
-/// Writes all but the leaves and tells every rank where these belong. *Collective.*
+/// Writes everything except the leaves; returns the offsets of the datasets on every rank. *Collective.*
 std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord& tree,
                                       const StagedFile& staged, std::int64_t leaves) {
   std::vector<std::int64_t> places;

@@ -8,21 +8,21 @@
 
 namespace quadloop {
 
-/// What the names of such files end in.
+/// Suffix of tree files.
 inline constexpr const char* tree_suffix = ".tree.h5";
 
-/// Writes the tree as HDF5 into the set: the attributes of TreeAttributes on the root group, and the leaves
-/// along the curve as the datasets tree (n x 2), x, y, level, wanted, mark, triangles, quads,
-/// adapted. The bytes depend on the record alone: not on the number of ranks, not on the time. *Collective.*
-/// Throws OutputError on all ranks.
+/// Writes the tree as HDF5 into the set: TreeAttributes as attributes of the root group, and the leaves along
+/// the curve as the datasets tree (n x 2), x, y, level, wanted, mark, triangles, quads, adapted. The bytes
+/// depend only on the record, not on the number of ranks or the time. Throws OutputError on all ranks.
+/// *Collective.*
 void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& path);
 
-/// The same as an output of its own, in place when the function returns. *Collective.*
+/// The same as a separate output, in place when the function returns. *Collective.*
 void write_tree(const Communicator& comm, const TreeRecord& tree, const std::string& path);
 
-/// Reads a tree file; rank r gets the r-th of comm.size() equal shares of the leaves, along the curve.
-/// *Collective*: every rank opens the file. Throws InputError on all ranks where it is no tree file of ours,
-/// or one that was cut short.
+/// Reads a tree file; rank r gets the r-th of comm.size() equal parts of the leaves, along the curve. Every
+/// rank opens the file. Throws InputError on all ranks if it is not a tree file of this program, or is
+/// truncated. *Collective.*
 TreeRecord read_tree(const Communicator& comm, const std::string& path);
 
 }  // namespace quadloop

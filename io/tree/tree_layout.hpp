@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// What a saved tree says of itself.
+/// Format name and version in a saved tree.
 inline constexpr const char* tree_format_name = "quadloop tree";
 inline constexpr std::int32_t tree_format_version = 1;
-/// Edge of a tree in the integer lattice, and the deepest level that it can express.
+/// Edge of a tree in integer coordinates, and the corresponding deepest level.
 inline constexpr std::int32_t tree_lattice_edge = std::int32_t{1} << 30;
 inline constexpr int deepest_tree_level = 30;
 
-/// Calls `visit(name, member reference)` for each number among the attributes, in the order of the file.
+/// Calls `visit(name, member reference)` for each numeric attribute, in file order.
 template <class Attributes, class Visit>
 void for_each_attribute(Attributes& attributes, const Visit& visit) {
   visit("root_x", attributes.root_x);
@@ -31,15 +31,15 @@ void for_each_attribute(Attributes& attributes, const Visit& visit) {
   visit("coordinate_digest", attributes.coordinate_digest);
 }
 
-/// The attributes of TreeAttributes::root_far, which files without one lack: those of earlier versions too.
+/// Attributes of TreeAttributes::root_far; absent in files without it and in those of earlier versions.
 inline constexpr std::array root_far_names{"root_far_x", "root_far_y"};
 
-/// The dataset of TreeRecord::measured_wall, which files without one lack: a row an edge.
+/// Dataset of TreeRecord::measured_wall, with one row per edge; absent in files without it.
 inline constexpr const char* measured_wall_name = "measured_wall";
-inline constexpr std::size_t measured_wall_columns = 6;  ///< x, y of its ends, then wall units at either
+inline constexpr std::size_t measured_wall_columns = 6;  ///< x, y of its ends, then wall units at both
 static_assert(sizeof(MeasuredEdge) == measured_wall_columns * sizeof(double));
 
-/// Calls `visit(name, pointers to the members that make one row)` for each dataset, in the order of the file.
+/// Calls `visit(name, pointers to the members of a row)` for each dataset, in file order.
 template <class Visit>
 void for_each_tree_dataset(const Visit& visit) {
   visit("tree", std::array{&LeafRecord::tree_x, &LeafRecord::tree_y});

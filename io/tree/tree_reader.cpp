@@ -10,7 +10,8 @@ namespace quadloop {
 TreeRecord read_tree(const Communicator& comm, const std::string& path) {
   TreeShare share;
   comm.together([&] {
-    share = read_separately<TreeShare>("tree", path, {std::to_string(comm.rank()), std::to_string(comm.size())});
+    share =
+        read_separately<TreeShare>("tree", path, {std::to_string(comm.rank()), std::to_string(comm.size())});
   });
   require_whole_tree(comm, share.tree, share.before, path);
   return std::move(share.tree);

@@ -13,7 +13,7 @@ namespace quadloop {
 
 namespace {
 
-/// One rank's view of a tree file.
+/// A tree file opened by one rank.
 class TreeSource {
  public:
   explicit TreeSource(const std::string& path) : path_{path} {
@@ -42,7 +42,7 @@ class TreeSource {
 
   std::int64_t leaves() const { return rows_of(open("x")); }
 
-  /// Refuses datasets that declare more rows than the file holds, before memory is taken for them.
+  /// Rejects datasets that declare more rows than the file contains, before memory is allocated for them.
   void require_stored(std::int64_t leaves) const {
     for_each_tree_dataset([&](const char* name, const auto& members) {
       const Hdf5Handle dataset = open(name);
@@ -55,7 +55,7 @@ class TreeSource {
     });
   }
 
-  /// All of it; empty where the file has none.
+  /// Returns the whole dataset; empty if the file has none.
   MeasuredWall measured_wall() const {
     if (H5Lexists(file_.id(), measured_wall_name, H5P_DEFAULT) <= 0) return {};
     const Hdf5Handle dataset = open(measured_wall_name);
@@ -104,7 +104,7 @@ class TreeSource {
                : static_cast<std::int64_t>(size[0]);
   }
 
-  /// Whether what is stored can be as many numbers; filters pack at most 1032 bytes into one.
+  /// Whether the stored bytes can contain this many numbers; filters compress by at most 1032.
   bool may_hold(const Hdf5Handle& dataset, hsize_t numbers) const {
     const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose),
         creation(H5Dget_create_plist(dataset.id()), H5Pclose);

@@ -1,6 +1,6 @@
 #pragma once
 
-// For quadloop-reader (io/reader), in a process of its own.
+// For quadloop-reader (io/reader), a separate process.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace quadloop {
 
-/// What one rank takes from a tree file.
+/// The part of a tree file read by one rank.
 struct TreeShare {
   TreeRecord tree;
-  std::optional<LeafRecord> before;  ///< the last leaf of the rank before
+  std::optional<LeafRecord> before;  ///< last leaf of the previous rank
 };
 
 template <class Pipe>
@@ -21,7 +21,7 @@ void pass_fields(Pipe& pipe, TreeShare& share) {
   pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured_wall, share.before);
 }
 
-/// Reads the share of a rank as read_tree() says, in this process, which HDF5 may end where the file is
+/// Reads the part of a rank as read_tree() does, in this process, which HDF5 may crash if the file is
 /// damaged. Throws InputError.
 TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64_t ranks);
 

@@ -12,39 +12,39 @@
 
 namespace quadloop {
 
-/// Writes the mesh as UGRID, the bytes of its numbers in the order `order` (.b8.ugrid: most significant
-/// first; .lb8.ugrid: least), and beside it a .mapbc with the number, condition and name of each patch. Faces
-/// are counter-clockwise as seen from outside. The bytes are the same on any number of ranks. *Collective.*
-/// Throws OutputError on all ranks, also where 4-byte integers cannot count the mesh.
+/// Writes the mesh as UGRID with the byte order `order` (.b8.ugrid: big-endian; .lb8.ugrid: little-endian),
+/// and a .mapbc file with number, condition and name of each patch. Faces are counter-clockwise as seen from
+/// outside. The bytes are the same on any number of ranks. Throws OutputError on all ranks, also if the mesh
+/// is too large for 4-byte integers. *Collective.*
 template <std::endian order>
 void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// The file of patches that goes with a 3D mesh: "a.b8.ugrid" has "a.mapbc". A plane one, which FUN3D does
-/// not read, has its own: "a.ugrid" has "a.ugrid.mapbc".
+/// Return the patch file of a 3D mesh: "a.mapbc" for "a.b8.ugrid", and of a plane one, which FUN3D does not
+/// read: "a.ugrid.mapbc" for "a.ugrid".
 std::string mapbc_path(const std::string& path);
 std::string plane_mapbc_path(const std::string& path);
 
-/// A patch as a .mapbc has it.
+/// A patch in a .mapbc file.
 struct MapbcPatch {
   std::string name;
   int condition = 0;  ///< FUN3D's number
 };
 
-/// The text of a .mapbc: the patches numbered from 1, their names as mapbc_names() has them.
+/// Returns the text of a .mapbc file: patches are numbered from 1, with the names of mapbc_names().
 std::string mapbc_text(const std::vector<MapbcPatch>& patches);
-/// The patches of such a file by number; none where there is no file. Throws InputError.
+/// Reads the patches of such a file by number; empty if there is no file. Throws InputError.
 std::map<std::int32_t, MapbcPatch> read_mapbc(const std::string& path);
 
-/// The names of patches in a .mapbc: letters, digits and "_-.+".
+/// Returns the names of patches in a .mapbc file: letters, digits and "_-.+".
 std::vector<std::string> mapbc_names(const std::vector<std::string>& names);
 
-/// The number of FUN3D's boundary condition for Boundary::condition, 0 where nothing is said; `axis` is that
-/// to which the patch is normal ('x', 'y', 'z'), where it is known. And back, "none" for any other.
+/// Return FUN3D's number for Boundary::condition, 0 if there is none; `axis` is the normal of the patch ('x',
+/// 'y', 'z'), if known. And the inverse, "none" for any other number.
 int mapbc_condition(BoundaryCondition condition, char axis = ' ');
 BoundaryCondition condition_of_mapbc(int number);
 
-/// Reads such a file on the calling rank alone; patches without a .mapbc are "patch_1" and so on. What
-/// follows the mesh is passed over, with a warning. Throws InputError.
+/// Reads such a file on the calling rank only; patches without a .mapbc are "patch_1" and so on. Data after
+/// the mesh are ignored, with a warning. Throws InputError.
 template <std::endian order>
 MeshOfFile read_ugrid(const std::string& path);
 

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// FUN3D's: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
+/// FUN3D's numbers: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
 /// pressure, tangency.
 constexpr std::array<std::pair<BoundaryCondition, int>, 7> conditions{
     {{BoundaryCondition::wall, 4000},
@@ -21,7 +21,7 @@ constexpr std::array<std::pair<BoundaryCondition, int>, 7> conditions{
      {BoundaryCondition::symmetry, 3000},
      {BoundaryCondition::viscous_wall, 4000},
      {BoundaryCondition::inviscid_wall, 3000}}};
-constexpr int symmetry_x = 6661;  // and y, z after it: the plane normal to the axis
+constexpr int symmetry_x = 6661;  // followed by y and z: the plane normal to the axis
 
 }  // namespace
 

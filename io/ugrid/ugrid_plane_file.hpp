@@ -8,16 +8,15 @@
 
 namespace quadloop {
 
-/// Writes the mesh as a 2D UGRID file in text, the form that AFLR2 takes (SimCenter, Mississippi State
-/// University: UG_IO, 2D grid file types): seven counts, the last four 0; x, y and z = 0 of the nodes; the
-/// nodes of triangles and quads; an identifier for each, 1; the number of boundary edges; the two nodes of
-/// each and the number of its boundary. Beside it a .ugrid.mapbc with the number, condition and name of each
-/// boundary. The bytes are the same on any number of ranks. *Collective.* Throws OutputError on all ranks.
+/// Writes the mesh as a 2D UGRID text file in the format of AFLR2 (SimCenter, Mississippi State University:
+/// UG_IO, 2D grid file types): seven counts, the last four 0; x, y and z = 0 of the nodes; the nodes of
+/// triangles and quads; an identifier 1 for each; the number of boundary edges; two nodes and the boundary
+/// number of each. A .ugrid.mapbc file contains number, condition and name of each boundary. The bytes are
+/// the same on any number of ranks. Throws OutputError on all ranks. *Collective.*
 void write_ugrid_plane(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Reads such a file on the calling rank alone; z is ignored, edges may be missing; boundaries without a
-/// .mapbc are "boundary_1" and so on. What follows the edges is passed over. Throws InputError "file:line:
-/// ...".
+/// Reads such a file on the calling rank only; z is ignored, edges may be missing; boundaries without a
+/// .mapbc are "boundary_1" and so on. Data after the edges are ignored. Throws InputError "file:line: ...".
 MeshOfFile read_ugrid_plane(const std::string& path);
 
 }  // namespace quadloop

@@ -38,7 +38,7 @@ class UgridPlaneReader {
   }
 
  private:
-  /// Other programs may give it the name that goes with a 3D mesh.
+  /// Other programs may use the file name of a 3D mesh.
   static std::string names_of(const std::string& path) {
     const std::string own = plane_mapbc_path(path);
     return std::filesystem::exists(own) ? own : mapbc_path(path);

@@ -32,7 +32,7 @@ class UgridReader {
     read_faces(head[1], head[2]);
     read_cells(mesh_.tetrahedra, head[3]);
     read_cells(mesh_.pyramids, head[4]);
-    for (auto& n : mesh_.pyramids) n = {n[0], n[3], n[4], n[1], n[2]};  // there the third is the apex
+    for (auto& n : mesh_.pyramids) n = {n[0], n[3], n[4], n[1], n[2]};  // in UGRID the third node is the apex
     read_cells(mesh_.prisms, head[5]);
     read_cells(mesh_.hexahedra, head[6]);
     if (at_ < bytes_.size())
@@ -55,7 +55,7 @@ class UgridReader {
     return in_order<order>(values);
   }
 
-  /// What they promise must fit the file.
+  /// The counts must be consistent with the file size.
   void check_counts(const std::array<std::int32_t, 7>& head) const {
     constexpr std::array<std::uint64_t, 7> widths{24, 16, 20, 16, 20, 24, 32};
     std::uint64_t bytes = 0;

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// There the third node of a pyramid is its apex.
+/// In UGRID the third node of a pyramid is its apex.
 template <std::size_t width>
 std::array<NodeNumber, width> as_ugrid(const std::array<NodeNumber, width>& cell) {
   if constexpr (width == 5) return {cell[0], cell[3], cell[4], cell[1], cell[2]};
@@ -74,7 +74,7 @@ class UgridWriter {
     file_->write(bytes_of(std::span<const std::int32_t>(head)));
   }
 
-  /// `make(i)` gives an array, in this machine's order of bytes.
+  /// `make(i)` returns an array in native byte order.
   template <class Make>
   void put_rows(std::int64_t rows, const Make& make) {
     stream_.rows(
@@ -91,7 +91,7 @@ class UgridWriter {
     for (std::size_t n = first; n < all; ++n) stream_.faces<4>(n, make, put);
   }
 
-  /// The patch of each face, from 1, in the order of the faces: all triangles, then all quads.
+  /// Writes the patch of each face, from 1, in the order of the faces: all triangles, then all quads.
   void write_face_patches() {
     stream_.on_root([&] {
       const auto& patches = stream_.patches();

@@ -8,13 +8,13 @@
 
 namespace quadloop {
 
-/// Writes a mesh as a parallel VTK file of one piece: the piece as write_vtu() has it, as "NAME_0.vtu" beside
-/// "NAME.pvtu", which lists its arrays. *Collective.* Throws OutputError on all ranks.
+/// Writes a mesh as a parallel VTK file with one piece: "NAME_0.vtu", written as by write_vtu(), and
+/// "NAME.pvtu", which lists its arrays. Throws OutputError on all ranks. *Collective.*
 void write_pvtu(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Reads a parallel VTK file with all its pieces, each as read_vtu() does, on the calling rank alone: one
-/// piece after the other, nodes at the same place made one, cells and faces that several pieces have (ghosts)
-/// taken once. Throws InputError.
+/// Reads a parallel VTK file with all its pieces, each as read_vtu() does, on the calling rank only: one
+/// piece after another; coincident nodes are merged, and cells and faces in several pieces (ghosts) are kept
+/// once. Throws InputError.
 MeshOfFile read_pvtu(const std::string& path);
 
 }  // namespace quadloop

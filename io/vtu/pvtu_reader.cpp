@@ -37,8 +37,8 @@ Face sorted(Face face) {
   return face;
 }
 
-/// The faces of all cells, edges in a plane mesh, each with its nodes sorted. Faces of two cells are there
-/// twice, one after the other; a cell that several pieces have counts once.
+/// Returns the faces of all cells, edges in a plane mesh, each with its nodes sorted. Faces between two cells
+/// occur twice, consecutively; a cell in several pieces counts once.
 std::vector<Face> sorted_faces(const FileMesh& mesh) {
   std::vector<Face> faces;
   for_each_kind([&]<CellKind kind>() {
@@ -59,7 +59,7 @@ class PvtuReader {
     sources_ = parse_pvtu(scan_);
   }
 
-  /// A single piece is the mesh as it stands.
+  /// A single piece is returned unchanged.
   MeshOfFile read() {
     const std::filesystem::path folder = std::filesystem::path(scan_.path()).parent_path();
     for (const std::string& source : sources_) {
@@ -88,7 +88,7 @@ class PvtuReader {
     return std::move(whole_);
   }
 
-  /// Its nodes after those of the pieces before.
+  /// Appends a piece, with its nodes after those of the previous pieces.
   void add(const FileMesh& piece, const std::string& source) {
     if (whole_.points.empty()) whole_.dimension = piece.dimension;
     if (piece.dimension != whole_.dimension)
@@ -143,8 +143,8 @@ class PvtuReader {
     whole_.solution = std::move(solution_);
   }
 
-  /// A plane piece without lines comes with a boundary "boundary" all round, cuts between pieces too; parts
-  /// for a solver's ranks come with a boundary for each neighbour.
+  /// Removes cuts between pieces: a plane piece without lines has a boundary "boundary" all around, and
+  /// partitions for a solver's ranks have a boundary for each neighbour.
   void drop_cuts() {
     const auto may_be_cut = [](const FileBoundary& boundary) {
       return boundary.name == "boundary" || is_part_name(boundary.name);
@@ -164,8 +164,8 @@ class PvtuReader {
   bool has_strips_ = false;
   std::vector<std::string> sources_;
   FileMesh whole_;
-  Field solution_;                                              ///< of all pieces, but for rows of cells
-  std::array<std::vector<double>, cell_kinds> values_of_kind_;  ///< rows of cells
+  Field solution_;                                              ///< of all pieces, without cell rows
+  std::array<std::vector<double>, cell_kinds> values_of_kind_;  ///< cell rows
 };
 
 }  // namespace

@@ -5,18 +5,18 @@
 
 namespace quadloop {
 
-/// What a parallel VTK file lists: arrays that each piece has, and the pieces' files.
+/// Contents of a parallel VTK file: arrays of each piece, and the pieces' files.
 struct PvtuList {
   std::vector<std::string> point_data;                 ///< reals
-  std::vector<std::string> cell_marks = {"boundary"};  ///< whole numbers
+  std::vector<std::string> cell_marks = {"boundary"};  ///< integers
   std::vector<std::string> cell_data;                  ///< reals
   std::vector<std::string> sources;
 };
 
-/// The text of a .pvtu file.
+/// Returns the text of a .pvtu file.
 std::string pvtu_text(const PvtuList& list);
 
-/// Of a .pvtu file with one piece, the piece's: "NAME_0.vtu" beside "NAME.pvtu".
+/// Returns the piece of a .pvtu file with one piece: "NAME_0.vtu" for "NAME.pvtu".
 std::string pvtu_piece_path(const std::string& path);
 
 }  // namespace quadloop

@@ -15,15 +15,17 @@
 
 namespace quadloop {
 
-/// A VTK XML file whose arrays stand as raw bytes, least first, behind the XML; all ranks write it together,
-/// through rank 0, the bytes the same on any number of ranks. Arrays are named first, each with what writes
-/// it, since the XML tells where each begins. *Collective*, all but put(); throws OutputError on all ranks.
+/// A VTK XML file whose arrays are appended as raw little-endian bytes after the XML; all ranks write it
+/// together, through rank 0, and the bytes are the same on any number of ranks. Arrays must be declared
+/// first, each with its write function, as the XML contains their offsets. All functions except put() are
+/// *collective*; they throw OutputError on all ranks.
 class VtuAppended {
  public:
   VtuAppended(OutputSet& outputs, const std::string& path);
 
-  /// An array of `rows` rows over all ranks in an element ("Points", "Cells", "PointData", "CellData") of the
-  /// piece; `write` puts them by the functions below, in one or several calls, when its turn comes.
+  /// Declares an array of `rows` rows over all ranks in an element ("Points", "Cells", "PointData",
+  /// "CellData") of the piece; `write` is called later to write it with the functions below, in one or
+  /// several calls.
   template <class Number>
   void add(const std::string& element, const std::string& name, int components, std::int64_t rows,
            std::function<void()> write) {
@@ -31,10 +33,10 @@ class VtuAppended {
                rows * components * std::int64_t{sizeof(Number)}, std::move(write)});
   }
 
-  /// The file: `head`, which ends with the start of the piece, the arrays' tags, and the arrays.
+  /// Writes the file: `head`, which ends with the start of the piece, the arrays' tags, and the arrays.
   void write(const std::string& head);
 
-  /// The ranks' rows in the order of ranks: `make(i)` is this rank's row i, an array of numbers.
+  /// Writes the rows of all ranks in the order of ranks: `make(i)` is this rank's row i, an array of numbers.
   template <class Make>
   void put_rows(std::int64_t rows, const Make& make) {
     using Row = decltype(make(std::int64_t{0}));
@@ -47,11 +49,6 @@ class VtuAppended {
           return made;
         },
         [&](std::span<const Row> piece) { put(piece); });
-  }
-  /// Rows that rank 0 alone makes.
-  template <class Make>
-  void put_root_rows(std::int64_t rows, const Make& make) {
-    put_rows(comm_.is_root() ? rows : 0, make);
   }
   /// A row for each boundary edge, made of what the stream has for it.
   template <class Make>
@@ -71,7 +68,7 @@ class VtuAppended {
     on_root(flush);
   }
 
-  /// Rows whose bytes are in order already. On rank 0 alone, not collective.
+  /// Writes rows that are already in the file's byte order. On rank 0 only, not collective.
   template <class Row>
   void put(std::span<const Row> rows) {
     file_->write(bytes_of(rows));

@@ -15,8 +15,8 @@ namespace quadloop {
 
 namespace {
 
-/// Bytes as they stand, or out of base64. A stream of base64 may end with padding and another follow at once,
-/// as after a header.
+/// Plain or base64-encoded bytes. A base64 stream may end with padding and be followed by another one, as
+/// after a header.
 class ByteStream {
  public:
   ByteStream(std::string_view text, bool base64) : text_{text}, base64_{base64} {}
@@ -26,7 +26,7 @@ class ByteStream {
     return pending_.size() - taken_ + (base64_ ? text_.size() / 4 * 3 + 3 : text_.size());
   }
 
-  /// Whether there were as many.
+  /// Returns whether there were enough bytes.
   bool read(std::span<char> out) {
     if (!base64_) {
       if (text_.size() < out.size()) return false;
@@ -83,7 +83,7 @@ T value_at(const char* bytes, bool big_endian) {
   return std::bit_cast<T>(copy);
 }
 
-/// Calls `use` with a value of the C++ type for a VTK one; false for a type that is no number.
+/// Calls `use` with a value of the C++ type for a VTK type; returns false for a non-numeric type.
 template <class Use>
 bool with_type(const std::string& type, const Use& use) {
   if (type == "Float64") return use(double{}), true;
@@ -107,9 +107,9 @@ std::optional<std::uint64_t> read_size(ByteStream& stream, const VtuDocument& do
   return value_at<std::uint32_t>(bytes.data(), document.big_endian);
 }
 
-/// Empty where the blocks do not hold what their header says.
+/// Empty if the blocks do not match their header.
 std::optional<std::vector<char>> inflate_blocks(ByteStream& stream, const VtuDocument& document) {
-  constexpr std::uint64_t largest_ratio = 1100;  // zlib's is 1032
+  constexpr std::uint64_t largest_ratio = 1100;  // zlib's maximum is 1032
   const auto blocks = read_size(stream, document), size = read_size(stream, document),
              rest = read_size(stream, document);
   if (!blocks || !size || !rest || *blocks > stream.bytes_left()) return {};

@@ -9,16 +9,16 @@
 
 namespace quadloop {
 
-/// The numbers of a document's arrays, however they are written. Refusals name the line of the array.
+/// Reads the numbers of a document's arrays in any encoding. Errors name the line of the array.
 class VtuNumbers {
  public:
-  /// Both must outlive it.
+  /// Both must outlive the object.
   VtuNumbers(const TextScanner& scan, const VtuDocument& document) : scan_{scan}, document_{document} {}
 
-  /// `count` is how many there must be; without it all there are.
+  /// `count` is the expected number; empty: all there are.
   std::vector<double> reals(const VtuArray& array, std::optional<std::int64_t> count) const;
   std::vector<std::int64_t> integers(const VtuArray& array, std::optional<std::int64_t> count) const;
-  /// Of an array of type String, or of the codes of its bytes: a 0 ends each text.
+  /// Reads an array of type String, or of byte codes: each string ends with 0.
   std::vector<std::string> texts(const VtuArray& array) const;
 
  private:

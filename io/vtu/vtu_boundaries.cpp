@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// meshio's for Gmsh and Medit; VTK's and ParaView's for entities of Gmsh.
+/// Arrays of meshio for Gmsh and Medit; of VTK and ParaView for Gmsh entities.
 constexpr std::array group_arrays{"gmsh:physical", "medit:ref", "CellEntityIds", "gmsh:geometrical"};
 
 bool is_of_numbers(const VtuArray& array) {
@@ -19,7 +19,7 @@ bool is_of_numbers(const VtuArray& array) {
          array.type != "String";
 }
 
-/// Field data of two numbers each: that of a physical group, and its dimension.
+/// Reads field data with two numbers each: those of a physical group, and its dimension.
 std::unordered_map<std::int64_t, std::string> group_names(const VtuDocument& document,
                                                           const VtuNumbers& numbers, std::int64_t dimension) {
   std::unordered_map<std::int64_t, std::string> names;

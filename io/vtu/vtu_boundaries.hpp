@@ -1,6 +1,6 @@
 #pragma once
 
-// Inside io/vtu only: what tells the boundaries of a VTK file apart.
+// For io/vtu only: identifies the boundaries of a VTK file.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,21 +12,21 @@
 
 namespace quadloop {
 
-/// A number for each cell, by which the elements of boundaries belong to one of them.
+/// A number for each cell that assigns boundary elements to boundaries.
 struct VtuBoundaryNumbers {
-  std::vector<std::int64_t> of_cells;  ///< empty where the file has none
-  bool is_ours = false;                ///< the cell data "boundary": 0 is no number
-  std::string warning;                 ///< without the file's name; empty where there is none
-  /// Of other programs' numbers: meshio keeps the name of a physical group as field data.
+  std::vector<std::int64_t> of_cells;  ///< empty if the file has none
+  bool is_ours = false;                ///< whether it is the cell data "boundary", where 0 means none
+  std::string warning;                 ///< without the file's name; empty if there is none
+  /// For other programs' numbers: meshio stores the names of physical groups as field data.
   std::unordered_map<std::int64_t, std::string> names = {};
 
-  /// Of another program's number; "boundary_<number>" where the file gives none.
+  /// Returns the name for another program's number; "boundary_<number>" if the file has none.
   std::string name_of(std::int64_t number) const;
 };
 
-/// The cell data "boundary", or else those by which meshio, Gmsh and others number physical groups, where
-/// they differ on elements of the types from `first_type` to `last_type`. A warning says what was taken, or
-/// that nothing tells several such elements apart.
+/// Finds the cell data "boundary", or else those in which meshio, Gmsh and others store physical groups, if
+/// they differ on elements of the types from `first_type` to `last_type`. The warning says which were used,
+/// or that several such elements cannot be distinguished.
 VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuNumbers& numbers,
                                          const std::vector<std::int64_t>& types, std::int64_t first_type,
                                          std::int64_t last_type);

@@ -16,7 +16,7 @@ namespace {
 
 using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)>;
 
-/// A refusal on its way through expat, which is C and lets no exception pass.
+/// An error to be thrown after expat, which is C and does not support exceptions.
 struct Refusal {
   std::size_t place = 0;
   std::string message;
@@ -56,7 +56,7 @@ class Builder {
   }
 
   void start(std::string_view name, const XML_Char** attributes) {
-    if (in_array_) {  // a note inside an array: the data stand before or after it
+    if (in_array_) {  // a comment inside an array: the data are before or after it
       end_data();
       ++notes_;
     } else if (name == "VTKFile") {
@@ -180,7 +180,7 @@ class PieceList {
   std::optional<Refusal> refusal_;
 };
 
-/// The tag's end and the underscore; raw data are no XML, so expat sees nothing of them.
+/// Finds the tag's end and the underscore; raw data are not XML, so expat must not see them.
 void find_appended(const TextScanner& scan, std::size_t tag, VtuDocument& document) {
   const std::string_view text = scan.text();
   const std::size_t close = text.find('>', tag), underscore = text.find('_', close);

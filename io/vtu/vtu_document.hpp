@@ -9,17 +9,17 @@
 
 namespace quadloop {
 
-/// One DataArray of a VTK XML file, by places in the text.
+/// A DataArray of a VTK XML file, by positions in the text.
 struct VtuArray {
-  std::string section;  ///< the element it stands in: "PointData", "CellData", "Points", "Cells", "FieldData"
+  std::string section;  ///< parent element: "PointData", "CellData", "Points", "Cells", "FieldData"
   std::string name, type, format;
   std::int64_t components = 1;
-  std::optional<std::int64_t> offset;  ///< from the begin of the appended data
+  std::optional<std::int64_t> offset;  ///< relative to the start of the appended data
   std::size_t place = 0;               ///< of its tag
-  std::size_t begin = 0, end = 0;      ///< of what stands in it
+  std::size_t begin = 0, end = 0;      ///< of its contents
 };
 
-/// What a VTK XML file says of itself and where its data stand.
+/// Structure of a VTK XML file, with the positions of its data.
 struct VtuDocument {
   bool big_endian = false, wide_header = false, compressed = false;
   std::int64_t points = 0, cells = 0;
@@ -28,16 +28,16 @@ struct VtuDocument {
   bool appended_raw = false;
   std::size_t appended_begin = 0, appended_end = 0;  ///< after its underscore
 
-  /// Null where there is none.
+  /// Null if there is none.
   const VtuArray* find(const std::string& section, const std::string& name) const;
 };
 
-/// The files of a parallel grid's pieces, as it names them; at least one. Refuses what is no XML or no such
-/// grid.
+/// Returns the file names of a parallel grid's pieces; at least one. Throws InputError if it is not XML or no
+/// such grid.
 std::vector<std::string> parse_pvtu(const TextScanner& scan);
 
-/// The one door to expat, with parse_pvtu(). Refuses what is no XML, no unstructured grid, or has not exactly
-/// one piece.
+/// The only use of expat, besides parse_pvtu(). Throws InputError for anything but an XML unstructured grid
+/// with exactly one piece.
 VtuDocument parse_vtu(const TextScanner& scan);
 
 }  // namespace quadloop

@@ -55,7 +55,7 @@ class VtuReader {
     }
   }
 
-  /// An array that must be there; of any name if none is given.
+  /// Returns a required array; of any name if none is given.
   const VtuArray& needed(const std::string& section, const std::string& name) const {
     for (const VtuArray& array : document_.arrays) {
       if (array.section == section && (name.empty() || array.name == name)) return array;
@@ -106,7 +106,7 @@ class VtuReader {
                              : find_boundary_numbers(document_, numbers_, types_, vtk_triangle, vtk_quad);
     if (!boundaries_.warning.empty()) mesh_.warnings.push_back(scan_.path() + ": " + boundaries_.warning);
   }
-  /// Of the element under way.
+  /// Returns the boundary of the current element.
   std::string boundary_name() const {
     const std::int64_t number = boundaries_.of_cells.empty() ? 0 : boundaries_.of_cells[cell_ - 1];
     if (boundaries_.is_ours || boundaries_.of_cells.empty())
@@ -114,7 +114,7 @@ class VtuReader {
     return boundaries_.name_of(number);
   }
 
-  /// Whole numbers of our own cell data; empty where there are none.
+  /// Returns integers of our own cell data; empty if there are none.
   std::vector<std::int64_t> cell_numbers(const std::string& name) const {
     const VtuArray* array = document_.find("CellData", name);
     if (array == nullptr || array->components != 1 || array->type.starts_with("Float")) return {};
@@ -138,7 +138,7 @@ class VtuReader {
     mesh_.strips = strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
   }
 
-  /// Of our own files; numbers that are no counts are passed over.
+  /// In our own files; invalid counts are ignored.
   void read_layers() {
     const VtuArray* const counts = document_.find("FieldData", vtu_layer_counts);
     const VtuArray* const thicknesses = document_.find("FieldData", vtu_layer_thicknesses);
@@ -237,7 +237,7 @@ class VtuReader {
     for (const VtuArray& array : document_.arrays) {
       if (array.section == "PointData" && array.type != "String" && !is_layer_height(array))
         add_columns(array, document_.points, "node", solution.names, at_points);
-      if (array.section == "CellData" && array.type.starts_with("Float"))  // whole numbers are marks
+      if (array.section == "CellData" && array.type.starts_with("Float"))  // integers are marks
         add_columns(array, document_.cells, "cell", solution.cells.names, in_cells);
     }
     if (solution.empty()) return;
@@ -289,8 +289,8 @@ class VtuReader {
   std::vector<std::string> boundary_names_, block_names_;
   VtuBoundaryNumbers boundaries_;
   bool has_layers_ = false;
-  std::array<std::vector<std::int32_t>, cell_kinds> cells_of_kind_;  ///< places among all of the file's cells
-  std::size_t place_ = 0, cell_ = 0;  ///< of the element under way; elements are counted from 1
+  std::array<std::vector<std::int32_t>, cell_kinds> cells_of_kind_;  ///< numbers among all cells of the file
+  std::size_t place_ = 0, cell_ = 0;  ///< of the current element; elements are numbered from 1
   std::int64_t block_ = 0;            ///< its number in the file
 };
 

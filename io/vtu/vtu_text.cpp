@@ -16,7 +16,7 @@ std::string xml_escaped(const std::string& text) {
       case '<': result += "&lt;"; break;
       case '>': result += "&gt;"; break;
       case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < ' ' ? '_' : c;  // XML has no way to write these
+      default: result += static_cast<unsigned char>(c) < ' ' ? '_' : c;  // these cannot be written in XML
     }
   }
   return result;

@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-/// Cells or boundary elements of one type that follow each other in the file.
+/// Consecutive cells or boundary elements of one type.
 struct Run {
   std::uint8_t type;
   std::int64_t nodes;  ///< of each
@@ -22,7 +22,7 @@ struct Run {
   std::int32_t patch;  ///< from 1; 0: cells
 };
 
-/// Numbers that rank 0 makes one by one.
+/// Collects numbers that rank 0 creates one by one.
 template <class Number>
 class Gathered {
  public:
@@ -54,7 +54,7 @@ class VtuWriter {
     list_runs();
   }
 
-  /// Values at nodes come before cell data in a plane mesh, after them in a 3D mesh.
+  /// Nodal values come before cell data in a plane mesh, after them in a 3D mesh.
   void write() {
     add_points();
     add_cells();
@@ -68,7 +68,7 @@ class VtuWriter {
   }
 
  private:
-  /// In the order of the file: cells, then of each boundary its lines, or its triangles and its quads.
+  /// In file order: cells, then for each boundary its lines, or its triangles and its quads.
   void list_runs() {
     for_each_kind([&]<CellKind kind>() {
       runs_.push_back({vtk_type_of<kind>, cell_width<kind>, stream_.counts().of(kind), 0});
@@ -136,7 +136,7 @@ class VtuWriter {
                             [this] { put_of_runs<std::uint8_t>([](const Run& run) { return run.type; }); });
   }
 
-  /// The boundaries, and the blocks, by number.
+  /// Adds boundary and block numbers.
   void add_marks() {
     file_.add<std::int32_t>("CellData", "boundary", 1, elements_,
                             [this] { put_of_runs<std::int32_t>([](const Run& run) { return run.patch; }); });
@@ -144,7 +144,7 @@ class VtuWriter {
       file_.add<std::int32_t>("CellData", "block", 1, elements_, [this] { put_blocks(); });
   }
 
-  /// Of cells from 1; 0 of the elements of boundaries, which come last.
+  /// Block numbers of cells, from 1; 0 for boundary elements, which come last.
   void put_blocks() {
     for_each_kind([&]<CellKind kind>() {
       file_.put_rows(stream_.cell_rows<kind>(),
@@ -174,7 +174,7 @@ class VtuWriter {
     }
   }
 
-  /// One for each cell and boundary element, in bounded pieces.
+  /// Writes one value for each cell and boundary element, in bounded pieces.
   template <class Number, class Value>
   void put_of_runs(const Value& value) {
     stream_.on_root([&] {
@@ -191,7 +191,7 @@ class VtuWriter {
       add_of_nodes(stream_.variables()[k], [this, k](std::int64_t i) { return stream_.value(i, k); });
   }
 
-  /// Of a value for each point.
+  /// Adds an array with a value for each point.
   template <class Value>
   void add_of_nodes(const std::string& name, Value value) {
     file_.add<double>("PointData", name, 1, stream_.counts().nodes, [this, value] {
@@ -210,7 +210,7 @@ class VtuWriter {
                  [this, at_wall](std::int64_t i) { return at_wall(i) ? heights_.begin()[i] : 0; });
   }
 
-  /// Elements of boundaries have the values of the cell beside them.
+  /// Boundary elements have the values of the adjacent cell.
   void put_cell_variable(std::size_t variable) {
     for_each_kind([&]<CellKind kind>() {
       file_.put_rows(stream_.cell_rows<kind>(),
@@ -232,7 +232,7 @@ class VtuWriter {
   const MeshStream& stream_;
   const StreamCellValues cells_;
   const StreamBlocks blocks_;
-  const Mesh* layered_;  ///< the plane mesh, where it has layers
+  const Mesh* layered_;  ///< plane mesh, if it has layers
   VtuAppended file_;
   std::vector<Run> runs_;
   std::int64_t elements_ = 0, entries_ = 0;

@@ -7,7 +7,7 @@
 
 namespace quadloop {
 
-/// How the program ends; the numbers are part of its outer face.
+/// Exit statuses of the program; the numbers are part of its public interface.
 enum class ExitStatus : int {
   done = 0,
   bad_input = 1,
@@ -17,7 +17,7 @@ enum class ExitStatus : int {
   fault = 70
 };
 
-/// A refusal that reaches the user as one line: where, what is wrong, what to do. Throw one of the derived
+/// An error reported to the user as one line: location, what is wrong, what to do. Throw one of the derived
 /// types.
 class Error : public std::runtime_error {
  public:
@@ -52,13 +52,13 @@ class OutputError : public Error {
   explicit OutputError(const std::string& message) : Error(ExitStatus::output_failed, message) {}
 };
 
-/// The program itself is wrong (exit status 70).
+/// Internal error (exit status 70).
 class Fault : public Error {
  public:
   explicit Fault(const std::string& message) : Error(ExitStatus::fault, message) {}
 };
 
-/// A value as the message of a Fault gives it.
+/// A value in the message of a Fault.
 struct FaultValue {
   template <class Number>
   requires std::is_arithmetic_v<Number> FaultValue(Number number) : text(std::to_string(number)) {}
@@ -67,12 +67,13 @@ struct FaultValue {
   std::string text;
 };
 
-/// Throws a Fault with the place, the values by their names in the source, separated by commas, and the rank.
+/// Throws a Fault with the source location, the values with their names in the source, separated by commas,
+/// and the rank.
 [[noreturn]] void fail(const char* file, int line, const char* message, const char* names,
                        std::initializer_list<FaultValue> values);
 
-/// QUADLOOP_REQUIRE(condition, message, values...): a Fault where the condition does not hold, in every
-/// build. For what only a mistake of ours can break. The values are computed where it fails alone.
+/// QUADLOOP_REQUIRE(condition, message, values...) throws a Fault if the condition is false, in every build.
+/// For internal consistency only. The values are evaluated only on failure.
 #define QUADLOOP_REQUIRE(condition, message, ...) \
   ((condition) ? void() : ::quadloop::fail(__FILE__, __LINE__, (message), #__VA_ARGS__, {__VA_ARGS__}))
 

@@ -9,7 +9,7 @@
 
 namespace quadloop {
 
-/// Ids of one kind, ascending without gaps: a range to loop over, or for an algorithm.
+/// Consecutive ids of one kind, as a range for loops and algorithms.
 template <class Id>
 class IdRange {
  public:
@@ -48,7 +48,7 @@ class IdRange {
   Id begin_, end_;
 };
 
-/// The ids from `begin` to before `end`, which is not below it; from 0.
+/// Returns the ids from `begin` up to but excluding `end` (not less than `begin`); from 0.
 template <class Tag, class Rep>
 constexpr IdRange<Id<Tag, Rep>> ids_between(Id<Tag, Rep> begin, Id<Tag, Rep> end) {
   return {begin, end};
@@ -58,9 +58,8 @@ constexpr IdRange<Id<Tag, Rep>> ids_below(Id<Tag, Rep> end) {
   return {Id<Tag, Rep>{0}, end};
 }
 
-/// A value for each entity of one kind: a vector whose subscripts are ids of that kind alone. Those below
-/// size() have values; no other is looked for. Its values in the order of the ids are a contiguous range, so
-/// that it passes as a std::span.
+/// Values of all entities of one kind: a vector indexed by ids of that kind only. Ids must be below size().
+/// The values are contiguous in the order of the ids, so it converts to std::span.
 template <class Id, class T>
 class IdVector {
   static_assert(!std::is_same_v<T, bool>, "bits of a std::vector<bool> are no range of values: take char");
@@ -81,7 +80,7 @@ class IdVector {
   auto end() const { return values_.end(); }
   T* data() { return values_.data(); }
   const T* data() const { return values_.data(); }
-  /// Of all values, ascending.
+  /// All ids, ascending.
   auto ids() const { return ids_below(Id{size32(values_)}); }
 
   void resize(std::size_t size, const T& value = T{}) { values_.resize(size, value); }

@@ -10,8 +10,8 @@
 
 namespace quadloop {
 
-/// A number that names one entity of one kind, so that a node never meets a leaf, nor a local number a global
-/// one. A default-constructed id names no entity.
+/// A typed number of an entity, so that nodes and leaves, or local and global numbers, cannot be mixed up. A
+/// default-constructed id is invalid.
 template <class Tag, class Rep>
 class Id {
  public:
@@ -28,7 +28,7 @@ class Id {
   Rep value_ = -1;
 };
 
-/// A mesh node, numbered on this rank: its own, then copies.
+/// A mesh node, numbered on this rank: owned nodes, then ghosts.
 using NodeId = Id<struct NodeTag, std::int32_t>;
 /// A mesh node, numbered over all ranks, from 0.
 using GlobalNodeId = Id<struct GlobalNodeTag, std::int64_t>;
@@ -37,8 +37,7 @@ using LeafId = Id<struct LeafTag, std::int32_t>;
 /// A named boundary.
 using BoundaryId = Id<struct BoundaryTag, std::int32_t>;
 
-/// How many entries a list has, as ids on one rank count them: 32 bits. More are refused before a number
-/// wraps.
+/// Returns the number of entries as a 32-bit id count. Throws Fault if it does not fit.
 template <class List>
 constexpr std::int32_t size32(const List& list) {
   const std::size_t size = list.size();

@@ -10,12 +10,12 @@
 
 namespace quadloop {
 
-/// The text between quotes as JSON wants it. Bytes that are no UTF-8 are taken as Latin-1.
+/// Returns a quoted JSON string. Text that is not UTF-8 is taken as Latin-1.
 std::string json_of(std::string_view text);
 
 inline std::string json_of(const char* text) { return json_of(std::string_view(text)); }
 
-/// The shortest text that reads back to the same double; null where it is not finite.
+/// Returns the shortest text that reads back to the same double; null if it is not finite.
 std::string json_of(double value);
 
 template <std::integral Number>
@@ -24,23 +24,22 @@ std::string json_of(Number value) {
   return std::to_string(value);
 }
 
-/// null where there is none.
+/// null if empty.
 template <class Value>
 std::string json_of(const std::optional<Value>& value);
 
-/// A list on one line.
+/// Returns a list on one line.
 template <class Value>
 std::string json_of(const std::vector<Value>& values);
 
-/// A JSON object with its members in the order in which they are added. Names are not looked at for
-/// repetition.
+/// A JSON object with its members in the order of insertion. Duplicate names are not detected.
 class JsonObject {
  public:
   template <class Value>
   void add(std::string_view name, const Value& value) {
     add_raw(name, json_of(value));
   }
-  /// A value that is JSON already.
+  /// Adds a value that is already JSON.
   void add_raw(std::string_view name, std::string_view value) {
     members_.push_back(json_of(name) + ": " + std::string(value));
   }
@@ -48,9 +47,9 @@ class JsonObject {
     members_.insert(members_.end(), other.members_.begin(), other.members_.end());
   }
 
-  /// On one line.
+  /// Returns the object on one line.
   std::string text() const;
-  /// A member a line, below `indent`.
+  /// Returns one member per line, indented by `indent`.
   std::string lines(const std::string& indent = {}) const;
 
  private:
@@ -59,7 +58,7 @@ class JsonObject {
 
 inline std::string json_of(const JsonObject& object) { return object.text(); }
 
-/// `[a, b]` of values that are JSON already.
+/// Returns `[a, b]` for values that are already JSON.
 std::string json_list(const std::vector<std::string>& values);
 
 template <class Value>

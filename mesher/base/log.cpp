@@ -12,8 +12,8 @@ namespace quadloop::log {
 
 namespace {
 
-/// The program's one logger, on stderr, without spdlog's registry, so that a library user's own loggers stay
-/// apart.
+/// The program's logger on stderr, not in spdlog's registry, so that it cannot interfere with loggers of an
+/// application that uses the library.
 spdlog::logger& logger() {
   static const auto instance = [] {
     auto made =
@@ -40,7 +40,8 @@ void configure(const Options& options) {
   }
 }
 
-// The message is an argument, not the format: a file name may hold braces. It may quote damaged input.
+// The message is passed as an argument, not as a format string, as file names may contain braces. It may
+// quote damaged input.
 void warning(const std::string& message) {
   progress::clear();
   logger().warn("{}", printable(message));

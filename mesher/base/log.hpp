@@ -4,16 +4,16 @@
 
 namespace quadloop::log {
 
-/// How much of what is logged is shown. Warnings and information come from the root rank alone; `verbose`
-/// adds the details, and those of every rank, each line with its rank.
+/// Verbosity. Warnings and information are shown by the root rank only; `verbose` adds details of every rank,
+/// each line with its rank.
 struct Options {
   int rank = 0, ranks = 1;
-  bool quiet = false;    ///< nothing but warnings
+  bool quiet = false;    ///< warnings only
   bool verbose = false;  ///< details too
 };
 
-/// Sets what is shown; before it is called, warnings alone are, on any rank: a program that uses the library
-/// hears of the rest only where it asks. Logs go to stderr.
+/// Sets the verbosity. Before the call only warnings are shown, on any rank, so that a program that uses the
+/// library gets further output on request only. Logs go to stderr.
 void configure(const Options& options);
 
 void warning(const std::string& message);

@@ -4,7 +4,7 @@
 
 namespace quadloop {
 
-/// Mixes the bits of a word so that each of them moves about half of the result's (the finaliser of
+/// Mixes the bits of a word such that each input bit changes about half of the output bits (the finaliser of
 /// SplitMix64; Steele, Lea and Flood 2014).
 inline std::uint64_t mixed_bits(std::uint64_t word) {
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -12,7 +12,7 @@ inline std::uint64_t mixed_bits(std::uint64_t word) {
   return word ^ (word >> 31);
 }
 
-/// What SplitMix64 adds for each number, without which mixed_bits() leaves 0 as it is.
+/// Increment of SplitMix64, without which mixed_bits() maps 0 to 0.
 inline constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15U;
 
 }  // namespace quadloop

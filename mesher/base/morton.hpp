@@ -4,7 +4,7 @@
 
 namespace quadloop {
 
-/// The bits of a number spread apart, a zero between each two.
+/// Inserts a zero bit between consecutive bits of a number.
 constexpr std::uint64_t spread_bits(std::uint32_t number) {
   std::uint64_t bits = number;
   bits = (bits | (bits << 16)) & 0x0000ffff0000ffffULL;
@@ -14,7 +14,7 @@ constexpr std::uint64_t spread_bits(std::uint32_t number) {
   return (bits | (bits << 1)) & 0x5555555555555555ULL;
 }
 
-/// The key of a square on the Morton curve (Morton 1966).
+/// Returns the key of a square on the Morton curve (Morton 1966).
 constexpr std::uint64_t morton_key(std::uint32_t x, std::uint32_t y) {
   return spread_bits(x) | (spread_bits(y) << 1);
 }

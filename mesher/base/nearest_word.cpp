@@ -9,7 +9,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// How many slips lead from one word to the other (the optimal string alignment distance).
+/// Returns the number of typing errors between two words (optimal string alignment distance).
 std::size_t slips_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -28,7 +28,7 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// Whether one of two words is how the other begins, as max and maximum.
+/// Whether one of two words is a prefix of the other, e.g. max and maximum.
 bool one_begins_other(std::string_view a, std::string_view b) {
   constexpr std::size_t least = 3;
   const std::size_t shorter = std::min(a.size(), b.size());

@@ -7,8 +7,8 @@
 
 namespace quadloop {
 
-/// Disjoint sets of items, each with its direction relative to the set's root: a parity on every link. Cells
-/// that hang together, some of which have to be turned where the others are not.
+/// Disjoint sets (union-find) with a parity on every link: the orientation of an item relative to the root of
+/// its set. For connected cells, some of which must be reversed relative to others.
 class ParitySets {
  public:
   explicit ParitySets(std::size_t items)
@@ -18,14 +18,14 @@ class ParitySets {
 
   struct Member {
     std::size_t root;
-    bool opposed;  ///< whether the item has to be turned where the root is not
+    bool opposed;  ///< whether the item must be reversed if the root is not, and vice versa
   };
 
   Member member_of(std::size_t item) {
     bool opposed = false;
     while (parents_[item] != item) {
       const std::size_t parent = parents_[item];
-      opposed_[item] ^= opposed_[parent];  // a root is never opposed to itself
+      opposed_[item] ^= opposed_[parent];  // the parity of a root is 0
       parents_[item] = parents_[parent];
       opposed ^= opposed_[item] != 0;
       item = parents_[item];
@@ -33,8 +33,8 @@ class ParitySets {
     return {item, opposed};
   }
 
-  /// Says that exactly one of two items has to be turned (`opposed`), or both or none. Where that contradicts
-  /// what was said before, the set is torn.
+  /// Requires that exactly one of two items is reversed (`opposed`), or both or neither. A contradiction with
+  /// earlier requirements marks the set as torn.
   void join(std::size_t first, std::size_t second, bool opposed) {
     Member a = member_of(first), b = member_of(second);
     const bool roots_opposed = (a.opposed != b.opposed) != opposed;
@@ -53,8 +53,8 @@ class ParitySets {
 
  private:
   std::vector<std::size_t> parents_, sizes_;
-  std::vector<char> opposed_;  ///< to the parent
-  std::vector<char> torn_;     ///< of a root
+  std::vector<char> opposed_;  ///< relative to the parent
+  std::vector<char> torn_;     ///< valid for roots
 };
 
 }  // namespace quadloop

@@ -18,8 +18,8 @@ constexpr std::size_t narrow = 20, usual = 80;  // columns
 
 struct Terminal {
   bool shown = false;
-  bool dirty = false;    ///< the line stands there
-  double next_line = 0;  ///< when it may be written again
+  bool dirty = false;    ///< whether the line is displayed
+  double next_line = 0;  ///< earliest time of the next update
   std::string prefix;
   Stage* stage = nullptr;
 };
@@ -93,7 +93,7 @@ Stage::~Stage() {
   clear();
 }
 
-/// Draws where it is time, and finds out after how many calls to look at the clock again.
+/// Redraws the line if it is time, and adjusts the number of calls until the next look at the clock.
 void Stage::look() {
   calls_left_ = most_calls_between;
   Terminal& t = terminal();

@@ -2,34 +2,32 @@
 
 #include <string>
 
-/// One line on a terminal that says what a long run is doing: stage, share done, rate, time left. It is
-/// written anew in place, some times a second, and goes before anything else is said. Without a terminal, and
-/// on ranks that are not to show it, nothing happens. No communication: the share is the calling rank's own.
-/// No influence on results.
+/// A progress line on a terminal: stage, fraction done, rate, time left. It is updated in place a few times
+/// per second and removed before other output. Without a terminal, and on ranks that do not show it, nothing
+/// happens. No communication: the fraction is that of the calling rank. No influence on results.
 namespace quadloop::progress {
 
-/// Shows the line on stderr from now on, where that is a terminal. Runs of less than half a second show
-/// nothing.
+/// Enables the line on stderr, if that is a terminal. Runs of less than half a second show nothing.
 void show();
 
-/// What all lines begin with, as in "cycle 2 of 5"; empty for none.
+/// Sets the prefix of all lines, e.g. "cycle 2 of 5"; empty for none.
 void set_prefix(const std::string& prefix);
 
-/// A stage under way, until it goes out of scope. Stages may lie within each other: the inner one is shown.
+/// A running stage, until it goes out of scope. Stages may be nested: the inner one is shown.
 class Stage {
  public:
-  /// `total` as advance() counts; 0 where it is not known.
+  /// `total` in units of advance(); 0 if it is not known.
   explicit Stage(const char* name, double total = 0, const char* unit = "");
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// So much of the total is done. Cheap enough to be called for every leaf.
+  /// Sets how much of the total is done. Cheap enough to be called for every leaf.
   void advance(double done) {
     done_ = done;
     if (--calls_left_ <= 0) look();
   }
-  /// What else is to be seen behind the share, and behind that, until it is said anew.
+  /// Sets texts shown after the fraction, until they are changed.
   void say(const std::string& text) { text_ = text; }
   void say_then(const std::string& text) { then_ = text; }
 
@@ -45,10 +43,10 @@ class Stage {
   Stage* outer_;
 };
 
-/// The innermost stage, or none: for those who are called in the middle of one.
+/// Returns the innermost stage, or null: for functions called within a stage.
 Stage* current();
 
-/// Takes the line from the terminal, so that something else can be said. It comes back with the next advance.
+/// Removes the line from the terminal before other output. It reappears with the next advance().
 void clear();
 
 }  // namespace quadloop::progress

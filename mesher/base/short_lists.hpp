@@ -6,8 +6,8 @@
 
 namespace quadloop {
 
-/// Memory for lists that live no longer than it does: on the stack while they are short, so that they need no
-/// allocations. Lists that outgrow it are moved to the heap. What a list gives back is not used again.
+/// Memory for short-lived lists, which must not outlive it: on the stack while they are short, which avoids
+/// allocations, else on the heap. Memory released by a list is not reused.
 template <std::size_t bytes>
 class ShortLists {
  public:

@@ -6,7 +6,7 @@
 
 namespace quadloop {
 
-/// With the letters of ASCII made small, in any locale.
+/// Converts ASCII letters to lower case, in any locale.
 inline std::string small_letters(std::string text) {
   std::ranges::transform(text, text.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
@@ -14,7 +14,7 @@ inline std::string small_letters(std::string text) {
   return text;
 }
 
-/// The suffix of a file's name with its dot, in small letters: programs of other systems write .MSH and .DXF.
+/// Returns the suffix of a file name with its dot, in lower case, as some programs write .MSH or .DXF.
 inline std::string suffix_of(const std::string& path) {
   return small_letters(std::filesystem::path(path).extension().string());
 }

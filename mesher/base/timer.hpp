@@ -10,10 +10,10 @@ namespace quadloop {
 
 using StageSeconds = std::vector<std::pair<std::string, double>>;
 
-/// Seconds that this rank spent in each named stage, in the order in which the stages ran.
+/// Seconds that this rank spent in each named stage, in the order of the stages.
 class StageTimes {
  public:
-  /// Ends the stage under way, if any, and begins the named one.
+  /// Ends the running stage, if any, and starts the named one.
   void begin(std::string stage) {
     end();
     stages_.emplace_back(std::move(stage), 0.0);
@@ -26,12 +26,12 @@ class StageTimes {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     running_ = false;
   }
-  /// The other's stages come after these.
+  /// Appends the stages of `other`.
   void append(const StageTimes& other) {
     end();
     stages_.insert(stages_.end(), other.stages_.begin(), other.stages_.end());
   }
-  /// The other's stages come after these as one.
+  /// Appends the stages of `other` as a single one.
   void append_as(std::string stage, const StageTimes& other) {
     end();
     double sum = 0;
@@ -46,7 +46,7 @@ class StageTimes {
   bool running_ = false;
 };
 
-/// A stage that ran twice stands once, with its sum.
+/// Adds up stages of the same name.
 inline StageSeconds added_up(const StageSeconds& stages) {
   StageSeconds sums;
   for (const auto& [stage, seconds] : stages) {

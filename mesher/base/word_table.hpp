@@ -9,8 +9,8 @@
 
 namespace quadloop {
 
-/// The words by which users choose among the values of an enumeration, in the order in which messages list
-/// them: the one place where a new value gets its word.
+/// The words for the values of an enumeration in user input, in the order in which messages list them: the
+/// one place to add the word of a new value.
 template <class Value, std::size_t count>
 using WordTable = std::array<std::pair<const char*, Value>, count>;
 
@@ -21,7 +21,7 @@ std::vector<std::string> words_of(const WordTable<Value, count>& table) {
   return words;
 }
 
-/// The value that a word stands for; none where it is not in the table.
+/// Returns the value of a word; empty if it is not in the table.
 template <class Value, std::size_t count>
 constexpr std::optional<Value> value_of(const WordTable<Value, count>& table, std::string_view word) {
   for (const auto& [known, value] : table) {
@@ -30,7 +30,7 @@ constexpr std::optional<Value> value_of(const WordTable<Value, count>& table, st
   return std::nullopt;
 }
 
-/// The first word for a value, which must be in the table.
+/// Returns the first word for a value, which must be in the table.
 template <class Value, std::size_t count>
 constexpr const char* word_of(const WordTable<Value, count>& table, Value value) {
   std::size_t i = 0;

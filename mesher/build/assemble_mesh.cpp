@@ -65,7 +65,8 @@ class Assembler {
     }
   }
 
-  /// A square's corner with the most trailing zeros in its coordinates is the one shared with the parent.
+  /// The corner of a square with the most trailing zeros in its coordinates is the one shared with the
+  /// parent.
   void add_quad(LeafId leaf, const std::array<NodeId, 4>& nodes) {
     const auto& [a, b, c, d] = nodes;
     const Quadrant& q = graph_.leaf(leaf);
@@ -88,7 +89,7 @@ class Assembler {
   bool triangles_alone_;
   Mesh& mesh_;
   std::vector<std::vector<std::int32_t>>& edge_leaves_;
-  std::vector<NodeId> found_;  ///< of a cut leaf's nodes, those that were asked for
+  std::vector<NodeId> found_;  ///< requested nodes of a cut leaf
 };
 
 LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
@@ -103,10 +104,11 @@ LeafRecord record_of(const Quadrant& q, std::int8_t wanted) {
   return record;
 }
 
-/// Room that is not filled takes no memory, but may have to be new where less would fit into what was freed.
+/// Reserved memory that is not filled costs nothing, but may need a new allocation where a smaller request
+/// would fit into freed memory.
 void reserve_cells(const CutForest& cut, std::size_t nodes, bool triangles_alone, Mesh& mesh) {
   if (triangles_alone) {
-    mesh.triangles.reserve(2 * nodes);  // there are fewer, by Euler's formula
+    mesh.triangles.reserve(2 * nodes);  // upper bound by Euler's formula
     return;
   }
   const auto inside = std::count(cut.states.begin(), cut.states.end(), CutForest::State::inside);

@@ -5,8 +5,8 @@
 
 namespace quadloop {
 
-/// The distributed mesh and the tree record from the cut forest. For `triangles_alone` each quadrilateral is
-/// divided by one of its leaf's diagonals: through the corner that the leaf shares with its parent.
+/// Assembles the distributed mesh and the tree record from the cut forest. With `triangles_alone` each
+/// quadrilateral is split by the diagonal through the corner that its leaf shares with its parent.
 /// *Collective.*
 void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result);

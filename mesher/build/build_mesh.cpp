@@ -51,8 +51,8 @@ void describe_tree(const Communicator& comm, const Geometry& geometry, const Lat
   count_entries(comm, result);
 }
 
-/// Of a large mesh that is the first of its run it is worth a line; of a very large one with its cause, which
-/// may be a slip.
+/// Reports the size of a large mesh if it is the first of the run; for a very large one also the setting
+/// responsible, which may be a mistake.
 void tell(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options, int ranks,
           bool first) {
   constexpr double large = 1e6, very_large = 1e7;
@@ -106,7 +106,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
 
   times.begin("mesh");
-  sizes.forget();  // the mesh takes the room of its nodes
+  sizes.forget();  // frees the size tree before the mesh is allocated
   assemble_mesh(comm, geometry, sizes, graph, cut, has_triangles_alone(options.type), result);
   cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);

@@ -17,83 +17,83 @@
 
 namespace quadloop {
 
-/// Which cells a mesh has: quadrilaterals where they fit and triangles, or triangles alone, constrained
-/// Delaunay over the whole domain; or such triangles until there is a solution, whose metric they then
-/// follow.
+/// Cell types of a mesh: hybrid: quadrilaterals where they fit, else triangles; delaunay: triangles only,
+/// constrained Delaunay over the whole domain; metric: such triangles until there is a solution, then
+/// triangles that follow its metric.
 enum class MeshType { hybrid, delaunay, metric };
 inline bool has_triangles_alone(MeshType type) { return type != MeshType::hybrid; }
 
-/// Which quadrilaterals a hybrid mesh keeps: all that are in good shape, or parallelograms alone, the others
-/// being divided.
+/// Quadrilaterals of a hybrid mesh: all well-shaped ones, or only parallelograms, the others being split.
 enum class QuadChoice { all, parallel };
 
-/// How much a mesh may cost.
+/// Limits on the size of a mesh.
 struct MeshLimit {
   static constexpr double none = std::numeric_limits<double>::infinity();
   double cells = none;
   double bytes = none;  ///< of memory, over all ranks
-  int ranks = 1;        ///< that share it
+  int ranks = 1;        ///< number of ranks that share it
 };
 
-/// What a mesh is expected to cost, before it is made.
+/// Estimated size of a mesh, before it is generated.
 struct MeshEstimate {
   double leaves = 0, cells = 0;
-  double bytes = 0;          ///< of memory, shared out over the ranks
-  double bytes_of_rank = 0;  ///< beside that, on each
-  double layer_cells = 0;    ///< of the cells those in layers at walls
+  double bytes = 0;          ///< memory distributed over the ranks
+  double bytes_of_rank = 0;  ///< additional memory on each rank
+  double layer_cells = 0;    ///< number of cells in wall layers
 };
 
-/// Refuses a mesh that would have more cells than are allowed, or than memory holds.
+/// Thrown if a mesh would have more cells than allowed, or exceed free memory.
 class TooManyCells : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// How a mesh is made from a geometry.
+/// Options of mesh generation from a geometry.
 struct MeshOptions {
   MeshType type = MeshType::hybrid;
   QuadChoice quads = QuadChoice::all;
   SizeOptions size;
-  double snap = 0.4;  ///< a lattice corner nearer to a crossing than this share of the local edge moves onto
-                      ///< the boundary; 0 <= snap < 0.5
-  bool may_vanish = false;  ///< a boundary all of whose loops are smaller than the smallest leaf is dropped;
-                            ///< otherwise it is refused
-  MeshLimit limit;          ///< has no influence on the mesh, if there is one
-  /// The mesh is to be its own mirror image in this axis, as the geometry is. build_mesh() makes it so where
-  /// sizes and root are; the axis must be a line between leaves.
+  /// Snap tolerance: a grid vertex closer to a crossing than this fraction of the local edge moves onto the
+  /// boundary; 0 <= snap < 0.5.
+  double snap = 0.4;
+  /// If true, a boundary whose loops are all smaller than the smallest leaf is dropped; otherwise it is an
+  /// error.
+  bool may_vanish = false;
+  MeshLimit limit;  ///< does not affect the mesh unless it is exceeded
+  /// The mesh must be symmetric in this axis, as the geometry is. build_mesh() guarantees this if sizes and
+  /// root are symmetric; the axis must be a line between leaves.
   std::optional<MirrorAxis> mirror = {};
 };
 
-/// What a user is told of a mesh's making. The numbers are over all ranks, the same on each.
+/// Report of mesh generation for the user. Numbers are over all ranks, the same on each.
 struct MeshReport {
   std::int64_t leaves = 0, cut_leaves = 0, islands_dropped = 0;
   std::int64_t regions = 0;       ///< connected regions of the domain
-  MeshEstimate estimate;          ///< as it was known before the meshing
-  double area_dropped = 0;        ///< of the loops dropped; below 0 for islands
-  std::int64_t corners_lost = 0;  ///< kept corners of the outline that are no nodes
+  MeshEstimate estimate;          ///< made before mesh generation
+  double area_dropped = 0;        ///< of the dropped loops; negative for islands
+  std::int64_t corners_lost = 0;  ///< feature points of the geometry that are not mesh nodes
   int coarsest_level = 0, finest_level = 0;
-  int finest_allowed = 0;  ///< level that no leaf may pass
-  double imbalance = 1;    ///< the heaviest rank's work over the mean, as the partition weighs it
-  std::vector<std::string> boundaries_vanished;  ///< names of those that the mesh has no edge of
+  int finest_allowed = 0;  ///< maximum leaf level
+  double imbalance = 1;    ///< maximum over mean work of the ranks, by the weights of the partition
+  std::vector<std::string> boundaries_vanished;  ///< names of boundaries without mesh edges
   std::vector<std::string> warnings;             ///< one line each: what was dropped or coarsened, and where
   StageTimes times;                              ///< of this rank
 };
 
 struct MeshResult {
   Mesh mesh;
-  TreeRecord tree;  ///< its digests of case and coordinates are left to the caller
-  /// Of each boundary's edges on this rank: the leaf that it belongs to, by its index in tree.leaves;
-  /// ascending.
+  TreeRecord tree;  ///< case and coordinate digests are set by the caller
+  /// For each boundary edge on this rank its leaf, as index into tree.leaves; ascending.
   std::vector<std::vector<std::int32_t>> edge_leaves;
   MeshReport report;
 };
 
-/// Sets what the tree says of the numbers of nodes and cells over all ranks. *Collective.*
+/// Sets the tree's numbers of nodes and cells over all ranks. *Collective.*
 void count_entries(const Communicator& comm, MeshResult& result);
 
-/// Meshes the domain of `geometry`: the mesh is a function of geometry, options and what adaptation has
-/// demanded of the tree. *Collective.* Throws InputError where the geometry cannot be meshed with these
-/// options, TooManyCells where they ask for more than options.limit.
+/// Generates the mesh of the domain of `geometry`. The mesh depends only on geometry, options and adaptation
+/// demands. Throws InputError if the geometry cannot be meshed with these options, TooManyCells if they
+/// exceed options.limit. *Collective.*
 MeshResult build_mesh(const Communicator& comm, const Geometry& geometry, const MeshOptions& options,
                       const DemandedSplits& demanded = {});
 

@@ -10,7 +10,7 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_of_a_kind =
-    16;  // boundaries' spacings and sources that are looked at, the smallest
+    16;  // maximum number of boundary spacings and of sources considered, the smallest ones
 
 double longer_side(const Geometry& geometry) {
   return std::max(geometry.box().width(), geometry.box().height());
@@ -81,8 +81,8 @@ void add_sources(const SizeSettings& settings, double side, std::vector<CellDema
   }
 }
 
-/// The smallest leaves: they are what asks for cells where a boundary asks for its own points' spacing,
-/// whatever that is.
+/// Adds the size of the smallest leaves, which is responsible if a boundary uses the spacing of its own
+/// points.
 void add_smallest(const SizeSettings& settings, double side, std::vector<CellDemand>& demands) {
   const auto set = [](SizeSettings& s, double value) {
     s.size.min = value;

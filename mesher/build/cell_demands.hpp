@@ -8,26 +8,27 @@
 
 namespace quadloop {
 
-/// The sizes of a mesh as they might be changed: what a case says of them, and what its boundaries ask for.
+/// Size settings that may be changed: those of the case and of its boundaries.
 struct SizeSettings {
   SizeOptions size;
   std::vector<Boundary> boundaries;
 };
 
-/// One setting that asks for cells.
+/// A setting that increases the number of cells.
 struct CellDemand {
-  std::string key;      ///< as the user knows it, with its place where it has no name
-  double value = 0;     ///< as it is
-  double loosest = 0;   ///< asks for nothing any more
-  bool is_size = true;  ///< else gap: it asks for more the larger it is
+  std::string key;      ///< key in the case file, with its location if it has no name
+  double value = 0;     ///< current value
+  double loosest = 0;   ///< value without any effect
+  bool is_size = true;  ///< false: a gap setting, where larger values give more cells
   std::function<void(SizeSettings&, double value)> set;
-  std::function<void(SizeSettings&)> lift;  ///< takes away what it alone asks for
+  std::function<void(SizeSettings&)> lift;  ///< removes the effect of this setting
 };
 
-/// What asks for cells, each key once; boundaries of one spacing go together.
+/// Returns the settings that increase the number of cells, each key once; boundaries of equal spacing are
+/// combined.
 std::vector<CellDemand> cell_demands(const SizeSettings& settings, const Geometry& geometry);
 
-/// The same outline with other demands of its boundaries.
+/// Returns the same geometry with other boundary settings.
 Geometry with_boundaries(const Geometry& geometry, const std::vector<Boundary>& boundaries);
 
 }  // namespace quadloop

@@ -1,4 +1,4 @@
-// Whether a mesh is within what is allowed, and if not, which settings are the cause.
+// Checks whether a mesh is within the limits and, if not, finds the settings responsible.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,15 +12,15 @@ namespace quadloop {
 namespace {
 
 constexpr std::size_t most_named = 3;
-constexpr double share_that_fits = 0.8;  // of the limit: the share is estimated from a sample
+constexpr double share_that_fits = 0.8;  // fraction of the limit, as the estimate is from a sample
 
-/// Rounded up to two digits.
+/// Rounds up to two digits.
 double rounded_up(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
   return std::ceil(value / unit * (1 - 1e-9)) * unit;
 }
 
-/// Finds settings to be changed, one after another, until the mesh fits.
+/// Changes settings one after another until the mesh fits.
 class Relaxation {
  public:
   Relaxation(const MeshLimit& limit, const Geometry& geometry, const MeshOptions& options,
@@ -30,8 +30,8 @@ class Relaxation {
     settings_.boundaries = {geometry.boundaries().begin(), geometry.boundaries().end()};
   }
 
-  /// "spacing.max = 1e-06 asks for most of them", if without it less than half of what is allowed would be
-  /// taken; else nothing.
+  /// Returns "spacing.max = 1e-06 asks for most of them" if without this setting less than half of the limit
+  /// would be used; else empty.
   std::string cause() const {
     std::vector<CellDemand> demands = cell_demands(settings_, geometry_);
     const auto first = cause_among(demands);
@@ -40,7 +40,7 @@ class Relaxation {
     return share_with(without) < 0.5 ? text_of(*first) : "";
   }
 
-  /// "spacing.max = 1e-06 asks for most of them: 0.01 fits".
+  /// Returns "spacing.max = 1e-06 asks for most of them: 0.01 fits".
   std::string cure() {
     std::vector<CellDemand> demands = cell_demands(settings_, geometry_);
     std::string with;
@@ -66,7 +66,7 @@ class Relaxation {
   }
   bool fits(const SizeSettings& settings) const { return share_with(settings) <= share_that_fits; }
 
-  /// Changes the setting, which is then no longer among the demands.
+  /// Changes the setting and removes it from the demands.
   double loosen(std::vector<CellDemand>& demands, std::vector<CellDemand>::iterator demand) {
     const double value = loosened(*demand);
     demand->set(settings_, value);
@@ -74,7 +74,7 @@ class Relaxation {
     return value;
   }
 
-  /// The one without which the mesh would be smallest.
+  /// Returns the setting without which the mesh would be smallest.
   std::vector<CellDemand>::iterator cause_among(std::vector<CellDemand>& demands) const {
     auto cause = demands.begin();
     double least = MeshLimit::none;
@@ -98,8 +98,8 @@ class Relaxation {
     return std::min(rounded_up(demand.value * std::ldexp(1.0, halvings)), demand.loosest);
   }
 
-  /// The value nearest to the setting's own, in steps of two, with which the mesh fits; the loosest where
-  /// none does.
+  /// Returns the value closest to the current one, in factors of two, for which the mesh fits; the loosest if
+  /// there is none.
   double loosened(const CellDemand& demand) const {
     constexpr int most = 40;
     int low = 0, high = 1;
@@ -124,7 +124,7 @@ class Relaxation {
   SizeSettings settings_;
 };
 
-/// What to change.
+/// Returns the settings to change.
 std::string cure_for(const MeshEstimate& estimate, const Geometry& geometry, const MeshOptions& options,
                      const DemandedSplits& demanded) {
   const MeshLimit& limit = options.limit;

@@ -10,7 +10,7 @@ namespace quadloop {
 
 std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const MeshOptions& options,
                          const DemandedSplits& demanded) {
-  MeshReport dropped;  // said when the mesh is made
+  MeshReport dropped;  // reported when the mesh is made
   const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, dropped);
   const Geometry& geometry = fewer ? *fewer : given;
   SizedDomain domain(geometry, options.size, demanded);

@@ -6,8 +6,8 @@
 
 namespace quadloop {
 
-/// How many nodes the mesh would have that build_mesh() makes: from its leaves and from what is cut, without
-/// making cells of them. Throws as that does, but for boundaries that leaves would not show. *Collective.*
+/// Returns the number of nodes of the mesh of build_mesh(), from its leaves and cuts, without creating cells.
+/// Throws as build_mesh() does, except for boundaries that the leaves do not resolve. *Collective.*
 std::int64_t count_nodes(const Communicator& comm, const Geometry& geometry, const MeshOptions& options,
                          const DemandedSplits& demanded = {});
 

@@ -36,7 +36,7 @@ Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
           std::move(segment_boundary)};
 }
 
-/// In the order of the geometry.
+/// Returns the names in the order of the geometry.
 std::vector<std::string> names_without_segments(const Geometry& g) {
   IdVector<BoundaryId, char> found(g.boundaries().size(), 0);
   for (std::int32_t s = 0; s < g.size(); ++s) found[g.boundary_of(s)] = 1;
@@ -59,7 +59,7 @@ std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, Mes
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
     if (box.width() >= min || box.height() >= min) continue;
-    keep[loop] = 0;  // loops nested in it are smaller still, so they go by the same rule
+    keep[loop] = 0;  // loops nested in it are smaller still and dropped by the same rule
     ++report.islands_dropped;
     report.area_dropped += area_of_loop(g, loop);
     std::ostringstream line;

@@ -6,11 +6,11 @@
 
 namespace quadloop {
 
-/// The geometry without the loops whose boxes are smaller than `min` both ways, and without what lies inside
-/// those; each is counted and named in the report. Throws InputError where no loop remains.
+/// Returns the geometry without the loops whose bounding boxes are smaller than `min` in both directions, and
+/// without their interior; each is counted and named in the report. Throws InputError if no loop remains.
 Geometry without_small_islands(const Geometry& geometry, double min, MeshReport& report);
 
-/// The same, but none where all loops stay: a large geometry need not be held twice.
+/// The same, but empty if all loops remain, to avoid a copy of a large geometry.
 std::optional<Geometry> small_islands_dropped(const Geometry& geometry, double min, MeshReport& report);
 
 }  // namespace quadloop

@@ -13,17 +13,17 @@ namespace quadloop {
 
 namespace {
 
-/// A local leaf that is cut or has a snapped corner, or one that touches such a leaf.
+/// A local leaf that is cut or has a snapped corner, or that touches such a leaf.
 struct IrregularLeaf {
-  std::int32_t index = 0;     ///< local
-  std::int32_t triangle = 0;  ///< the first of its own, before any moves to another leaf
-  std::int32_t count = 0;     ///< of these
-  bool cut = false;           ///< or with a snapped corner
+  std::int32_t index = 0;     ///< local index
+  std::int32_t triangle = 0;  ///< its first triangle, before any triangle moves to another leaf
+  std::int32_t count = 0;     ///< number of its triangles
+  bool cut = false;           ///< cut, or with a snapped corner
 
   std::int32_t end() const { return triangle + count; }
 };
 
-/// A flag for each leaf of the graph that is irregular. *Collective.*
+/// Flags the irregular leaves of the graph. *Collective.*
 std::vector<char> flag_irregular(const LeafGraph& graph, const std::vector<char>& is_cut) {
   std::vector<char> irregular = is_cut;
   LeafFinder finder(graph);
@@ -34,7 +34,7 @@ std::vector<char> flag_irregular(const LeafGraph& graph, const std::vector<char>
   return irregular;
 }
 
-/// In ascending order. *Collective.*
+/// Returns the irregular leaves in ascending order. *Collective.*
 std::vector<IrregularLeaf> irregular_leaves(const Communicator& comm, const LeafGraph& graph,
                                             const CutForest& cut, const std::vector<LeafRecord>& leaves) {
   std::vector<char> is_cut(graph.size(), 0);
@@ -59,15 +59,15 @@ std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular, bool cu
   return count;
 }
 
-/// Flips the edges between this rank's triangles in irregular leaves until they are Delaunay. Edges of leaves
-/// that are not cut are right but for those to cut ones. Returns the nodes at edges to other ranks'
-/// triangles: each is a copy on one of them.
+/// Flips the edges between this rank's triangles in irregular leaves until they are Delaunay. Edges of uncut
+/// leaves are already Delaunay, except for those to cut leaves. Returns the nodes at edges to other ranks'
+/// triangles; each is a ghost on one of the two ranks.
 std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>& rank_of,
                                              const std::vector<IrregularLeaf>& irregular, Mesh& mesh) {
   const std::size_t of_cut = count_triangles(irregular, true);
   std::vector<Flipper::Triangle> triangles(of_cut + count_triangles(irregular, false));
   const auto for_each_triangle = [&](const auto& visit) {
-    std::array<std::size_t, 2> next{of_cut, 0};  // of leaves that are not cut, and of those that are
+    std::array<std::size_t, 2> next{of_cut, 0};  // of uncut leaves, and of cut ones
     for (const IrregularLeaf& leaf : irregular) {
       for (std::int32_t t = leaf.triangle; t < leaf.end(); ++t)
         visit(mesh.triangles[t], triangles[next[leaf.cut ? 1 : 0]++]);
@@ -91,21 +91,22 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
 
 using GlobalNodes = std::array<GlobalNodeId, 3>;
 
-/// A triangle on the way to the rank of its leaf.
+/// A triangle sent to the rank of its leaf.
 struct FreeTriangle {
   GlobalNodes nodes;
   std::array<Point, 3> points;
 };
 
-/// A triangle in its leaf.
+/// A triangle with its leaf.
 struct PlacedTriangle {
-  std::int32_t leaf = 0;     ///< its local index
-  GlobalNodes global_nodes;  ///< the smallest first
+  std::int32_t leaf = 0;     ///< local index
+  GlobalNodes global_nodes;  ///< starting from the smallest
   std::array<NodeId, 3> nodes;
   friend auto operator<=>(const PlacedTriangle&, const PlacedTriangle&) = default;
 };
 
-/// The triangles of irregular leaves go to the leaves that hold their centroids, where most stand already.
+/// Moves the triangles of irregular leaves to the leaves that contain their centroids; most are already
+/// there.
 class LeafTriangles {
  public:
   LeafTriangles(const Lattice& lattice, const LeafGraph& graph, Mesh& mesh)
@@ -125,14 +126,14 @@ class LeafTriangles {
     std::sort(arrived_.begin(), arrived_.end());
   }
 
-  /// Puts them there. In irregular leaves all are sorted by the numbers of their nodes.
+  /// Stores the triangles. In irregular leaves all are sorted by their node numbers.
   void put_back(const std::vector<IrregularLeaf>& irregular, std::vector<LeafRecord>& leaves) const {
     auto& all = mesh_.triangles;
-    const auto room = std::ssize(arrived_) + 1;  // in front: none is written over before it was read
+    const auto room = std::ssize(arrived_) + 1;  // at the front: nothing is overwritten before it is read
     all.reserve(all.size() + room);
     all.insert(all.begin(), room, {});
     auto written = all.begin();
-    auto next = all.begin() + room;  // of those that are not there yet
+    auto next = all.begin() + room;  // the next triangle that has not been moved
     auto arrival = arrived_.cbegin();
     auto stranger = strangers_.cbegin();
     std::vector<PlacedTriangle> here;
@@ -160,7 +161,7 @@ class LeafTriangles {
   }
 
  private:
-  /// Sends those of a leaf's triangles, from one to another, whose centroids lie in other leaves.
+  /// Sends a leaf's triangles, one range of the mesh, whose centroids lie in other leaves.
   void send_strangers(const IrregularLeaf& from) {
     const LeafId leaf = graph_.from_local(from.index);
     const Box box = lattice_.box_of(graph_.leaf(leaf));
@@ -191,9 +192,9 @@ class LeafTriangles {
     return {leaf, {mesh_.global(nodes[0]), mesh_.global(nodes[1]), mesh_.global(nodes[2])}, nodes};
   }
 
-  /// Whether the centroid lies so far inside a leaf that no rounding can tell otherwise.
+  /// Whether the centroid is inside a leaf with a margin larger than any rounding error.
   static bool is_surely_in(const Box& leaf, const std::array<Point, 3>& p) {
-    // Of the leaf's edge: ten times what rounding does to the sum, as Lattice::finest_level has it.
+    // Relative to the leaf's edge: ten times the rounding error of the sum (Lattice::finest_level).
     constexpr double rim = 0.125;
     const double margin = rim * leaf.width(), x = (p[0].x + p[1].x + p[2].x) / 3,
                  y = (p[0].y + p[1].y + p[2].y) / 3;
@@ -201,7 +202,7 @@ class LeafTriangles {
            y < leaf.high.y - margin;
   }
 
-  /// The nodes are added up in the order of their coordinates, for the same sum on every rank.
+  /// Sums the nodes in the order of their coordinates, so that all ranks get the same result.
   static Point centroid(std::array<Point, 3> p) {
     std::sort(p.begin(), p.end());
     return {(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3};

@@ -8,15 +8,15 @@
 
 namespace quadloop {
 
-/// Makes a mesh of triangles the constrained Delaunay triangulation of the same nodes, over the whole domain
-/// (thesis 3.6.1), unique by the order of nodes `rank_of`; `leaves` say how many cells of the
-/// mesh each local leaf has, before and after. A triangle belongs to the leaf that holds its centroid, so the
-/// order of cells does not depend on the number of ranks. *Collective.*
+/// Converts a triangular mesh to the constrained Delaunay triangulation of the same nodes over the whole
+/// domain (thesis 3.6.1), made unique by the node order `rank_of`. `leaves` contains the number of cells of
+/// each local leaf, before and after. A triangle belongs to the leaf that contains its centroid, so the order
+/// of cells does not depend on the number of ranks. *Collective.*
 ///
-/// In a leaf that is not cut, nor any around it, the triangles are constrained Delaunay already, with the
-/// diagonals that assemble_mesh gives squares: no circumcircle reaches beyond the leaves that touch. Of the
-/// others' triangles, edges that are not Delaunay are flipped wherever that leads; the result being unique,
-/// no rank needs to know where others began.
+/// In a leaf that is uncut, as are all its neighbours, the triangles are constrained Delaunay already, with
+/// the diagonals that assemble_mesh uses for squares: no circumcircle extends beyond the adjacent leaves.
+/// Among the other triangles, non-Delaunay edges are flipped until there are none; as the result is unique,
+/// the ranks need not agree on the order of flips.
 void make_delaunay(const Communicator& comm, const Lattice& lattice,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves);

@@ -12,23 +12,23 @@ namespace quadloop {
 
 namespace {
 
-// Means over the cases and over outlines made to be hard, each within 20 %.
+// Means over the cases and over difficult geometries, each within 20 %.
 constexpr double hybrid_cells_of_leaf = 1.12, triangles_of_leaf = 2.05;
 
-// Peak memory of meshing, smoothing and writing, in bytes; a cut leaf's is of those that the estimate counts.
+// Peak memory of meshing, smoothing and writing, in bytes; that of a cut leaf refers to the estimated number.
 constexpr double of_leaf = 80, of_cut_leaf = 450, of_hybrid_cell = 45, of_delaunay_triangle = 35;
-// On every rank, the program itself too.
+// On every rank, including the program itself.
 constexpr double of_segment = 110, of_program = 28 * 0x1p20;
-constexpr double of_station = 300;  // a segment of a front, beside that
+constexpr double of_station = 300;  // additional memory of a segment of the outer edge of layers
 
-/// Points that the mesh must keep: each beyond the first of a leaf makes a triangle more.
+/// Returns the number of points that the mesh must keep: each but the first in a leaf adds a triangle.
 double kept_points(const Geometry& geometry) {
   double kept = 0;
   for (std::int32_t v = 0; v < geometry.size(); ++v) kept += geometry.kept(v) ? 1 : 0;
   return kept;
 }
 
-/// Segments of a front, from each of which a column could rise.
+/// Returns the number of segments of the outer edge of layers, each of which may have a column.
 double stations_of(const Geometry& geometry) {
   double stations = 0;
   for (std::int32_t s = 0; s < geometry.size(); ++s)
@@ -36,8 +36,8 @@ double stations_of(const Geometry& geometry) {
   return stations;
 }
 
-/// Cells of the layers that are to stand below the front: a column on each of its edges, which are as long as
-/// the leaves there.
+/// Returns the number of cells in layers: a column on each edge of the outer edge, of the length of the
+/// leaves there.
 double cells_of_layers(const Geometry& geometry, SizedDomain& domain) {
   const Lattice& lattice = domain.lattice;
   SizeCursor leaves(domain.sizes);

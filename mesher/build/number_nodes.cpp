@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int32_t unused = -1, used = -2;
 
-/// Where leaves own nodes beside their cut ones, in the order of their numbers; the first three only on the
-/// root's lower or left side.
+/// Sites of the nodes that leaves own in addition to their cut nodes, in the order of their numbers; the
+/// first three only at the root's lower or left side.
 constexpr std::array owned_sites{Site::south_west, Site::south_east,   Site::north_west,
                                  Site::north_east, Site::right_middle, Site::top_middle};
 
@@ -25,7 +25,7 @@ constexpr std::uint8_t bit_of(Site site) {
 }
 static_assert(bit_of(Site::north_west) == 1 << 2 && bit_of(Site::top_middle) == 1 << 5);
 
-/// Of a set of owned sites; the processor's own count is not to be had everywhere.
+/// Number of elements of each set of owned sites; a population count instruction is not available everywhere.
 constexpr auto sizes_of_sets = [] {
   std::array<std::uint8_t, 1 << owned_sites.size()> sizes{};
   for (std::size_t set = 0; set < sizes.size(); ++set)
@@ -33,7 +33,7 @@ constexpr auto sizes_of_sets = [] {
   return sizes;
 }();
 
-/// Whether the leaf has so many nodes that they are sorted: of few all are looked at in less time.
+/// Whether the leaf has enough nodes for sorting to pay off: few are searched linearly.
 bool has_many(const CutForest::Entry& entry) { return entry.end.nodes - entry.begin.nodes > 32; }
 
 }  // namespace
@@ -104,7 +104,7 @@ NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::
   return {owner != LeafGraph::none ? owner : leaf, Site::inside};
 }
 
-/// Sorts the nodes of leaves that have many by position.
+/// Sorts the nodes of leaves with many nodes by position.
 void NodeNumbering::sort_listed() {
   for (const CutForest::Entry& e : cut_->entries) {
     if (!has_many(e)) continue;
@@ -149,7 +149,7 @@ void NodeNumbering::use_local(Home home, Point position) {
   }
 }
 
-/// A node of CutForest::nodes that the leaf has.
+/// Marks a leaf's node of CutForest::nodes as used.
 void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
   if (listed_[node] == used) return;
   const Home home = home_of_cut_node(leaf, cut_->nodes[node]);
@@ -160,7 +160,7 @@ void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
   }
 }
 
-/// Whether the leaf is a local inside one: that uses all nodes that it owns, and sees to them itself.
+/// Whether the leaf is a local inner one, which uses all nodes that it owns and registers them itself.
 bool NodeNumbering::uses_its_own(LeafId leaf) const {
   return graph_->is_local(leaf) && cut_->states[graph_->local_index(leaf)] == CutForest::State::inside;
 }
@@ -232,7 +232,7 @@ void NodeNumbering::number_owned() {
   owned_ = size32(points_);
 }
 
-/// Snapped corners are not where the lattice has them.
+/// Moves the snapped corners from their lattice positions.
 void NodeNumbering::place_moved() {
   LeafFinder finder(*graph_);
   for (const auto& [corner, position] : cut_->moved) {
@@ -265,12 +265,12 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
   }
 }
 
-/// The number of a local node.
+/// Returns the number of a local node.
 std::int32_t NodeNumbering::number_at(Home home, Point position) const {
   return home.site == Site::inside ? listed_[listed_node(home.leaf, position)] : number_at_site(home);
 }
 
-/// Of a local one that is not listed.
+/// Returns the number of a local node that is not listed.
 std::int32_t NodeNumbering::number_at_site(Home home) const {
   const std::size_t local = graph_->local_index(home.leaf);
   const int before = used_sites_[local] & (bit_of(home.site) - 1);

@@ -10,39 +10,40 @@
 
 namespace quadloop {
 
-/// Numbers the nodes of the cells that a cut forest holds, along the space-filling curve: a node belongs to
-/// the first leaf along the curve that touches it, and a leaf's nodes follow each other in a fixed order; so
-/// the numbers do not depend on the number of ranks.
+/// Numbers the nodes of the cells of a cut forest along the space-filling curve: a node belongs to the first
+/// leaf along the curve that touches it, and the nodes of a leaf have consecutive numbers in a fixed order,
+/// so the numbers do not depend on the number of ranks.
 class NodeNumbering {
  public:
   /// *Collective.*
   NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
                 const CutForest& cut);
 
-  /// How many nodes this rank owns.
+  /// Number of nodes that this rank owns.
   std::int32_t owned() const { return owned_; }
-  /// How many nodes this rank's cells have, others' too.
+  /// Number of nodes of this rank's cells, including ghosts.
   std::size_t size() const { return points_.size(); }
-  /// The nodes at the lattice sites of an inside leaf, none in the middle of a side where nothing hangs.
+  /// Returns the nodes at the lattice sites of an inner leaf; invalid at the middle of a side without a
+  /// hanging node.
   using SiteNodes = std::array<NodeId, lattice_sites.size()>;
   SiteNodes of_leaf(LeafId leaf) const;
-  /// A node of a cut leaf, from its number in CutForest::nodes.
+  /// Returns a node of a cut leaf from its number in CutForest::nodes.
   NodeId of_cut(LeafId leaf, std::int32_t node) const;
 
-  /// Hands points, owners and global numbers over to the mesh.
+  /// Moves points, owners and global numbers to the mesh.
   void fill(Mesh& mesh) &&;
 
  private:
-  /// The leaf that owns a node, and where it has it: at one of its corners, in the middle of its right or top
-  /// side, or inside: in its list of cut nodes, where its position names it. Corners other than the upper
-  /// right one only on the root's lower and left side, where there is no leaf before it.
+  /// The leaf that owns a node, and its site there: a corner, the middle of the right or top side, or inside:
+  /// in its list of cut nodes, identified by position. Corners other than the upper right one occur only at
+  /// the root's lower and left side, where no earlier leaf exists.
   struct Home {
     LeafId leaf;
     Site site = Site::north_east;
   };
   struct Request {
     int rank = 0;
-    std::int32_t leaf = 0;  ///< its local index there
+    std::int32_t leaf = 0;  ///< local index on that rank
     Site site = Site::north_east;
     Point position;  ///< of a listed node
     friend auto operator<=>(const Request&, const Request&) = default;
@@ -58,8 +59,8 @@ class NodeNumbering {
   std::int32_t number_at_site(Home home) const;
   NodeId find(Home home, Point position = {}) const;
 
-  /// Whether it is a local leaf with one node beside its listed ones, as most are: that need not be told from
-  /// others.
+  /// Whether it is a local leaf that owns a single node in addition to its listed ones; most leaves do, and
+  /// it needs no distinction from others.
   bool owns_one(LeafId leaf) const;
 
   void use(Home home, Point position = {});
@@ -80,12 +81,12 @@ class NodeNumbering {
   const Lattice* lattice_;
   const LeafGraph* graph_;
   const CutForest* cut_;
-  std::vector<std::uint8_t> used_sites_;   ///< of each local leaf, a bit for each node that it owns, but
-                                           ///< listed ones
-  std::vector<std::int32_t> first_;        ///< of each local leaf, the number of the first node that it owns
-  std::vector<std::int32_t> listed_;       ///< the numbers of CutForest::nodes
-  std::vector<std::int32_t> by_position_;  ///< CutForest::nodes, sorted within each leaf that has many
-  std::vector<Request> wanted_;            ///< from other ranks, sorted: the copies
+  /// For each local leaf a bit per node that it owns, except listed ones.
+  std::vector<std::uint8_t> used_sites_;
+  std::vector<std::int32_t> first_;        ///< for each local leaf, number of the first node that it owns
+  std::vector<std::int32_t> listed_;       ///< numbers of CutForest::nodes
+  std::vector<std::int32_t> by_position_;  ///< CutForest::nodes, sorted within each leaf with many nodes
+  std::vector<Request> wanted_;            ///< from other ranks, sorted: the ghosts
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;

@@ -16,7 +16,7 @@ namespace {
 
 std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 
-/// Which of `count` things were seen on any rank. *Collective.*
+/// Returns which of the flags are set on any rank. *Collective.*
 std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char>& here) {
   std::vector<std::int32_t> ids;
   for (std::int32_t i = 0; i < std::ssize(here); ++i) {
@@ -27,7 +27,7 @@ std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char
   return seen;
 }
 
-/// Vertices that should be nodes, by their place; of several loops that touch there, the first.
+/// Returns the vertices that should be nodes, by position; of several loops that touch there the first.
 std::map<Point, std::int32_t> kept_vertices(const Geometry& geometry) {
   std::map<Point, std::int32_t> vertices;
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
@@ -41,7 +41,7 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
   std::vector<char> is_node(geometry.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& edge : boundary.edges) {  // each node of the closed outline begins one
+    for (const auto& edge : boundary.edges) {  // each node of the closed boundary starts one edge
       const auto at = kept.find(mesh.point(edge[0]));
       if (at != kept.end()) is_node[at->second] = 1;
     }
@@ -64,7 +64,7 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
           report.corners_lost == 1 ? "is" : "are", text(geometry.point(first))));
 }
 
-/// Of each boundary of the outline, that of its segments; empty where it has none.
+/// Returns the bounding box of each boundary; empty if it has no segments.
 std::vector<Box> boxes_of_boundaries(const Geometry& geometry) {
   std::vector<Box> boxes(geometry.boundaries().size());
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -80,9 +80,9 @@ Box box_of_boundary(const Geometry& geometry, const std::string& name) {
   return boxes_of_boundaries(geometry)[found - geometry.boundaries().begin()];
 }
 
-/// The boundaries of which the mesh has no edge. Where the outline is a front and has no segment of a
-/// boundary with layers, its edges come with these, as those of a base behind which a wake begins do, or its
-/// loops were dropped before.
+/// Returns the boundaries without mesh edges. If the geometry is the outer edge of layers and has no segment
+/// of a boundary with layers, the edges are added with the layers (e.g. those of a blunt base where a wake
+/// begins), or its loops were dropped before.
 std::vector<std::string> vanished_from(const Geometry& geometry, const std::vector<char>& has_edges) {
   const std::vector<Box> boxes = boxes_of_boundaries(geometry);
   std::vector<std::string> vanished;
@@ -94,7 +94,8 @@ std::vector<std::string> vanished_from(const Geometry& geometry, const std::vect
   return vanished;
 }
 
-/// Twice what each edge adds to the area enclosed, seen from `centre`, one list for each boundary.
+/// Returns twice the contribution of each edge to the enclosed area, relative to `centre`, one list per
+/// boundary.
 std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) {
   std::vector<std::vector<double>> shares;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -114,7 +115,7 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   return shares;
 }
 
-/// Of each boundary, whether it has whole loops alone, so that it encloses an area of its own.
+/// Returns for each boundary whether it consists of complete loops and thus encloses an area.
 std::vector<char> encloses_area(const Geometry& geometry) {
   std::vector<char> whole(geometry.boundaries().size(), 1);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -124,7 +125,7 @@ std::vector<char> encloses_area(const Geometry& geometry) {
   return whole;
 }
 
-/// The domain's area can hide a body's: in a wide far field that of an airfoil is nothing.
+/// The area of the domain may hide that of a body: that of an airfoil is negligible in a wide far field.
 void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, const Mesh& mesh,
                          MeshReport& report) {
   const Point centre = geometry.box().centre();

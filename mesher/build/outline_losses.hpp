@@ -4,27 +4,27 @@
 
 namespace quadloop {
 
-/// What an unsmoothed mesh has lost of the outline that it was cut from (without the islands dropped before):
-/// a warning with their number for kept corners that are no nodes, and the names of boundaries without an
-/// edge. *Collective.* Throws InputError where one vanished, unless `may_vanish`.
+/// Reports what an unsmoothed mesh has lost of its geometry (apart from islands dropped before): a warning
+/// with the number of feature points that are not nodes, and the names of boundaries without edges. Throws
+/// InputError if a boundary is lost, unless `may_vanish`. *Collective.*
 void report_losses(const Communicator& comm, const Geometry& geometry, const Mesh& mesh, bool may_vanish,
                    MeshReport& report);
 
-/// Throws InputError on all ranks where the areas that the mesh and the outline enclose differ by more than
-/// largest_area_error: so coarse a mesh is none of that geometry. `dropped` is the area of the geometry's
-/// loops that were dropped (below 0 for islands); with and without them the area must fit. `smoothed` tells
-/// that the mesh fitted before its nodes moved. *Collective.*
+/// Throws InputError on all ranks if the areas enclosed by mesh and geometry differ by more than
+/// largest_area_error, as the mesh is then too coarse for the geometry. `dropped` is the area of the
+/// geometry's dropped loops (negative for islands); the area must fit with or without them. `smoothed`: the
+/// mesh did fit before smoothing. *Collective.*
 void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh,
                   bool smoothed = false);
 
-/// The signed area inside the loop: above 0 where its inside is domain.
+/// Returns the signed area of the loop: positive if its inside is part of the domain.
 double area_of_loop(const Geometry& geometry, std::int32_t loop);
 
-/// How many connected regions the domain has: each has one loop with its inside in the domain.
+/// Returns the number of connected regions of the domain: each has one loop with its inside in the domain.
 std::int64_t regions_of(const Geometry& geometry);
 
-/// Throws InputError for boundaries that vanish: the first with its size, how many more, and the cure. `why`
-/// ends "which ...".
+/// Throws InputError for lost boundaries: the first with its size, the number of others, and the remedy.
+/// `why` ends "which ...".
 [[noreturn]] void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished,
                                   const std::string& why);
 

@@ -14,9 +14,9 @@ namespace quadloop {
 
 namespace {
 
-/// A stretch of the outline between two kept corners that follow each other.
+/// A part of the geometry between two consecutive feature points.
 struct Base {
-  std::int32_t first = 0, last = 0;  ///< its vertices at the ends
+  std::int32_t first = 0, last = 0;  ///< vertices at its ends
 };
 
 Point middle_of(const Geometry& g, Base base) { return 0.5 * (g.point(base.first) + g.point(base.last)); }
@@ -28,7 +28,7 @@ bool in_closed_triangle(Point p, Point a, Point b, Point c) {
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-/// How many bases of a kind there are, and the widest of them.
+/// Number of bases of a kind, with the widest of them.
 struct CountedBases {
   int count = 0;
   Base widest;
@@ -45,9 +45,10 @@ class ShortEdges {
     for (std::int32_t s = 0; s < g_.size(); ++s) ++segments_of_[g_.boundary_of(s)];
   }
 
-  /// The short base that begins with the vertex, such as a blunt trailing edge: the outline runs smoothly on
-  /// from both of its ends for some leaves. Where corners follow each other, as along a coast, a mesh loses
-  /// some of them anyway. On a base with layers there is no leaf, but columns, which need not be wider.
+  /// Returns the short base that starts at the vertex, e.g. a blunt trailing edge: the boundary continues
+  /// smoothly from both of its ends for some leaf sizes. With consecutive feature points, as along a coast, a
+  /// mesh loses some of them anyway. A base with layers has columns instead of leaves, whose width is not
+  /// limited.
   std::optional<Base> short_base_at(std::int32_t v) const {
     if (!g_.kept(v) || g_.boundary(g_.boundary_of(v)).layers) return {};
     const std::optional<Geometry::Stretch> stretch = g_.stretch_shorter_than(min_, v);
@@ -57,7 +58,7 @@ class ShortEdges {
     return Base{v, stretch->end};
   }
 
-  /// For a loop that a mesh keeps.
+  /// Whether the ends can be merged, for a loop that the mesh keeps.
   bool can_merge(Base base) {
     const std::int32_t loop = g_.loop_of(base.first), segments = segments_in(base);
     const BoundaryId boundary = g_.boundary_of(base.first);
@@ -70,7 +71,7 @@ class ShortEdges {
   }
 
  private:
-  /// Whether no corner follows within some leaves.
+  /// Whether there is no feature point within four leaf sizes.
   template <class Next>
   bool is_smooth(std::int32_t from, const Next& next) const {
     constexpr double leaves = 4;
@@ -95,8 +96,8 @@ class ShortEdges {
     return false;
   }
 
-  /// Whether neither of the segments that end in the middle of the base touches another one, and nothing lies
-  /// between them and the old ones.
+  /// Whether the two segments that would end in the middle of the base touch no other segment, and nothing
+  /// lies between them and the old ones.
   bool leaves_outline_simple(Base base) const {
     const std::int32_t before = g_.previous(base.first), after = base.last;
     const Point to = middle_of(g_, base), from = g_.point(before), end = g_.point(g_.next(after));
@@ -113,7 +114,7 @@ class ShortEdges {
     });
   }
 
-  /// Whether the segment has a point in common with the triangles between the base's own segments and `to`.
+  /// Whether the segment meets the triangles between the base's own segments and `to`.
   bool is_between(std::int32_t segment, Base base, Point to) const {
     const Point a = g_.point(segment), b = g_.point(g_.next(segment));
     for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) {
@@ -123,8 +124,8 @@ class ShortEdges {
     return false;
   }
 
-  /// Whether the segment has a point other than `fixed` in common with the triangle that the segment from
-  /// `fixed` to `old` sweeps on its way to `to`.
+  /// Whether the segment meets, at a point other than `fixed`, the triangle swept by the segment from `fixed`
+  /// to `old` as its end moves to `to`.
   bool touches(std::int32_t segment, Point fixed, Point to, Point old) const {
     const Point a = g_.point(segment), b = g_.point(g_.next(segment));
     if (a != fixed && in_closed_triangle(a, fixed, old, to)) return true;
@@ -139,7 +140,8 @@ class ShortEdges {
   IdVector<BoundaryId, std::int32_t> segments_of_;
 };
 
-/// Without the vertices of the merged bases but the last one, which moves to the middle.
+/// Returns the geometry without the vertices of the merged bases except the last one, which moves to the
+/// middle.
 Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
   std::vector<char> is_dropped(g.size(), 0);
   std::vector<Point> moved{g.points().begin(), g.points().end()};

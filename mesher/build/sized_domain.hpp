@@ -6,8 +6,8 @@
 
 namespace quadloop {
 
-/// A geometry on its lattice, with what decides how finely each place is split. Geometry, options and demands
-/// must outlive it; it does not move.
+/// A geometry on its background lattice, with its size tree. Geometry, options and demands must outlive the
+/// object; it cannot be moved.
 struct SizedDomain {
   SizedDomain(const Geometry& geometry, const SizeOptions& options, const DemandedSplits& demanded)
       : lattice{choose_root(geometry, options.root)},

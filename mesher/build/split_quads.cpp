@@ -13,7 +13,7 @@ using Corners = std::array<Point, 4>;
 
 bool is_parallelogram(const Corners& p) { return skew_of(p) <= parallel_skew; }
 
-/// Whether the diagonal from the first corner to the third divides the quadrilateral, and not the other one.
+/// Whether the quadrilateral is split by the diagonal from the first to the third corner.
 bool takes_first_diagonal(const Corners& p, const std::function<TieRank(Point)>& rank) {
   return is_positive(p[0], p[1], p[2]) && is_positive(p[0], p[2], p[3]) &&
          !should_flip(p[0], p[2], p[3], p[1], [&](std::size_t k) {

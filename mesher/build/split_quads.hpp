@@ -11,10 +11,10 @@
 
 namespace quadloop {
 
-/// Divides each quadrilateral that is no parallelogram (skew_of beyond parallel_skew) into two triangles, by
-/// the diagonal that is Delaunay; of four nodes on one circle by the one through the node of the highest
-/// rank. What schemes on median-dual cells make of a linear field is then exact at every inner node. The
-/// triangles stand behind those of their leaf, whose counts in `leaves` follow. Not collective.
+/// Splits each quadrilateral that is not a parallelogram (skew_of() above parallel_skew) into two triangles,
+/// by the Delaunay diagonal; for cocircular nodes by that through the node of highest rank. Median-dual
+/// schemes are then exact for linear fields at every inner node. The triangles follow those of their leaf,
+/// whose counts in `leaves` are updated. Not collective.
 void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves, const std::function<TieRank(Point)>& rank);
 
 }  // namespace quadloop

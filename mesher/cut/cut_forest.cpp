@@ -19,10 +19,10 @@ Point centre_of(const Lattice& lattice, const Quadrant& q) {
   return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2);
 }
 
-/// Cells with a smaller angle are shaped by rounding: another way to cut the leaf is looked for first.
+/// A smaller angle in a cell is due to rounding: another way to cut the leaf is tried first.
 constexpr double thinnest_sine = 1e-11;
 
-/// On the same way through the size tree the levels that it wants are found.
+/// Traces the outline and finds the levels of the wanted tree in one traversal.
 TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline,
                           std::vector<std::int8_t>& wanted_levels) {
   TracedForest traced(graph.size());
@@ -69,7 +69,7 @@ class ForestCutter {
     }
   }
 
-  /// Cuts again the leaves around the corners whose snaps were taken back.
+  /// Cuts the leaves around the corners whose snaps were revoked again.
   void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<LatticePoint>& vetoes) {
     std::vector<LeafId> leaves;
     LeafFinder finder(graph_);
@@ -93,8 +93,8 @@ class ForestCutter {
     }
   }
 
-  /// A chord along a side that meets one against it in the leaf across the side would swallow what lies
-  /// between: the snaps at its ends are to be taken back. *Collective.*
+  /// Two opposite chords on the two sides of a leaf side would lose what lies between them: the snaps at
+  /// their ends are revoked. *Collective.*
   void veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
     const OpposedChords opposed(comm, graph_, result_);
     const std::vector<Point>& ends = opposed.ends();
@@ -108,7 +108,8 @@ class ForestCutter {
   CutForest take_result() { return std::move(result_); }
 
  private:
-  /// Enough for most: then nothing moves to a new place. Room that is not filled takes no memory.
+  /// Reserves memory that suffices in most cases, to avoid reallocation. Reserved memory that is not filled
+  /// costs nothing.
   void reserve() {
     const std::size_t cut_leaves = traced_.traces.size();
     result_.entries.reserve(cut_leaves + cut_leaves / 2);
@@ -144,7 +145,7 @@ class ForestCutter {
     }
     const bool bent = std::any_of(snaps.begin(), snaps.end(), [](const LeafSnap& s) {
       return s.snap->on_edge;
-    });  // a node of the neighbour's
+    });  // a node of the neighbour
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
   }
 
@@ -165,8 +166,8 @@ class ForestCutter {
     result_.entries.push_back(entry);
   }
 
-  /// From the leaf to its left or below, which comes earlier along the curve; from a count of crossings where
-  /// neither is at hand.
+  /// State from the left or lower neighbour, which is earlier on the curve; if neither is local, from a count
+  /// of crossings.
   bool lies_inside(LeafId leaf) {
     const Quadrant& q = graph_.leaf(leaf);
     const LeafGraph::Around& around = graph_.around(leaf);
@@ -184,7 +185,7 @@ class ForestCutter {
     return inside_.contains(centre_of(lattice_, q));
   }
 
-  /// Whether a half of a side, counter-clockwise, of a leaf that was dealt with lies inside.
+  /// Whether a half of a side, counter-clockwise, of a processed leaf lies in the domain.
   bool side_inside(LeafId leaf, Side side, bool second_half) {
     if (state(leaf) != CutForest::State::cut) return state(leaf) == CutForest::State::inside;
     const auto& halves = result_.entries[entry_of(leaf)].inside_halves;
@@ -225,7 +226,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   const TracedForest traced = trace_forest(graph, sizes, outline, wanted_levels);
   const std::vector<Snap> snaps =
       choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
-  std::vector<const Snap*> standing;  // that no veto has taken back
+  std::vector<const Snap*> standing;  // snaps that have not been revoked
   standing.reserve(snaps.size());
   for (const Snap& s : snaps) standing.push_back(&s);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);

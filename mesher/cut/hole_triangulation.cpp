@@ -24,7 +24,7 @@ using Triangulation =
                                                CGAL::No_constraint_intersection_requiring_constructions_tag>;
 using Face = Triangulation::Face_handle;
 
-/// Every loop edge parts inside from outside, and the infinite face is outside.
+/// Every loop edge separates inside from outside; the infinite face is outside.
 void label_regions(const Triangulation& triangulation) {
   for (const Face f : triangulation.all_face_handles()) f->info() = Region::unknown;
   std::vector<Face> open{triangulation.infinite_face()};

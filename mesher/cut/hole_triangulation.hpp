@@ -9,9 +9,9 @@
 
 namespace quadloop {
 
-/// A constrained Delaunay triangulation of the region between loops of any number of nodes: outlines
-/// counter-clockwise, holes clockwise, which do not meet but at nodes. Appends counter-clockwise triangles.
-/// Ties between points on one circle fall anyhow.
+/// Constrained Delaunay triangulation of the region between loops of any number of nodes: outer loops
+/// counter-clockwise, holes clockwise, which meet only at nodes. Appends counter-clockwise triangles. For
+/// cocircular points the choice is arbitrary.
 void triangulate_region(std::span<const Point> points, std::span<const std::span<const std::int32_t>> loops,
                         std::vector<std::array<std::int32_t, 3>>& triangles);
 

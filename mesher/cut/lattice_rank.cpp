@@ -8,7 +8,8 @@ namespace quadloop {
 
 namespace {
 
-/// Trailing zeros of a line's number, at most those of a tree's edge: the sides of the root rank alike.
+/// Trailing zeros of a line's number, at most those of a tree's edge, so that the sides of the root have
+/// equal rank.
 std::int8_t zeros_of(std::int64_t line) {
   if (line == 0) return Quadrant::unit_level;
   return static_cast<std::int8_t>(
@@ -18,17 +19,18 @@ std::int8_t zeros_of(std::int64_t line) {
 }  // namespace
 
 TieRank line_rank(std::int64_t column, std::int64_t row) {
-  const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});  // a list: values, not references
+  // from a list: values, not references
+  const auto [low, high] = std::minmax({zeros_of(column), zeros_of(row)});
   return {low, high, 0, 0, 0, 0};
 }
 
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position, std::optional<MirrorAxis> mirror) {
   TieRank rank = tie_rank(lattice.box().centre(), position);
-  // The coordinate along the axis goes first: it is the image's too.
+  // The coordinate along the axis comes first, as it is the same for the image.
   if (mirror == MirrorAxis::y) std::swap(rank.x, rank.y);
   const auto column = lattice.column_on(position.x, finest_level),
              row = lattice.row_on(position.y, finest_level);
-  if (!column || !row) return rank;  // on no lines of the tree
+  if (!column || !row) return rank;  // not on lines of the tree
   const TieRank lines = line_rank(*column, *row);
   rank.coarser = lines.coarser;
   rank.finer = lines.finer;

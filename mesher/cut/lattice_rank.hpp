@@ -8,13 +8,13 @@
 
 namespace quadloop {
 
-/// What the lattice's lines through it tell of a node's rank: the numbers of its column and its row.
+/// Returns the part of a node's rank that follows from the lattice lines through it, given by column and row
+/// number.
 TieRank line_rank(std::int64_t column, std::int64_t row);
 
-/// The rank of a node where the tree is known: nodes on its lines rank above all others, the coarser the line
-/// the higher.
-/// With a mirror axis nodes on the same side of it, which are told apart by their coordinates, rank as their
-/// images do.
+/// Returns the rank of a node for a known tree: nodes on its lines rank above all others, coarser lines
+/// higher. With a mirror axis nodes on the same side of it, which are distinguished by their coordinates,
+/// rank as their images do.
 TieRank tie_rank(const Lattice& lattice, int finest_level, Point position,
                  std::optional<MirrorAxis> mirror = {});
 

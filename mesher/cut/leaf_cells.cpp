@@ -11,16 +11,16 @@ namespace quadloop {
 
 namespace {
 
-// Of the corners of quadrilaterals: at most 50 degrees from the right angle in a whole leaf, whose corners
-// may have been snapped, 40 in a cut one.
+// Maximum deviation of quadrilateral corners from 90 degrees: 50 degrees in an uncut leaf, whose corners may
+// be snapped, 40 in a cut one.
 constexpr double whole_cosine = 0.766, cut_cosine = 0.643;
 
 bool is_whole(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
   return std::all_of(loop.begin(), loop.end(), [&](std::int32_t n) { return is_corner(leaf.nodes[n].site); });
 }
 
-/// Strictly convex, in plain doubles as every reader of the mesh will compute it, and no corner far from a
-/// right angle: such a quadrilateral stays one.
+/// Whether the quadrilateral is strictly convex, in the rounded arithmetic of any reader of the mesh, and no
+/// corner is far from a right angle: then it is kept.
 bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, double largest_cosine) {
   const auto at = [&](std::size_t i) { return leaf.nodes[loop[i % 4]].position; };
   for (std::size_t i = 0; i < 4; ++i) {
@@ -33,7 +33,7 @@ bool is_well_shaped(const CutLeaf& leaf, std::span<const std::int32_t> loop, dou
 
 using Template = std::array<SiteTriangle, 4>;
 
-/// A template of the bottom side, turned until that is where each side is.
+/// Rotates a template of the bottom side to each side.
 constexpr std::array<Template, 4> turned_templates(const Template& bottom) {
   std::array<Template, 4> result{bottom, bottom, bottom, bottom};
   for (const Side side : all_sides) {
@@ -44,7 +44,7 @@ constexpr std::array<Template, 4> turned_templates(const Template& bottom) {
   return result;
 }
 
-/// Of three triangles and of four: a hanging node on a side; one more on the next side.
+/// Templates of three triangles (a hanging node on a side) and of four (another one on the next side).
 constexpr std::array<Template, 4> one_hanging =
     turned_templates({{{Site::south_west, Site::bottom_middle, Site::north_west},
                        {Site::bottom_middle, Site::south_east, Site::north_east},
@@ -74,7 +74,7 @@ void LeafCellMaker::set_ranks() {
   for (const CutLeaf::Node& node : leaf_.cut->nodes) {
     TieRank rank = is_on_lattice(node.site) ? lattice[index_of(node.site)] : TieRank{};
     const auto [near, far] = std::minmax(
-        {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // a list: values
+        {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // from a list: values
     rank.farther = far;
     rank.nearer = near;
     ranks_.push_back(rank);

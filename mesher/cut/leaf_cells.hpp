@@ -8,23 +8,23 @@ namespace quadloop {
 
 using LocalQuad = std::array<std::int32_t, 4>;
 
-/// The cells of one leaf; numbers are indices in its list of nodes.
+/// The cells of one leaf; numbers are indices into its nodes.
 struct LeafCells {
   std::vector<LocalTriangle> triangles;
   std::vector<LocalQuad> quads;
 };
 
-/// Makes the cells of cut leaves: four nodes in good shape stay a quadrilateral, anything else is
+/// Creates the cells of cut leaves: four well-placed nodes give a quadrilateral, anything else is
 /// triangulated.
 class LeafCellMaker {
  public:
-  /// Replaces `cells`. False where double precision leaves no room for cells of positive area.
+  /// Replaces `cells`. Returns false if double precision does not allow cells of positive area.
   bool make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells);
-  /// The sine of the smallest angle of the triangles made last.
+  /// Sine of the smallest angle of the last triangles.
   double smallest_sine() const { return smallest_sine_; }
 
  private:
-  /// The leaf that cells are being made for.
+  /// The current leaf.
   struct Leaf {
     const Quadrant* quadrant = nullptr;
     const Box* box = nullptr;
@@ -40,14 +40,14 @@ class LeafCellMaker {
   double smallest_sine_ = 1;
   std::vector<Point> points_;
   std::vector<std::span<const std::int32_t>> loops_;
-  std::vector<TieRank> ranks_;  ///< of the leaf's nodes; none before they are asked for
+  std::vector<TieRank> ranks_;  ///< of the leaf's nodes; computed on first use
 };
 
-/// A triangle of a template: its nodes by where they sit.
+/// A triangle of a template, by the sites of its nodes.
 using SiteTriangle = std::array<Site, 3>;
 
-/// The closed templates for an uncut leaf with hanging nodes (thesis 3.6.2): on one side, or on two adjacent
-/// ones.
+/// Returns the fixed template for an uncut leaf with hanging nodes (thesis 3.6.2): on one side, or on two
+/// adjacent ones.
 std::span<const SiteTriangle> hanging_template(SideSet hanging);
 
 }  // namespace quadloop

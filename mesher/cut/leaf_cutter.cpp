@@ -13,9 +13,9 @@ namespace quadloop {
 
 namespace {
 
-/// How far the outline may lie from its chord, as a share of the leaf's edge.
+/// Maximum distance of the boundary from its chord, relative to the leaf's edge.
 constexpr double stray_of_leaf = 0.15;
-constexpr double stray_of_chord = 0.2;  ///< and as a share of the chord
+constexpr double stray_of_chord = 0.2;  ///< and relative to the chord
 
 /// A coordinate that ascends counter-clockwise along a side.
 double along(Side side, Point p) {
@@ -23,9 +23,9 @@ double along(Side side, Point p) {
   return side == Side::bottom || side == Side::right ? ascending : -ascending;
 }
 
-constexpr std::size_t few = 32;  ///< of so many all are looked at in less time than they are sorted
+constexpr std::size_t few = 32;  ///< up to this number a linear search is faster than sorting
 
-/// The edges that a list has now, by their ends, found as long as they keep these.
+/// Finds the present edges of a list by their ends, as long as these do not change.
 class EdgesByEnds {
  public:
   explicit EdgesByEnds(std::span<const CutLeaf::Edge> edges) : edges_{edges}, count_{edges.size()} {
@@ -37,7 +37,7 @@ class EdgesByEnds {
   }
   std::size_t count() const { return count_; }
 
-  /// The first one from one node to another; their count where there is none.
+  /// Returns the first edge between two nodes; the number of edges if there is none.
   std::size_t first(std::int32_t from, std::int32_t to) const {
     const auto runs_so = [&](std::size_t e) { return edges_[e].from == from && edges_[e].to == to; };
     const std::pair ends(from, to);
@@ -53,26 +53,26 @@ class EdgesByEnds {
  private:
   std::span<const CutLeaf::Edge> edges_;
   std::size_t count_;
-  std::vector<std::int32_t> order_;  ///< none where they are few
+  std::vector<std::int32_t> order_;  ///< empty if there are few
   std::vector<std::pair<std::int32_t, std::int32_t>> sorted_;
 };
 
-/// By Corner.
+/// In the order of Corner.
 std::array<Point, 4> corners_of(const Box& box) {
   return {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
 }
 
 using Input = LeafCutter::Input;
 
-/// A corner of the leaf, a hanging node, a crossing, or where a snap bends a side.
+/// A corner of the leaf, a hanging node, a crossing, or a point where a snap bends a side.
 struct Stop {
   Side side = Side::bottom;
   double along = 0;  ///< ascending counter-clockwise
   Point position;    ///< before any snap
   Site site = Site::on_bottom;
   std::int32_t crossing = -1;
-  std::int32_t snap = -1;  ///< of the leaf's snaps, where the side bends through a kept point
-  std::int32_t node = -1;  ///< none before name_stops()
+  std::int32_t snap = -1;  ///< one of the leaf's snaps, where the side bends through a feature point
+  std::int32_t node = -1;  ///< invalid before name_stops()
 };
 
 void add_stop(const Box& box, Stop stop, std::pmr::vector<Stop>& stops) {
@@ -82,7 +82,7 @@ void add_stop(const Box& box, Stop stop, std::pmr::vector<Stop>& stops) {
   stops.push_back(stop);
 }
 
-/// Corners, hanging nodes and crossings in their order round the leaf.
+/// Returns corners, hanging nodes and crossings in their order around the leaf.
 std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource* memory) {
   const Box& box = input.trace.box;
   const Point centre = input.centre;
@@ -115,19 +115,19 @@ std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource
            : a.site != b.site   ? a.site < b.site
                                 : a.crossing < b.crossing;
   };
-  // With one crossing on a side they are in order.
+  // With one crossing on a side they are already sorted.
   if (!std::is_sorted(stops.begin(), stops.end(), comes_first))
     std::sort(stops.begin(), stops.end(), comes_first);
   return stops;
 }
 
-/// What becomes of a crossing.
+/// The snap and the node of a crossing.
 struct NamedCrossing {
-  std::int32_t snap = -1;  ///< of the leaf's snaps, that which takes it
+  std::int32_t snap = -1;  ///< snap of the leaf that absorbs it
   std::int32_t node = -1;
 };
 
-/// The number of the snap that takes the crossing; -1 for none.
+/// Returns the number of the snap that absorbs the crossing; -1 for none.
 std::int32_t absorbing_snap(std::span<const LeafSnap> snaps, const Crossing& crossing) {
   for (const LeafSnap& s : snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
@@ -138,7 +138,7 @@ std::int32_t absorbing_snap(std::span<const LeafSnap> snaps, const Crossing& cro
   return -1;
 }
 
-/// A node for each position that has a stop which no snap absorbs. Returns the node that each snap moves:
+/// Adds a node for each position with a stop that no snap absorbs. Returns the node that each snap moves:
 /// that of its lattice site, or of its stop on a side.
 std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
                                               std::span<const NamedCrossing> crossings,
@@ -161,8 +161,8 @@ std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
   return snap_nodes;
 }
 
-/// One node for all stops at one position, and for a snapped corner with the crossings that it absorbs. A
-/// node is moved by its snap once all who share it have found it.
+/// Assigns one node to all stops at the same position, and to a snapped corner with the crossings that it
+/// absorbs. A node is moved by its snap only after all its stops have been found.
 std::pmr::vector<NamedCrossing> name_stops(const Input& input, std::pmr::vector<Stop>& stops, CutLeaf& leaf) {
   std::pmr::vector<NamedCrossing> crossings(stops.get_allocator());
   crossings.reserve(input.trace.crossings.size());
@@ -181,8 +181,8 @@ std::pmr::vector<NamedCrossing> name_stops(const Input& input, std::pmr::vector<
   return crossings;
 }
 
-/// Whether the domain lies just before the first stop (counter-clockwise); none where crossings at one place
-/// do not come out even.
+/// Whether the domain lies just before the first stop (counter-clockwise); empty if crossings at one position
+/// are inconsistent.
 std::optional<bool> inside_at_start(const Input& input, std::span<const Stop> stops, const Interior& inside) {
   for (std::size_t i = 0; i < stops.size();) {
     int change = 0;
@@ -194,8 +194,8 @@ std::optional<bool> inside_at_start(const Input& input, std::span<const Stop> st
     if (change != 1 && change != -1) return std::nullopt;
     return change < 0;
   }
-  // Every crossing shares its place with its opposite: the parts of the sides between such places are all
-  // alike. The middle of the longest is no end of it, even where others are as short as rounding.
+  // Every crossing coincides with an opposite one: all parts of the sides between them have the same state.
+  // The midpoint of the longest part is used, as others may be as short as rounding.
   Point from, to;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Point p = stops[i].position, q = stops[(i + 1) % stops.size()].position;
@@ -207,25 +207,25 @@ std::optional<bool> inside_at_start(const Input& input, std::span<const Stop> st
 /// The parts of the sides.
 struct Sides {
   explicit Sides(std::pmr::memory_resource* memory) : inside(memory), outside(memory) {}
-  std::pmr::vector<CutLeaf::Edge> inside, outside;  ///< the domain
+  std::pmr::vector<CutLeaf::Edge> inside, outside;  ///< relative to the domain
   CutLeaf::InsideHalves halves;
 };
 
-/// A part of a side, from one stop to the next, lies in the domain.
+/// Records a part of a side, from one stop to the next, that lies in the domain.
 void note_side(Point centre, const Stop& from, const Stop& to, CutLeaf::InsideHalves& halves) {
   const double middle = along(from.side, centre);
   if (from.along < middle) halves.first.add(from.side);
   if (to.side != from.side || to.along > middle) halves.second.add(from.side);
 }
 
-/// Walking round the leaf, an outline that leaves it has the domain after it, one that enters has it before.
-/// None where that does not come out even.
+/// In the direction around the leaf, the domain follows a boundary that leaves it and precedes one that
+/// enters. Empty if this is inconsistent.
 std::optional<Sides> walk_sides(const Input& input, const std::pmr::vector<Stop>& stops,
                                 const Interior& interior) {
   const std::optional<bool> inside = inside_at_start(input, stops, interior);
   if (!inside) return std::nullopt;
   Sides sides(stops.get_allocator().resource());
-  sides.inside.reserve(2 * stops.size());  // chords come to them
+  sides.inside.reserve(2 * stops.size());  // chords are added
   int status = *inside ? 1 : 0;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Stop &here = stops[i], &next = stops[(i + 1) % stops.size()];
@@ -239,16 +239,16 @@ std::optional<Sides> walk_sides(const Input& input, const std::pmr::vector<Stop>
   return sides;
 }
 
-/// A point of a piece: its entry, a vertex, a hanging node put onto it, its exit.
+/// A point of a piece: its entry, a vertex, a hanging node moved onto it, or its exit.
 struct RunPoint {
   Point position;
-  std::int32_t segment = -1;  ///< that begins here or goes on from here
-  bool turns = false;         ///< the outline is not straight here
-  bool fixed = false;         ///< a chord must end here
-  bool chosen = false;        ///< a chord ends here
+  std::int32_t segment = -1;  ///< segment that begins or continues here
+  bool turns = false;         ///< whether the boundary turns here
+  bool fixed = false;         ///< whether a chord must end here
+  bool chosen = false;        ///< whether a chord ends here
 };
 
-/// The chords of a leaf whose sides have their nodes.
+/// Creates the chords of a leaf whose sides have their nodes.
 class ChordMaker {
  public:
   ChordMaker(const Geometry& geometry, const Input& input, std::span<const NamedCrossing> crossings,
@@ -261,8 +261,8 @@ class ChordMaker {
         leaf_{leaf},
         memory_{memory} {}
 
-  /// The chords for one piece: from its entry over the kept points to its exit, one boundary each. A piece
-  /// that a snapped corner swallowed has none.
+  /// Adds the chords of one piece: from its entry via the chosen points to its exit, for one boundary. A
+  /// piece absorbed by a snapped corner has none.
   void add(const Piece& piece) {
     const bool closed = piece.entry < 0;
     if (!closed) {
@@ -284,13 +284,13 @@ class ChordMaker {
   }
 
  private:
-  /// The snap that takes the crossing; null for none.
+  /// Returns the snap that absorbs the crossing; null if there is none.
   const LeafSnap* snap_of(std::int32_t crossing) const {
     const std::int32_t snap = crossings_[crossing].snap;
     return snap < 0 ? nullptr : &input_.snaps[snap];
   }
 
-  /// A piece's vertices without those next to its ends that vanish in snapped corners.
+  /// Returns a piece's vertices without those at its ends that are absorbed by snapped corners.
   std::span<const std::int32_t> trimmed_vertices(const Piece& piece) const {
     auto vertices = input_.trace.vertices_of(piece);
     if (piece.entry < 0) return vertices;
@@ -307,7 +307,7 @@ class ChordMaker {
     return vertices;
   }
 
-  /// A piece's points in their order.
+  /// Returns the points of a piece in order.
   std::pmr::vector<RunPoint> points_of(const Piece& piece) const {
     const bool closed = piece.entry < 0;
     const std::span<const std::int32_t> vertices = trimmed_vertices(piece);
@@ -316,7 +316,7 @@ class ChordMaker {
     run.reserve(vertices.size() + 2);
     if (!closed) {
       const auto all = input_.trace.vertices_of(piece);
-      const auto trimmed = vertices.data() - all.data();  // in front
+      const auto trimmed = vertices.data() - all.data();  // number of vertices removed at the start
       run.push_back(
           {node_position(piece.entry), trimmed == 0 ? piece.first_segment : all[trimmed - 1], true, true});
     }
@@ -333,7 +333,7 @@ class ChordMaker {
     return run;
   }
 
-  /// Hanging nodes that were moved onto the segment from the last point of the run on come next.
+  /// Adds hanging nodes that were moved onto the segment from the last point of the run.
   void add_hanging_nodes(Point segment_end, std::pmr::vector<RunPoint>& run) const {
     const RunPoint start = run.back();
     const std::size_t first = run.size();
@@ -348,7 +348,7 @@ class ChordMaker {
     });
   }
 
-  /// Chooses the points of a piece that the chords go through.
+  /// Chooses the points of a piece that the chords pass through.
   void choose_points(bool closed, std::span<RunPoint> run) {
     leaf_.refined = leaf_.refined || closed;
     run.front().chosen = run.back().chosen = true;
@@ -365,9 +365,9 @@ class ChordMaker {
     }
   }
 
-  /// Keeps the points between the first and the last one from which the chord would stray too far (the rule
-  /// of Douglas and Peucker 1973). Of points that are equally far the first along the outline is kept; a
-  /// mirror image is walked the other way, and keeps the other one.
+  /// Keeps the points between the first and the last one from which the chord would deviate too far (Douglas
+  /// and Peucker 1973). Of equally distant points the first along the boundary is kept; a mirror image has
+  /// the opposite direction and keeps the other one.
   void keep_strays(std::span<RunPoint> run) {
     if (run.size() < 3) return;
     const Point a = run.front().position, b = run.back().position;
@@ -386,7 +386,7 @@ class ChordMaker {
     keep_strays(run.subspan(farthest));
   }
 
-  /// The node at the position, if it is among the first few: settle_inner_nodes() finds the others.
+  /// Returns the node at the position, if it is among the first few; settle_inner_nodes() finds the others.
   std::int32_t node_at(Point position) {
     const auto looked_at = static_cast<std::int32_t>(std::min(leaf_.nodes.size(), few));
     for (std::int32_t i = 0; i < looked_at; ++i) {
@@ -405,8 +405,8 @@ class ChordMaker {
   std::pmr::memory_resource* memory_;
 };
 
-/// Makes one node of all inside at one position, or that on the sides if it has one. The others go by
-/// position: their order must not depend on the order in which boundaries are listed.
+/// Merges inner nodes at the same position, also with one on the sides. The others are sorted by position:
+/// their order must not depend on the order of the boundaries.
 void settle_inner_nodes(CutLeaf& leaf, std::pmr::memory_resource* memory) {
   const std::int32_t first = leaf.side_nodes;
   const bool all_looked_at = leaf.nodes.size() <= few;
@@ -432,10 +432,10 @@ void settle_inner_nodes(CutLeaf& leaf, std::pmr::memory_resource* memory) {
   std::erase_if(leaf.outline, [](const CutLeaf::Edge& e) { return e.from == e.to; });
 }
 
-/// A chord along a side of the leaf, against the sense of the side, leaves nothing between the two: neither
-/// bounds a cell here. Two chords against each other would swallow what lies between: false.
+/// Cancels a chord along a side of the leaf against that side: neither bounds a cell here. Returns false for
+/// two opposite chords, which would lose what lies between them.
 bool cancel_opposites(std::span<const CutLeaf::Edge> outline, std::pmr::vector<CutLeaf::Edge>& edges) {
-  edges.reserve(edges.size() + outline.size());  // so that those of the sides stay where they are
+  edges.reserve(edges.size() + outline.size());  // avoids reallocation of the side edges
   const EdgesByEnds chords(outline), sides(edges);
   for (const CutLeaf::Edge& chord : outline) {
     if (chords.first(chord.to, chord.from) < chords.count()) return false;
@@ -451,7 +451,7 @@ bool cancel_opposites(std::span<const CutLeaf::Edge> outline, std::pmr::vector<C
   return true;
 }
 
-/// Chords that must be sound: one piece of outline was merged into one chord between two sides.
+/// Whether the chords need no checks: one part of the boundary was merged into one chord between two sides.
 bool is_simple(const Input& input, const CutLeaf& leaf) {
   const auto& crossings = input.trace.crossings;
   return input.snaps.empty() && input.trace.pieces.size() == 1 && leaf.outline.size() == 1 &&

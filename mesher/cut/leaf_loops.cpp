@@ -16,7 +16,7 @@ using Edges = std::span<const CutLeaf::Edge>;
 
 Point at(const CutLeaf& leaf, std::int32_t node) { return leaf.nodes[node].position; }
 
-/// How far a ray from `hub` must turn clockwise from the ray to `start` until it meets p: 0 for less than
+/// Returns how far a ray from `hub` turns clockwise from the ray to `start` until it meets p: 0 for less than
 /// half a turn, 1 for half, 2 for more.
 int clockwise_half(Point hub, Point start, Point p) {
   const int side = orientation(hub, start, p);
@@ -30,7 +30,7 @@ bool clockwise_before(Point hub, Point start, Point a, Point b) {
   return half_a != half_b ? half_a < half_b : orientation(hub, a, b) < 0;
 }
 
-/// The edges that no loop has yet, by the nodes where they start.
+/// The edges that are not in a loop yet, by their start nodes.
 class UnusedEdges {
  public:
   UnusedEdges(Edges edges, const CutLeaf& leaf, std::pmr::memory_resource* memory)
@@ -47,8 +47,8 @@ class UnusedEdges {
   bool has(std::size_t e) const { return used_[e] == 0; }
   void take(std::size_t e) { used_[e] = 1; }
 
-  /// The edge that goes on from edge `e` with the same part of the domain to its left: where loops touch, the
-  /// sharpest turn left. Their count where none does.
+  /// Returns the edge that continues edge `e` with the same part of the domain on its left: where loops
+  /// touch, the sharpest left turn. Returns the number of edges if there is none.
   std::size_t next(std::size_t e) const {
     std::size_t best = edges_.size();
     const std::int32_t node = edges_[e].to;
@@ -67,11 +67,11 @@ class UnusedEdges {
   const CutLeaf& leaf_;
   std::pmr::vector<char> used_;
   std::pmr::vector<std::int32_t> by_start_;
-  std::pmr::vector<std::int32_t> end_of_;  ///< of each node's edges among them
+  std::pmr::vector<std::int32_t> end_of_;  ///< end of each node's edges in by_start_
 };
 
-/// Cuts off each closed part of the walk as a loop of its own. Uses two lists: `open`, and `place_in_open`,
-/// which has -1 for all nodes before and after.
+/// Splits off each closed part of the walk as a separate loop. Uses two work lists: `open`, and
+/// `place_in_open`, which is -1 for all nodes before and after.
 void split_into_loops(std::span<const std::int32_t> walk, std::pmr::vector<std::int32_t>& open,
                       std::pmr::vector<std::int32_t>& place_in_open, CutLeaf& leaf) {
   open.clear();
@@ -107,16 +107,16 @@ bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::
   return segments_meet(a, b, c, d);
 }
 
-/// Finds what an edge conflicts with among others.
+/// Finds conflicts of an edge with others.
 class EdgeIndex {
  public:
   EdgeIndex(const CutLeaf& leaf, Edges edges) : leaf_{leaf}, edges_{edges} {
-    constexpr std::size_t few_edges = 32;  // of these all pairs take less time than a tree
+    constexpr std::size_t few_edges = 32;  // up to this number testing all pairs is faster than a tree
     if (edges.size() > few_edges)
       tree_ = BoxTree(size32(edges), [&](std::int32_t e) { return box(edges[e]); });
   }
 
-  /// Whether the edge conflicts with any of the first `end` for which `counts(number)` holds.
+  /// Whether the edge conflicts with any of the first `end` edges for which `counts(number)` is true.
   template <class Counts>
   bool any_conflict(const CutLeaf::Edge& edge, std::int32_t end, const Counts& counts) const {
     const auto conflicts = [&](std::int32_t e) {
@@ -147,7 +147,7 @@ bool any_conflict(const CutLeaf& leaf, Edges edges) {
   return false;
 }
 
-/// How often the loop goes round the point, which is none of its nodes and not on its edges.
+/// Returns the winding number of the loop around the point, which must not be a node or on an edge of it.
 int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p) {
   int times = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -161,8 +161,8 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> loop, Point p
   return times;
 }
 
-/// How often the loop goes round the start of the edge that leaves its node `corner` towards the point, which
-/// is not on its edges.
+/// Returns the winding number of the loop around the start of the edge from its node `corner` towards the
+/// point, which must not be on an edge of it.
 int times_round_start(const CutLeaf& leaf, std::span<const std::int32_t> loop, std::int32_t corner,
                       Point towards) {
   const std::size_t k = std::ranges::find(loop, corner) - loop.begin();
@@ -172,8 +172,8 @@ int times_round_start(const CutLeaf& leaf, std::span<const std::int32_t> loop, s
   return left ? 0 : -1;
 }
 
-/// How often one loop goes round another one that it does not cross. Where loops touch, all nodes of a loop
-/// can be nodes of the other one.
+/// Returns the winding number of one loop around another that it does not cross. If loops touch, all nodes of
+/// one may be nodes of the other.
 int times_round(const CutLeaf& leaf, std::span<const std::int32_t> around,
                 std::span<const std::int32_t> loop) {
   const auto apart = std::ranges::find_if(
@@ -182,8 +182,8 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> around,
   return times_round_start(leaf, around, loop[0], at(leaf, loop[1]));
 }
 
-/// Every hole lies in one outline, every outline in none or in a hole: the loops around a loop add up to 0
-/// for an outline, to 1 for a hole.
+/// Every hole must lie in one outer loop, every outer loop in none or in a hole: the winding numbers of the
+/// loops around a loop sum to 0 for an outer loop, to 1 for a hole.
 bool nesting_is_sound(const CutLeaf& leaf) {
   if (leaf.loop_count() == 1) return winding_of(leaf, leaf.loop(0)) > 0;
   const auto box_of_loop = [&](std::int32_t i) {
@@ -204,7 +204,7 @@ bool nesting_is_sound(const CutLeaf& leaf) {
   return true;
 }
 
-/// Whether a chord that ends at a node on the sides leaves it into the leaf, or along a side.
+/// Whether a chord that ends at a node on the sides points into the leaf, or along a side.
 bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards) {
   const std::int32_t before = (node + leaf.side_nodes - 1) % leaf.side_nodes,
                      after = (node + 1) % leaf.side_nodes;

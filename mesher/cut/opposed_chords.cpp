@@ -15,27 +15,27 @@ namespace {
 
 struct SideChord {
   Point low, high;     ///< its ends, in ascending order
-  bool rising = true;  ///< whether it runs from low to high
+  bool rising = true;  ///< whether it is directed from low to high
   friend auto operator<=>(const SideChord&, const SideChord&) = default;
 };
 
-/// The same for chords with the same ends.
+/// Equal for chords with the same ends.
 std::uint64_t hash_of(const SideChord& chord) {
-  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0.0 is 0.0
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // -0.0 becomes 0.0
   return mixed_bits(bits(chord.low.x) ^ std::rotl(bits(chord.low.y), 16) ^ std::rotl(bits(chord.high.x), 32) ^
                     std::rotl(bits(chord.high.y), 48));
 }
 
-/// Drops most of those that none runs against: less work than to sort all.
+/// Removes most chords without an opposite one, which is faster than sorting all.
 void drop_single(std::vector<SideChord>& chords) {
   constexpr std::size_t slots_of_chord = 4;
   const std::size_t mask = std::bit_ceil(slots_of_chord * chords.size() + 1) - 1;
-  std::vector<std::uint8_t> seen(mask + 1, 0);  // by hash, a bit for each of the two ways
+  std::vector<std::uint8_t> seen(mask + 1, 0);  // by hash, one bit per direction
   for (const SideChord& c : chords) seen[hash_of(c) & mask] |= c.rising ? 1 : 2;
   std::erase_if(chords, [&](const SideChord& c) { return seen[hash_of(c) & mask] != 3; });
 }
 
-/// The leaves across a side.
+/// Returns the leaves across a side.
 std::array<LeafId, 2> across(LeafFinder& finder, LeafId leaf, Side side) {
   const Quadrant& q = finder.graph().leaf(leaf);
   const std::int64_t last = q.size() - 1;
@@ -44,7 +44,7 @@ std::array<LeafId, 2> across(LeafFinder& finder, LeafId leaf, Side side) {
   return {finder.leaf_at(q.x, beyond), finder.leaf_at(q.x + last, beyond)};
 }
 
-/// Flags the local leaves that have another rank's across a side: few, found from those.
+/// Flags the local leaves with a ghost leaf across a side: few, found from the ghosts.
 std::vector<char> leaves_beside_ghosts(LeafFinder& finder) {
   const LeafGraph& graph = finder.graph();
   std::vector<char> flags(graph.local_size(), 0);

@@ -6,8 +6,7 @@
 
 namespace quadloop {
 
-/// Finds the chords along leaf sides that run against each other on the two sides of it: a spike that was
-/// squeezed flat.
+/// Finds opposite chords on the two sides of a leaf side, which result from a spike that was collapsed.
 class OpposedChords {
  public:
   /// *Collective.*

@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-/// Nodes; beyond, clipping ears in square time loses to a real triangulation.
+/// Maximum number of nodes for ear clipping, which takes quadratic time.
 constexpr std::size_t most_ears = 24;
 
 }  // namespace
@@ -29,7 +29,8 @@ bool Triangulator::triangulate(std::span<const Point> points, const Flipper::Ran
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
   measure();
-  std::sort(triangles_.begin(), triangles_.end());  // the order must not tell how the triangles were found
+  // the order must not depend on how the triangles were found
+  std::sort(triangles_.begin(), triangles_.end());
   triangles.insert(triangles.end(), triangles_.begin(), triangles_.end());
   return true;
 }

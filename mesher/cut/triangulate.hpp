@@ -10,18 +10,18 @@ namespace quadloop {
 
 using LocalTriangle = Flipper::Triangle;
 
-/// The constrained Delaunay triangulation of the region between loops: outlines counter-clockwise, holes
-/// clockwise, which do not meet but at nodes. `loops` name nodes of `points`; no node is added. Ties are
-/// broken by `rank_of`. Appends counter-clockwise triangles to `triangles`. Returns false where rounding
-/// would leave a triangle without positive area in double precision.
+/// Constrained Delaunay triangulation of the region between loops: outer loops counter-clockwise, holes
+/// clockwise, which meet only at nodes. `loops` are indices into `points`; no node is added. Ties are broken
+/// by `rank_of`. Appends counter-clockwise triangles to `triangles`. Returns false if rounding would give a
+/// triangle without positive area in double precision.
 class Triangulator {
  public:
   bool triangulate(std::span<const Point> points, const Flipper::RankOf& rank_of,
                    std::span<const std::span<const std::int32_t>> loops,
                    std::vector<LocalTriangle>& triangles);
 
-  /// The sine of the smallest angle of the triangles made last; below about 1e-11 rounding, not the outline,
-  /// shaped a triangle.
+  /// Sine of the smallest angle of the last triangles; below about 1e-11 a triangle is due to rounding, not
+  /// to the geometry.
   double smallest_sine() const { return smallest_sine_; }
 
  private:

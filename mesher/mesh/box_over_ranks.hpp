@@ -7,7 +7,7 @@
 
 namespace quadloop {
 
-/// The box of all ranks' points, on every rank. *Collective.*
+/// Returns the bounding box of all ranks' points, on every rank. *Collective.*
 inline Box box_over_ranks(const Communicator& comm, std::span<const Point> points) {
   Box box;
   for (const Point p : points) box.include(p);

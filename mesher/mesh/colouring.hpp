@@ -14,22 +14,22 @@
 
 namespace quadloop {
 
-/// Colours for nodes that are to be visited, no two neighbours the same, so that all of one colour can be
-/// visited at once.
+/// A colouring of the nodes to be visited: neighbours differ, so all nodes of one colour can be visited
+/// concurrently.
 struct Colouring {
-  /// Of each node, owned and copies; none for those that are not visited.
+  /// For owned nodes and ghosts; `none` for those that are not visited.
   IdVector<NodeId, std::int8_t> colour_of;
   std::int8_t count = 0;  ///< over all ranks
   static constexpr std::int8_t none = -1;
 };
 
-/// Where what is visited needs little.
+/// Default for algorithms without prefetching.
 struct NothingToFetch {
   void operator()(std::span<const std::int32_t> /*order*/, std::size_t /*k*/) const {}
 };
 
-/// Who chooses first: blocks of 2^`block_bits` numbers in a scattered order, so that no long chain of nodes
-/// waits one for the next over many ranks; in a block the higher number.
+/// Priority of a node: blocks of 2^`block_bits` node numbers in pseudo-random order, so that no long chain of
+/// dependent nodes extends over many ranks; within a block the higher number comes first.
 class ColouringPriority {
  public:
   ColouringPriority(GlobalNodeId node, int block_bits)
@@ -44,7 +44,7 @@ class ColouringPriority {
   GlobalNodeId node_;
 };
 
-/// The indices of `nodes`, which ascend, those that choose first in front.
+/// Returns the indices of `nodes`, which must be ascending, by descending priority.
 inline std::vector<std::int32_t> order_of_choice(const HaloMesh& mesh, std::span<const NodeId> nodes,
                                                  int block_bits) {
   const auto priority = [&](std::size_t i) { return ColouringPriority(mesh.global(nodes[i]), block_bits); };
@@ -64,11 +64,11 @@ inline std::vector<std::int32_t> order_of_choice(const HaloMesh& mesh, std::span
   return order;
 }
 
-/// Nodes choose the first colour that no neighbour before them has.
+/// Greedy colouring: each node takes the first colour not used by a neighbour of higher priority.
 template <class ForEachNeighbour>
 class ColourChoices {
  public:
-  /// All as for colour_nodes(); they must outlive it.
+  /// Arguments as for colour_nodes(); they must outlive the object.
   ColourChoices(const HaloMesh& mesh, std::span<const NodeId> nodes,
                 const ForEachNeighbour& for_each_neighbour, int block_bits)
       : mesh_{mesh},
@@ -79,13 +79,15 @@ class ColourChoices {
     for (const NodeId node : nodes) colours_[node] = waiting;
   }
 
-  /// Whether the i-th node chooses now: none that goes before it has still to choose.
+  /// Colours the i-th node unless a neighbour of higher priority is uncoloured. Returns whether it is
+  /// coloured.
   bool choose(std::size_t i) {
     std::uint64_t taken = 0;
     bool may_wait = false;
-    for_each_neighbour_(i, [&](NodeId other) {  // no branch hangs on colours, which cannot be foreseen
+    for_each_neighbour_(i, [&](NodeId other) {  // branch-free, as colours are unpredictable
       const std::int8_t colour = colours_[other];
-      taken |= std::uint64_t{colour >= 0} << (colour & 63);  // so it went before: it has not waited
+      // a coloured neighbour of this round had priority
+      taken |= std::uint64_t{colour >= 0} << (colour & 63);
       may_wait = may_wait | (colour == passed_over) | !mesh_.owns(other);
     });
     const bool waits = may_wait && must_wait(i);
@@ -95,7 +97,7 @@ class ColourChoices {
   }
   /// *Collective.*
   void share() { mesh_.exchange().update(colours_); }
-  /// Once all have chosen. *Collective.*
+  /// Call after all nodes are coloured. *Collective.*
   Colouring colouring(const Communicator& comm) {
     std::int8_t largest = Colouring::none;
     for (const NodeId node : nodes_) largest = std::max(largest, colours_[node]);
@@ -109,7 +111,8 @@ class ColourChoices {
   bool must_wait(std::size_t i) const {
     const ColouringPriority own = priority(nodes_[i]);
     bool must = false;
-    for_each_neighbour_(i, [&](NodeId other) {  // this rank's that wait come later
+    // uncoloured nodes of this rank that have not been passed over come later
+    for_each_neighbour_(i, [&](NodeId other) {
       const std::int8_t colour = colours_[other];
       const bool undecided = colour == passed_over || (colour == waiting && !mesh_.owns(other));
       must = must || (undecided && priority(other) > own);
@@ -124,19 +127,18 @@ class ColourChoices {
   IdVector<NodeId, std::int8_t> colours_;
 };
 
-/// Nodes choose, in an order that their numbers over all ranks alone decide, the first colour that no
-/// neighbour before them has (Jones and Plassmann 1993). `nodes` are the owned ones to be visited, ascending;
-/// for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them, itself and repetitions
-/// allowed. `block_bits` as in ColouringPriority: with some, nodes close by choose one after the other, which
-/// is faster. `fetch_ahead(order, k)` comes before the neighbours of nodes[order[k]] are asked for.
-/// *Collective.*
+/// Greedy colouring in an order that depends only on global node numbers: each node takes the first colour
+/// not used by a neighbour of higher priority (Jones and Plassmann 1993). `nodes` are the owned nodes to be
+/// visited, ascending; for_each_neighbour(i, visit) calls visit with the neighbours of the i-th of them,
+/// possibly with itself and with repetitions. `block_bits` as in ColouringPriority: above 0, nearby nodes are
+/// coloured one after another, which is faster. `fetch_ahead(order, k)` is called before the neighbours of
+/// nodes[order[k]] are requested. *Collective.*
 template <class ForEachNeighbour, class FetchAhead = NothingToFetch>
 Colouring colour_nodes(const Communicator& comm, const HaloMesh& mesh, std::span<const NodeId> nodes,
                        const ForEachNeighbour& for_each_neighbour, int block_bits = 0,
                        const FetchAhead& fetch_ahead = {}) {
   ColourChoices choices(mesh, nodes, for_each_neighbour, block_bits);
-  std::vector<std::int32_t> order =
-      order_of_choice(mesh, nodes, block_bits);  // those that have not chosen yet
+  std::vector<std::int32_t> order = order_of_choice(mesh, nodes, block_bits);  // uncoloured nodes
   choices.share();
   do {
     std::size_t still_waiting = 0;

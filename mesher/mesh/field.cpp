@@ -29,7 +29,7 @@ std::vector<double> columns_of(const std::vector<double>& rows, std::size_t widt
   return chosen;
 }
 
-/// An index among the names at nodes, or, after those, among the names of cells.
+/// Returns an index into the names of nodal variables, followed by those of cell variables.
 std::size_t variable_of(const Field& field, const std::string& wanted, const std::string& where) {
   if (!variables_like(field.names, wanted).empty()) return variable(field.names, wanted, where);
   if (!variables_like(field.cells.names, wanted).empty())

@@ -19,8 +19,7 @@ struct TravellingEdge {
   std::int32_t boundary;
 };
 
-/// Calls `visit(i)` for the cells with a copy among their nodes, few of all: looked for by the block, as
-/// fast as memory gives them.
+/// Calls `visit(i)` for the cells with a ghost node, which are few; searches blockwise at memory speed.
 template <std::size_t width, class Visit>
 void for_cells_at_copies(const std::vector<std::array<NodeId, width>>& cells, std::int32_t owned_nodes,
                          const Visit& visit) {
@@ -41,7 +40,7 @@ void for_cells_at_copies(const std::vector<std::array<NodeId, width>>& cells, st
   }
 }
 
-/// The ranks other than this one that own a node of a cell or an edge.
+/// Returns the other ranks that own a node of a cell or an edge.
 template <class Nodes>
 std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const Nodes& nodes) {
   std::vector<int> ranks;
@@ -79,7 +78,7 @@ void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners,
       sent.ranks.push_back(rank);
     }
   };
-  const bool any_shared = !mesh_->copies.empty();  // else no cell touches a node of another rank
+  const bool any_shared = !mesh_->copies.empty();  // otherwise no cell touches a node of another rank
   if (any_shared) for_cells_at_copies(own, owned_nodes(), send);
   const Exchange exchange(comm, sent.ranks);
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());

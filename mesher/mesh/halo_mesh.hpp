@@ -12,21 +12,20 @@
 
 namespace quadloop {
 
-/// A boundary edge, the domain to its left.
+/// A boundary edge with the domain to its left.
 struct HaloEdge {
   NodeId from, to;
   std::int32_t boundary = -1;
 };
 
-/// One rank's part of a mesh with all cells, of other ranks too, that touch its owned nodes. The cells come
-/// in their global order, so what is added up over the cells round a node does not depend on where ranks
-/// meet.
+/// One rank's part of a mesh with all cells, including those of other ranks, that touch its owned nodes.
+/// Cells are in their global order, so sums over the cells around a node do not depend on the partition.
 class HaloMesh {
  public:
-  /// `mesh` must outlive it and keep its cells. *Collective.*
+  /// `mesh` must outlive the object, with unchanged cells. *Collective.*
   HaloMesh(const Communicator& comm, const Mesh& mesh);
 
-  /// Owned nodes first, as in the mesh; then its copies; then the other nodes of other ranks' cells.
+  /// Owned nodes as in the mesh, then its ghosts, then the other nodes of other ranks' cells.
   std::vector<Point>& points() { return points_; }
   const std::vector<Point>& points() const { return points_; }
   const Point& point(NodeId node) const { return points_[node.value()]; }
@@ -37,23 +36,23 @@ class HaloMesh {
   }
   const NodeExchange& exchange() const { return exchange_; }
 
-  /// Those that touch an owned node, among others; this rank's first, not in their global order.
+  /// All boundary edges that touch an owned node, and others; those of this rank first, not in global order.
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
-  /// A value for each of the mesh's own cells, triangles, then quads, becomes one for each cell here, in the
-  /// order of for_each_cell. *Collective.*
+  /// Distributes one value for each of the mesh's own cells, triangles, then quads; returns one value for
+  /// each cell here, in the order of for_each_cell. *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
   bool has_quads() const { return !(quads_before_.empty() && mesh_->quads.empty() && quads_after_.empty()); }
 
-  /// Of those that for_each_cell() visits.
+  /// Number of cells that for_each_cell() visits.
   std::size_t cell_count() const {
     return triangles_before_.size() + mesh_->triangles.size() + triangles_after_.size() +
            quads_before_.size() + mesh_->quads.size() + quads_after_.size();
   }
 
-  /// Calls `visit(nodes)` for each cell, an array of three or four nodes: triangles, then quads.
+  /// Calls `visit(nodes)` for each cell, with an array of three or four nodes: triangles, then quads.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
     for (const auto* part : {&triangles_before_, &mesh_->triangles, &triangles_after_}) {
@@ -68,7 +67,7 @@ class HaloMesh {
   template <std::size_t width>
   using Cells = std::vector<std::array<NodeId, width>>;
 
-  /// Own cells that other ranks have too, each with the rank that has it.
+  /// Own cells that other ranks also need, each with that rank.
   struct Sent {
     std::vector<std::int32_t> cells;
     std::vector<int> ranks;

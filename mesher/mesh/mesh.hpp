@@ -13,15 +13,15 @@
 
 namespace quadloop {
 
-/// The layers of thin cells that stand on a boundary.
+/// Boundary layers: thin cells along a boundary.
 struct WallLayers {
   std::int32_t count = 0;  ///< 0: none
-  double thickness = 0;    ///< of all together, normal to the boundary, as it was asked for; 0: not known
+  double thickness = 0;    ///< requested total thickness, normal to the boundary; 0: not known
 
   friend bool operator==(const WallLayers&, const WallLayers&) = default;
 };
 
-/// The edges of one named boundary on this rank, each walked with the domain to its left.
+/// The edges of one named boundary on this rank, each directed with the domain to its left.
 struct BoundaryEdges {
   std::string name;
   BoundaryCondition condition = {};
@@ -29,21 +29,23 @@ struct BoundaryEdges {
   WallLayers layers = {};
 };
 
-/// Layers on both sides of a line within the domain, as a wake has them: the nodes of the columns across it,
-/// the same on every rank.
+/// Layers on both sides of a line inside the domain, e.g. a wake: the nodes of the columns across it, the
+/// same on every rank.
 struct StripLayers {
   std::string name;
-  WallLayers layers;       ///< on either side of the line
-  bool from_wall = false;  ///< the line begins at a wall: its first column is made of two of the wall's own
-  /// Nodes of a column: 2 layers.count + 1, and behind a blunt edge one more for each row between both sides.
+  WallLayers layers;  ///< on each side of the line
+  /// Whether the line begins at a wall: its first column consists of two columns of the wall.
+  bool from_wall = false;
+  /// Nodes of a column: 2 layers.count + 1; behind a blunt edge one more for each row between the two sides.
   std::int32_t across = 0;
-  std::vector<GlobalNodeId> nodes;  ///< column after column along the line, each from its right to its left
+  /// Column by column along the line, in each from the right side of the line to its left.
+  std::vector<GlobalNodeId> nodes;
 
   std::int32_t columns() const { return across > 0 ? size32(nodes) / across : 0; }
   GlobalNodeId node(std::int32_t column, std::int32_t row) const {
     return nodes[static_cast<std::size_t>(column) * across + row];
   }
-  /// Whether the node there is one of the wall's own column.
+  /// Whether the node belongs to a column of the wall.
   bool is_walls(std::int32_t column, std::int32_t row) const {
     return from_wall && column == 0 && (row <= layers.count || row >= across - 1 - layers.count);
   }
@@ -51,14 +53,15 @@ struct StripLayers {
   friend bool operator==(const StripLayers&, const StripLayers&) = default;
 };
 
-using NodeFlags = IdVector<NodeId, char>;  ///< for each node 1 or 0
+using NodeFlags = IdVector<NodeId, char>;  ///< 1 or 0 for each node
 
 template <class Nodes>
 bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
 }
 
-/// Calls `visit(node)` for each flagged node, which ascend; it may change the flag. Quick where few are.
+/// Calls `visit(node)` for each flagged node, in ascending order; it may change the flag. Fast if few are
+/// flagged.
 template <class Visit>
 void for_each_flagged(const NodeFlags& flags, const Visit& visit) {
   std::int32_t i = 0;
@@ -83,18 +86,17 @@ void flag_all(const Nodes& nodes, NodeFlags& flags) {
   for (const NodeId node : nodes) flags[node] = 1;
 }
 
-/// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Nodes are owned by
-/// one rank each and numbered over all ranks in the order of ranks: this rank's owned nodes come first, in
-/// global order, then copies of other ranks' nodes that its cells touch. Each cell, and each boundary edge,
-/// is on one rank alone, which need not own any of its nodes: of the cells round an owned node some may be
-/// other ranks' (HaloMesh has them all). The global order of cells is the order of ranks, then the order
-/// here. `boundaries` has the same entries in the same order on every rank (also where this rank has no edge
-/// of it).
+/// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Each node is owned
+/// by one rank; global node numbers follow the order of ranks. Owned nodes come first, in global order, then
+/// ghost (halo) nodes: nodes of other ranks that this rank's cells touch. Each cell, and each boundary edge,
+/// is on a single rank, which need not own any of its nodes: some cells around an owned node may be on other
+/// ranks (HaloMesh has them all). The global order of cells is by rank, then the order here. `boundaries` has
+/// the same entries in the same order on every rank, even if this rank has no edge of them.
 struct Mesh {
-  std::vector<Point> points;    ///< owned nodes, then copies
+  std::vector<Point> points;    ///< owned nodes, then ghosts
   std::int64_t first_node = 0;  ///< global number of points[0]
   std::int32_t owned_nodes = 0;
-  std::vector<GlobalNodeId> copies;  ///< global numbers of points[owned_nodes ...]
+  std::vector<GlobalNodeId> copies;  ///< global numbers of the ghosts, points[owned_nodes ...]
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
@@ -120,7 +122,7 @@ struct Mesh {
   }
 };
 
-/// Where the nodes of a cell of a Mesh or a HaloMesh are.
+/// Returns the positions of a cell's nodes in a Mesh or a HaloMesh.
 template <class AnyMesh, std::size_t width>
 std::array<Point, width> corners_of(const AnyMesh& mesh, const std::array<NodeId, width>& nodes) {
   std::array<Point, width> corners;

@@ -16,17 +16,18 @@ namespace {
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 std::array<std::uint64_t, 2> key_of(Point p) {
-  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0)};  // no -0
+  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0)};  // -0 becomes 0
 }
 
-/// The same refusal on every rank, if `lacking` is somewhere on any: the first place of all. *Collective.*
+/// Throws the same error on every rank if any rank has a point `lacking` an image, naming the first of all.
+/// *Collective.*
 void refuse_lacking(const Communicator& comm, MirrorAxis axis, const char* what, Point lacking) {
   Point first{nowhere, nowhere};
   for (const Point p : comm.all_gather(lacking)) first = std::min(first, p);
   if (first.x != nowhere) refuse_without_image(axis, what, first);
 }
 
-/// Sorted, so that it does not depend on where a cell begins, nor on its orientation.
+/// Sorted, so that the key does not depend on the cell's first node or orientation.
 template <std::size_t width>
 PairKey<width> key_of(const Mesh& mesh, const NodeImages& images, const std::array<NodeId, width>& cell) {
   PairKey<width> key;

@@ -7,12 +7,12 @@
 
 namespace quadloop {
 
-/// From numbers over all ranks to this rank's, and which of those it has: owned nodes first, then copies. It
-/// learns of other ranks' nodes as it goes: they are appended to the copies.
+/// Maps global to local node numbers of this rank: owned nodes first, then ghosts. New nodes of other ranks
+/// can be appended to the ghosts.
 class NodeTable {
  public:
-  /// The lists must outlive the table, and others leave them alone meanwhile. `points` are those of all
-  /// nodes.
+  /// The vectors must outlive the table, and must not be changed by others meanwhile. `points` are those of
+  /// all nodes.
   NodeTable(std::int64_t first_node, std::int32_t owned_nodes, std::vector<Point>& points,
             std::vector<GlobalNodeId>& copies)
       : first_{first_node}, owned_{owned_nodes}, points_{points}, copies_{copies} {
@@ -20,7 +20,7 @@ class NodeTable {
   }
   explicit NodeTable(Mesh& mesh) : NodeTable(mesh.first_node, mesh.owned_nodes, mesh.points, mesh.copies) {}
 
-  /// No node where it is not known here.
+  /// Returns the local number; invalid if the node is not on this rank.
   NodeId find(GlobalNodeId node) const {
     const std::int64_t offset = node.value() - first_;
     if (0 <= offset && offset < owned_) return NodeId{static_cast<std::int32_t>(offset)};
@@ -28,7 +28,7 @@ class NodeTable {
     return found == local_of_.end() ? NodeId{} : found->second;
   }
 
-  /// The same; where it is not known it becomes a copy at that position.
+  /// Returns the local number; a node that is not on this rank is appended as a ghost at that position.
   NodeId local(GlobalNodeId node, Point point) {
     const NodeId known = find(node);
     if (known.valid()) return known;

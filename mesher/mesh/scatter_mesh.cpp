@@ -24,7 +24,7 @@ struct GlobalEdge {
   std::int32_t boundary;
 };
 
-/// Keys along the Morton curve over the box of all nodes.
+/// Morton keys of the nodes, in their bounding box.
 std::vector<std::uint64_t> curve_keys(const Mesh& mesh) {
   Box box;
   for (const Point p : mesh.points) box.include(p);
@@ -45,7 +45,7 @@ std::vector<std::int32_t> numbers_to(std::size_t count) {
   return numbers;
 }
 
-/// Numbers in the order of their keys, equal ones as they are.
+/// Returns the indices in the order of their keys; the sort is stable.
 template <class Key>
 std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
   std::vector<std::int32_t> order = numbers_to(keys.size());
@@ -54,7 +54,7 @@ std::vector<std::int32_t> ordered_by(const std::vector<Key>& keys) {
   return order;
 }
 
-/// For each node of the whole mesh its number in the order.
+/// Maps each node of the whole mesh to its position in the order.
 using NodeNumbers = IdVector<NodeId, GlobalNodeId>;
 NodeNumbers inverse_of(const std::vector<std::int32_t>& order) {
   NodeNumbers inverse(order.size());
@@ -73,8 +73,8 @@ std::vector<std::int32_t> ordered_cells(const Cells<width>& cells, const NodeNum
   return ordered_by(first);
 }
 
-/// How far apart the nodes of cells stand, in powers of two: few cells join nodes far apart where neighbours
-/// stand near each other.
+/// Measures how far apart the node numbers of cells are, as a sum of powers of two: small if neighbours have
+/// close numbers.
 template <std::size_t width>
 std::int64_t spread(const Cells<width>& cells, const NodeNumbers& numbers) {
   std::int64_t sum = 0;
@@ -93,9 +93,9 @@ std::int64_t spread(const Mesh& mesh, const NodeNumbers& numbers) {
   return spread(mesh.triangles, numbers) + spread(mesh.quads, numbers);
 }
 
-/// Shares as those of scatter_evenly() of `count` rows, which the root makes, `make(i)` row i: few at a time,
-/// as it holds the whole mesh besides. `begin(n)` hears of the number of this rank's rows, `take(rows)` gets
-/// them piece by piece. `count` is that on the root. *Collective.*
+/// As scatter_evenly() of `count` rows, which the root creates piecewise by `make(i)`, as it also holds the
+/// whole mesh. `begin(n)` receives the number of this rank's rows, `take(rows)` the rows piece by piece.
+/// `count` is used on the root only. *Collective.*
 template <class Make, class Begin, class Take>
 void scatter_made(const Communicator& comm, std::size_t count, const Make& make, const Begin& begin,
                   const Take& take) {
@@ -134,7 +134,7 @@ std::vector<GlobalEdge> scatter_edges(const Communicator& comm, const Mesh& whol
   return scatter_evenly(comm, std::span<const GlobalEdge>(edges));
 }
 
-/// The root's boundaries on every rank, without their edges.
+/// Broadcasts the root's boundaries, without their edges.
 std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const Mesh& whole) {
   std::vector<std::string> names;
   std::vector<BoundaryCondition> conditions;
@@ -153,7 +153,7 @@ std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const 
   return boundaries;
 }
 
-/// The root's strips on every rank, their nodes by their numbers in the order.
+/// Broadcasts the root's strips; their nodes are renumbered by the order.
 std::vector<StripLayers> broadcast_strips(const Communicator& comm, const Mesh& whole,
                                           const NodeNumbers& numbers) {
   struct Shape {
@@ -182,13 +182,13 @@ std::vector<StripLayers> broadcast_strips(const Communicator& comm, const Mesh& 
   return strips;
 }
 
-/// Makes a rank's part from what it was sent: its nodes, and cells that name nodes over all ranks.
+/// Builds a rank's part from its nodes and from cells with global node numbers.
 class PartBuilder {
  public:
   PartBuilder(const Communicator& comm, std::vector<Point> points)
       : part_{part_of(comm, std::move(points))}, nodes_{part_} {}
 
-  /// The rank's share of the root's cells. *Collective.*
+  /// Receives the rank's part of the root's cells. *Collective.*
   template <std::size_t width>
   void scatter_cells(const Communicator& comm, const Cells<width>& cells,
                      const std::vector<std::int32_t>& order, const NodeNumbers& numbers, Cells<width>& to) {
@@ -213,7 +213,7 @@ class PartBuilder {
   }
   Mesh& part() { return part_; }
 
-  /// Fetches the copies' positions. *Collective.*
+  /// Fetches the positions of the ghosts. *Collective.*
   Mesh finish(const Communicator& comm) {
     const NodeOwners owners(comm, part_.first_node);
     NodeExchange(comm, owners, part_.owned_nodes, part_.copies).update(part_.points);
@@ -234,7 +234,7 @@ class PartBuilder {
   NodeTable nodes_;
 };
 
-/// All ranks' cells on the root, with nodes by their numbers over all ranks. *Collective.*
+/// Gathers all cells on the root, with global node numbers. *Collective.*
 template <std::size_t width>
 GlobalCells<width> gather_cells(const Communicator& comm, const Mesh& part, const Cells<width>& cells) {
   GlobalCells<width> named;
@@ -270,8 +270,8 @@ std::vector<Point> gather_points(const Communicator& comm, const Mesh& part) {
   return gather_at_root(comm, std::span(part.points).first(part.owned_nodes));
 }
 
-/// Rows of `width` values of the whole mesh on the root, in the order given, `count` of them for this rank.
-/// *Collective.*
+/// Distributes rows of `width` values of the whole mesh on the root, in the given order, `count` of them to
+/// this rank. *Collective.*
 std::vector<double> scatter_rows(const Communicator& comm, std::span<const double> of_whole,
                                  std::size_t width, std::span<const std::int32_t> order, std::size_t count) {
   const std::vector<std::int64_t> counts = comm.all_gather(static_cast<std::int64_t>(count * width));
@@ -283,7 +283,7 @@ std::vector<double> scatter_rows(const Communicator& comm, std::span<const doubl
   return scatter_from_root(comm, rows, counts);
 }
 
-/// The way back. *Collective.*
+/// Inverse of scatter_rows(). *Collective.*
 std::vector<double> gather_rows(const Communicator& comm, std::span<const double> rows, std::size_t width,
                                 std::span<const std::int32_t> order) {
   const std::vector<double> by_rank = gather_at_root(comm, rows);
@@ -293,7 +293,7 @@ std::vector<double> gather_rows(const Communicator& comm, std::span<const double
   return whole;
 }
 
-/// The rows of the triangles, and those of the quads after them.
+/// Returns the rows of the triangles, and those of the quads after them.
 template <class Values>
 std::array<std::span<Values>, 2> by_kind(std::span<Values> rows, std::size_t triangles, std::size_t width) {
   const std::size_t middle = std::min(triangles * width, rows.size());

@@ -10,55 +10,55 @@
 
 namespace quadloop {
 
-/// An order of a whole mesh's nodes and cells in which neighbours stand near each other, so that ranks which
-/// take it in pieces share little. Entry i is the number, in the whole mesh, of the i-th node or cell.
+/// An order of a whole mesh's nodes and cells in which neighbours are close, so that contiguous partitions
+/// have short interfaces. Entry i is the number, in the whole mesh, of the i-th node or cell.
 struct MeshOrder {
   std::vector<std::int32_t> nodes, triangles, quads;
 };
 
-/// Nodes along a space-filling curve over the mesh's box, cells by their first node along it. A function of
-/// the mesh alone, linear but for sorting.
+/// Nodes along a space-filling curve over the mesh's bounding box, cells by their first node along it.
+/// Depends on the mesh only; linear except for sorting.
 MeshOrder space_filling_order(const Mesh& whole);
 
-/// Nodes and cells as the mesh numbers them.
+/// The numbering of the mesh itself.
 MeshOrder own_order(const Mesh& whole);
 
-/// The mesh's own order where neighbours stand near each other in it, as in meshes that were made along a
-/// curve, else space_filling_order(): what is computed on such a mesh again goes the same way, bit for bit.
+/// Returns the mesh's own order if neighbours are close in it, as in meshes generated along a curve, else
+/// space_filling_order(). A repeated computation on such a mesh is thus bitwise identical.
 MeshOrder order_for_parts(const Mesh& whole);
 
-/// Spreads a mesh that the root rank holds whole over all ranks, in the order given: an even share of nodes,
-/// triangles, quads and boundary edges for each. `whole` and `order` count on the root alone. *Collective.*
+/// Distributes a mesh that the root holds, in the given order: an even number of nodes, triangles, quads and
+/// boundary edges on each rank. `whole` and `order` are used on the root only. *Collective.*
 Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& order);
 
-/// The values of each rank's owned nodes, from one for each node of the whole mesh on the root, or from none.
+/// Distributes nodal values of the whole mesh on the root to the owned nodes; an empty range gives none.
 /// *Collective.*
 template <std::ranges::contiguous_range Values>
 std::vector<std::ranges::range_value_t<Values>> scatter_nodes(const Communicator& comm,
                                                               const Values& of_whole, const MeshOrder& order);
 
-/// The same for each rank's triangles. *Collective.*
+/// Distributes values of triangles in the same way. *Collective.*
 template <class T>
 std::vector<T> scatter_triangles(const Communicator& comm, const std::vector<T>& of_whole,
                                  const MeshOrder& order);
 
-/// The root's field on a whole mesh, spread over the ranks as scatter_mesh() spread the mesh, into `part`, in
-/// the same order. `of_whole` and `order` count on the root alone. *Collective.*
+/// Distributes the root's field on a whole mesh as scatter_mesh() distributed the mesh to `part` in the same
+/// order. `of_whole` and `order` are used on the root only. *Collective.*
 Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh& part,
                     const MeshOrder& order);
 
-/// The way back: on the root the field on the whole mesh, elsewhere one without values. Rows of copies must
-/// not stand in `field`. *Collective.*
+/// Inverse of scatter_field(): returns the field on the whole mesh on the root, a field without values
+/// elsewhere. `field` must not have ghost rows. *Collective.*
 Field gather_field(const Communicator& comm, const Field& field, const Mesh& part, const MeshOrder& order);
 
-/// Puts the parts' positions and cells back into their places in the whole mesh on the root. *Collective.*
+/// Copies the parts' positions and cells back to the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
 
-/// A distributed mesh whole on the root, nodes and cells in their global order, with its boundaries and
-/// strips; elsewhere one without nodes. *Collective.*
+/// Gathers a distributed mesh on the root, nodes and cells in global order, with its boundaries and strips;
+/// other ranks return a mesh without nodes. *Collective.*
 Mesh gather_whole(const Communicator& comm, const Mesh& part);
 
-/// Even shares of the root's values, in the order of ranks. *Collective.*
+/// Distributes the root's values evenly, in the order of ranks. *Collective.*
 template <class T>
 std::vector<T> scatter_evenly(const Communicator& comm, std::span<const T> values) {
   const std::size_t ranks = comm.size();

@@ -11,7 +11,7 @@ EdgeTable::EdgeTable(const Mesh& mesh)
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     auto& next =
-        starts_[from.value() + std::size_t{1}];  // shifted by one: it moves to where the node's edges end
+        starts_[from.value() + std::size_t{1}];  // shifted by one: becomes the end of the node's edges
     edges_[next++] = {to, cell};
   });
 }

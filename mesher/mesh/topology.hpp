@@ -24,8 +24,8 @@ void for_each_cell_edge(const Mesh& mesh, const Visit& visit) {
   visit_cells(mesh.quads);
 }
 
-/// Which cell lies to the left of each directed edge of one rank's cells. Linear in time and memory; the
-/// nodes that the cells name must exist.
+/// The cell to the left of each directed edge of one rank's cells. Linear in time and memory. The cells'
+/// nodes must exist.
 class EdgeTable {
  public:
   struct Edge {
@@ -35,14 +35,14 @@ class EdgeTable {
 
   explicit EdgeTable(const Mesh& mesh);
 
-  /// The cell edges that leave a node, in the order of the cells.
+  /// The cell edges that start at a node, in the order of the cells.
   std::span<const Edge> from(NodeId node) const {
     const std::size_t at = node.value();
     return std::span(edges_).subspan(starts_[at], starts_[at + 1] - starts_[at]);
   }
-  /// Whether two cells have the same directed edge: they lie on each other.
+  /// Whether two cells have the same directed edge, i.e. overlap.
   bool repeats() const;
-  /// -1 where no cell has this directed edge; the first where several have it.
+  /// Returns -1 if no cell has this directed edge; the first if several have it.
   std::int32_t cell_left_of(NodeId from_node, NodeId to) const {
     const auto edges = from(from_node);
     const auto found =
@@ -55,22 +55,21 @@ class EdgeTable {
   std::vector<Edge> edges_;
 };
 
-/// The edges of one rank's cells and what lies beyond them, looked up once. The mesh must keep its cells as
-/// long.
+/// The edges of one rank's cells with their neighbours, in lookup tables. The mesh's cells must not change.
 class MeshTopology {
  public:
-  /// An edge with a cell to its left and none to its right.
+  /// An edge with a cell on its left and none on its right.
   struct OuterEdge {
     NodeId from, to;
   };
 
-  /// What is kept: four bytes for each cell edge, or only those of the boundary.
+  /// What is stored: four bytes per cell edge, or only the boundary edges.
   enum class Kept { all, outer_edges };
   explicit MeshTopology(const Mesh& mesh, Kept kept = Kept::all);
 
   const EdgeTable& table() const { return table_; }
-  /// Of each cell edge, in the order of for_each_cell_edge(), the cell to its right, -1 where there is none.
-  /// Empty where outer edges alone are kept.
+  /// For each cell edge, in the order of for_each_cell_edge(), the cell on its right, -1 if there is none.
+  /// Empty if only outer edges are stored.
   std::span<const std::int32_t> beyond() const { return beyond_; }
   /// One of each directed edge, in the order of the cells.
   std::span<const OuterEdge> outer_edges() const { return outer_edges_; }

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// What programs call the same thing, without letters' case, blanks and punctuation.
+/// Groups of names that programs use for the same variable, without case, blanks and punctuation.
 const std::vector<std::vector<std::string_view>>& usual_names() {
   static const std::vector<std::vector<std::string_view>> groups{
       {"density", "rho"},

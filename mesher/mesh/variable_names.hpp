@@ -7,24 +7,25 @@
 
 namespace quadloop {
 
-/// The index of a variable among the names of a solution: the name as it is written, else the same name in
-/// other letters (case, blanks and punctuation do not count), else another usual name for it (density: rho;
-/// x_velocity: VelocityX, velocity_x, u; pressure: p; mach: Mach_Number;
-/// ...). Throws an InputError that begins with `where` and lists the names where none is it, or several are.
+/// Returns the index of a variable among the names of a solution: the exact name, else the same name ignoring
+/// case, blanks and punctuation, else a synonym (density: rho; x_velocity: VelocityX, velocity_x, u;
+/// pressure: p; mach: Mach_Number; ...). Throws an InputError that begins with `where` and lists the names if
+/// there is no match, or several.
 std::size_t variable(std::span<const std::string> names, const std::string& wanted, const std::string& where);
 
-/// The indices of all names that may be this variable, by the first of these ways that finds any; more than
-/// one where it cannot be told.
+/// Returns the indices of all matching names, by the first of these rules that gives a match; more than one
+/// if it is ambiguous.
 std::vector<std::size_t> variables_like(std::span<const std::string> names, const std::string& wanted);
 
-/// A name as one word, which the native format can hold: each blank and control character becomes "_".
+/// Returns a name as one word, which the native format can store: each blank and control character becomes
+/// "_".
 std::string word_of(const std::string& name);
 
-/// The names as words, v1, v2, ... in the place of empty ones. Throws an InputError that begins with `where`
-/// and names both where two are then the same.
+/// Returns the names as words; empty ones become v1, v2, ... Throws an InputError that begins with `where`
+/// and names both if two are then the same.
 std::vector<std::string> distinct_words(std::span<const std::string> names, const std::string& where);
 
-/// Throws an InputError that begins with `where` where two names are the same to the letter.
+/// Throws an InputError that begins with `where` if two names are identical.
 void require_distinct(std::span<const std::string> names, const std::string& where);
 
 }  // namespace quadloop

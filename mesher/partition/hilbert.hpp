@@ -5,10 +5,10 @@
 
 namespace quadloop {
 
-/// Bits of each coordinate of a square on the curve.
+/// Bits of each coordinate of a square.
 constexpr int hilbert_bits = 31;
 
-/// The key of a square on the Hilbert curve (Hilbert 1891) through 2^31 x 2^31 squares: squares with
+/// Returns the key of a square on the Hilbert curve (Hilbert 1891) through 2^31 x 2^31 squares: squares with
 /// consecutive keys share a side.
 constexpr std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   constexpr std::uint32_t last = (std::uint32_t{1} << hilbert_bits) - 1;

@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-/// A number in the whole that a file gave.
+/// Checks a global number from a file.
 std::size_t checked(std::int64_t place, std::size_t places, const char* of, const std::string& shown) {
   if (place < 0 || place >= static_cast<std::int64_t>(places))
     throw InputError(shown + ": " + of + " " + std::to_string(place + 1) + " is none of the whole mesh's " +

@@ -12,30 +12,30 @@
 
 namespace quadloop {
 
-/// The whole mesh that parts are put into, on one rank.
+/// The whole mesh assembled from parts, on one rank.
 struct JoinedMesh {
   Mesh mesh;
   std::vector<std::int32_t> triangle_to_block, quad_to_block;
   std::optional<Field> field;
 };
 
-/// What the whole has; its boundaries by name, with the number of edges of each.
+/// Size of the whole mesh, with the number of edges of each boundary.
 struct WholeCounts {
   std::int32_t nodes = 0, triangles = 0, quads = 0;
   std::vector<std::int32_t> edges;
 };
 
-/// Puts parts, one after another, into their places in the whole. A node's position and values are those of
-/// the part that owns it; its other parts must have it at the same place, to the bit.
+/// Inserts parts one after another into the whole mesh. A node's position and values are those of the part
+/// that owns it; its positions in other parts must be bitwise identical.
 class PartJoiner {
  public:
-  /// `boundaries` are the whole's, without their edges.
+  /// `boundaries` are those of the whole mesh, without edges.
   PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> boundaries);
 
-  /// The part's first boundaries are the whole's; `shown` names it in messages. Throws InputError where it
-  /// does not fit.
+  /// The first boundaries of the part must be those of the whole mesh; `shown` names the part in messages.
+  /// Throws InputError if the part does not fit.
   void put(const MeshPart& part, const std::string& shown);
-  /// Throws InputError, which names `shown`, where places are left empty.
+  /// Throws InputError, which names `shown`, if nodes or cells are missing.
   JoinedMesh finish(const std::string& shown);
 
  private:
@@ -48,7 +48,7 @@ class PartJoiner {
   void put_cell_values(const MeshPart& part, CellValues& whole) const;
 
   JoinedMesh whole_;
-  std::vector<char> placed_, owned_;  ///< nodes: of any part; of the one that owns it
+  std::vector<char> placed_, owned_;  ///< nodes that are in any part; in the part that owns them
   std::int64_t rows_put_ = 0, rows_ = 0;
   std::int32_t parts_ = 0;
 };

@@ -24,14 +24,14 @@ struct PartCell {
   std::array<GlobalNodeId, width> nodes;
 };
 
-/// That a part has a node.
+/// A node used by a part.
 struct Use {
   GlobalNodeId node;
   std::int32_t part = 0;
   friend auto operator<=>(const Use&, const Use&) = default;
 };
 
-/// That two parts have a node.
+/// A node shared by two parts.
 struct Sharing {
   std::int32_t part = 0, other = 0;
   GlobalNodeId node;
@@ -67,7 +67,7 @@ class PartMaker {
   int rank_of(std::int32_t part) const { return rank_of_part(comm_, part, cells_.parts); }
   MeshPart& part(std::int32_t number) { return parts_[index_of_.at(number)]; }
 
-  /// A boundary's own name must not be that of a neighbour.
+  /// Rejects boundaries with the name of a part interface.
   void refuse_names() const {
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
       if (is_part_name(boundary.name))
@@ -76,7 +76,7 @@ class PartMaker {
     }
   }
 
-  /// In the order of their numbers.
+  /// Returns the cells of each part in the order of their numbers.
   template <std::size_t width>
   std::vector<PartCell<width>> deliver_cells(const std::vector<std::array<NodeId, width>>& cells,
                                              const std::vector<std::int32_t>& parts,
@@ -92,7 +92,7 @@ class PartMaker {
     return out.deliver(comm_);
   }
 
-  /// Which nodes each part has.
+  /// Collects the nodes of each part.
   void collect_nodes(const auto& triangles, const auto& quads) {
     const auto collect = [&](const auto& cells) {
       for (const auto& cell : cells) {
@@ -133,7 +133,7 @@ class PartMaker {
     }
   }
 
-  /// Positions and values, from the ranks that own the nodes.
+  /// Fetches positions and values from the owners of the nodes.
   void fetch_nodes() {
     std::vector<int> ranks;
     std::vector<GlobalNodeId> wanted;
@@ -167,7 +167,7 @@ class PartMaker {
     }
   }
 
-  /// Rows of triangles, then of quads, from the ranks that have the cells.
+  /// Fetches rows of triangles, then of quads, from the owners of the cells.
   void fetch_cell_values() {
     if (data_.field == nullptr || data_.field->cells.width() == 0) return;
     const CellOwners owners(comm_, mesh_);
@@ -188,7 +188,7 @@ class PartMaker {
     }
   }
 
-  /// Who has a node is known on the rank that owns it.
+  /// Determines shared nodes on their owners, which receive all uses.
   void put_sharings() {
     Outbox<Use> uses;
     for (const MeshPart& part : parts_) {
@@ -244,7 +244,7 @@ class PartMaker {
     for (const PartSide& side : sides) put_side(side, part(side.part));
   }
 
-  /// Those between parts come after all others, neighbour after neighbour.
+  /// Edges between parts come after all others, neighbour by neighbour.
   static void put_side(const PartSide& side, MeshPart& to) {
     auto& boundaries = to.mesh.boundaries;
     if (side.boundary >= 0) {

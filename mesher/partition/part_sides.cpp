@@ -13,12 +13,12 @@ namespace quadloop {
 
 namespace {
 
-/// A side of a cell, or a boundary edge, on its way to the rank that owns the lower of its nodes.
+/// A side of a cell, or a boundary edge, sent to the owner of its lower node.
 struct Side {
   GlobalNodeId low = {}, high = {};
-  bool forward = true;         ///< from low to high, with the cell or the domain to its left
-  std::int32_t part = -1;      ///< of a cell's side
-  std::int32_t boundary = -1;  ///< of a boundary edge
+  bool forward = true;         ///< directed from low to high, with the cell or the domain on the left
+  std::int32_t part = -1;      ///< for the side of a cell
+  std::int32_t boundary = -1;  ///< for a boundary edge
   std::int64_t place = -1;
 };
 
@@ -61,7 +61,7 @@ class SideFinder {
     }
   }
 
-  /// Of owned nodes and copies, whoever has the edges.
+  /// Flags the owned nodes and ghosts on boundary edges of any rank.
   NodeFlags boundary_nodes() const {
     std::vector<GlobalNodeId> nodes;
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
@@ -75,7 +75,7 @@ class SideFinder {
     return flags;
   }
 
-  /// Not those inside of a part, unless they may be boundary edges too, as between two blocks.
+  /// Skips sides inside a part, unless they may also be boundary edges, as between two blocks.
   void add_cell_sides(const NodeFlags& on_boundary) {
     const EdgeTable edges(mesh_);
     for_each_cell_edge(mesh_, [&](NodeId from, NodeId to, std::int32_t cell) {
@@ -90,7 +90,7 @@ class SideFinder {
     return cell < triangles ? cells_.triangles[cell] : cells_.quads[cell - triangles];
   }
 
-  /// What the entries for one edge amount to.
+  /// Evaluates the entries of one edge.
   void settle(std::span<const Side> sides, Outbox<PartSide>& found) const {
     const auto on = [&](bool forward, bool is_cell) {
       const auto at = std::ranges::find_if(

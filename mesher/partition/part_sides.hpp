@@ -10,23 +10,23 @@
 
 namespace quadloop {
 
-/// An edge of a part, the part to its left.
+/// An edge of a part, which is on its left.
 struct PartSide {
   std::int32_t part = 0;
-  std::int32_t neighbour = -1;  ///< the part to its right, where it is no boundary edge
-  std::int32_t boundary = -1;   ///< the boundary of the whole mesh that it is of
-  std::int64_t place = -1;      ///< and its number among that one's edges over all ranks, from 0
+  std::int32_t neighbour = -1;  ///< part on its right, if it is not a boundary edge
+  std::int32_t boundary = -1;   ///< its boundary in the whole mesh
+  std::int64_t place = -1;      ///< number among the edges of that boundary over all ranks, from 0
   std::array<GlobalNodeId, 2> nodes = {};
 };
 
-/// The rank that holds, and writes, a part. Parts follow each other along a curve, as do ranks.
+/// Returns the rank that stores, and writes, a part. Parts and ranks are ordered along a curve.
 inline int rank_of_part(const Communicator& comm, std::int32_t part, std::int32_t parts) {
   return static_cast<int>(std::int64_t{part} * comm.size() / parts);
 }
 
-/// The boundary edges of this rank's parts, and their edges to other parts, in no particular order. An edge
-/// between two blocks that is of a boundary goes to the part with the cell to its left; the other part has it
-/// as an edge to that one. *Collective.* Throws InputError where a boundary edge has no cell to its left.
+/// Returns the boundary edges of this rank's parts and their edges to other parts, unordered. An edge between
+/// two blocks that is also a boundary edge goes to the part with the cell on its left; the other part has it
+/// as an edge to that part. Throws InputError if a boundary edge has no cell on its left. *Collective.*
 std::vector<PartSide> part_sides(const Communicator& comm, const Mesh& mesh, const CellParts& cells);
 
 }  // namespace quadloop

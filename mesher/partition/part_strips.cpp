@@ -7,7 +7,7 @@ namespace quadloop {
 
 namespace {
 
-/// One strip's columns, as they are met along the line.
+/// Collects the columns of one strip along its line.
 class StripCutter {
  public:
   StripCutter(const StripLayers& strip, std::vector<StripLayers>& found) : strip_{strip}, found_{found} {}
@@ -19,7 +19,7 @@ class StripCutter {
     run_.nodes.insert(run_.nodes.end(), nodes.begin(), nodes.end());
   }
 
-  /// A single column has no cells.
+  /// Ends a run of columns; a single column has no cells.
   void end_run() {
     if (run_.columns() > 1) found_.push_back(std::move(run_));
     run_ = {};
@@ -31,7 +31,7 @@ class StripCutter {
   StripLayers run_;
 };
 
-/// A column's nodes in the part; none where it is not whole there.
+/// Returns a column's nodes in the part; empty if the column is not complete there.
 std::vector<GlobalNodeId> column_in_part(const StripLayers& strip, std::int32_t column,
                                          std::span<const std::int64_t> nodes) {
   std::vector<GlobalNodeId> here;

@@ -16,16 +16,16 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::int64_t quad_weight = 4;  // edges of a quad
+constexpr std::int64_t quad_weight = 4;  // number of edges of a quad
 
-/// A cell on the curve: by its key, and by its number over all ranks, triangles first, where keys are equal.
+/// Position of a cell on the curve: by key and, for equal keys, by global number, triangles first.
 struct Place {
   std::uint64_t key = 0;
   std::int64_t number = 0;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
-/// What stands before a place, by the cells of this rank.
+/// Cumulative weight of this rank's cells along the curve.
 class WeightsAlongCurve {
  public:
   WeightsAlongCurve(std::vector<Place> places, const std::vector<std::int64_t>& weights)
@@ -39,7 +39,7 @@ class WeightsAlongCurve {
     }
   }
 
-  /// Of the cells up to `last`, that one included.
+  /// Weight of the cells up to and including `last`.
   std::int64_t up_to(const Place& last) const {
     return sums_[std::ranges::upper_bound(places_, last) - places_.begin()];
   }
@@ -50,8 +50,8 @@ class WeightsAlongCurve {
   std::vector<std::int64_t> sums_;
 };
 
-/// Sums over ranks of a row of numbers: each is added up on one rank, so that what goes between ranks does
-/// not grow with the number of ranks times the row's length on any of them.
+/// Sums vectors over ranks. Each entry is summed on one rank, so that the data sent do not grow with the
+/// number of ranks times the length of the vector.
 class RowSum {
  public:
   RowSum(const Communicator& comm, std::size_t length) : exchange_(comm, ranks_for(comm, length)) {}
@@ -79,7 +79,8 @@ class RowSum {
   Exchange exchange_;
 };
 
-/// The last place of each part but the last: the first at which the sum reaches the part's share.
+/// The last position of each part but the last: the first at which the cumulative weight reaches the part's
+/// share.
 class Splits {
  public:
   Splits(const Communicator& comm, const WeightsAlongCurve& weights, std::int32_t parts)
@@ -98,7 +99,7 @@ class Splits {
   }
 
  private:
-  /// The least numbers of so many bits with which the sums reach the shares.
+  /// Finds the smallest numbers with this many bits at which the cumulative weights reach the shares.
   template <class Set>
   void bisect(int bits, const Set& set) {
     std::vector<std::uint64_t> low(splits_.size(), 0);
@@ -124,7 +125,7 @@ class Splits {
   std::vector<std::int64_t> shares_;
 };
 
-/// The places of this rank's cells, triangles, then quads. *Collective.*
+/// Returns the positions of this rank's cells, triangles, then quads. *Collective.*
 std::vector<Place> places_of(const Communicator& comm, const Mesh& mesh) {
   const Box box = box_over_ranks(comm, mesh.points);
   const double side = std::max(box.width(), box.height());
@@ -148,7 +149,7 @@ std::vector<Place> places_of(const Communicator& comm, const Mesh& mesh) {
   return places;
 }
 
-/// Pieces of the curve, of equal weights up to a cell's.
+/// Divides the curve into segments of equal weight, up to that of a cell.
 CellParts along_curve(const Communicator& comm, const Mesh& mesh, const PartWeights& of_cells,
                       std::int32_t parts) {
   const std::vector<Place> places = places_of(comm, mesh);
@@ -179,7 +180,7 @@ CellParts partition(const Communicator& comm, const Mesh& mesh, std::int32_t par
   if (parts == 1)
     return {parts, std::vector<std::int32_t>(mesh.triangles.size(), 0),
             std::vector<std::int32_t>(mesh.quads.size(), 0)};
-  // Shares of less than a cell would leave parts empty: cells count alike then.
+  // If a part were smaller than one cell, some would be empty: then all cells count equally.
   const bool weighed = 3 * triangles + quad_weight * quads >= quad_weight * parts;
   PartWeights weights;
   if (!weighed) weights.of_triangle = weights.of_quad = 1;

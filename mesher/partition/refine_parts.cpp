@@ -18,17 +18,18 @@ namespace quadloop {
 namespace {
 
 constexpr int most_rounds = 8;
-constexpr std::int32_t band = 32;  ///< how many cells from the line between two parts may move
-/// A round that lowers the cut by less than this share of it is the last.
+/// Maximum distance, in cells, of a movable cell from the interface of two parts.
+constexpr std::int32_t band = 32;
+/// The last round is that which lowers the cut by less than 1 / least_share.
 constexpr std::int64_t least_share = 100;
 
-/// Two parts with edges between them, the first the lower one.
+/// Two parts with common edges, the lower one first.
 struct Pair {
   std::int32_t first = 0, second = 0;
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-/// A cell near the line between two parts, on its way to the rank that works on them.
+/// A cell near the interface of two parts, sent to the rank that works on them.
 struct BandCell {
   Pair pair;
   std::int64_t number = 0;
@@ -47,8 +48,8 @@ struct NewWeight {
   std::int64_t weight = 0;
 };
 
-/// This rank's cells and the cells of others beside them, which come after: who is beside whom, and values
-/// of theirs brought up to date.
+/// Neighbour graph of this rank's cells, followed by adjacent cells of other ranks; updates values of the
+/// latter.
 class CellGraph {
  public:
   CellGraph(const Communicator& comm, const Mesh& mesh)
@@ -83,16 +84,16 @@ class CellGraph {
   std::int64_t number(std::int64_t cell) const {
     return cell < own_ ? owners_.number(cell) : foreign_[cell - own_];
   }
-  /// Of one of this rank's cells, across each of its edges; -1: none.
+  /// Neighbours of one of this rank's cells across each of its edges; -1: none.
   std::span<const std::int64_t> beside(std::int64_t cell) const {
     const bool is_triangle = cell < triangles_;
     const std::int64_t begin = is_triangle ? 3 * cell : 3 * triangles_ + 4 * (cell - triangles_);
     return std::span(beside_).subspan(begin, is_triangle ? 3 : 4);
   }
-  /// This rank's cells beside others' cells: pairs of those and these.
+  /// Pairs of another rank's cell and an adjacent cell of this rank.
   std::span<const std::pair<std::int64_t, std::int64_t>> own_beside() const { return own_beside_; }
 
-  /// Values of all(): those of other ranks' cells are fetched. *Collective.*
+  /// Fetches the values of other ranks' cells. *Collective.*
   void update(std::vector<std::int32_t>& values) const {
     std::vector<std::int32_t> answers;
     answers.reserve(asked_.size());
@@ -115,7 +116,7 @@ class CellGraph {
   std::optional<Exchange> exchange_;
 };
 
-/// Of the cells near the line between two parts: which change to the other. They come in the order of their
+/// Returns the cells near the interface of two parts that change sides. `cells` are in the order of their
 /// numbers.
 std::vector<Move> refined_pair(std::span<const BandCell> cells, SideWeights& weights) {
   WeightedGraph graph;
@@ -182,7 +183,7 @@ class PartRefiner {
       weight_of_part_[part] += weight;
   }
 
-  /// Edges between two parts, over all ranks.
+  /// Returns the number of edges between two parts, over all ranks.
   std::int64_t cut() const {
     std::int64_t sides = 0;
     for (std::int64_t cell = 0; cell < graph_.own(); ++cell) {
@@ -192,7 +193,7 @@ class PartRefiner {
     return comm_.sum(sides) / 2;
   }
 
-  /// All pairs of neighbours, divided so that no part is twice in a division; the same on all ranks.
+  /// Groups all pairs of neighbouring parts such that no part occurs twice in a group; the same on all ranks.
   std::vector<std::vector<Pair>> colours() const {
     std::vector<Pair> pairs;
     for (std::int64_t cell = 0; cell < graph_.own(); ++cell) {
@@ -210,7 +211,7 @@ class PartRefiner {
     pairs = comm_.all_gather_values(std::span<const Pair>(pairs));
     tidy(pairs);
     std::vector<std::vector<Pair>> colours;
-    std::vector<std::vector<char>> is_in;  // of each colour: whether a part is
+    std::vector<std::vector<char>> is_in;  // for each colour: whether a part is in it
     for (const Pair& pair : pairs) {
       std::size_t colour = 0;
       while (colour < colours.size() && (is_in[colour][pair.first] != 0 || is_in[colour][pair.second] != 0))
@@ -225,7 +226,7 @@ class PartRefiner {
     return colours;
   }
 
-  /// Pairs that have no part in common.
+  /// Refines pairs that have no part in common.
   void refine(const std::vector<Pair>& pairs) {
     partner_.assign(parts_, -1);
     for (const Pair& pair : pairs) {
@@ -272,7 +273,7 @@ class PartRefiner {
     return out.deliver(comm_);
   }
 
-  /// This rank's cells at most so many cells away from the line between their part and its partner.
+  /// Returns this rank's cells within `band` cells of the interface between their part and its partner.
   std::vector<std::int64_t> cells_in_band() const {
     std::vector<std::int32_t> distance(graph_.all(), -1);
     std::vector<std::int64_t> found;
@@ -311,8 +312,8 @@ class PartRefiner {
   const PartWeights& weights_;
   std::int32_t parts_;
   CellGraph graph_;
-  std::vector<std::int32_t> part_of_;  ///< of this rank's cells, and of those beside them
-  std::vector<std::int32_t> partner_;  ///< of each part, in the division under way; -1: none
+  std::vector<std::int32_t> part_of_;  ///< of this rank's cells and their neighbours
+  std::vector<std::int32_t> partner_;  ///< partner of each part in the current group; -1: none
   std::vector<std::int64_t> weight_of_part_;
 };
 

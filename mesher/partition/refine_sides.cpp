@@ -14,13 +14,13 @@ namespace {
 
 constexpr int most_passes = 8;
 constexpr std::int32_t coarsest = 40;      // nodes
-constexpr std::int64_t most_tries = 2000;  // moves in a row that make nothing better
+constexpr std::int64_t most_tries = 2000;  // consecutive moves without improvement
 
 std::span<const WeightedGraph::Neighbour> neighbours_of(const WeightedGraph& graph, std::int32_t node) {
   return std::span(graph.neighbours).subspan(graph.starts[node], graph.starts[node + 1] - graph.starts[node]);
 }
 
-/// One pass: each node moves at most once.
+/// One pass, in which each node moves at most once.
 class Pass {
  public:
   Pass(WeightedGraph& graph, SideWeights& weights)
@@ -31,7 +31,7 @@ class Pass {
     }
   }
 
-  /// Whether it made anything better.
+  /// Returns whether the pass improved anything.
   bool run() {
     State best{0, imbalance()}, now = best;
     std::size_t best_moves = 0;
@@ -59,7 +59,7 @@ class Pass {
     std::int64_t cut, imbalance;
     friend auto operator<=>(const State&, const State&) = default;
   };
-  /// The best gain first; of equal ones what came last, so that a move goes on where one was.
+  /// Order: largest gain first; for equal gains the latest entry first, so that moves continue locally.
   struct Entry {
     std::int64_t gain, time;
     std::int32_t node;
@@ -85,7 +85,7 @@ class Pass {
 
   void push(std::int32_t node) { queues_[graph_.sides[node]].push({gains_[node], time_++, node}); }
 
-  /// The best of either side that may move; -1: none.
+  /// Returns the best movable node of either side; -1: none.
   std::int32_t next() {
     std::int32_t best = -1;
     int from = -1;
@@ -136,7 +136,7 @@ class Pass {
   std::int64_t time_ = 0;
 };
 
-/// Which node of the coarser graph each becomes: pairs on the same side, over the heaviest edges.
+/// Maps each node to the coarser graph: pairs on the same side along the heaviest edges.
 class Matching {
  public:
   explicit Matching(const WeightedGraph& graph) : coarse(graph.size(), -1) {
@@ -155,7 +155,7 @@ class Matching {
   std::int32_t count = 0;
 
  private:
-  /// Scattered, so that pairs do not line up.
+  /// Pseudo-random order, so that pairs do not align.
   static std::vector<std::int32_t> order_of(const WeightedGraph& graph) {
     std::vector<std::int32_t> order(graph.size());
     std::iota(order.begin(), order.end(), 0);
@@ -195,7 +195,7 @@ WeightedGraph coarser(const WeightedGraph& fine, const Matching& matching) {
     for (const int side : {0, 1}) coarse.fixed[to][side] += fine.fixed[node][side];
     members[to][members[to][0] < 0 ? 0 : 1] = node;
   }
-  std::vector<std::int64_t> slot(matching.count, -1);  // of a neighbour among those of the node under way
+  std::vector<std::int64_t> slot(matching.count, -1);  // index of a neighbour among those of the current node
   for (std::int32_t to = 0; to < matching.count; ++to) {
     const std::int64_t start = std::ssize(coarse.neighbours);
     coarse.starts.push_back(start);

@@ -17,8 +17,8 @@ constexpr std::size_t block = 16;
 constexpr std::uint8_t children_bits = 0xf, asked_bit = 0x10;
 constexpr std::uint64_t children_of_word = 0x0f0f0f0f0f0f0f0fULL;
 
-/// Of the quadrant of this level that holds q. No quadrant deeper than this is split: its coordinates
-/// in units of its size fit into 32 bits.
+/// Returns the key of the quadrant of this level that contains q. Deeper quadrants are never split:
+/// coordinates in units of the quadrant size fit into 32 bits.
 std::uint64_t key_of(const Quadrant& q, int level) {
   const int shift = Quadrant::unit_level - level;
   return morton_key(static_cast<std::uint32_t>(q.x >> shift), static_cast<std::uint32_t>(q.y >> shift));
@@ -29,7 +29,7 @@ void make_unique(std::vector<std::uint64_t>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
-/// Those keys and all above them.
+/// Returns the keys with all their ancestors.
 template <class KeysOfLevels>
 KeysOfLevels with_ancestors(KeysOfLevels keys) {
   for (std::size_t level = keys.size() - 1; level > 0; --level) {
@@ -43,7 +43,7 @@ KeysOfLevels with_ancestors(KeysOfLevels keys) {
 
 }  // namespace
 
-/// The keys that are asked for, level by level, the same on all ranks.
+/// Gathers the requested keys, level by level, the same on all ranks.
 DemandedSplits::KeysOfLevels DemandedSplits::gather_asked(const Communicator& comm,
                                                           std::span<const SplitDemand> demands) {
   KeysOfLevels asked;
@@ -98,7 +98,7 @@ void DemandedSplits::assign(const KeysOfLevels& asked) {
   }
 }
 
-/// From the last quadrant to the first, whose children are the last that are left.
+/// From the last quadrant to the first; the children of a quadrant are the last ones that remain.
 void DemandedSplits::raise_finest() {
   std::size_t child = masks_.size();
   for (std::size_t i = masks_.size(); i-- > 0;) {
@@ -123,7 +123,7 @@ void DemandedSplits::append_asked(KeysOfLevels& asked) const {
   }
 }
 
-/// `first_above` is the number of the first of the level above, which learns of its children.
+/// `first_above` is the number of the first quadrant of the level above, which is linked to its children.
 void DemandedSplits::append_level(std::span<const Key> all, std::span<const Key> asked,
                                   std::span<const Key> above, std::int32_t first_above) {
   std::size_t next_asked = 0, parent = 0;
@@ -148,7 +148,7 @@ std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
   const std::size_t at = number;
   if ((masks_[at] >> k & 1) == 0) return none;
   std::array<std::uint64_t, block / sizeof(std::uint64_t)>
-      masks{};  // of the block, up to this one: whole words are counted at once
+      masks{};  // masks of the block up to this one: whole words are counted at once
   if (at % block != 0) std::memcpy(masks.data(), &masks_[at - at % block], at % block);
   std::int32_t before = children_before_[at / block];
   for (const std::uint64_t word : masks) before += std::popcount(word & children_of_word);
@@ -158,11 +158,11 @@ std::int32_t DemandedSplits::child(std::int32_t number, Corner quarter) const {
 
 bool DemandedSplits::asked(std::int32_t number) const { return (masks_[number] & asked_bit) != 0; }
 
-/// The steps that lead to this leaf too.
+/// Keeps the steps that also lead to this leaf.
 void DemandPath::keep_above(const Quadrant& leaf) {
   const std::uint64_t different = (leaf.x ^ last_.x) | (leaf.y ^ last_.y);
   const int common = Quadrant::unit_level -
-                     static_cast<int>(std::bit_width(different));  // negative where even the trees are others
+                     static_cast<int>(std::bit_width(different));  // negative if even the trees differ
   const int kept = std::min({size32(steps_), common + 1, leaf.level + 1});
   steps_.resize(std::max(kept, 0));
   last_ = leaf;

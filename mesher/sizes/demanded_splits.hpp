@@ -10,46 +10,46 @@
 
 namespace quadloop {
 
-/// A leaf and which of its ancestors, and itself, are to be split: bit l for the quadrant of level l that
-/// holds it.
+/// A leaf with the set of its ancestors, and possibly itself, that are to be split: bit l for the quadrant of
+/// level l that contains it.
 struct SplitDemand {
   Quadrant leaf;
   std::uint32_t levels = 0;
 };
 
-/// The quadrants that adaptation has asked to split, whatever case and geometry say, with all quadrants above
-/// them. Every rank has them all, in little more than two bytes for each: two thirds of a byte for a leaf of
-/// the tree.
+/// The quadrants that adaptation has requested to split, regardless of case and geometry, with all their
+/// ancestors. Every rank stores all of them, in little more than two bytes each: two thirds of a byte per
+/// leaf of the tree.
 class DemandedSplits {
  public:
   static constexpr std::int32_t none = -1;
 
   /// No demands.
   DemandedSplits() = default;
-  /// Of all ranks' demands; the order does not matter. *Collective.*
+  /// The demands of all ranks; their order does not matter. *Collective.*
   DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands);
-  /// These, for layers that cannot stand on larger leaves, beside those of `before`. *Collective.*
+  /// Adds these demands, for layers that are not valid on larger leaves, to those of `before`. *Collective.*
   DemandedSplits(const Communicator& comm, std::span<const SplitDemand> demands,
                  const DemandedSplits& before);
 
   bool empty() const { return masks_.empty(); }
-  /// Whether layers have asked for some of them.
+  /// Whether some of them were requested for layers.
   bool for_layers() const { return for_layers_; }
-  /// The level of the finest leaves that they ask for; 0 for none.
+  /// Level of the finest requested leaves; 0 if there are none.
   int finest_level() const { return finest_; }
 
-  /// The number of a tree's root if it is split, else none.
+  /// Returns the number of a tree's root if it is split, else none.
   std::int32_t root(std::int64_t tree_x, std::int64_t tree_y) const;
-  /// The number of a quarter of a split quadrant if it is split too, else none.
+  /// Returns the number of a child of a split quadrant if it is split too, else none.
   std::int32_t child(std::int32_t number, Corner quarter) const;
 
-  /// Whether this quadrant was asked for itself.
+  /// Whether this quadrant was requested itself.
   bool asked(std::int32_t number) const;
-  /// The level of the finest leaves that are asked for inside a split quadrant.
+  /// Level of the finest requested leaves inside a split quadrant.
   int finest_level_in(std::int32_t number) const { return finest_in_[number]; }
 
  private:
-  /// Key of a quadrant on the Morton curve over all trees, among those of its level.
+  /// Key of a quadrant on the Morton curve over all trees, for its level.
   using Key = std::uint64_t;
   using KeysOfLevels = std::array<std::vector<Key>, Quadrant::unit_level>;
   static KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands);
@@ -59,36 +59,36 @@ class DemandedSplits {
                     std::int32_t first_above);
   void raise_finest();
 
-  // In the order of levels, then along the curve: bits 0 to 3 for children that are split, bit 4 where the
-  // quadrant itself was asked for.
+  // By level, then along the curve: bits 0 to 3 for children that are split, bit 4 if the quadrant itself was
+  // requested.
   std::vector<std::uint8_t> masks_;
-  std::vector<std::int8_t> finest_in_;         ///< of each its finest_level_in()
-  std::vector<std::int32_t> children_before_;  ///< for each block of masks: split quadrants below the roots
-                                               ///< that come before the block's children
+  std::vector<std::int8_t> finest_in_;  ///< finest_level_in() of each
+  /// For each block of masks: number of split quadrants below the roots before the block's children.
+  std::vector<std::int32_t> children_before_;
   std::vector<Key> roots_;
   int finest_ = 0;
   bool for_layers_ = false;
 };
 
-/// The way down to one leaf after another: few steps for each where they come in the order of the curve.
+/// The paths to a sequence of leaves; few steps each if they are in curve order.
 class DemandPath {
  public:
   /// The demands must outlive the path.
   explicit DemandPath(const DemandedSplits& demanded) : demanded_{&demanded} {}
 
-  /// As in SplitDemand, for the quadrants above a leaf: only those that were asked for themselves.
+  /// As SplitDemand::levels, for the ancestors of a leaf that were requested themselves.
   std::uint32_t levels_above(const Quadrant& leaf);
 
  private:
   struct Step {
     std::int32_t number = DemandedSplits::none;  ///< of the quadrant of this level
-    std::uint32_t levels = 0;                    ///< asked for above it
+    std::uint32_t levels = 0;                    ///< requested above it
   };
   void keep_above(const Quadrant& leaf);
 
   const DemandedSplits* demanded_;
   Quadrant last_;
-  std::vector<Step> steps_;  ///< from the root of the last leaf's tree down, one a level
+  std::vector<Step> steps_;  ///< from the root of the last leaf's tree, one per level
 };
 
 }  // namespace quadloop

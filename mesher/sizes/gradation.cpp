@@ -6,12 +6,12 @@ namespace quadloop {
 
 namespace {
 
-/// Whether a leaf of size `small` at this gap forbids a leaf of size `large`.
+/// Whether a leaf of size `small` at this distance forbids a leaf of size `large`.
 bool forbids(std::int64_t small, std::int64_t gap, std::int64_t large, std::int64_t slope) {
   return ((large - small) << SizeRules::slope_bits) > gap * slope;
 }
 
-/// The edge of the leaves of a level.
+/// Returns the edge of the leaves of a level.
 std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_level - level); }
 
 }  // namespace
@@ -19,7 +19,7 @@ std::int64_t leaf_size(int level) { return std::int64_t{1} << (Quadrant::unit_le
 bool Gradation::must_split(const Quadrant& q) {
   const SizeRules& rules = tree_.rules();
   if (q.level >= rules.finest_level()) return false;
-  if (q.level < rules.coarsest_level()) {  // the domain's leaves are as small as that at least
+  if (q.level < rules.coarsest_level()) {  // leaves in the domain are at least this fine
     const bool near_domain =
         forbids(leaf_size(rules.coarsest_level()), rules.gap_to_domain(q), q.size(), rules.slope());
     if (near_domain || rules.in_domains_box(q)) return true;
@@ -29,8 +29,8 @@ bool Gradation::must_split(const Quadrant& q) {
 
 const std::vector<std::int32_t>& Gradation::split_near(const Quadrant& q) { return step_above(q).near; }
 
-/// The path's last step becomes the parent of q, with its list of near nodes. A step depends on its quadrant
-/// alone, so those that still hold q stay.
+/// Makes the parent of q the last step of the path, with its list of near nodes. A step depends only on its
+/// quadrant, so those that still contain q are kept.
 Gradation::Step& Gradation::step_above(const Quadrant& q) {
   const std::size_t depth = q.level;  // steps at levels 0 .. depth-1
   if (path_.size() < depth) path_.resize(depth);
@@ -45,7 +45,7 @@ Gradation::Step& Gradation::step_above(const Quadrant& q) {
   return path_[depth - 1];
 }
 
-/// `parents` are the nodes of this step's size whose children may matter to it.
+/// `parents` are the nodes of this step's size whose children may affect it.
 void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) {
   step.near.clear();
   step.has_near = true;
@@ -59,7 +59,7 @@ void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) 
     const std::int32_t first = tree_.node(parent).children;
     for (std::int32_t child = first; child < first + 4; ++child) {
       const SizeTree::Node& node = tree_.node(child);
-      if (node.plain) continue;  // its leaves are as large as any in the domain may be
+      if (node.plain) continue;  // its leaves are as large as possible in the domain
       if (forbids(leaf_size(node.finest), chebyshev_gap(step.quadrant, node.quadrant), half,
                   tree_.rules().slope()) &&
           tree_.is_split(child))
@@ -69,8 +69,7 @@ void Gradation::fill_near(Step& step, const std::vector<std::int32_t>& parents) 
 }
 
 bool Gradation::forced(const Quadrant& q, const std::vector<std::int32_t>& near) {
-  // First what needs no search: a node split at level l holds a leaf of size size(l)/2 or smaller somewhere
-  // within it.
+  // First the test without a search: a node split at level l contains a leaf of size size(l)/2 or smaller.
   for (const std::int32_t n : near) {
     const SizeTree::Node& node = tree_.node(n);
     const std::int64_t small = std::int64_t{1} << (Quadrant::unit_level - node.deepest_split - 1);

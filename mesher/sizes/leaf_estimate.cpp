@@ -13,20 +13,20 @@ namespace quadloop {
 
 namespace {
 
-constexpr double followed = 192;         ///< split quadrants of a level, about
-constexpr double outside_of_cut = 0.75;  ///< leaves into which the outside is split for each cut one, about
+constexpr double followed = 192;         ///< approximate number of split quadrants followed per level
+constexpr double outside_of_cut = 0.75;  ///< approximate number of leaves outside the domain per cut leaf
 
-/// A quadrant that stands for `weight` of its level.
+/// A sampled quadrant that represents `weight` quadrants of its level.
 struct Sampled {
   Quadrant quadrant;
   double weight = 1;
   enum class Side : std::uint8_t { unknown, inside, outside };
-  Side side = Side::unknown;  ///< known where it holds no outline
+  Side side = Side::unknown;  ///< known if it contains no geometry
 };
 
 class LeafCount {
  public:
-  /// `comm`: the ranks that share the looks at quadrants; null where this one takes all.
+  /// `comm`: the ranks that share the evaluation of quadrants; null: this rank evaluates all.
   LeafCount(const Communicator* comm, SizeTree& sizes)
       : comm_{comm}, sizes_{sizes}, cursor_{sizes}, gradation_{sizes}, ahead_{sizes, gradation_} {}
 
@@ -52,7 +52,7 @@ class LeafCount {
     return children;
   }
 
-  /// What `look` says of each quadrant, in their order. Each rank looks at a stretch of them.
+  /// Evaluates `look` for each quadrant, in order. Each rank evaluates a contiguous part.
   template <class Look>
   auto looks_at(const std::vector<Sampled>& quadrants, const Look& look) const {
     using Found = decltype(look(quadrants.front()));
@@ -89,7 +89,7 @@ class LeafCount {
     return splits;
   }
 
-  /// What is to be expected below a split quadrant and others for which it stands.
+  /// Expected content of a split quadrant and the others that it represents.
   struct Expected {
     double leaves, segments;
   };
@@ -97,8 +97,8 @@ class LeafCount {
     return {s.weight * ahead_.below(s.quadrant), s.weight * size32(cursor_.segments_in(s.quadrant))};
   }
 
-  /// The chances of being followed: half by the leaves expected, a quarter by the outline inside, a quarter
-  /// for each alike, so that a wrong guess of any one kind cannot hide much.
+  /// Selection probabilities: half by the expected leaves, a quarter by the geometry inside, a quarter
+  /// uniform, so that a wrong guess of one kind has limited effect.
   std::vector<double> chances_of(const std::vector<Sampled>& splits) {
     const std::vector<Expected> expected = looks_at(splits, [&](const Sampled& s) { return expect(s); });
     Expected all{0, 0};
@@ -117,7 +117,7 @@ class LeafCount {
     return chances;
   }
 
-  /// Evenly along the curve. All where there are few.
+  /// Samples evenly along the curve; takes all if there are few.
   std::vector<Sampled> chosen(std::vector<Sampled> splits) {
     if (size32(splits) <= followed) return splits;
     const std::vector<double> chances = chances_of(splits);
@@ -133,7 +133,7 @@ class LeafCount {
     return kept;
   }
 
-  /// `outside`: how many more lie outside beside it.
+  /// `outside`: number of additional leaves outside the domain.
   void count(const Sampled& leaf, double& of_its_kind, double outside = 0) {
     of_its_kind += leaf.weight;
     counted_.outside += outside;

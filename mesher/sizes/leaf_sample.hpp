@@ -7,24 +7,24 @@
 
 namespace quadloop {
 
-/// Leaves of a forest that is yet to be made, each of which stands for so many: from it follows about how
-/// many leaves a quadrant will have. Those below a quadrant are one stretch of the curve, so that two places
-/// in sums along it tell of all.
+/// Sampled leaves of a forest that has not been created, each with a weight: gives the approximate number of
+/// leaves below a quadrant. The leaves below a quadrant are contiguous on the curve, so that two entries of
+/// cumulative sums are sufficient.
 class LeafSample {
  public:
   struct Row {
     Quadrant leaf;
-    double leaves = 1;  ///< for which it stands
+    double leaves = 1;  ///< number of leaves that it represents
   };
   LeafSample() = default;
   explicit LeafSample(std::vector<Row> rows);
 
-  /// Below a quadrant or at it; 0 where the sample has none.
+  /// Returns the number of leaves in a quadrant; 0 if the sample has none.
   double leaves_in(const Quadrant& q) const;
   double leaves() const { return sums_.empty() ? 0 : sums_.back(); }
 
  private:
-  /// Where a square begins along the curve, the trees taken row by row.
+  /// Start of a square on the curve, the trees taken row by row.
   struct Key {
     std::int64_t tree;
     std::uint64_t square;

@@ -8,14 +8,14 @@ namespace quadloop {
 
 namespace {
 
-/// Leaves in a square of this size at a gap from leaves of size h, where sizes grow with the slope away from
-/// them.
+/// Returns the number of leaves in a square of this size at a distance from leaves of size h, where sizes
+/// grow with the slope away from them.
 double graded_leaves(double size, double gap, double h, double slope) {
   const double near = h + slope * gap, far = near + slope * size;
   return size / slope * (1 / near - 1 / far);
 }
 
-/// The share of the square that the source's box covers.
+/// Returns the fraction of the square covered by the source's bounding box.
 double covered_share(const SizeSource& source, const Box& square) {
   Box box;
   if (const auto* area = std::get_if<Box>(&source.shape)) {
@@ -60,7 +60,7 @@ double LeavesAhead::source_leaves(const Quadrant& q) const {
   return leaves;
 }
 
-/// The level that the finest leaves in a split node may be expected to have.
+/// Returns the expected level of the finest leaves in a split node.
 int LeavesAhead::level_ahead(std::int32_t node) {
   const std::size_t index = node;
   if (levels_.size() <= index) levels_.resize(tree_.size(), 0);

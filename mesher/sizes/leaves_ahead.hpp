@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// Guesses what splitting a quadrant leads to, from what the nodes of the wanted tree near it ask for.
+/// Predicts the number of leaves below a quadrant from nearby nodes of the wanted tree.
 class LeavesAhead {
  public:
-  /// Both must outlive it; `gradation` is that of the tree.
+  /// Both must outlive the object; `gradation` is that of the tree.
   LeavesAhead(SizeTree& tree, Gradation& gradation) : tree_{tree}, gradation_{gradation} {}
 
-  /// How many leaves a quadrant that must be split will hold in the end, about, at least 1: good enough to
-  /// tell where most are to be looked for.
+  /// Returns the approximate final number of leaves, at least 1, in a quadrant that must be split: accurate
+  /// enough to find where most leaves will be.
   double below(const Quadrant& q);
 
  private:
@@ -23,7 +23,7 @@ class LeavesAhead {
 
   SizeTree& tree_;
   Gradation& gradation_;
-  std::vector<std::int8_t> levels_;  ///< of nodes, as far as they were asked for; 0: not yet
+  std::vector<std::int8_t> levels_;  ///< of nodes, as far as computed; 0: not computed
 };
 
 }  // namespace quadloop

@@ -8,13 +8,13 @@ namespace quadloop {
 
 namespace {
 
-/// Two pieces face each other where the way across leaves both within 60 degrees of the normal.
+/// Two parts of the boundary face each other if the line across leaves both within 60 degrees of the normal.
 constexpr double facing_cosine = 0.5;
-/// Of the gap: a shorter piece of outline between its two sides is a bend, not a gap.
+/// Relative to the gap: if the boundary between the two sides is shorter, it is a bend, not a gap.
 constexpr double bend_length = 3;
-constexpr double straight_sides_degrees = 30;  ///< what the two sides of a corner may turn by besides
+constexpr double straight_sides_degrees = 30;  ///< maximum additional turning of the two sides of a corner
 
-/// The part of a segment inside a box that it meets.
+/// Clips a segment to a box that it meets.
 std::pair<Point, Point> clip(Point a, Point b, const Box& box) {
   double from = 0, to = 1;
   const auto limit = [&](double start, double step, double low, double high) {
@@ -44,7 +44,7 @@ Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{g} {
   }
 }
 
-/// Walking from p on segment a onwards to q on segment b of the same loop.
+/// Along the loop from p on segment a forwards to q on segment b.
 bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Point q, double gap) const {
   const Geometry& g = *geometry_;
   const auto at = [](const auto& sums, std::int32_t v) { return sums[v]; };
@@ -52,7 +52,7 @@ bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Poi
   double arc = at(arc_, b) + length(q - g.point(b)) - at(arc_, a) - length(p - g.point(a));
   double turning = at(turning_, b) - at(turning_, a);
   std::int32_t kept = at(kept_, b) - at(kept_, a);
-  if (arc < 0) {  // over the loop's first vertex
+  if (arc < 0) {  // across the first vertex of the loop
     arc += at(arc_, last) + length(g.point(first) - g.point(last)) - at(arc_, first);
     turning += at(turning_, last) - at(turning_, first) + (g.kept(first) ? 0 : g.turn_degrees(first));
     kept += at(kept_, last) - at(kept_, first) + (g.kept(first) ? 1 : 0);

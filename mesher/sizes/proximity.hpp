@@ -8,22 +8,22 @@
 
 namespace quadloop {
 
-/// Finds where two pieces of the outline face each other across a narrow part of the domain. O(log n + k) a
-/// segment, k the segments near it.
+/// Finds where two parts of the boundary face each other across a narrow part of the domain. O(log n + k) per
+/// segment, with k nearby segments.
 class Proximity {
  public:
   explicit Proximity(const Geometry& geometry);
 
-  /// Whether the domain between a piece of these segments inside the box and another piece of the outline is
-  /// narrower than `width`. The gap is measured through the domain, between pieces that face each other
-  /// within 60 degrees; the two sides of a kept corner, or of any bend that is shorter than three times the
-  /// gap, are no gap.
+  /// Whether the domain between a part of these segments inside the box and another part of the boundary is
+  /// narrower than `width`. The gap is measured through the domain, between parts that face each other within
+  /// 60 degrees; the two sides of a feature point, or of a bend shorter than three times the gap, do not
+  /// count.
   bool narrower(std::span<const std::int32_t> segments, const Box& box, double width) const;
 
-  /// The segments of the outline at which the domain is narrower than `width`. O(n log n).
+  /// Segments of the geometry where the domain is narrower than `width`. O(n log n).
   struct NarrowParts {
     std::int64_t segments = 0;
-    Point first;  ///< the middle of the first of them
+    Point first;  ///< midpoint of the first of them
   };
   NarrowParts narrow_parts(double width) const;
 
@@ -34,9 +34,10 @@ class Proximity {
 
   const Geometry* geometry_;
   SegmentTree segments_;
-  std::vector<double> arc_;         ///< length of its loop up to each vertex
-  std::vector<double> turning_;     ///< degrees turned up to and with each vertex at points that are not kept
-  std::vector<std::int32_t> kept_;  ///< kept points up to and with each vertex
+  std::vector<double> arc_;  ///< arc length of its loop up to each vertex
+  /// Degrees turned up to and including each vertex at points that are not feature points.
+  std::vector<double> turning_;
+  std::vector<std::int32_t> kept_;  ///< number of feature points up to and including each vertex
 };
 
 }  // namespace quadloop

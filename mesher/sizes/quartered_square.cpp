@@ -4,13 +4,13 @@ namespace quadloop {
 
 namespace {
 
-/// Of a vertex: beyond which of the three lines along each axis it lies.
+/// For a vertex: whether it is beyond each of the three lines along each axis.
 struct Vertex {
   std::array<bool, 3> x{}, y{};
   bool in(int column, int row) const { return x[column] && !x[column + 1] && y[row] && !y[row + 1]; }
 };
 
-/// Whether both lie before the stretch between a line and the next, or both beyond it.
+/// Whether both are before the interval between two consecutive lines, or both beyond it.
 bool miss(const std::array<bool, 3>& a, const std::array<bool, 3>& b, int stretch) {
   return (!a[stretch] && !b[stretch]) || (a[stretch + 1] && b[stretch + 1]);
 }
@@ -32,7 +32,7 @@ QuarteredSquare::Passage QuarteredSquare::passage_of(std::int32_t segment) const
   const bool east = outline_->beyond_x(segment, x_[1]), north = outline_->beyond_y(segment, y_[1]);
   const bool is_one = outline_->beyond_x(end, x_[1]) == east && outline_->beyond_y(end, y_[1]) == north;
   if (is_one) passage.quarters = 1U << (2 * north + east);
-  if (is_one && (east || north)) return passage;  // those lie beyond all ways to quarters
+  if (is_one && (east || north)) return passage;  // those are not on any path to the other quarters
   const auto vertex = [&](std::int32_t v) {
     Vertex at;
     for (const int line : {0, 1, 2}) {
@@ -43,7 +43,7 @@ QuarteredSquare::Passage QuarteredSquare::passage_of(std::int32_t segment) const
   };
   const Vertex a = vertex(segment), b = vertex(end);
   if (is_one && a.x == b.x && a.y == b.y) return passage;
-  std::array<std::array<bool, 3>, 3> left{};  // row by row: whether the segment has the corner on its left
+  std::array<std::array<bool, 3>, 3> left{};  // row by row: whether the corner is to the left of the segment
   for (const int row : {0, 1, 2}) {
     for (const int column : {0, 1, 2}) left[row][column] = outline_->has_left(segment, {x_[column], y_[row]});
   }

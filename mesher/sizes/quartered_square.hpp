@@ -8,10 +8,11 @@
 
 namespace quadloop {
 
-/// A square of the lattice and its quarters: where segments pass, asked once for all four.
+/// A square of the lattice with its quarters: finds for a segment the quarters that it crosses, for all four
+/// at once.
 class QuarteredSquare {
  public:
-  /// The outline must outlive it.
+  /// The outline must outlive the object.
   QuarteredSquare(const ShiftedOutline& outline, const Lattice& lattice, const Quadrant& square);
 
   Box box() const { return {{x_[0], y_[0]}, {x_[2], y_[2]}}; }
@@ -21,12 +22,12 @@ class QuarteredSquare {
   }
 
   struct Passage {
-    unsigned quarters = 0;  ///< whose insides the segment meets: a bit for each, along the curve
-    /// What crossing the segment adds to the winding number, from the lower left corner of the square to that
-    /// of each quarter.
+    unsigned quarters = 0;  ///< quarters whose interior the segment meets: one bit each, in curve order
+    /// Contribution of the segment to the change of winding number from the lower left corner of the square
+    /// to that of each quarter.
     std::array<int, 4> winding{};
   };
-  /// Of a segment that meets the inside of the square.
+  /// For a segment that meets the interior of the square.
   Passage passage_of(std::int32_t segment) const;
 
  private:

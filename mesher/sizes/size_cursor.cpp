@@ -5,7 +5,7 @@
 
 namespace quadloop {
 
-/// From the last node of the way kept that holds q down, but not into a plain one or one that need not be
+/// Descends from the last stored node that contains q, but not into a plain node or one that need not be
 /// entered.
 template <class Enter>
 std::int32_t SizeCursor::deepest_node_at(const Quadrant& q, const Enter& enter) {
@@ -25,7 +25,7 @@ std::int32_t SizeCursor::deepest_node_at(const Quadrant& q, const Enter& enter) 
   return n;
 }
 
-/// Or the one above that where geometry ends.
+/// Or its lowest ancestor with geometry.
 std::int32_t SizeCursor::deepest_with_geometry(const Quadrant& q) {
   return deepest_node_at(q, [&](const SizeTree::Node& n) { return !tree_.segments_of(n).empty(); });
 }
@@ -42,7 +42,7 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
   return found_;
 }
 
-/// From the lower left corner of the node along its bottom, then up.
+/// Along the bottom from the lower left corner of the node, then up.
 bool SizeCursor::is_inside(const Quadrant& q, Corner corner) {
   const SizeTree::Node& node = tree_.node(deepest_with_geometry(q));
   const ShiftedOutline& outline = tree_.rules().outline();

@@ -9,18 +9,19 @@
 
 namespace quadloop {
 
-/// Looks quadrants up in the wanted tree; few steps each where they come in the order of the curve, as it
-/// remembers the way down to the last one.
+/// Finds quadrants in the wanted tree; few steps each for quadrants in curve order, as the path to the last
+/// one is stored.
 class SizeCursor {
  public:
-  /// `tree` must outlive it.
+  /// `tree` must outlive the object.
   explicit SizeCursor(SizeTree& tree) : tree_{tree} {}
 
-  /// The segments that meet the inside of the quadrant, in ascending order; valid until the next call.
+  /// Returns the segments that meet the interior of the quadrant, in ascending order; valid until the next
+  /// call.
   std::span<const std::int32_t> segments_in(const Quadrant& q);
   /// Whether a corner of the quadrant lies in the domain.
   bool is_inside(const Quadrant& q, Corner corner);
-  /// The level at which case, geometry and demands alone would have stopped at this leaf's place.
+  /// Returns the level of this leaf's place in the wanted tree, i.e. without gradation.
   int wanted_level(const Quadrant& leaf);
 
  private:
@@ -29,9 +30,9 @@ class SizeCursor {
   std::int32_t deepest_with_geometry(const Quadrant& q);
 
   SizeTree& tree_;
-  std::int64_t x_ = -1, y_ = -1;  ///< the corner of the quadrant last looked up, or one outside the root
-  int depth_ = 0;                 ///< level of the node that was found for it
-  std::array<std::int32_t, Quadrant::unit_level + 1> path_{};  ///< from the root down to that
+  std::int64_t x_ = -1, y_ = -1;  ///< corner of the last quadrant, or a point outside the root
+  int depth_ = 0;                 ///< level of the node found for it
+  std::array<std::int32_t, Quadrant::unit_level + 1> path_{};  ///< from the root to that node
   std::vector<std::int32_t> found_;
 };
 

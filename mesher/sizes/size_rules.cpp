@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that a sum does not depend on its order
+constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that sums do not depend on their order
 
 }  // namespace
 
@@ -35,7 +35,7 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, cons
   level_of_segment_.reserve(g.size());
   const bool any_corner =
       std::ranges::any_of(g.boundaries(), [](const Boundary& b) { return b.corner_spacing > 0; });
-  int level = coarsest_;  // that of the segment before, near which this one's mostly is
+  int level = coarsest_;  // search from the level of the previous segment, which is usually close
   for (std::int32_t s = 0; s < g.size(); ++s) {
     level = level_within(g.spacing_of(s), level);
     level_of_segment_.push_back(static_cast<std::int8_t>(level));

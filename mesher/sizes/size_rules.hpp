@@ -15,24 +15,24 @@
 
 namespace quadloop {
 
-/// A quadrant as the rules of sizes see it.
+/// A quadrant with the data for the size rules.
 struct SizedQuadrant {
   Quadrant quadrant;
   Box box;
-  std::span<const std::int32_t> segments;  ///< that meet its inside
+  std::span<const std::int32_t> segments;  ///< segments that meet its interior
   std::span<const std::int32_t> corners;   ///< vertices with a size of their own that it touches
-  int finest_demanded = 0;  ///< level of the finest leaves demanded inside; 0: it need not be split for any
-  bool made_by_demand = false;  ///< its parent was
+  int finest_demanded = 0;      ///< level of the finest leaves demanded inside; 0: no demand to split
+  bool made_by_demand = false;  ///< whether its parent was split by a demand
 };
 
-/// What the case and the geometry in a quadrant ask of the leaves there, one quadrant alone. The answers
-/// depend on geometry and options alone, so that every rank can give them for every quadrant.
+/// Sizes that case and geometry require of the leaves in a quadrant, for each quadrant independently. The
+/// results depend only on geometry and options, so every rank can evaluate every quadrant.
 class SizeRules {
  public:
-  /// Tells whether this quadrant as a leaf, holding these segments, cannot be cut as it is.
+  /// Whether this quadrant as a leaf with these segments cannot be cut.
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
-  /// The arguments but the options must outlive the rules.
+  /// All arguments except the options must outlive the object.
   SizeRules(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
             Unresolved unresolved, const DemandedSplits& demanded);
 
@@ -40,39 +40,39 @@ class SizeRules {
   const Lattice& lattice() const { return *lattice_; }
   const DemandedSplits& demanded() const { return *demanded_; }
   std::span<const SizeSource> sources() const { return options_.sources; }
-  int finest_level() const { return finest_; }      ///< of case and demands
-  int coarsest_level() const { return coarsest_; }  ///< at which leaves are no larger than `max`
+  int finest_level() const { return finest_; }      ///< by case and demands
+  int coarsest_level() const { return coarsest_; }  ///< level at which leaves are no larger than `max`
   /// (g - 1) / 2 for the gradation g, in units of 2^-slope_bits.
   std::int64_t slope() const { return slope_; }
   static constexpr int slope_bits = 20;
-  /// The vertices that ask for a size of their own.
+  /// Returns the vertices with a size of their own.
   std::vector<std::int32_t> sized_corners() const;
 
   bool wants_split(const SizedQuadrant& q) const;
 
-  /// What can be said of a quadrant's leaves without splitting it. It may promise more than wants_split()
-  /// then asks for, never less: wherever that holds, for the quadrant itself or one inside it, the level
-  /// there is less than `finest` and, if the quadrant is plain, less than coarsest_level().
+  /// Properties of a quadrant's leaves, found without splitting it. These are bounds for wants_split():
+  /// wherever that is true, for the quadrant itself or one inside it, the level there is less than `finest`
+  /// and, if the quadrant is plain, less than coarsest_level().
   struct Judgement {
-    bool plain = false;  ///< nothing inside asks for leaves finer than `max` does; no leaf made by a demand
-    int finest = 0;      ///< no leaf inside is deeper than this level; it may be reached or not
+    bool plain = false;  ///< no leaf inside needs to be finer than by `max`, and none is made by a demand
+    int finest = 0;      ///< upper bound on the level of the leaves inside
   };
   Judgement judge(const SizedQuadrant& q) const;
 
-  /// The coarsest level that a source of this spacing is content with.
+  /// Returns the coarsest level that satisfies a source of this spacing.
   int level_for(double spacing) const;
-  /// The level that these segments ask for in a quadrant: by their spacing, and by curvature as if the
-  /// outline turned evenly along it.
+  /// Returns the level that these segments require in a quadrant: by their spacing, and by curvature for
+  /// uniform turning along the boundary.
   int level_of_outline(const Quadrant& q, std::span<const std::int32_t> segments) const;
 
-  /// Whether any of the domain can lie in the quadrant. Where none does, leaves may be larger than `max`: a
-  /// wide root costs nothing.
+  /// Whether part of the domain may lie in the quadrant. Elsewhere leaves may be larger than `max`, so a
+  /// large root adds no cost.
   bool in_domains_box(const Quadrant& q) const;
-  /// As chebyshev_gap.
+  /// As chebyshev_gap().
   std::int64_t gap_to_domain(const Quadrant& q) const;
 
  private:
-  /// The coarsest level of leaves no larger than this, as the case has them, looked for from another one.
+  /// Returns the coarsest level of leaves no larger than this, by the case, searching from another level.
   int level_within(double spacing, int from) const;
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
 
@@ -82,15 +82,16 @@ class SizeRules {
   const DemandedSplits* demanded_;
   Unresolved unresolved_;
   std::optional<Proximity> proximity_;
-  std::vector<std::int8_t>
-      level_of_segment_;  ///< the coarsest at which leaves are as small as it asks, or the finest
-  std::vector<double> corner_spacing_;  ///< of each vertex, or 0; empty where no boundary asks
-  /// Of each vertex, in turning_unit, 0 where it is kept as a corner; none without options_.curvature.
+  /// Coarsest level at which leaves are as small as the segment requires, at most the finest level.
+  std::vector<std::int8_t> level_of_segment_;
+  std::vector<double> corner_spacing_;  ///< for each vertex, or 0; empty if no boundary has a corner spacing
+  /// For each vertex, in turning_unit, 0 at feature points; empty without options_.curvature.
   std::vector<std::int64_t> turning_;
   int finest_of_case_;
   int finest_;
   int coarsest_;
-  std::array<std::int64_t, 4> domain_{};  ///< lattice lines round the domain's box: left, right, bottom, top
+  /// Lattice lines around the domain's bounding box: left, right, bottom, top.
+  std::array<std::int64_t, 4> domain_{};
   std::int64_t slope_;
 };
 

@@ -12,7 +12,8 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
     : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
   const std::int32_t all = outline.geometry().size();
-  constexpr std::size_t levels = 6;  // with all segments on each; room that is not filled takes no memory
+  // with all segments on each; reserved memory that is not filled costs nothing
+  constexpr std::size_t levels = 6;
   segments_.reserve(levels * all);
   Node whole;
   whole.corners_end = size32(corners_);
@@ -45,7 +46,7 @@ void SizeTree::expect_cut_leaves(double leaves) {
 }
 
 void SizeTree::forget() {
-  nodes_.resize(roots_.size());  // those came first
+  nodes_.resize(roots_.size());  // the roots are first
   for (Node& root : nodes_) {
     root.children = Node::unknown;
     root.deepest_split = -1;
@@ -95,8 +96,8 @@ void SizeTree::grow(std::int32_t n) {
     nodes_[above].deepest_split = parent.quadrant.level;
 }
 
-/// Takes over what the node holds of its parent's corners; a root, of all. A corner on a lattice line touches
-/// the leaves on both its sides, so that mirror images agree.
+/// Adds the corners of its parent that the node contains; for a root, of all. A corner on a lattice line
+/// touches the leaves on both sides, so that mirror images agree.
 void SizeTree::add(Node node, const Box& box, const Node& parent) {
   node.corners_begin = size32(corners_);
   for (std::int32_t i = parent.corners_begin; i < parent.corners_end; ++i) {

@@ -9,28 +9,29 @@
 
 namespace quadloop {
 
-/// The *wanted* tree: the quadrants that the rules ask to split, and the index of what lies in each. It grows
-/// as it is asked for, by functions that are not const; so a rank holds no more of it than it looks at, and
-/// no answer depends on what was asked before. Questions about quadrants are asked through objects that their
-/// callers hold, which make it grow: SizeCursor, Gradation, LeavesAhead.
+/// The *wanted* tree: the quadrants that must be split by the rules, with the geometry in each. It is built
+/// lazily, by non-const functions; so a rank stores only what it visits, and no result depends on earlier
+/// queries. Queries use objects held by the caller, which extend the tree: SizeCursor, Gradation,
+/// LeavesAhead.
 class SizeTree {
  public:
   struct Node {
     Quadrant quadrant;
     std::int32_t parent = -1;
-    std::int32_t children = unknown;  ///< index of the first of four, or one of the two below
+    /// Index of the first of four children, or one of the two constants below.
+    std::int32_t children = unknown;
     std::int32_t segments_begin = 0, segments_end = 0;
     std::int32_t corners_begin = 0, corners_end = 0;
-    bool plain = false;                            ///< as in SizeRules::Judgement
-    std::int8_t finest = 0;                        ///< as there
-    std::int16_t winding = 0;                      ///< number of the outline round the lower left corner
-    std::int32_t demanded = DemandedSplits::none;  ///< its number there
-    std::int32_t deepest_split = -1;  ///< level of the deepest split node known at or below this one
+    bool plain = false;        ///< as in SizeRules::Judgement
+    std::int8_t finest = 0;    ///< as in SizeRules::Judgement
+    std::int16_t winding = 0;  ///< winding number of the boundary around the lower left corner
+    std::int32_t demanded = DemandedSplits::none;  ///< its number in DemandedSplits
+    std::int32_t deepest_split = -1;  ///< level of the deepest known split node at or below this one
     static constexpr std::int32_t unknown = -2, leaf = -1;
   };
 
-  /// As SizeRules. `demanded` are split beside those that case and geometry ask to, also below the case's
-  /// `min`.
+  /// Arguments as for SizeRules. `demanded` quadrants are split in addition to those required by case and
+  /// geometry, even below the case's `min`.
   SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
            SizeRules::Unresolved unresolved, const DemandedSplits& demanded);
 
@@ -43,18 +44,18 @@ class SizeTree {
   /// The nodes of level 0, row by row.
   const std::vector<std::int32_t>& roots() const { return roots_; }
   std::int32_t root_of(const Quadrant& q) const;
-  /// Whether the node has children; it has got them then. References to nodes and spans of segments may be
-  /// stale after it.
+  /// Whether the node has children, which are then created. Invalidates references to nodes and spans of
+  /// segments.
   bool is_split(std::int32_t node);
   const Node& node(std::int32_t n) const { return nodes_[n]; }
   std::int32_t size() const { return size32(nodes_); }
-  /// Makes room for the nodes that a forest with about so many cut leaves asks for: without it all nodes are
-  /// copied each time their number doubles. Room that is not filled takes no memory.
+  /// Reserves memory for the nodes of a forest with about this many cut leaves, to avoid copies as the number
+  /// of nodes grows. Reserved memory that is not filled costs nothing.
   void expect_cut_leaves(double leaves);
-  /// Gives up all nodes but the roots, and their memory. They grow again where they are asked for: objects
-  /// that ask are to be made anew.
+  /// Frees all nodes but the roots. They are created again by queries; objects for queries must be
+  /// constructed again.
   void forget();
-  /// The segments that meet the inside of the node, in ascending order.
+  /// The segments that meet the interior of the node, in ascending order.
   std::span<const std::int32_t> segments_of(const Node& node) const {
     return part(segments_, node.segments_begin, node.segments_end);
   }
@@ -73,7 +74,8 @@ class SizeTree {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> segments_;
   std::vector<std::int32_t> corners_;
-  std::vector<std::uint8_t> passed_;  ///< of the node that grows: by segment, the quarters that it meets
+  /// For the node being split: for each segment the quarters that it meets.
+  std::vector<std::uint8_t> passed_;
 };
 
 }  // namespace quadloop

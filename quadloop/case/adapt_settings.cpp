@@ -4,7 +4,7 @@ namespace quadloop {
 
 namespace {
 
-/// A name, a list of names, { size = "h" } or { error = "e" }.
+/// Reads a name, a list of names, { size = "h" } or { error = "e" }.
 SensorFields read_sensor_fields(const CaseTable& table, const std::string& key) {
   using enum AdaptOptions::Source;
   if (!table.is_table(key)) {
@@ -35,7 +35,7 @@ ValueForm<UntilKeys> until() {
           }};
 }
 
-/// The same keys have other defaults and limits where they are fractions of the leaves.
+/// These keys have other defaults and limits if they are fractions of the quadtree cells.
 void read_thresholds(const CaseTable& table, AdaptOptions& options) {
   const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
   if (shares) {
@@ -48,7 +48,7 @@ void read_thresholds(const CaseTable& table, AdaptOptions& options) {
   }
 }
 
-/// Wanted sizes instead of marks.
+/// Options of adaptation by a target size field instead of refinement flags.
 void take_norm(const CaseTable& table, AdaptOptions& options) {
   if (!options.norm) return;
   if (options.source == AdaptOptions::Source::size)

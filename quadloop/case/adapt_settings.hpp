@@ -34,7 +34,7 @@ struct AdaptKeys {
 const KeyTable<AdaptKeys>& adapt_keys();
 const KeyTable<UntilKeys>& until_keys();
 
-/// The table [adapt] of a case, if it has one. Throws InputError that names key and line.
+/// Reads the table [adapt] of a case; empty if it has none. Throws InputError that names key and line.
 std::optional<AdaptOptions> read_adapt_table(const CaseTable& root);
 
 }  // namespace quadloop

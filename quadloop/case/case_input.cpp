@@ -17,7 +17,7 @@ namespace quadloop {
 
 namespace {
 
-/// An outline in the place of a case file is a likely slip.
+/// Rejects a geometry file given in place of a case file, a likely slip.
 void require_case_file(const std::string& path) {
   if (std::ranges::count(geometry_suffixes(), suffix_of(path)) > 0) {
     throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
@@ -25,7 +25,8 @@ void require_case_file(const std::string& path) {
   }
 }
 
-/// Another outline in the place of the case's, placed as the first of those; it may bring its own far field.
+/// Replaces the case's geometry files by `path`, with the placement of the first of them. It may bring its
+/// own far field.
 void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
   settings.files = {{path, path, settings.files.front().transform, {}, settings.files.front().unit}};
   if (!settings.far_field) return;

@@ -9,26 +9,26 @@
 
 namespace quadloop {
 
-/// What a command that meshes is told.
+/// Arguments of the commands that generate a mesh.
 struct CaseArguments {
   std::string case_path;
   std::vector<std::string> assignments;  ///< of --set
-  std::string geometry;                  ///< takes the place of the case's files; empty: the case's
-  std::optional<TreeAttributes> saved;   ///< of the tree that is restarted: its root stays
+  std::string geometry;                  ///< replaces the case's geometry files; empty: the case's
+  std::optional<TreeAttributes> saved;   ///< of the tree of a restart, whose root is kept
 };
 
-/// A case as it was read, with the geometry in place.
+/// The settings of a case, with its geometry assembled.
 struct CaseInput {
   Settings settings;
   std::optional<MeshInput> mesh;
   std::vector<FileExtent> extents;  ///< of the geometry files
 };
 
-/// Reads case and geometry. On the calling rank alone. Throws InputError; `warnings` then has those that came
-/// before.
+/// Reads case and geometry on the calling rank only. Throws InputError; `warnings` then contains the warnings
+/// issued before the error.
 CaseInput load_case(const CaseArguments& arguments, Warnings& warnings);
 
-/// What a mesh may cost: so many cells, or what free memory holds. *Collective.*
+/// Returns the limit on mesh size: `max_cells` if given, else free memory. *Collective.*
 MeshLimit mesh_limit(const Communicator& comm, const std::optional<double>& max_cells);
 
 }  // namespace quadloop

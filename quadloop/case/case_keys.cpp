@@ -19,7 +19,7 @@ namespace quadloop {
 
 namespace {
 
-/// The default in Markdown; empty for a key without one.
+/// Returns the default in Markdown; empty for a key without one.
 std::string default_of(const KeyText& key) {
   if (!key.fallback.empty()) return key.fallback;
   return key.required.empty() && !key.initial.empty() ? "`" + key.initial + "`" : "";
@@ -30,7 +30,7 @@ std::string form_of(const KeyText& key) {
   return key.unit.empty() ? key.value : fmt::format("{} ({})", key.value, key.unit);
 }
 
-/// The meaning, and what the key requires.
+/// Returns the meaning of the key and its requirements.
 std::string sentences_of(const KeyText& key) {
   std::string text = key.meaning;
   for (const KeyNeed& need : key.needs) {
@@ -48,7 +48,7 @@ std::string sentences_of(const KeyText& key) {
   return text;
 }
 
-/// Markdown as plain text: without the targets of links, and without backticks.
+/// Converts Markdown to plain text, without link targets and backticks.
 std::string plain(const std::string& markdown) {
   const std::string text =
       std::regex_replace(markdown, std::regex(R"(\[((?:\[[^\]]*\]|[^\]])*)\]\([^)]*\))"), "$1");
@@ -59,7 +59,7 @@ std::string dotted(const TableText& table, const KeyText& key) {
   return table.name.empty() ? key.name : table.name + "." + key.name;
 }
 
-/// Lines of at most 80 characters, indented.
+/// Wraps at 80 characters, indented.
 std::string wrapped(const std::string& text) {
   constexpr std::size_t width = 80;
   std::string result, line;
@@ -79,14 +79,14 @@ std::string full_help(const TableText& table, const KeyText& key) {
                      usual.empty() ? "" : "; default: " + plain(usual), wrapped(plain(sentences_of(key))));
 }
 
-/// A line for each key, with the first sentence of its meaning.
+/// Returns a line for each key, with the first sentence of its meaning.
 std::string list_of(const TableText& table) {
   std::string text;
   for (const KeyText& key : table.keys) text += fmt::format("  {:<20} {}\n", key.name, plain(form_of(key)));
   return text;
 }
 
-/// The name as the table has it: without the numbers of [[source]] and the like, and with NAME for that of a
+/// Returns the name in the table: without the numbers of [[source]] etc., and with NAME for that of a
 /// boundary.
 std::string general_name(const std::string& topic) {
   const std::string name = std::regex_replace(topic, std::regex(R"(\.\d+(?=\.|$)|[\[\]])"), "");
@@ -142,8 +142,10 @@ std::string key_help(const std::string& topic) {
         guess = fmt::format("; do you mean '{}'?", dotted(table, key));
     }
   }
-  throw UsageError(fmt::format("'{}' is no key and no table of a case file{} 'quadloop help'", topic,
-                               guess.empty() ? "; see" : guess + " See"));
+  throw UsageError(
+      fmt::format("'{}' is no key and no table of a case file{} 'quadloop help', or 'quadloop COMMAND "
+                  "--help' for a command",
+                  topic, guess.empty() ? "; see" : guess + " See"));
 }
 
 std::string key_reference() {

@@ -7,17 +7,18 @@
 
 namespace quadloop {
 
-/// Every key of a case file, table by table.
+/// Returns every key of a case file, table by table.
 const std::vector<TableText>& case_tables();
 
-/// What may stand above all tables: keys and the names of tables.
+/// Returns the valid names at the top level: keys and tables.
 std::vector<std::string> root_names();
 
-/// What `quadloop help` prints of a key ("spacing.max", "boundary.wing.bc", "max"), of a table ("spacing"),
-/// or, for an empty topic, of all tables. Throws UsageError, with the nearest known name, for any other.
+/// Returns the output of `quadloop help` for a key ("spacing.max", "boundary.wing.bc", "max"), for a table
+/// ("spacing"), or, for an empty topic, for all tables. Throws UsageError, with the nearest known name, for
+/// any other topic.
 std::string key_help(const std::string& topic);
 
-/// The tables of docs/reference/case-file.md, each below the line `<!-- keys of NAME -->`.
+/// Returns the tables of docs/reference/case-file.md, each after the line `<!-- keys of NAME -->`.
 std::string key_reference();
 
 }  // namespace quadloop

@@ -30,7 +30,7 @@ bool is_there(const std::string& path) {
 constexpr const char* what_from_takes =
     "--from takes the folder of a run of `quadloop adapt`, one of its cycles, or a mesh beside its tree";
 
-/// The last whole cycle of a run, or the folder itself where it is a cycle's.
+/// Returns the folder of the last complete cycle of a run, or `from` itself if it is the folder of a cycle.
 std::string cycle_folder(const std::string& from, std::vector<std::string>& warnings) {
   std::string last;
   for (int cycle = 0;; ++cycle) {
@@ -51,14 +51,14 @@ std::string cycle_folder(const std::string& from, std::vector<std::string>& warn
   throw InputError(fmt::format("{}: holds no whole cycle to begin with; {}", from, what_from_takes));
 }
 
-/// Of a cycle's record; none where it is not whole, or there is none.
+/// Returns the settings in a cycle's record; empty if there is no record or it is incomplete.
 CaseSettings settings_of_cycle(const CyclePaths& paths) {
   if (!is_there(paths.record())) return {};
   const auto recorded = recorded_case(read_input(paths.record()));
   return recorded ? recorded->settings : CaseSettings{};
 }
 
-/// What boundaries are asked for otherwise than before; empty where that is not known.
+/// Returns the settings of boundaries that have changed; empty if the former settings are not known.
 std::string changes_at_boundaries(const CaseSettings& before, const CaseSettings& now) {
   if (before.empty()) return {};
   std::vector<ChangedSetting> changed = changed_settings(before, now);
@@ -67,7 +67,7 @@ std::string changes_at_boundaries(const CaseSettings& before, const CaseSettings
   return text_of(changed);
 }
 
-/// The files alone.
+/// Finds the files without reading them.
 FormerMesh files_of(const std::string& from) {
   FormerMesh former;
   if (!is_there(from)) throw InputError(fmt::format("{}: is not there; {}", from, what_from_takes));

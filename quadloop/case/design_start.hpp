@@ -10,23 +10,23 @@
 
 namespace quadloop {
 
-/// What `adapt --from` begins with: a solved mesh with its tree, and the outline kept beside them.
+/// Start of `adapt --from`: a solved mesh with its tree, and the geometry stored with them.
 struct FormerMesh {
   std::string mesh_file, tree_file;
-  std::string outline_file;         ///< empty: there is none
-  TreeRecord tree;                  ///< this rank's share
+  std::string outline_file;         ///< empty if there is none
+  TreeRecord tree;                  ///< this rank's part
   std::optional<Geometry> outline;  ///< on every rank
-  CaseSettings settings = {};       ///< of the case that it was made for; empty: not known
+  CaseSettings settings = {};       ///< of the case that the mesh was made for; empty: not known
   std::vector<std::string> warnings = {};
 };
 
-/// Finds the files of `from`: the folder of a run, of which the last whole cycle counts, or of a cycle, or a
-/// mesh beside its tree; reads the tree and the outline. Throws InputError. *Collective.*
+/// Finds the files of `from`: the folder of a run (its last complete cycle is taken) or of a cycle, or a mesh
+/// with its tree. Reads the tree and the geometry. Throws InputError. *Collective.*
 FormerMesh find_former_mesh(const Communicator& comm, const std::string& from);
 
-/// Reads the mesh and its flow. `former` must outlive what is returned; its tree is moved out. With
-/// `morph_to` cells are to be kept on the outline in `file`, for messages, by a case with these settings.
-/// Throws InputError where mesh and tree do not belong together. *Collective.*
+/// Reads the mesh and its solution. `former` must outlive the result; its tree is moved out. With `morph_to`,
+/// the cells are to be kept on the changed geometry (`file`, for messages) by a case with these settings.
+/// Throws InputError if mesh and tree do not belong together. *Collective.*
 DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
                        const std::string& file, const CaseSettings& settings);
 

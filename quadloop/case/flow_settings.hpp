@@ -8,27 +8,27 @@
 
 namespace quadloop {
 
-/// The table [flow]: the free stream of a solver of the user's, in that solver's units but for lengths.
+/// The table [flow]: free stream of an external solver, in that solver's units except for lengths.
 struct FlowSettings {
-  /// For which a turbulent boundary layer's friction is known.
+  /// Least Reynolds number for the turbulent friction formula.
   static constexpr double least_reynolds = 1000;
 
-  std::string where;               ///< it stands
-  std::optional<double> reynolds;  ///< by speed, reference length and viscosity
+  std::string where;               ///< location of the table in the case file
+  std::optional<double> reynolds;  ///< based on speed, reference length and viscosity
   double reference_length = 1;     ///< in the geometry's unit of length
   double density = 1, speed = 1, alpha = 0, gamma = 1.4;
   std::optional<double> pressure;
-  std::optional<double> mach;  ///< decides the speed, or agrees with it
+  std::optional<double> mach;  ///< determines the speed, or must agree with it
 
-  /// Dynamic; 0 where no Reynolds number is given.
+  /// Dynamic viscosity; 0 if no Reynolds number is given.
   double viscosity() const { return reynolds ? density * speed * reference_length / *reynolds : 0; }
-  /// Where it has a pressure, without which there are no coefficients.
+  /// Returns the free stream; empty without a pressure, as coefficients need one.
   std::optional<FreeStream> stream() const;
 };
 
 const KeyTable<FlowSettings>& flow_keys();
 
-/// Nothing where the case has no such table. Throws InputError that names key and line.
+/// Reads the table; empty if the case has none. Throws InputError that names key and line.
 std::optional<FlowSettings> read_flow_table(const CaseTable& root);
 
 }  // namespace quadloop

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-/// A word, a list of words, or a table of words with the weights of their errors.
+/// Reads a word, a list of words, or a table of words with error weights.
 GoalWeights read_quantities(const CaseTable& table, const std::string& key) {
   const std::vector<std::string> words = words_of(Goal::words);
   GoalWeights goals;

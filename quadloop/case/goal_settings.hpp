@@ -8,15 +8,15 @@
 
 namespace quadloop {
 
-/// What [solver] says of goals, rows of its table.
+/// Returns the keys of [solver] for output functionals, as rows of its table.
 std::vector<Key<SolverSettings>> goal_keys();
 
-/// Makes the goals with their boundaries, which are patterns still, and the point of moments. Throws
-/// InputError that names key and line.
+/// Creates the functionals with their boundaries, which are still patterns, and the reference point of
+/// moments. Throws InputError that names key and line.
 void place_goals(const CaseTable& table, SolverSettings& settings);
 
-/// The goals with the names of boundaries that their patterns match. Throws InputError for a pattern that
-/// matches none.
+/// Replaces the patterns of the functionals by the names of the matching boundaries. Throws InputError for a
+/// pattern that matches none.
 std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries);
 
 }  // namespace quadloop

@@ -21,7 +21,7 @@ std::string text_of(const Range& range) {
   return text == "finite" ? "" : ", " + text;
 }
 
-/// A number within, and neither an end nor a usual default.
+/// Returns a number inside the range that is neither a limit nor a usual default.
 double inside(const Range& range) {
   const double low = std::isfinite(range.low) ? range.low : 0;
   return std::isfinite(range.high) ? low + 0.3 * (range.high - low) : low + 3;
@@ -40,7 +40,7 @@ class NamedKey {
   }
 
   bool is_given() const { return table_ && table_->has(key_); }
-  /// As JSON; empty where the key is not given and has no default.
+  /// As JSON; empty if the key is not given and has no default.
   std::string value() const {
     return is_given() ? table_->json(key_) : std::ranges::find(text_->keys, key_, &KeyText::name)->initial;
   }
@@ -51,7 +51,7 @@ class NamedKey {
   std::string key_;
 };
 
-/// What a condition without " or " says.
+/// A condition without " or ".
 struct Condition {
   std::string name, sign, value;  ///< the sign is one of "", "no", "=", "<", ">"
 
@@ -93,7 +93,7 @@ bool holds(const std::string& text, const CaseTable& table, const TableText& key
          });
 }
 
-/// What is wrong with a key whose need is not met.
+/// Returns the error for a key whose requirement is not met.
 std::string fault_without(const KeyNeed& need, const CaseTable& table, const TableText& keys) {
   const Condition first = alternatives_of(need.condition).front();
   const std::string remedy = need.remedy.empty() ? "" : "; " + need.remedy;
@@ -104,7 +104,7 @@ std::string fault_without(const KeyNeed& need, const CaseTable& table, const Tab
                      value.empty() ? "" : fmt::format(", but {} = {}", first.name, value), remedy);
 }
 
-/// A key of another table with this name.
+/// Returns a hint: a key of another table with this name.
 std::string guess_elsewhere(const std::string& key) {
   for (const TableText& table : case_tables()) {
     if (!table.name.empty() && std::ranges::count(table.keys, key, &KeyText::name) > 0)

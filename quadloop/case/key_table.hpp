@@ -14,31 +14,31 @@
 
 namespace quadloop {
 
-/// What a key requires of other keys. A condition is one of these, or several with " or " between them:
+/// Requirement of a key on other keys. A condition is one of these, or several separated by " or ":
 ///
 ///     rotate                        the key is given
-///     no viscosity                  it is not
-///     kind = "su2"                  its value in the case, or else its default
+///     no viscosity                  the key is not given
+///     kind = "su2"                  its value in the case, else its default
 ///     mach > 0, mach < 1
 ///
-/// A name without a dot is that of a key of the same table; others are dotted names: solver.time = "steady".
+/// A name without a dot is a key of the same table; others are dotted names: solver.time = "steady".
 struct KeyNeed {
   std::string condition;
   std::string remedy = {};
-  std::string when = {};  ///< the condition under which it is required; empty: always
-  bool warns = false;     ///< the key is accepted without it, with a warning that it has no effect
+  std::string when = {};  ///< condition under which it is required; empty: always
+  bool warns = false;     ///< if true, the key is accepted without it, with a warning that it has no effect
 };
 
-/// Where a key must be given: under a condition, or always where that is empty.
+/// A required key: under a condition, or always if that is empty.
 struct KeyRequired {
-  std::string what;  ///< the key gives, for the message
+  std::string what;  ///< what the key specifies, for the message
   std::string when = {};
 };
 
-/// One row of the table of keys, as users read it.
+/// A row of the table of keys, as shown to users.
 struct KeyText {
   std::string unit = {};
-  std::string fallback = {};  ///< the default in words, where it is not a value of its own
+  std::string fallback = {};  ///< the default in words, if it is not a value
   std::string example = {};   ///< a valid value that is not the default, as TOML
   std::vector<KeyNeed> needs = {};
   std::vector<KeyRequired> required = {};
@@ -50,34 +50,35 @@ struct KeyText {
   std::string initial = {};  ///< the default as JSON; empty: none, or one in words
 };
 
-/// All rows of one table. Its name is that in the file, with NAME for what the user chooses:
-/// "boundary.NAME.layers"; empty for the keys above all tables.
+/// All rows of one table. Its name is that in the file, with NAME for a name chosen by the user:
+/// "boundary.NAME.layers"; empty for top-level keys.
 struct TableText {
   std::string name;
   std::vector<KeyText> keys;
 };
 
-/// How the value of a key is read, described and shown.
+/// How the value of a key is read, described and printed.
 template <class Value>
 struct ValueForm {
   std::string text;                                                     ///< "number, above 0"
   std::string example;                                                  ///< as KeyText::example
   std::function<Value(const CaseTable&, const std::string& key)> read;  ///< throws InputError
-  std::function<std::string(const Value&)> show = {};  ///< as JSON, empty for none; without it there is none
+  /// As JSON, empty for none; if not set, there is no default to print.
+  std::function<std::string(const Value&)> show = {};
 };
 
 ValueForm<double> number(const Range& range = {});
 ValueForm<std::int64_t> whole(const Range& range);
 ValueForm<bool> flag();
 ValueForm<std::string> text();
-/// One text or a list of them; of the words, if there are any.
+/// One string or a list of them; restricted to `words`, if there are any.
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words = {});
 ValueForm<Point> point();
 
 /// "`a`, `b` or `c`".
 std::string words_in_text(const std::vector<std::string>& words);
 
-/// A word for each of some values.
+/// A choice of words for values.
 template <class Value>
 ValueForm<Value> choice(std::vector<std::pair<const char*, Value>> values) {
   std::vector<std::string> words;
@@ -99,12 +100,12 @@ ValueForm<Value> choice(const WordTable<Value, count>& values) {
   return choice(std::vector<std::pair<const char*, Value>>(values.begin(), values.end()));
 }
 
-/// A row with the member of the options that it sets.
+/// A row, with functions for the member of the options that it sets.
 template <class Target>
 struct Key {
   KeyText text;
-  std::function<void(const CaseTable&, Target&)> read;        ///< where the table has the key
-  std::function<bool(const Target&, const Target&)> differs;  ///< in what it sets
+  std::function<void(const CaseTable&, Target&)> read;        ///< called if the table has the key
+  std::function<bool(const Target&, const Target&)> differs;  ///< whether the member differs
 };
 
 template <class Member>
@@ -122,13 +123,13 @@ struct InOptional<std::optional<Value>> {
   using Type = Value;
 };
 
-/// The member at the end of a path of pointers to members.
+/// Returns the member at the end of a path of member pointers.
 template <auto... path, class Target>
 auto& member_of(Target& target) {
   return (target.*....*path);
 }
 
-/// The row of a key whose value the member at the end of the path takes.
+/// Returns the row of a key whose value is stored in the member at the end of the path.
 template <auto first, auto... path, class Value>
 auto key(const std::string& name, ValueForm<Value> form, const std::string& meaning, KeyText text = {}) {
   using Target = typename OwnerOf<decltype(first)>::Type;
@@ -153,13 +154,14 @@ auto key(const std::string& name, ValueForm<Value> form, const std::string& mean
   return Key<Target>{std::move(text), read, differs};
 }
 
-/// Throws InputError for the first key of the table that is none of these names, with the nearest known key.
+/// Throws InputError, with the nearest known key, for the first key of the table that is not in `names`.
 void refuse_unknown_keys(const CaseTable& table, const std::vector<std::string>& names);
 
-/// Throws InputError for a key that is required and missing, and for one without what it requires, or warns.
+/// Throws InputError for a missing required key, and for a key whose requirements are not met, or warns of
+/// it.
 void require_needs(const CaseTable& table, const TableText& text);
 
-/// The keys of one table, and the options that they are read into.
+/// The keys of one table, with the options that they set.
 template <class Target>
 class KeyTable {
  public:
@@ -171,7 +173,7 @@ class KeyTable {
   const TableText& text() const { return text_; }
   const std::vector<Key<Target>>& keys() const { return keys_; }
 
-  /// Throws InputError with place, key and remedy.
+  /// Throws InputError with location, key and remedy.
   void read(const CaseTable& table, Target& target) const {
     std::vector<std::string> names;
     for (const KeyText& key : text_.keys) names.push_back(key.name);
@@ -182,7 +184,7 @@ class KeyTable {
     require_needs(table, text_);
   }
 
-  /// The same rows for a struct that has the options as a member.
+  /// Returns the same rows for a struct that has the options as a member.
   template <auto member>
   auto keys_of() const {
     using Whole = typename OwnerOf<decltype(member)>::Type;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int most_layers = 1000;
 
-/// The flow that a y+ is asked for in.
+/// Returns the flow conditions for a y+.
 FlowConditions conditions_of_y_plus(const CaseTable& table, const std::string& key, const std::string& text) {
   const auto flow = read_flow_table(table.root());
   if (!flow)
@@ -68,7 +68,7 @@ std::vector<Point> read_path(const CaseTable& table, const std::string& key) {
 
 ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 2]]", read_path}; }
 
-/// What the keys ask for together, of a table that they were read from.
+/// Combines the keys read from a table to layers.
 LayerSpec layers_of(const CaseTable& table, const LayerKeys& keys) {
   LayerSpec spec{keys.first.height, keys.growth.low, keys.growth.high,
                  keys.count,        keys.equal,      keys.first.y_plus};
@@ -174,16 +174,6 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
   return keys;
 }
 
-/// The values of the key `bc`: all conditions except those of the key `wall`.
-std::vector<std::pair<const char*, BoundaryCondition>> values_of_bc() {
-  std::vector<std::pair<const char*, BoundaryCondition>> values(BoundaryCondition::words.begin(),
-                                                                BoundaryCondition::words.end());
-  std::erase_if(values, [](const auto& value) {
-    return value.second.is_wall() && value.second != BoundaryCondition::wall;
-  });
-  return values;
-}
-
 std::vector<std::pair<const char*, BoundaryCondition>> values_of_wall() {
   return {BoundaryCondition::wall_words.begin(), BoundaryCondition::wall_words.end()};
 }
@@ -257,7 +247,7 @@ LayerLine read_layer_line(const CaseTable& table, Settings& settings) {
   layer_line_keys().read(table, keys);
   if (keys.line.path.size() < 2) table.refuse("path", "must have two points at least");
   settings.wants_y_plus = settings.wants_y_plus || keys.layers.first.y_plus > 0;
-  keys.layers.first.y_plus = 0;  // there is no friction to follow
+  keys.layers.first.y_plus = 0;  // no wall friction to follow
   keys.line.layers = layers_of(table, keys.layers);
   return keys.line;
 }
@@ -324,7 +314,7 @@ void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis) {
 }
 
 void require_layers_that_doubles_hold(const Geometry& geometry) {
-  constexpr double steps = 0x1p-42;  // a thousand steps between doubles, as columns want some for their tilt
+  constexpr double steps = 0x1p-42;  // 1024 floating-point steps: a margin for the tilt of columns
   IdVector<BoundaryId, double> largest(geometry.boundaries().size(), 0);
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     const Point p = geometry.point(v);

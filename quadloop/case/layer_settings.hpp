@@ -14,7 +14,7 @@
 
 namespace quadloop {
 
-/// The height of the first layer, in the geometry's unit of length, and the y+ that asked for it, or 0.
+/// The height of the first layer, in the geometry's unit of length, and the y+ that determined it, or 0.
 struct FirstHeight {
   double height = 0, y_plus = 0;
 
@@ -54,29 +54,30 @@ const KeyTable<LayerLine>& wake_keys();
 const KeyTable<LayerLineKeys>& layer_line_keys();
 const KeyTable<BoundaryKeys>& boundary_keys();
 
-/// Reads all [boundary.NAME], a [[wake]], a [[layer_line]]. They throw InputError that names key and line.
+/// Read all [boundary.NAME], a [[wake]], a [[layer_line]]. Throw InputError that names key and line.
 void read_boundary_tables(const CaseTable& boundaries, Settings& settings);
 LayerLine read_wake(const CaseTable& table);
 LayerLine read_layer_line(const CaseTable& table, Settings& settings);
 
-/// What turns a solution's wall shear into wall units, if a wall's layers want a y+: by a laminar flow's own
-/// viscosity, else by [flow].
+/// Returns the flow that converts a solution's wall shear to wall units, if the layers of a wall specify a
+/// y+. The viscosity is that of a laminar flow, else that of [flow].
 std::optional<WallFlow> wall_flow(const Settings& settings);
 
-/// A warning where there is a table [flow], and neither layers nor a solver of the user's has a use for it;
-/// once all are read.
+/// Returns a warning if there is a table [flow] that is used neither by layers nor by an external solver.
+/// Call it after all tables have been read.
 Warnings unused_flow(const Settings& settings);
 
-/// Throws InputError, naming the line and what it lacks, unless the mirror image of each line's path is that
-/// of a line with the same settings, point by point: columns are made from its first point on. A path on the
-/// axis is its own image; so is that of a free line across the axis, read backwards, which is noted in it.
+/// Throws InputError, naming the line and what is missing, unless the mirror image of each line's path is the
+/// path of a line with the same settings, point by point, as columns are generated from its first point on. A
+/// path on the axis is its own image. A free line across the axis is its own image read backwards; this is
+/// recorded in it.
 void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis);
 
-/// Throws InputError, naming the line, where a free line reaches the axis along which a half is cut off.
+/// Throws InputError, naming the line, if a free line reaches the axis of a half model.
 void require_lines_beside(const std::vector<LayerLine>& lines, MirrorAxis axis);
 
-/// Throws InputError, naming the boundary, where its first layer is so thin beside the coordinates that
-/// doubles do not tell its nodes apart.
+/// Throws InputError, naming the boundary, if its first layer is too thin, compared with the coordinates, for
+/// double precision.
 void require_layers_that_doubles_hold(const Geometry& geometry);
 
 }  // namespace quadloop

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include "io/input/geometry_file.hpp"
 #include "io/input/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/base/nearest_word.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -16,7 +18,7 @@ namespace quadloop {
 
 namespace {
 
-/// The far field where a saved tree has it, if its root is one of that size.
+/// Returns the far field of the saved tree, if its root is one of that size.
 Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   constexpr double rounding = 1e-9;
   const Point low{saved.root_x, saved.root_y};
@@ -26,7 +28,7 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
   return root_box(saved);
 }
 
-/// Box and unit of a file. Throws InputError where it is to declare a unit and does not.
+/// Records bounding box and unit of a file. Throws InputError if the file must declare a unit and does not.
 void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, FileExtent& extent) {
   extent.path = input.path;
   for (const Chain& chain : chains) {
@@ -42,13 +44,24 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
       extent.declared.name.empty() ? "" : fmt::format(" that is known ('{}')", extent.declared.name)));
 }
 
+/// Throws InputError for an entry of geometry.layers that matches no layer of any file.
+void require_layers(const std::vector<GeometryInput>& files, const std::set<std::string>& known) {
+  for (const std::string& pattern : files.front().layers) {
+    if (std::ranges::any_of(known, [&](const std::string& name) { return matches_layer(pattern, name); }))
+      continue;
+    const std::vector<std::string> names(known.begin(), known.end());
+    throw InputError(fmt::format("{}: geometry.layers: no layer matches '{}'; the layers are: {}{}",
+                                 files.front().where, pattern, first_few(names), guess_for(pattern, names)));
+  }
+}
+
 /// Where the coordinates have a unit.
 Transform in_metres(Transform transform, const FileExtent& extent) {
   if (extent.metres > 0) transform.scale *= extent.metres;
   return transform;
 }
 
-/// Their images stand for them.
+/// Warns about conditions of boundaries that lie in the dropped half only.
 void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
                                  const IdVector<BoundaryId, BoundaryId>& images, Warnings& warnings) {
   for (const BoundaryId b : ids_below(BoundaryId{size32(whole.boundaries())})) {
@@ -69,6 +82,7 @@ void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved, std::vector<FileExtent>* extents) {
   std::vector<Chain> chains;
+  std::set<std::string> layers;
   AssembleOptions options = settings.outline;
   for (const GeometryInput& input : settings.files) {
     std::error_code no_such_file;
@@ -80,6 +94,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     FileExtent extent;
     std::vector<Chain> of_file = read_geometry(input.path, warnings, input.layers, &extent.declared);
     note_extent(input, of_file, extent);
+    layers.insert(extent.declared.layers.begin(), extent.declared.layers.end());
     if (extents != nullptr) extents->push_back(extent);
     const Transform transform = in_metres(input.transform, extent);
     apply(transform, of_file);
@@ -88,6 +103,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     }
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
+  require_layers(settings.files, layers);
   const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
   if (axis) fit_to_mirror(chains, *axis, warnings);
   if (settings.far_field) {
@@ -96,7 +112,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
     options.far_field = where;
   }
-  if (settings.half)  // of the half alone there is a boundary of that name
+  if (settings.half)  // only the half model has a boundary of that name
     std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
   Geometry geometry = assemble(std::move(chains), options, warnings);
   if (!axis) return geometry;
@@ -109,7 +125,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   }
   options = settings.outline;
   for (auto& rule : options.rules)
-    rule.must_match = false;  // each has matched; a name may be the dropped half's
+    rule.must_match = false;  // each has matched already; a name may be in the dropped half
   Geometry half = assemble(half_outline(geometry, *axis, settings.half->boundary), options, warnings);
   warn_of_conditions_left_out(geometry, half, images, warnings);
   return half;

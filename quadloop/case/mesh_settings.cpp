@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-/// What one file has of the values: one stands for all files, else there is one for each.
+/// Sets the value of one file, from one value for all files or a list with one per file.
 template <class Value, class Set>
 void share_out(const CaseTable& table, const std::string& key, const std::vector<Value>& values,
                std::vector<GeometryInput>& files, const Set& set) {
@@ -53,7 +53,7 @@ ValueForm<FarField> far_field() {
           }};
 }
 
-/// A shape's numbers, of which `is_good` tells whether they are one. No geometry reaches beyond 1e100.
+/// The numbers of a shape, checked by `is_good`. No geometry extends beyond 1e100.
 ValueForm<std::vector<double>> shape(const std::string& text, const std::string& example, std::size_t count,
                                      const std::string& wanted, bool (*is_good)(const std::vector<double>&)) {
   return {text, example, [=](const CaseTable& table, const std::string& key) {
@@ -63,7 +63,7 @@ ValueForm<std::vector<double>> shape(const std::string& text, const std::string&
           }};
 }
 
-/// The half above or beside the axis that mesh.mirror names.
+/// The half above or beside the axis of mesh.mirror.
 ValueForm<HalfDomain> half_domain() {
   return {"text", "\"axis\"", [](const CaseTable& table, const std::string& key) {
             const std::string name = *table.text(key);
@@ -281,7 +281,7 @@ void read_mesh_table(const CaseTable& table, Settings& settings) {
   if (const std::vector<double>& r = settings.root; !r.empty())
     settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};
   if (!settings.half) return;
-  settings.mesh.mirror.reset();  // the half is no image of itself
+  settings.mesh.mirror.reset();  // the half model is not symmetric
   settings.outline.rules.insert(
       settings.outline.rules.begin(),
       {settings.half->boundary, {}, {}, BoundaryCondition::symmetry, table.place("half"), false, true});

@@ -35,7 +35,7 @@ ValueForm<std::string> prefix() {
   return form;
 }
 
-/// Words, each once.
+/// A list of distinct words.
 ValueForm<std::vector<std::string>> words(const std::vector<std::string>& known) {
   ValueForm<std::vector<std::string>> form = texts(known);
   form.read = [read = form.read](const CaseTable& table, const std::string& key) {
@@ -62,7 +62,7 @@ void read_design_table(const CaseTable& table, Settings& settings) {
                  "does not keep mirror images to the last bit, as mesh.mirror asks; take one out");
 }
 
-/// A mesh that follows a metric wants to be told how many nodes it may have, and what counts.
+/// A metric-based mesh needs a number of nodes and a norm.
 void require_norm_of_metric(const CaseTable& root, const Settings& settings) {
   if (settings.mesh.type != MeshType::metric || !settings.adapt || settings.adapt->norm) return;
   root.table("adapt")->refuse("norm",
@@ -70,7 +70,7 @@ void require_norm_of_metric(const CaseTable& root, const Settings& settings) {
                               "error least for max_nodes nodes; give norm = 2 and max_nodes");
 }
 
-/// Calls `read` with the table, where the case has it.
+/// Calls `read` with the table if the case has it.
 template <class Read>
 void read_table(const CaseTable& root, const std::string& name, const Read& read) {
   if (const auto table = root.table(name)) read(*table);
@@ -79,7 +79,7 @@ void read_table(const CaseTable& root, const std::string& name, const Read& read
 void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "spacing", [&](const CaseTable& table) { read_spacing_table(table, settings); });
   settings.flow = read_flow_table(root);
-  if (settings.far_field)  // unless the case says other
+  if (settings.far_field)  // default; overridden by the case
     settings.outline.rules.push_back(
         {"farfield", {}, {}, BoundaryCondition::farfield, settings.far_field->where, false, true});
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
@@ -100,7 +100,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "output", [&](const CaseTable& table) { read_output_table(table, settings); });
 }
 
-/// Keys that the case gives and nothing uses.
+/// Returns warnings about keys of the case that have no effect.
 Warnings unused_settings(const CaseTable& root, const Settings& settings) {
   Warnings warnings = root.warnings();
   for (const Warnings& more : {unused_flow(settings), forces_without_stream(settings.solver),
@@ -188,8 +188,8 @@ std::string format_suffix_of(const std::string& prefix) {
 
 namespace {
 
-/// The size down to which leaves must be split for `gap` of them across the narrowest part of the domain, in
-/// powers of two below `start`, or `floor`. The leaves then are smaller than twice that.
+/// Returns the quadtree cell size that gives `gap` cells across the narrowest part of the domain, in powers
+/// of two below `start`, or `floor`. The cells are smaller than twice that size.
 double size_of_gaps(const Geometry& geometry, double gap, double start, double floor) {
   const Proximity proximity(geometry);
   double size = start;
@@ -212,7 +212,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
-  // Leaf sizes halve: so there is one at most as large as asked for.
+  // Sizes halve, so the next one is at most as large as the requested size.
   const double floor = std::ldexp(side, -20);
   options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, floor), max / 2));
   if (!settings.min && options.size.gap)

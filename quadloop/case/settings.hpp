@@ -26,28 +26,28 @@ struct GeometryInput {
   std::string path;
   std::string where;  ///< the setting that names it, for messages
   Transform transform;
-  std::vector<std::string> layers = {};  ///< of a drawing or map; empty: all, as read_geometry() says
-  /// "none": coordinates as they stand; "file": in the unit that the file declares; or a name of
-  /// length_units.hpp. But for "none" coordinates become metres.
+  std::vector<std::string> layers = {};  ///< to read from a drawing or map; empty: all (read_geometry())
+  /// "none": coordinates are taken unchanged; "file": in the unit that the file declares; or a name of
+  /// length_units.hpp. Except for "none" coordinates are converted to metres.
   std::string unit = "none";
 };
 
-/// The files of a case and how they are placed: of each list one value for all files, or one for each.
+/// The files of a case and their placement: each list has one value for all files, or one per file.
 struct Placement {
   std::vector<std::string> files, layers, unit;
   std::vector<double> scale, rotate;
   std::vector<Point> rotate_about, translate;
 };
 
-/// What one geometry file holds, as it stands there.
+/// Extent and unit of a geometry file, before placement.
 struct FileExtent {
   std::string path;
   Box box;
   FileUnit declared;
-  double metres = 0;  ///< that one unit of its coordinates was taken for; 0: as they stand
+  double metres = 0;  ///< metres per unit of its coordinates; 0: no conversion
 };
 
-/// The far field that the case asks for.
+/// Far field of the case.
 struct FarField {
   double half_width = 0;
   std::string where;
@@ -55,77 +55,78 @@ struct FarField {
   friend bool operator==(const FarField&, const FarField&) = default;
 };
 
-/// That of a symmetric outline only the half above an axis is meshed.
+/// Half model: only the half of a symmetric geometry above the axis is meshed.
 struct HalfDomain {
   MirrorAxis axis;
-  std::string boundary;  ///< the name of the boundary along the axis
+  std::string boundary;  ///< name of the boundary along the axis
 
   friend bool operator==(const HalfDomain&, const HalfDomain&) = default;
 };
 
-/// A case file as each module wants it.
+/// The contents of a case file, as options of each module.
 struct Settings {
   std::string title;
-  /// Of all keys but those that no file of a cycle depends on: dotted name, JSON.
+  /// All keys on which files of a cycle depend: dotted name, JSON value.
   std::vector<std::pair<std::string, std::string>> values;
   Placement placement;
-  std::vector<GeometryInput> files;  ///< by the placement
+  std::vector<GeometryInput> files;  ///< from the placement
   std::optional<FarField> far_field;
   bool inside = false;  ///< an airfoil without an outer boundary is meshed inside
   std::optional<HalfDomain> half;
-  std::vector<double> root;  ///< mesh.root, from which the mesh's options are
+  std::vector<double> root;  ///< mesh.root, from which the mesh options follow
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
-  MeshOptions mesh;                ///< without the sizes min and max: those may follow from the geometry
+  MeshOptions mesh;                ///< without the sizes min and max, which may follow from the geometry
   SmoothOptions smooth;            ///< without the geometry
   std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   std::optional<FlowSettings> flow;
-  bool wants_y_plus = false;  ///< some layers do, which [flow] tells the height of
+  bool wants_y_plus = false;  ///< whether some layers specify a y+, which needs [flow]
   SolverSettings solver;
-  std::optional<FreeStream> stream;   ///< of a solver of the user's, where [flow] tells it
-  std::optional<AdaptOptions> adapt;  ///< where the case has a table for it
-  /// Where the outline has changed, cells are kept as long as the worst one outside layers has this quality.
+  std::optional<FreeStream> stream;   ///< of an external solver, if [flow] specifies it
+  std::optional<AdaptOptions> adapt;  ///< if the case has the table
+  /// Least quality of the worst cell outside layers for which cells are kept on a changed geometry.
   std::optional<double> morph_to;
   std::string output_prefix;
   std::vector<std::string> formats = default_formats();
-  std::vector<std::string> fields;  ///< of quantity_names(), written beside a solution
-  std::int32_t partitions = 0;      ///< parts for a solver's ranks, written beside the whole; 0: none
-  Warnings warnings;                ///< what the user is to be told of the case file itself
+  std::vector<std::string> fields;  ///< of quantity_names(), written in addition to a solution
+  /// Number of parts for a solver's ranks, written in addition to the whole mesh; 0: none.
+  std::int32_t partitions = 0;
+  Warnings warnings;  ///< about the case file itself
 };
 
-/// The keys above all tables, and the tables [design] and [output].
+/// The top-level keys, and the tables [design] and [output].
 const KeyTable<Settings>& title_keys();
 const KeyTable<Settings>& design_keys();
 const KeyTable<Settings>& output_keys();
 
-/// Reads the case file with the command line's assignments over it. On the calling rank alone. Throws
+/// Reads the case file; assignments of the command line override its keys. On the calling rank only. Throws
 /// InputError that names key and line.
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
 
-/// The case's table [adapt]. Throws InputError, which names the case, where it has none.
+/// Returns the case's table [adapt]. Throws InputError, which names the case, if it has none.
 const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
 
-/// The suffix of a mesh or tree file that a prefix of output files ends in, if any: a slip, as suffixes are
-/// added to it.
+/// Returns the suffix of a mesh or tree file at the end of a prefix of output files, if any. This is a user
+/// error, as suffixes are appended.
 std::string format_suffix_of(const std::string& prefix);
 
-/// Reads, places and assembles the geometry. Where a saved tree's root is a far field of the wanted size
-/// round the geometry, the far field stands there again, though the geometry's centre may have moved. On the
-/// calling rank alone. `extents` gains one entry for each file.
+/// Reads, places and assembles the geometry. If the root of the saved tree is a far field of the specified
+/// size round the geometry, that far field is kept even if the centre of the geometry has moved. `extents`
+/// gains one entry for each file. On the calling rank only.
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved = {},
                        std::vector<FileExtent>* extents = nullptr);
 
-/// The options with the sizes that the case leaves open taken from the geometry: max is 1/16 of the longer
-/// side of its box (or min if that is larger), min half the smallest spacing that its points, boundaries,
-/// corners, layers, lines with layers or the case's sources ask for, or 2^-20 of that side if that is larger,
-/// but at most half of max.
+/// Returns the options with defaults for the sizes that the case leaves open. max: 1/16 of the longer side of
+/// the geometry's bounding box (or min if larger). min: half the smallest spacing that follows from its
+/// points, boundaries, corners, layers, lines with layers or the case's sources, at least 2^-20 of that side
+/// and at most half of max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
-/// One line for each boundary, sharp corner's boundary and source whose spacing is smaller than leaves may
-/// be, for each boundary with a corner spacing and without a sharp corner, and for each source outside the
-/// root of the trees.
+/// Returns a line for each boundary, sharp corner or source whose spacing is smaller than the smallest
+/// quadtree cell, for each boundary with a corner spacing but no sharp corner, and for each source outside
+/// the root of the quadtrees.
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
 
 }  // namespace quadloop

@@ -28,10 +28,10 @@ ValueForm<std::string> file_name() {
   return form;
 }
 
-/// Without the condition the key has no effect.
+/// A need without which the key has no effect.
 KeyNeed only_with(const std::string& condition) { return {condition, "", "", true}; }
 
-/// The free stream and what is solved.
+/// Keys of the free stream and the equations.
 std::vector<Key<EulerOptions>> model_keys() {
   using enum EulerOptions::Limiter;
   return {
@@ -67,7 +67,7 @@ std::vector<Key<EulerOptions>> model_keys() {
           "mesh file has priority over both.")};
 }
 
-/// How the flow is found, steady or in time.
+/// Keys of the solution method, steady or unsteady.
 std::vector<Key<EulerOptions>> march_keys() {
   using enum EulerOptions::Unsteady;
   const std::string carries_on = "unsteady = \"carry_on\"";
@@ -152,7 +152,7 @@ std::vector<Key<SolverSettings>> command_keys() {
                              "kind = \"openfoam\""}}})};
 }
 
-/// Steps in time, and what follows from the numbers of several keys.
+/// Checks the time steps, and combinations of several keys.
 void check_times(const CaseTable& table, const EulerOptions& options) {
   const bool accurate = options.time == EulerOptions::Time::accurate;
   if (accurate && options.time_step && options.end_time / *options.time_step > most_steps_in_time)
@@ -166,7 +166,7 @@ void check_times(const CaseTable& table, const EulerOptions& options) {
     table.refuse("average_from", "must be below end_time, so that there is something to take means over");
 }
 
-/// A free stream at rest moves nothing by itself.
+/// Requires something that drives the flow if the free stream is at rest.
 void require_driven_flow(const CaseTable& table, const SolverSettings& settings) {
   const EulerOptions& options = settings.euler;
   if (settings.kind != SolverSettings::Kind::euler || options.mach > 0) return;

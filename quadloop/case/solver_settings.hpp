@@ -13,37 +13,36 @@
 
 namespace quadloop {
 
-/// The pressure that the case asks for behind outflow boundaries whose name matches, in units of the free
-/// stream's.
+/// Back pressure of outflow boundaries whose name matches, in units of the free-stream pressure.
 struct OutflowPressure {
   std::string pattern;
   double pressure = 1;
 };
 
-/// The temperature that the case asks for at walls whose name matches, in units of the free stream's.
+/// Temperature of walls whose name matches, in units of the free-stream temperature.
 struct WallTemperature {
   std::string pattern;
   double temperature = 1;
 };
 
-/// What the flow is solved for, each with the weight of its error.
+/// Output functionals, each with the weight of its error.
 using GoalWeights = std::vector<std::pair<Goal::Quantity, double>>;
 
-/// The case's table [solver], and what its boundary tables say to the solver alone.
+/// The case's table [solver], and the solver's keys of its boundary tables.
 struct SolverSettings {
   enum class Kind { euler, command, su2, openfoam };
   static constexpr WordTable<Kind, 4> kind_words{
       {{"euler", Kind::euler}, {"command", Kind::command}, {"su2", Kind::su2}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;  ///< the case has the table
+  bool given = false;  ///< whether the case has the table
   EulerOptions euler;  ///< without the boundaries
   std::optional<double> reynolds;
   GoalWeights goals = {};
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
   std::optional<Point> goal_about = {};
   CommandSolver command;      ///< without the case's folder
-  std::string case_template;  ///< of SU2's configuration or OpenFOAM's case, as the case has it
+  std::string case_template;  ///< path of SU2's configuration or OpenFOAM's case, as written in the case
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };
@@ -53,25 +52,25 @@ const KeyTable<SolverSettings>& solver_keys();
 /// Reads [solver]. Throws InputError that names key and line.
 void read_solver_table(const CaseTable& table, SolverSettings& settings);
 
-/// A warning where the free stream is at rest, so that forces have no coefficients.
+/// Returns a warning if the free stream is at rest, so that forces have no coefficients.
 std::vector<std::string> forces_without_stream(const SolverSettings& settings);
 
-/// A warning for each rule by which the built-in solver's gas leaves without a pressure, where the free
-/// stream is slower than sound.
+/// Returns a warning for each outflow rule of the built-in solver without back pressure, if the free stream
+/// is subsonic.
 std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
                                            const std::vector<BoundaryRule>& rules);
 
-/// The options with what the case's rules say of the mesh's boundaries; where they are silent the mesh's own
-/// conditions stand.
+/// Returns the options with the boundary conditions of the case's rules; the mesh's own conditions are the
+/// default.
 EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
                            const Mesh& mesh);
 
-/// Refuses a variable to adapt to that the built-in solver does not write. Throws InputError that names the
+/// Rejects an adaptation variable that the built-in solver does not write. Throws InputError that names the
 /// case.
 void require_known_variables(const SolverSettings& settings, const std::vector<std::string>& variables,
                              const std::string& case_path);
 
-/// The solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
+/// Returns the solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
 ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
                            const Geometry& geometry, const std::string& case_path);
 

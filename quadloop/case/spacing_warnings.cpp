@@ -14,7 +14,7 @@ namespace quadloop {
 
 namespace {
 
-/// A corner spacing that is out of reach, or of a boundary without a sharp corner.
+/// Warns of a corner spacing that cannot be reached, or of a boundary without a sharp corner.
 Warnings corner_warnings(const Geometry& geometry, double min) {
   IdVector<BoundaryId, char> has_corner(geometry.boundaries().size(), 0);
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
@@ -39,7 +39,7 @@ Warnings corner_warnings(const Geometry& geometry, double min) {
   return warnings;
 }
 
-/// Narrow parts of the domain that have fewer leaves across than asked for.
+/// Warns of narrow parts of the domain with fewer quadtree cells across than requested.
 Warnings gap_warnings(const MeshOptions& options, const Geometry& geometry, const Lattice& lattice) {
   if (!options.size.gap) return {};
   const double finest = lattice.edge(lattice.finest_level(options.size.min));
@@ -53,16 +53,16 @@ Warnings gap_warnings(const MeshOptions& options, const Geometry& geometry, cons
                   narrow.first.y, options.size.min)};
 }
 
-/// The points of one boundary at which a flow sees that the outline is a polygon.
+/// The points of one boundary at which the flow resolves the facets of the polygon.
 struct Facets {
   std::int64_t points = 0;
   double largest_turn = 0,
-         shortest = 0;  ///< degrees; the length of the shorter segment there, the least of all
+         shortest = 0;  ///< turn in degrees; length of the shortest segment at these points
   Point first;
 };
 
-/// Of the points that stand for a curve those in cells shorter than half of the segments that meet there: the
-/// flow turns at single nodes, and its pressure jumps.
+/// Finds the points of a polygonal approximation of a curve whose cells are shorter than half of the adjacent
+/// segments: the flow turns at single nodes, and its pressure jumps.
 IdVector<BoundaryId, Facets> facets_in_small_cells(const MeshOptions& options, const Geometry& geometry) {
   IdVector<BoundaryId, Facets> facets(geometry.boundaries().size(), {});
   for (const auto& [v, turn, segment] : facets_of(geometry)) {

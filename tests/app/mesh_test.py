@@ -70,8 +70,8 @@ class MeshWarnings(ProgramTest):
         comb = "".join(f"{3 + 0.02 * k:.2f} {3.26 if k % 2 else 3.24}\n" for k in range(30, -1, -1))
         for ranks in (1, 3):
             _, warnings = self.mesh("2\n" + BOX + "comb\n33\n" + comb + "3 4\n3.6 4\n", CASE.replace("0.5", "0.25"), ranks=ranks)
-            self.assertRegex(warnings, r"boundary 'comb': \d+ of 37 kept corners of the outline (is|are) no node of the mesh, the first at \(3")
-            self.assertIn("make spacing.min smaller", warnings)
+            self.assertRegex(warnings, r"boundary 'comb': \d+ of 37 feature points (is|are) no node of the mesh, the first at \(3")
+            self.assertIn("reduce spacing.min", warnings)
 
     def test_max_holds_where_min_is_left_open(self):
         self.write("a.geom", "1\nbox\n4\n0 0\n3 0\n3 1\n0 1\n")
@@ -197,7 +197,7 @@ class MeshWarnings(ProgramTest):
         self.assertIn("a.dxf: coordinates from (0, 0) to (80, 40), in mm, meshed as given", self.done("mesh", "case.toml")[0])
         for unit, metres in (("file", 0.001), ("inch", 0.0254)):
             table = self.done("mesh", "case.toml", "--set", f"geometry.unit={unit}", "-o", unit)[0]
-            self.assertIn(f"in mm, meshed in metres, {metres} for one", table)
+            self.assertIn(f"in mm, meshed in metres (unit: {metres} m)", table)
             record = json.loads(self.done("mesh", "case.toml", "--set", f"geometry.unit={unit}", "-o", unit, "--json")[0])
             self.assertEqual(record["geometry"], [{"file": "a.dxf", "extent": [0, 0, 80, 40], "unit": "mm", "metres": metres}])
             self.assertAlmostEqual(json.loads(self.done("check", f"{unit}.mesh", "--json")[0])["area"], 3200 * metres**2)

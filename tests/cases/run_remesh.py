@@ -195,7 +195,7 @@ def check_displaced(program, case, cycles, folder, ranks):
     changed = ["--set", "spacing.gradation=1.4"]
     words = ["remesh", "--tree", alone, case, "-o", folder / "never", *changed]
     far, one_node = folder / "far.mesh", folder / "one_node.mesh"
-    expect_refusal(program, 1, ["far.mesh: is no mesh of this tree", "give the mesh that was solved on"], *words, "--solution", far, "--mesh", far)
+    expect_refusal(program, 1, ["far.mesh: is not a mesh of this tree", "give the mesh that was written with the tree"], *words, "--solution", far, "--mesh", far)
     expect_refusal(program, 1, ["one_node.mesh: cannot be compared", "--mesh"], *words, "--solution", one_node)
     for solution, options in ((old / "mesh.mesh", []), (one_node, ["--mesh", one_node])):
         remesh(program, case, alone, solution, folder / "changed", options=[*changed, *options])

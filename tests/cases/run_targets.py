@@ -67,7 +67,7 @@ def check_warnings(program, case, folder):
     text = case.read_text()
     without.write_text(text[:text.index("[adapt]")] + text[text.index("[solver]"):])
     told = told_by(program, "remesh", without, "--tree", last / "mesh.tree.h5", "--solution", last / "mesh.mesh", "-o", folder / "standing")
-    require("no table [adapt]" in told, f"remesh said: {told}")
+    require("without a table [adapt]" in told, f"remesh said: {told}")
 
 
 def main():

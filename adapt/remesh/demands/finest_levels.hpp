@@ -8,10 +8,10 @@
 
 namespace quadloop {
 
-/// The finest level to which adaptation may split each leaf of this rank's share of a tree: `finest`, but at
-/// facets of the outline (FacetZones) none that makes leaves smaller than half of the segments there, unless
-/// they may be resolved. Peaks of the solution at points of a polygon are none of the curve that it stands
-/// for.
+/// Returns the finest level to which adaptation may split each quadtree cell of this rank: `finest`, but at
+/// facets of the geometry (FacetZones) cells do not become smaller than half of the segments there, unless
+/// the facets may be resolved. Peaks of the solution at polygon points are artefacts that the curve itself
+/// does not have.
 std::vector<std::int8_t> finest_levels(const Geometry& geometry, const TreeRecord& tree, int finest,
                                        bool facets_may_be_resolved);
 

@@ -11,22 +11,22 @@
 
 namespace quadloop {
 
-/// Markings of one tree, from few leaves to many, in a row: at 1 the rule's own marks; towards 0 ever fewer
-/// leaves are refined, those of the smallest indicators dropping out first (sizes: all wanted sizes grow, up
-/// to sixteenfold); towards -1 ever more leaves are coarsened, in the end all.
+/// A family of markings of one quadtree, ordered by a parameter in [-1, 1]. At 1 these are the flags of the
+/// rule itself. Towards 0 fewer cells are refined, dropping the smallest indicators first (for size fields,
+/// all target sizes grow by up to a factor of 16). Towards -1 more cells are coarsened, at -1 all of them.
 class MarkFamily {
  public:
-  /// The communicator and what is solved must outlive the family. With a mirror axis leaves that are each
-  /// other's images are marked alike. *Collective.* Throws InputError as plan_adaptation does.
+  /// Communicator and solved mesh must outlive the object. With a mirror axis mirror images are flagged
+  /// alike. Throws InputError as plan_adaptation does. *Collective.*
   MarkFamily(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
              std::optional<MirrorAxis> mirror = {});
 
-  /// From -1 to 1. *Collective.*
+  /// Returns the flags for a parameter from -1 to 1. *Collective.*
   std::vector<Mark> marks(double at) const;
 
   double mean() const { return statistics_.mean; }
   double deviation() const { return statistics_.deviation; }
-  /// Whether all leaves have the same indicator, which marks none.
+  /// Whether the indicator is the same in all quadtree cells, so that none is flagged.
   bool flat() const { return statistics_.flat; }
 
  private:
@@ -34,11 +34,12 @@ class MarkFamily {
 
   const SolvedMesh& solved_;
   bool by_size_;
-  std::vector<double> values_;          ///< of each leaf: its indicator, or the size wanted in it
-  std::optional<OrderedValues> order_;  ///< of indicators
+  std::vector<double> values_;          ///< of each quadtree cell: its indicator, or its target size
+  std::optional<OrderedValues> order_;  ///< of the indicators
   IndicatorStatistics statistics_;
   Thresholds rule_;
-  double refined_share_ = 1, coarsened_share_ = 0;  ///< of the leaves with cells, by the rule
+  /// Fractions of the non-empty quadtree cells, by the rule.
+  double refined_share_ = 1, coarsened_share_ = 0;
 };
 
 }  // namespace quadloop

@@ -10,24 +10,23 @@
 
 namespace quadloop {
 
-/// The mirror image in an axis that halves the trees' root.
+/// Returns the mirror image in an axis that halves the root of the trees.
 Quadrant image_of(MirrorAxis axis, const TreeAttributes& tree, const Quadrant& quadrant);
 
-/// Of two values those that their leaves, which are each other's images, both get: the larger one, or the
-/// smaller.
+/// Which of the two values of mirror images both receive.
 enum class OfImages { larger, smaller };
 
-/// Gives leaves that are each other's images the same value; `values` has one for each of this rank's. A
-/// flow on a mesh that is its own mirror image is its own image but for rounding, so marks made from it would
-/// not be. Leaves without an image keep theirs. *Collective.*
+/// Gives mirror images the same value; `values` has one entry for each quadtree cell of this rank. A solution
+/// on a mirror-symmetric mesh is symmetric except for rounding, so flags computed from it might not be. Cells
+/// without an image keep their value. *Collective.*
 void agree_with_images(const Communicator& comm, MirrorAxis axis, const TreeRecord& tree, OfImages of_images,
                        std::vector<double>& values);
 
-/// The demands and their images.
+/// Returns the demands and their mirror images.
 std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree,
                                      std::vector<SplitDemand> demands);
 
-/// The same for the friction along walls: the larger one counts.
+/// Makes the wall friction symmetric: the larger value of two images counts.
 void agree_with_images(MirrorAxis axis, MeasuredWall& wall);
 
 }  // namespace quadloop

@@ -16,21 +16,22 @@ constexpr std::int64_t siblings = 4;
 
 int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
 
-/// One without cells has no values to keep it for: its siblings say.
+/// Whether a cell may be coarsened. An empty cell has no flag of its own: its siblings decide.
 bool may_go(const LeafRecord& leaf, Mark mark) {
   return mark == Mark::coarsen || (mark == Mark::keep && !has_cells(leaf));
 }
 
-/// A leaf as its siblings look at it.
+/// A quadtree cell, and whether it is to be coarsened.
 struct MarkedLeaf {
   Quadrant leaf;
   bool goes = false;
 };
 
-/// This rank's leaves with those before and after them, as many as a family may reach beyond them.
+/// This rank's quadtree cells with as many neighbours before and after them on the curve as a family of
+/// siblings can extend.
 class LeafRun {
  public:
-  /// Tree and marks must outlive it. *Collective.*
+  /// Tree and flags must outlive the object. *Collective.*
   LeafRun(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks)
       : leaves_{tree.leaves}, marks_{marks}, first_{comm.exclusive_sum(std::ssize(tree.leaves))} {
     const auto count = std::ssize(leaves_);
@@ -46,7 +47,7 @@ class LeafRun {
     }
   }
 
-  /// Whether the leaf of this number is one of four siblings that are all to be coarsened.
+  /// Whether all four siblings of the cell with this number are to be coarsened.
   bool family_goes(std::int64_t index) const {
     const Quadrant q = own(index).leaf;
     const std::int64_t eldest = index - child_number(q);
@@ -75,7 +76,7 @@ class LeafRun {
 
   std::span<const LeafRecord> leaves_;
   std::span<const Mark> marks_;
-  std::int64_t first_;  ///< number over all ranks of this rank's first leaf
+  std::int64_t first_;  ///< global number of this rank's first cell
   std::vector<MarkedLeaf> before_, after_;
 };
 
@@ -113,7 +114,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
                              std::span<const std::int8_t> finest_levels) {
   QUADLOOP_REQUIRE(marks.size() == tree.leaves.size() && finest_levels.size() == marks.size(),
                    "one mark and one finest level for each leaf");
-  std::optional<LeafRun> run;  // where some leaf is to be coarsened
+  std::optional<LeafRun> run;  // only if some cell is to be coarsened
   if (comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end()))
     run.emplace(comm, tree, marks);
   ChangedSplits changed;

@@ -11,36 +11,37 @@
 
 namespace quadloop {
 
-/// The square of a leaf, among those of all trees.
+/// Returns the square of a quadtree cell, in coordinates of the whole forest.
 Quadrant quadrant_of(const LeafRecord& leaf);
 
-/// What adaptation has asked of this rank's share of a saved tree; with it, the same case and geometry give
-/// the same tree again.
+/// Returns the adaptation splits of this rank's part of a saved tree. With them the same case and geometry
+/// give the same tree again.
 std::vector<SplitDemand> adapted_splits(const TreeRecord& tree);
 
-/// The same, and that every leaf's wanted level stands, whatever case and geometry ask for now.
+/// Returns the adaptation splits, and splits that keep the target level of every cell whatever case and
+/// geometry now request.
 std::vector<SplitDemand> wanted_splits(const TreeRecord& tree);
 
-/// What a saved tree asks of a restart with this input: its wanted levels stand where the geometry is the one
-/// that it was made for; for another geometry, what adaptation asked for.
+/// Returns the demands of a saved tree for a restart with this input: its target levels if the geometry has
+/// not changed, else only the adaptation splits.
 std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput& input);
 
-/// Demands after marks, and how many marks took effect over all ranks.
+/// Demands after flagging, and the number of flags that took effect over all ranks.
 struct ChangedSplits {
   std::vector<SplitDemand> demands;
-  std::int64_t refined = 0, coarsened = 0;  ///< leaves to be split; leaves that are to go
+  std::int64_t refined = 0, coarsened = 0;  ///< cells to be split; cells to be removed
 };
 
-/// One cycle's change. A leaf marked to be refined is split, unless it is of the finest level given for it.
-/// Four siblings that are all marked to be coarsened become one again where adaptation had split it: what
-/// case, geometry and gradation ask for stays, and the same marks take back what they made. A leaf without
-/// cells, which nothing marks, goes with its siblings wherever some leaf is coarsened. `marks` has one entry
-/// for each leaf of this rank's share. *Collective.*
+/// Applies one cycle's flags. A cell flagged for refinement is split, unless it has reached its finest level.
+/// Four siblings that are all flagged for coarsening are merged if adaptation had split their parent; splits
+/// by case, geometry and gradation remain, so coarsening flags reverse earlier refinement flags. Empty cells,
+/// which are never flagged, are merged with their siblings if any cell is coarsened. `marks` has one entry
+/// for each quadtree cell of this rank. *Collective.*
 ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
                              std::span<const std::int8_t> finest_levels);
 
-/// Keeps the root of a saved tree: sets the option where the geometry would now choose another. Throws
-/// InputError where the geometry does not lie in it.
+/// Keeps the root of a saved tree, by setting the option if the geometry would now imply another. Throws
+/// InputError if the geometry does not lie inside it.
 void keep_root(const TreeAttributes& tree, MeshInput& input);
 
 }  // namespace quadloop

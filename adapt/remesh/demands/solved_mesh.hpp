@@ -8,14 +8,13 @@
 
 namespace quadloop {
 
-/// A mesh with its tree and what a solver left at its nodes. Cells stand in the order of the tree's leaves;
-/// the shares of leaves, cells and nodes that a rank has need not meet.
+/// A mesh with its quadtree and solution. Cells are in the order of the quadtree cells; the rank partitions
+/// of quadtree cells, mesh cells and nodes may differ.
 struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;
-  Field
-      solution;  ///< a row for each owned node, for each cell; without variables where nothing is solved yet
-  std::string file;  ///< where the solution was read, for messages
+  Field solution;  ///< values at owned nodes and, optionally, in cells; no variables if nothing is solved yet
+  std::string file;  ///< file of the solution, for messages
 };
 
 }  // namespace quadloop

@@ -9,28 +9,28 @@
 
 namespace quadloop {
 
-/// Counts the nodes that changes of a tree lead to, from trees of their own (MeshTrial).
+/// Predicts the number of nodes after changes of a tree (MeshTrial).
 class TrialCount {
  public:
-  /// `input` and the communicator must outlive it. Throws as MeshTrial does.
+  /// `input` and the communicator must outlive the object. Throws as MeshTrial does.
   TrialCount(const Communicator& comm, const MeshInput& input, const MeasuredWall& measured)
       : comm_{comm}, trial_{input, measured}, limit_{input.mesh.limit} {}
 
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();
 
-  /// `beyond` where the mesh would not be allowed. *Collective.*
+  /// Returns bounds on the number of nodes; `beyond` if the mesh would exceed the limit. *Collective.*
   NodeBounds nodes_after(const ChangedSplits& changes) const;
 
-  /// What the mesh would take of --max-cells or free memory, by an estimate. *Collective.*
+  /// Returns the estimated fraction of --max-cells or free memory that the mesh would use. *Collective.*
   double share_of_limit(const ChangedSplits& changes) const;
   bool allowed(const ChangedSplits& changes) const { return share_of_limit(changes) <= 1; }
 
-  /// Of cap and limit, what is used up of the one that is nearer to it, at least and at most; above 1: too
-  /// many.
+  /// Bounds on the used fraction of the node cap or the mesh limit, whichever is closer to being reached;
+  /// above 1: exceeded.
   struct Share {
     double least = 0, most = 0;
   };
-  /// Without a cap estimates do. *Collective.*
+  /// Returns the fraction; without a cap an estimate suffices. *Collective.*
   Share filled(const std::optional<std::int64_t>& most, const ChangedSplits& changes) const;
 
  private:

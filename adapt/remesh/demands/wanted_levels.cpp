@@ -17,7 +17,7 @@ namespace quadloop {
 
 namespace {
 
-/// Demands the splits of all quadrants of level `level` - 1 that lie in the leaf, or of the one that holds
+/// Demands the splits of all quadrants of level `level` - 1 in the quadtree cell, or of the one that contains
 /// it.
 void demand_level(const Quadrant& leaf, int level, std::vector<SplitDemand>& demands) {
   const int split = level - 1;
@@ -69,7 +69,7 @@ WantedLevels::WantedLevels(const Communicator& comm, const AdaptOptions& options
   by_error_ = options.source == AdaptOptions::Source::error;
   InterpolationError error =
       by_error_ ? solver_error(comm, solved.mesh, field) : interpolation_error(comm, solved.mesh, field);
-  error_ = norm_of(comm, error, by_error_ ? 1 : norm_);  // parts of an error add up to it
+  error_ = norm_of(comm, error, by_error_ ? 1 : norm_);  // an error is the sum of its parts
   cell_densities_ = cell_densities(error, norm_);
   densities_ = CellsOfLeaves(comm, solved.mesh, tree_.leaves).largest(comm, cell_densities_);
   if (mirror_) agree_with_images(comm, *mirror_, tree_, OfImages::larger, densities_);
@@ -97,7 +97,7 @@ std::vector<std::int8_t> WantedLevels::levels(double complexity) const {
   std::vector<std::int8_t> levels;
   for (std::size_t i = 0; i < densities_.size(); ++i) {
     const double density = densities_[i];
-    const double edge = std::sqrt(total_ / (complexity * density));  // infinite where nothing is wanted
+    const double edge = std::sqrt(total_ / (complexity * density));  // infinite if no size is requested
     const bool none = !(complexity * density > 0);
     levels.push_back(static_cast<std::int8_t>(
         none ? 0 : std::min<int>(level_for_size(tree_.attributes.tree_edge, edge), finest_[i])));
@@ -121,7 +121,8 @@ double WantedLevels::leaves_at(double complexity) const {
 
 namespace {
 
-/// The next complexity to try: as nodes grow with it, but between those that are known.
+/// Returns the next complexity to try, assuming nodes proportional to complexity, but between the known
+/// bounds.
 double next_complexity(double tried, double nodes, double wanted, double low, double high) {
   constexpr double far = 8;
   const double least = low > 0 ? low : tried / far, most = std::isfinite(high) ? high : tried * far;
@@ -142,7 +143,7 @@ SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& cou
   double low = 0, high = std::numeric_limits<double>::infinity(), tried = cap;
   for (int step = 0; step < most_steps; ++step) {
     const double leaves = wanted.leaves_at(tried);
-    if (leaves > 8 * cap) {  // of these most have nodes: not worth a mesh
+    if (leaves > 8 * cap) {  // most of these cells have nodes: generating the mesh is not worthwhile
       high = tried;
       tried = next_complexity(tried, leaves, cap, low, high);
       continue;
@@ -154,11 +155,11 @@ SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& cou
     (fits ? low : high) = tried;
     if (fits) best = std::move(now);
     if (fits && share.least >= enough) break;
-    // Nodes grow by steps: secants find the place, halving the step.
+    // The number of nodes is a step function: secant steps alternate with bisection.
     const bool by_secant = step < 2 || step % 2 == 0;
     tried = next_complexity(tried, by_secant ? share.most * cap : 0, aim * cap, low, high);
   }
-  constexpr double near = 0.8;  // else it was but a step of the search that went beyond
+  constexpr double near = 0.8;  // otherwise only a step of the search exceeded the limit
   best.bounded = bounded && count.share_of_limit(best.changes) > near;
   return best;
 }

@@ -13,37 +13,38 @@
 
 namespace quadloop {
 
-/// What a saved tree is to be split at for each of this rank's leaves to become leaves of a level of its own,
-/// or to lie in one: whatever was asked for before counts no more. A leaf that is to be finer by n levels
-/// becomes 4^n. `levels` has one entry for each leaf; 0 asks for nothing. *Collective.*
+/// Returns the splits of a saved tree that bring each quadtree cell of this rank to its own target level;
+/// earlier demands are discarded. A cell that is to be n levels finer becomes 4^n cells. `levels` has one
+/// entry for each cell; 0 requests nothing. *Collective.*
 ChangedSplits splits_for_levels(const Communicator& comm, const TreeRecord& tree,
                                 std::span<const std::int8_t> levels);
 
-/// The sizes that make the L^p norm of the interpolation error, or of a solver's own, least, for more or
-/// fewer nodes.
+/// Target sizes that minimise the L^p norm of the interpolation error, or of the solver's own error field,
+/// for a variable number of nodes.
 class WantedLevels {
  public:
-  /// From the variables of the options, whose norm must be given. `solved` must outlive it. Throws InputError
-  /// where the solution has no such variable, or one that is not finite. With a mirror axis leaves that are
-  /// each other's images want the same. `finest` has one level for each leaf of this rank's share.
-  /// *Collective.*
+  /// Uses the variables of the options, whose norm must be given. `solved` must outlive the object. With a
+  /// mirror axis mirror images get the same size. `finest` has one level for each quadtree cell of this rank.
+  /// Throws InputError if the solution has no such variable, or one that is not finite. *Collective.*
   WantedLevels(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                std::vector<std::int8_t> finest, std::optional<MirrorAxis> mirror = {});
 
-  /// Whether all variables are linear, which asks for no sizes.
+  /// Whether all variables are linear, so that no size is requested.
   bool flat() const { return !(total_ > 0); }
-  /// The L^p norm of the error, of a solver's own the sum of its parts, on the mesh that was solved on.
+  /// Returns the L^p norm of the interpolation error, or the sum of the solver's own error, on the solved
+  /// mesh.
   double error() const { return error_; }
-  /// For each cell its error, and the size wanted there at this complexity; at 0 without the
-  /// sizes, and at most the edge of a tree.
+  /// Returns the error and the target size of each cell at this complexity; sizes are at most the edge of a
+  /// tree. At complexity 0 only the errors.
   CellValues of_cells(double complexity) const;
 
-  /// The level wanted of each of this rank's leaves, none finer than its finest, for sizes h of which the
-  /// integral of 1 / h^2 is `complexity`.
+  /// Returns the target level of each quadtree cell of this rank, limited to its finest level, for sizes h
+  /// with integral(1 / h^2) = `complexity`.
   std::vector<std::int8_t> levels(double complexity) const;
-  /// The changes that lead to these. *Collective.*
+  /// Returns the changes that lead to these levels. *Collective.*
   ChangedSplits changes(double complexity) const;
-  /// How many leaves these levels come to over all ranks, but for those that gradation adds. *Collective.*
+  /// Returns the number of quadtree cells at these levels over all ranks, without those added by gradation.
+  /// *Collective.*
   double leaves_at(double complexity) const;
 
  private:
@@ -52,22 +53,22 @@ class WantedLevels {
   std::vector<std::int8_t> finest_;
   std::optional<MirrorAxis> mirror_;
   double norm_;
-  bool by_error_ = false;  ///< by a solver's own error, not by what interpolation loses
+  bool by_error_ = false;  ///< whether the error is the solver's own field
   double error_ = 0, total_ = 0;
-  std::vector<double> densities_;  ///< of leaves: the largest of their cells
+  std::vector<double> densities_;  ///< of quadtree cells: the maximum over their mesh cells
   std::vector<double> cell_errors_, cell_densities_;
 };
 
-/// Changes that lead to a number of nodes, and the complexity of the sizes that they follow.
+/// Changes that lead to a number of nodes, and the complexity of their target sizes.
 struct SizedChanges {
   ChangedSplits changes;
   double complexity = 0;
-  bool bounded = false;  ///< --max-cells or free memory has kept them below the number wanted
+  bool bounded = false;  ///< whether --max-cells or free memory keeps them below the requested number
 };
 
-/// Looks for the complexity that leads to 95 to 100 % of so many nodes; as leaves change by factors of two
-/// there may be none: then the most nodes that were found within the cap, and what case and geometry alone
-/// ask for where that is more. *Collective.*
+/// Searches for the complexity that gives 95 to 100 % of `nodes`. As cells change by factors of two there may
+/// be none: the result is then the most nodes found within the cap, or what case and geometry alone require
+/// if that is more. *Collective.*
 SizedChanges changes_for_nodes(const WantedLevels& wanted, const TrialCount& count, std::int64_t nodes);
 
 }  // namespace quadloop

@@ -5,8 +5,8 @@
 
 namespace quadloop::euler {
 
-/// Colours for all nodes, so that no edge joins two of one colour: a relaxation may visit the nodes of a
-/// colour at once. *Collective.*
+/// Colours all nodes such that no edge connects two of one colour: a relaxation may update the nodes of a
+/// colour concurrently. *Collective.*
 Colouring colour_dual_nodes(const Communicator& comm, const DualMesh& mesh);
 
 }  // namespace quadloop::euler

@@ -10,7 +10,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// Row by row to column by column.
+/// Converts row-major to column-major.
 void store(const Matrix4& matrix, std::array<float, 16>& block) {
   for (std::size_t row = 0; row < 4; ++row) {
     for (std::size_t column = 0; column < 4; ++column)
@@ -20,7 +20,7 @@ void store(const Matrix4& matrix, std::array<float, 16>& block) {
 
 constexpr double soft_start = 20;  ///< CFL number
 
-using MatrixMap = Eigen::Map<const Eigen::Matrix4f>;  // column by column
+using MatrixMap = Eigen::Map<const Eigen::Matrix4f>;  // column-major
 using VectorMap = Eigen::Map<const Eigen::Vector4f>;
 
 void add(const Matrix4& matrix, double factor, Matrix4& sum) {
@@ -35,8 +35,8 @@ Matrix4 transposed(const Matrix4& matrix) {
   return result;
 }
 
-/// What viscosity adds to how the flux from low to high answers to either. Returns the diffusivity times face
-/// over distance.
+/// Adds the viscous derivatives of the flux from low to high with respect to both states. Returns diffusivity
+/// times face over distance.
 double add_viscous_edge(const FlowModel& model, const DualEdge& edge, const State& low, const State& high,
                         Matrix4& by_low, Matrix4& by_high) {
   const double length_squared = 4 * dot(edge.half, edge.half);
@@ -76,14 +76,14 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
   }
 }
 
-/// The colour with which the node is changed: that of its line, or its own.
+/// The colour of the node's update: that of its line, or its own.
 std::int8_t ImplicitSystem::turn(std::int32_t owned_node) const {
   const std::int8_t of_line = lines_.colour(owned_node);
   return of_line >= 0 ? of_line : colours_.colour_of[NodeId{owned_node}];
 }
 
-/// The rows turn by turn, first those of lines, which must see nothing of what changes in the same turn, then
-/// in the order of nodes.
+/// Orders the rows by colour. Within a colour the rows of lines come first, as they must not see updates of
+/// the same colour, then the others in the order of nodes.
 void ImplicitSystem::order_rows() {
   const auto key = [&](std::int32_t node) { return std::pair{turn(node), lines_.colour(node) < 0}; };
   row_nodes_.resize(mesh_.owned_nodes());
@@ -97,7 +97,7 @@ void ImplicitSystem::order_rows() {
   }
 }
 
-/// Room in each row for a block of each neighbour. Returns where the row of each owned node starts.
+/// Reserves a block per neighbour in each row. Returns the start of the row of each owned node.
 std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
   std::vector<std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
   for (const DualEdge& edge : mesh_.edges()) {
@@ -115,8 +115,8 @@ std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
   return starts;
 }
 
-/// Each edge's places in the rows of its nodes, in the order of edges from `next` on, the start of each owned
-/// node's row.
+/// Assigns each edge its places in the rows of its nodes, in the order of edges, beginning at `next`, the
+/// start of each owned node's row.
 void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
   const auto take = [&](std::int32_t node, std::int32_t column) {
     if (!mesh_.is_owned(node)) return nowhere;
@@ -154,7 +154,7 @@ void ImplicitSystem::add_fluxes(const std::vector<State>& states, const ShockSen
   add_faces(states);
 }
 
-/// How the node's row answers to the other node.
+/// Stores the derivative of the node's row with respect to the other node.
 void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t other, const Matrix4& block) {
   if (slot == nowhere) return;
   Matrix4 kept = block;
@@ -166,8 +166,8 @@ void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t ot
   }
 }
 
-/// The flux from low to high changes by (A_low + |A|) / 2 with the low state and by (A_high - |A|) / 2 with
-/// the high one.
+/// The derivative of the flux from low to high is (A_low + |A|) / 2 with respect to the low state and (A_high
+/// - |A|) / 2 with respect to the high state.
 void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSensor* shocks) {
   const auto edges = mesh_.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -199,7 +199,7 @@ void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSens
   }
 }
 
-/// Only the part that a node's own state has in its half of a face.
+/// Only the contribution of a node's own state to its half of a face.
 void ImplicitSystem::add_faces(const std::vector<State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
@@ -214,8 +214,8 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
   }
 }
 
-/// Waves along lines, which are solved exactly, may go farther in a step: the flow's first steps are not
-/// sound with more than the number below, later there is no such limit.
+/// Waves along lines, which are solved exactly, may travel farther in a step. The first steps are not robust
+/// above the CFL number soft_start; later there is no such limit.
 void ImplicitSystem::find_time_terms(double cfl, const std::vector<double>& shares) {
   const double along = cfl * std::max(1.0, cfl / soft_start);
   for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
@@ -247,7 +247,7 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
   for (Change& c : change) c = {};
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
-         ++step) {  // the sweep before ended with the colour that this one would begin with
+         ++step) {  // the previous sweep ended with the first colour of this one
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
       relax_rows(colour_starts_[colour], colour_starts_[colour + 1], residual, change);
       if (!lines_.empty()) change_lines(colour, change);

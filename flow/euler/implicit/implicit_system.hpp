@@ -12,41 +12,41 @@
 
 namespace quadloop::euler {
 
-using Change = std::array<float, 4>;  ///< of what is conserved
+using Change = std::array<float, 4>;  ///< of the conserved variables
 
 /// The linear system of an implicit step: (area / time step + first-order upwind flux matrix) change =
 /// -residual, one row of 4 x 4 blocks for each owned node. It is relaxed by coloured Gauss-Seidel sweeps,
-/// whose bits do not depend on the number of ranks, in single precision: it only steers the way to the
-/// solution. Lines of nodes across stacks of thin cells (LineSystem) are solved as one, in the turn of their
-/// colour, and their couplings do not count in their nodes' time steps.
+/// which are bitwise independent of the number of ranks, in single precision, as it affects only the path to
+/// the solution. Lines of nodes across stacks of thin cells (LineSystem) are solved together with their
+/// colour; their couplings do not enter the time steps of their nodes.
 class ImplicitSystem {
  public:
-  /// The transposed system has the transposed matrix.
+  /// `transposed`: the system with the transposed matrix.
   enum class Sense { forward, transposed };
 
-  /// Both must outlive it. *Collective.*
+  /// Mesh and model must outlive the object. *Collective.*
   ImplicitSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
                  Sense sense = Sense::forward);
 
-  /// At these states, whose copies are up to date, with each node's own time step: of this CFL number times
-  /// the owned node's share. Beside shocks the fluxes are those that the sensor asks for, if there is one.
+  /// Assembles the system at these states (ghosts must be up to date), with local time steps: this CFL number
+  /// times the owned node's share. Near shocks the fluxes are those of the sensor, if there is one.
   void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
                 const ShockSensor* shocks = nullptr);
 
-  /// The same with `rate` in the place of one over the time step, at all nodes.
+  /// Assembles with `rate` instead of 1 / time step at all nodes.
   void assemble_with_rate(const std::vector<State>& states, double rate, const ShockSensor* shocks = nullptr);
 
-  /// Of each owned node as assembled: area over time step.
+  /// Area / time step of each owned node, as assembled.
   const std::vector<double>& time_terms() const { return time_terms_; }
 
-  /// That many sweeps, every second one through the colours backwards, from zero. `change` has an entry for
-  /// each node. *Collective.*
+  /// Performs this many sweeps from zero, every second one with the colours in reverse order. `change` has an
+  /// entry for each node. *Collective.*
   void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change);
 
  private:
-  using Block = std::array<float, 16>;  ///< column by column
-  /// An edge's blocks in the rows of its nodes: nowhere where another rank has the row, or in the node's
-  /// line.
+  using Block = std::array<float, 16>;  ///< column-major
+  /// An edge's blocks in the rows of its nodes: `nowhere` if another rank has the row, `in_line` if the block
+  /// is part of the node's line.
   static constexpr std::int32_t nowhere = -1, in_line = -2;
   struct Slots {
     std::int32_t in_low = nowhere, in_high = nowhere;
@@ -70,21 +70,21 @@ class ImplicitSystem {
   const FlowModel& model_;
   Sense sense_;
   NoSlipNodes no_slip_;
-  std::vector<char> held_;  ///< of each node: rows 1 to this one of its block row say what is known
+  std::vector<char> held_;  ///< for each node: rows 1 to this one of its block row are prescribed
   Colouring colours_;
   LineSystem lines_;
-  std::vector<LineSystem::Row> line_rows_;  ///< of right sides
-  std::vector<std::int32_t> row_nodes_;     ///< the owned nodes, colour by colour
-  std::vector<std::size_t> colour_starts_;  ///< into them
-  std::vector<std::size_t> row_starts_;     ///< into the two lists that follow
+  std::vector<LineSystem::Row> line_rows_;  ///< right sides of the lines
+  std::vector<std::int32_t> row_nodes_;     ///< owned nodes, sorted by colour
+  std::vector<std::size_t> colour_starts_;  ///< indices into row_nodes_
+  std::vector<std::size_t> row_starts_;     ///< indices into the two vectors below
   std::vector<std::int32_t> columns_;
   std::vector<Block> blocks_;
-  std::vector<Slots> slots_;       ///< of each edge
-  std::vector<Matrix4> diagonal_;  ///< of each node
-  std::vector<Block> inverses_;    ///< of each owned node's diagonal block
-  std::vector<double> skewness_;  ///< of each edge: how large what SkewEdge adds to its flux may be, in units
-                                  ///< of the flux along the edge
-  /// Of each node: half the sum of largest wave speed times size over its faces.
+  std::vector<Slots> slots_;       ///< for each edge
+  std::vector<Matrix4> diagonal_;  ///< for each node
+  std::vector<Block> inverses_;    ///< inverse diagonal block of each owned node
+  /// For each edge: bound on the contribution of SkewEdge to its flux, relative to the flux along the edge.
+  std::vector<double> skewness_;
+  /// For each node: half the sum over its faces of maximum wave speed times face size.
   std::vector<double> wave_sums_;
   std::vector<double> line_sums_;  ///< the same along lines
   std::vector<double> time_terms_;

@@ -30,8 +30,8 @@ class Gmres {
   }
   double norm(const NodeRows& a) const { return std::sqrt(dot(a, a)); }
 
-  /// Betters x by steps in the space that `left`, what is left of the right side, spans, until its norm is
-  /// below `enough`. Returns how many.
+  /// Improves x in the Krylov space of the remaining right side `left`, until the residual norm is below
+  /// `enough`. Returns the number of steps.
   int improve(const NodeRows& left, double enough, NodeRows& x) {
     basis_.assign(1, left);
     steps_taken_.clear();
@@ -62,8 +62,8 @@ class Gmres {
     }
   }
 
-  /// Products of `a` with the basis, the last with itself: in one sum over ranks. Not numbers where it is not
-  /// finite.
+  /// Scalar products of `a` with the basis, and with itself as the last, in a single reduction. NaN if `a` is
+  /// not finite.
   Column products(const NodeRows& a) const {
     double largest = 0;
     for (std::size_t i = 0; i < system_.owned; ++i) {
@@ -74,7 +74,8 @@ class Gmres {
     largest = comm_.maximum(largest);
     if (largest == 0 || largest == infinity)
       return Column(basis_.size() + 1, largest == 0 ? 0 : not_a_number);
-    const double size = std::ldexp(1, std::ilogb(largest)), down = 1 / size;  // entries over it are below 2
+    // entries divided by it are below 2
+    const double size = std::ldexp(1, std::ilogb(largest)), down = 1 / size;
     ReproducibleSums sums(basis_.size() + 1, 16, nodes_);
     for (std::size_t j = 0; j <= basis_.size(); ++j) {
       const NodeRows& b = j < basis_.size() ? basis_[j] : a;
@@ -89,8 +90,8 @@ class Gmres {
     return found;
   }
 
-  /// Takes the basis out of `a`, twice, as once leaves rounding (Giraud and others 2005). Returns what was
-  /// taken and the size of what is left.
+  /// Orthogonalises `a` against the basis, twice because of rounding (Giraud and others 2005). Returns the
+  /// coefficients and the norm of the rest.
   Column orthogonalise(NodeRows& a) const {
     Column taken(basis_.size() + 1, 0.0);
     double square = 0;
@@ -107,7 +108,7 @@ class Gmres {
     return taken;
   }
 
-  /// One more vector, and the rotation that keeps the columns triangular.
+  /// Adds a basis vector, and the Givens rotation that keeps the matrix triangular.
   void extend() {
     NodeRows step(basis_.back().size()), product;
     system_.precondition(basis_.back(), step);
@@ -149,9 +150,9 @@ class Gmres {
   int steps_;
   std::int64_t nodes_;  ///< over all ranks
   std::vector<NodeRows> basis_, steps_taken_;
-  std::vector<Column> columns_;                   ///< of the upper triangle
+  std::vector<Column> columns_;                   ///< of the upper triangular matrix
   std::vector<std::array<double, 2>> rotations_;  ///< cosines and sines
-  Column rest_;                                   ///< the right side in the basis
+  Column rest_;                                   ///< right side in the basis
 };
 
 }  // namespace
@@ -174,7 +175,7 @@ KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, c
     }
     const double before = end.residual;
     end.residual = gmres.norm(left) / whole;
-    if (!(end.residual < 0.999 * before)) break;  // no more comes of it
+    if (!(end.residual < 0.999 * before)) break;  // no further progress
   }
   return end;
 }

@@ -8,10 +8,10 @@
 
 namespace quadloop::euler {
 
-/// Four values for each owned node, and for others that do not count.
+/// Four values for each owned node; further rows are ignored.
 using NodeRows = std::vector<std::array<double, 4>>;
 
-/// A linear system over all ranks, and something near its inverse, which need not be linear.
+/// A linear system over all ranks with a preconditioner, which need not be linear.
 struct KrylovSystem {
   std::function<void(NodeRows& x, NodeRows& product)> multiply;
   std::function<void(const NodeRows& right, NodeRows& x)> precondition;
@@ -20,12 +20,12 @@ struct KrylovSystem {
 
 struct KrylovEnd {
   int iterations = 0;
-  double residual = 0;  ///< of the right side's norm
+  double residual = 0;  ///< relative to the norm of the right side
 };
 
-/// Flexible GMRES, begun anew after every `restart` steps, from x = 0: until what is left is below
-/// `tolerance` of the right side, or so many iterations are done. Products of vectors are sums that do not
-/// depend on the number of ranks. *Collective.*
+/// Flexible GMRES, restarted after every `restart` steps, from x = 0, until the residual is below `tolerance`
+/// times the right side or `iterations` are done. Scalar products are independent of the number of ranks.
+/// *Collective.*
 KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, const NodeRows& right,
                          NodeRows& x, double tolerance, int iterations, int restart);
 

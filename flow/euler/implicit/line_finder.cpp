@@ -9,11 +9,11 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double strong = 10;  ///< in couplings of the third strongest edge: cells about three times as long
-                               ///< as high
+/// Ratio to the third strongest coupling: cells about three times as long as high.
+constexpr double strong = 10;
 constexpr std::int64_t nobody = -1;
 
-/// A node's two strongest edges that count as strong: numbers of the nodes there over all ranks.
+/// The strongly coupled edges of a node, two at most: global numbers of the nodes at their other ends.
 struct Partners {
   std::array<std::int64_t, 2> nodes{nobody, nobody};
   bool contains(GlobalNodeId node) const { return nodes[0] == node.value() || nodes[1] == node.value(); }
@@ -24,7 +24,7 @@ struct Coupled {
   std::int64_t node = nobody;
 };
 
-/// The strongest three edges of a node, in this order; of equal ones the first stays first.
+/// The three strongest edges of a node in this order; of equal ones the first comes first.
 struct Strongest {
   std::array<Coupled, 3> edges;
   int count = 0;
@@ -39,7 +39,7 @@ struct Strongest {
   }
   Partners partners() const {
     Partners result;
-    const std::size_t weak = std::min(count, 3) - 1;  // of a corner's two edges the second
+    const std::size_t weak = std::min(count, 3) - 1;  // of the two edges of a corner node the second
     for (std::size_t k = 0; k < weak; ++k) {
       if (edges[k].strength >= strong * edges[weak].strength) result.nodes[k] = edges[k].node;
     }
@@ -47,9 +47,9 @@ struct Strongest {
   }
 };
 
-/// An owned node in a line, as the rank that puts the line together is told of it.
+/// An owned node of a line, as sent to the rank that assembles the line.
 struct Member {
-  std::int64_t line;  ///< the least number of its nodes
+  std::int64_t line;  ///< smallest number of the line's nodes
   std::int64_t node;
   Partners partners;
   double strength;  ///< of its strongest edge
@@ -57,7 +57,7 @@ struct Member {
   std::int8_t colour;
 };
 
-/// A node in its place in a line.
+/// A node with its position in a line.
 struct Place {
   std::int64_t line, node;
   std::int32_t place;
@@ -93,7 +93,7 @@ class LineFinder {
     mesh_.exchange().update(partners_);
   }
 
-  /// Edges that both of their nodes want; those partners stay that an owned node has in common with its own.
+  /// Keeps the edges that are strong at both of their nodes.
   void join() {
     std::vector<Partners> common(mesh_.owned_nodes());
     const auto note = [&](std::int32_t node, GlobalNodeId other) {
@@ -111,7 +111,7 @@ class LineFinder {
     partners_ = std::move(common);
   }
 
-  /// Each line has the least of its nodes' numbers, found along the line, over ranks too.
+  /// Names each line by the smallest number of its nodes, propagated along the line, across ranks.
   void name_lines() {
     for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh_.nodes()); ++node)
       names_.push_back(mesh_.global(node).value());
@@ -120,7 +120,7 @@ class LineFinder {
       changed = false;
       while (names_spread()) changed = true;
       mesh_.exchange().update(names_);
-      // a copy's new name must be taken on by this rank's nodes in the next round
+      // a ghost's new name must reach this rank's nodes in the next round
       changed = changed || names_differ();
     }
   }
@@ -142,7 +142,7 @@ class LineFinder {
                                [&](const auto& joint) { return names_[joint[0]] != names_[joint[1]]; });
   }
 
-  /// On the rank that owns the node after which a line is named.
+  /// Sends members to the owner of the node that names the line.
   std::vector<Member> members() const {
     Outbox<Member> out;
     for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) {
@@ -159,7 +159,7 @@ class LineFinder {
     return all;
   }
 
-  /// Each line in its order, to the ranks that own some of it.
+  /// Sends each line, in order, to the ranks that own part of it.
   std::vector<Place> put_together(const std::vector<Member>& members) const {
     Outbox<Place> out;
     for (auto begin = members.begin(); begin != members.end();) {
@@ -180,7 +180,7 @@ class LineFinder {
     return out.deliver(comm_);
   }
 
-  /// From the end with the stronger edge on; a ring begins with its first node and is cut before it.
+  /// Starts from the end with the stronger edge; a ring starts with its first node and is cut before it.
   static std::vector<const Member*> in_order(std::span<const Member> members) {
     const auto find = [&](std::int64_t node) -> const Member* {
       const auto found = std::ranges::lower_bound(members, node, {}, &Member::node);
@@ -225,7 +225,7 @@ class LineFinder {
   std::vector<Strongest> strongest_;
   std::vector<Partners> partners_;
   std::vector<std::array<std::int32_t, 2>> joints_;
-  std::vector<std::int64_t> names_;  ///< of each node's line
+  std::vector<std::int64_t> names_;  ///< line of each node
 };
 
 }  // namespace

@@ -9,18 +9,18 @@
 
 namespace quadloop::euler {
 
-/// Nodes in a row, each coupled far more strongly to the ones before and after it than to its other
+/// Consecutive nodes, each coupled far more strongly to its predecessor and successor than to other
 /// neighbours, as across a stack of thin cells.
 struct NodeLine {
-  std::vector<GlobalNodeId> nodes;  ///< from the more strongly coupled end on
-  std::int8_t colour = 0;           ///< that of the first
+  std::vector<GlobalNodeId> nodes;  ///< from the more strongly coupled end
+  std::int8_t colour = 0;           ///< of the first node
 };
 
-/// The lines in which this rank owns a node, whole, in an order that does not depend on the number of ranks
-/// but for which of them are here. They follow from faces and lengths of edges alone (after Mavriplis 1998):
-/// an edge's coupling is face over length; two nodes are joined where for each of them the edge is one of the
-/// two strongest and at least ten times as strong as the third. In cells of moderate shape there are none.
-/// *Collective.*
+/// Returns the complete lines in which this rank owns a node. Their order does not depend on the number of
+/// ranks, only the selection does. Lines follow from face sizes and edge lengths alone (after Mavriplis
+/// 1998): the coupling of an edge is face over length; two nodes are joined if for both the edge is one of
+/// the two strongest and at least ten times as strong as the third. Cells of moderate aspect ratio have no
+/// lines. *Collective.*
 std::vector<NodeLine> find_lines(const Communicator& comm, const DualMesh& mesh, const Colouring& colours);
 
 }  // namespace quadloop::euler

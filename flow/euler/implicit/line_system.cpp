@@ -17,7 +17,7 @@ LineSystem::LineSystem(const Communicator& comm, const DualMesh& mesh, const Col
     : mesh_{mesh}, links_(mesh.nodes()), node_colours_(mesh.nodes(), -1) {
   const std::vector<NodeLine> found = find_lines(comm, mesh, colours);
   if (!comm.any(!found.empty())) return;
-  std::unordered_map<GlobalNodeId, std::int32_t> here;  // nodes that edges of owned nodes know
+  std::unordered_map<GlobalNodeId, std::int32_t> here;  // nodes of this rank's edges
   for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node)
     here.emplace(mesh.global(node), node);
   std::vector<GlobalNodeId> others;

@@ -8,15 +8,15 @@
 
 namespace quadloop::euler {
 
-/// The part of an implicit system that couples the nodes of each line (find_lines), solved exactly: a block
-/// tridiagonal system for each of them. A line that several ranks share is solved by all of them, each with
-/// the same bits: they are sent the rows that they do not own.
+/// The part of an implicit system that couples the nodes of each line (find_lines), solved exactly as a block
+/// tridiagonal system. A line shared by several ranks is solved on all of them, bitwise identically, after
+/// they have received the rows that they do not own.
 class LineSystem {
  public:
   /// `mesh` must outlive it. *Collective.*
   LineSystem(const Communicator& comm, const DualMesh& mesh, const Colouring& colours);
 
-  /// On any rank.
+  /// Whether there are no lines on any rank.
   bool empty() const { return !exchange_.has_value(); }
   /// Neighbours of a node along its line, or -1; nodes that are not owned have none.
   struct Links {
@@ -26,24 +26,24 @@ class LineSystem {
     bool contains(std::int32_t node) const { return node >= 0 && (before == node || after == node); }
   };
   const Links& links(std::int32_t node) const { return links_[node]; }
-  /// In whose turn the owned node is changed; -1 where it is in no line.
+  /// Colour in which the owned node is updated; -1 if it is in no line.
   std::int8_t colour(std::int32_t node) const { return node_colours_[node]; }
 
   using Row = std::array<double, 4>;
 
-  /// How an owned node's row answers to the node before or after it.
+  /// Sets the derivative of an owned node's row with respect to the previous or next node.
   void set_block(std::int32_t node, std::int32_t neighbour, const Matrix4& block);
-  /// From these diagonal blocks of owned nodes. *Collective.*
+  /// Factorises the lines with these diagonal blocks of owned nodes. *Collective.*
   void factor(const std::vector<Matrix4>& diagonal);
 
-  /// Solves the lines of one colour. `rows` has an entry for each owned node, at first the right sides, and
-  /// more behind them. *Collective.*
+  /// Solves the lines of one colour. `rows` has an entry for each owned node, initially the right sides;
+  /// further entries are ignored. *Collective.*
   void solve(int colour, std::vector<Row>& rows) const;
   std::size_t rows() const { return blocks_.size(); }
 
  private:
   struct Blocks {
-    Matrix4 before, after, inverse;  ///< the last of the eliminated diagonal block
+    Matrix4 before, after, inverse;  ///< of the eliminated diagonal block
   };
   struct Line {
     std::vector<std::int32_t> rows;
@@ -51,10 +51,10 @@ class LineSystem {
   };
   const DualMesh& mesh_;
   std::vector<Line> lines_;
-  std::vector<Links> links_;  ///< of each node
+  std::vector<Links> links_;  ///< for each node
   std::vector<std::int8_t> node_colours_;
-  std::optional<NodeExchange> exchange_;  ///< rows: owned nodes, then other ranks' nodes in shared lines
-  std::vector<Blocks> blocks_;            ///< of each row; none without lines
+  std::optional<NodeExchange> exchange_;  ///< rows: owned nodes, then other ranks' nodes of shared lines
+  std::vector<Blocks> blocks_;            ///< for each row; empty without lines
 };
 
 }  // namespace quadloop::euler

@@ -9,7 +9,7 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double nudge = 1e-6;  ///< the largest entry of the difference that a derivative is taken from
+constexpr double nudge = 1e-6;  ///< largest entry of the difference for a directional derivative
 
 }  // namespace
 
@@ -54,7 +54,7 @@ double NewtonSystem::norm(const NodeRows& rows) const {
   return std::sqrt(reproducible_sum(comm_, squares));
 }
 
-/// (area / time step + derivative) change.
+/// Computes (area / time step + derivative) change.
 void NewtonSystem::differentiate(const NodeRows& change, NodeRows& result) {
   result.resize(change.size());
   double largest = 0;

@@ -9,25 +9,25 @@
 namespace quadloop::euler {
 
 /// The linear system of a Newton step: (area / time step + derivative of the second-order residual) change =
-/// right side. GMRES needs no such matrix, as the derivative along a change is a difference of two residuals;
-/// an ImplicitSystem of first-order fluxes, which has the time steps too, is its preconditioner.
+/// right side. It is matrix-free: GMRES takes directional derivatives from differences of two residuals. The
+/// preconditioner is an ImplicitSystem of first-order fluxes, which also provides the time steps.
 class NewtonSystem {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   NewtonSystem(const Communicator& comm, const DualMesh& mesh, const FlowModel& model, Residual& residual,
                ImplicitSystem& system);
 
   struct Effort {
-    double tolerance;  ///< of the right side's norm
-    int directions;    ///< at most: of GMRES, 64 bytes each for a node
+    double tolerance;  ///< relative to the norm of the right side
+    int directions;    ///< maximum number of GMRES directions, 64 bytes per node each
     int sweeps;        ///< of the preconditioner
   };
-  /// `fluxes` are those of the states; the residual is evaluated at others meanwhile. Returns what is left,
-  /// as a share of the right side. *Collective.*
+  /// `fluxes` are those of the states; the residual is evaluated at other states. Returns the remaining
+  /// residual relative to the right side. *Collective.*
   double solve(const std::vector<State>& states, const NodeRows& fluxes, const NodeRows& right,
                const Effort& effort, NodeRows& change);
 
-  /// The root of the sum of squares of the owned nodes' values. *Collective.*
+  /// Returns the root of the sum of squares over the owned nodes. *Collective.*
   double norm(const NodeRows& rows) const;
 
  private:
@@ -38,7 +38,7 @@ class NewtonSystem {
   const FlowModel& model_;
   Residual& residual_;
   ImplicitSystem& system_;
-  const std::vector<State>* states_ = nullptr;  ///< of the solve under way
+  const std::vector<State>* states_ = nullptr;  ///< of the current solve
   const NodeRows* fluxes_ = nullptr;
   std::vector<Flux> right_;             ///< of the preconditioner, for each node
   std::vector<Change> preconditioned_;  ///< for each node

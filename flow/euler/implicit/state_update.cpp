@@ -7,9 +7,9 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double largest_share = 0.25;  ///< of its density or pressure that a node may gain or lose in a step
-/// Of the free stream's density and pressure: a node that has less, as behind a blunt body while the flow
-/// starts, may gain faster, or it would take hundreds of steps to leave a vacuum.
+constexpr double largest_share = 0.25;  ///< maximum relative change of a node's density or pressure in a step
+/// Fraction of the free-stream density and pressure. A node with less, e.g. behind a blunt body at startup,
+/// may gain faster, as it would otherwise need hundreds of steps to leave the vacuum.
 constexpr double least_reference = 0.1;
 
 double relative_change(double change, double value, double least_divisor) {

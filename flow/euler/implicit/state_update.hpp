@@ -6,8 +6,8 @@
 
 namespace quadloop::euler {
 
-/// The state after a change of what is conserved, which is made smaller where it would take more than a
-/// quarter of the node's density or pressure, or add that much.
+/// Returns the state after a change of the conserved variables. The change is scaled down if it would change
+/// the node's density or pressure by more than a quarter.
 State updated(const Gas& gas, const State& state, const std::array<double, 4>& change);
 
 }  // namespace quadloop::euler

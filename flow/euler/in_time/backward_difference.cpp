@@ -10,12 +10,12 @@ namespace quadloop::euler {
 namespace {
 
 constexpr NewtonSystem::Effort effort_in_time{.tolerance = 0.1, .directions = 20, .sweeps = 10};
-constexpr double tolerance = 1e-3;  ///< of what would be left if nothing moved
-constexpr double rounding = 1e-13;  ///< of what is conserved, as a share
+constexpr double tolerance = 1e-3;  ///< relative to the imbalance of unchanged states
+constexpr double rounding = 1e-13;  ///< relative to the conserved variables
 constexpr int most_iterations = 10, most_share_halvings = 3;
-constexpr double least_gain = 0.9;  ///< of an iteration; one that gains less leads nowhere
+constexpr double least_gain = 0.9;  ///< reduction per iteration; with less the iteration stops
 constexpr int most_step_halvings = 4;
-constexpr double longest_growth = 2.1;  ///< of a step over the one before; order 1 where it is more
+constexpr double longest_growth = 2.1;  ///< ratio of a step to the previous one; a larger ratio uses order 1
 
 std::array<double, 4> row_of(const Conserved& w) { return {w.mass, w.x_momentum, w.y_momentum, w.energy}; }
 
@@ -34,7 +34,7 @@ BackwardDifference::BackwardDifference(FlowRun& run, double step)
       balance_(run.mesh.owned_nodes()),
       change_(run.mesh.owned_nodes()) {}
 
-/// Of this step and one before that was `ratio` times shorter; 0 where there was none.
+/// `ratio`: this step over the previous one; 0 if there is none.
 BackwardDifference::Weights BackwardDifference::weights(double ratio) {
   return {(1 + 2 * ratio) / (1 + ratio), -(1 + ratio), ratio * ratio / (1 + ratio)};
 }
@@ -47,7 +47,7 @@ void BackwardDifference::find_known(const Weights& weights, double step) {
   }
 }
 
-/// What is out of balance at the states, with these fluxes, and its norm.
+/// Computes the imbalance of the states with these fluxes; returns its norm.
 double BackwardDifference::measure(const std::vector<Flux>& fluxes, double rate) {
   for (std::size_t node = 0; node < balance_.size(); ++node) {
     const Row w = row_of(run_.model.gas.conserved(run_.states[node]));
@@ -59,8 +59,8 @@ double BackwardDifference::measure(const std::vector<Flux>& fluxes, double rate)
   return newton_.norm(balance_);
 }
 
-/// The states as they would be if they went on as in the step before, where that is nearer to the solution.
-/// Returns what is then out of balance; `size` is what is now.
+/// Extrapolates the states from the previous step, if that reduces the imbalance. Returns the new imbalance;
+/// `size` is the present one.
 double BackwardDifference::go_on(double ratio, double rate, double size) {
   start_ = run_.states;
   for (std::size_t node = 0; node < change_.size(); ++node) {
@@ -74,8 +74,8 @@ double BackwardDifference::go_on(double ratio, double rate, double size) {
   return measure(run_.residual.evaluate(run_.states), rate);
 }
 
-/// One iteration. Returns what is then out of balance; the states stay where no share of the change lowers
-/// it.
+/// Performs one Newton iteration. Returns the new imbalance; the states are unchanged if no fraction of the
+/// change lowers it.
 double BackwardDifference::newton(double rate, double size, double enough) {
   start_ = run_.states;
   NodeRows right = balance_;
@@ -101,7 +101,7 @@ double BackwardDifference::newton(double rate, double size, double enough) {
   return size;
 }
 
-/// Tells whether the equations of the step were solved to the tolerance.
+/// Returns whether the equations of the step were solved to the tolerance.
 bool BackwardDifference::solve(double step, const NodeRows& fluxes) {
   const double ratio = last_step_ > 0 && step <= longest_growth * last_step_ ? step / last_step_ : 0;
   const Weights weight = weights(ratio);
@@ -123,13 +123,13 @@ bool BackwardDifference::solve(double step, const NodeRows& fluxes) {
   return size <= enough;
 }
 
-/// The states start a step.
+/// Stores the states at the start of a step.
 void BackwardDifference::remember() {
   for (std::size_t node = 0; node < last_.size(); ++node)
     last_[node] = row_of(run_.model.gas.conserved(run_.states[node]));
 }
 
-/// Tells whether the step was solved, or all of its parts.
+/// Returns whether the step, or each of its parts, was solved.
 bool BackwardDifference::take(double step, const NodeRows& fluxes, int halvings) {
   const std::vector<State> start = run_.states;
   const NodeRows earlier = before_;
@@ -149,7 +149,7 @@ bool BackwardDifference::take(double step, const NodeRows& fluxes, int halvings)
          first_is_solved;
 }
 
-/// Updates leave gas in every node.
+/// Always true, as updates keep density and pressure positive at every node.
 bool BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
   if (!take(step, {fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()}, most_step_halvings))
     ++unsolved_;

@@ -8,10 +8,9 @@
 
 namespace quadloop::euler {
 
-/// Implicit steps of order 2: the backward difference over this step and the one before (BDF2, with the
-/// coefficients of unequal steps), the first of order 1. It damps what is faster than the steps. Each step is
-/// solved by Newton's method, from the flow that goes on as in the step before. A step that cannot be solved,
-/// as beside strong shocks that move over several cells, is taken in halves.
+/// Implicit steps of order 2: BDF2 with the coefficients of variable steps; the first step is of order 1.
+/// Damps motion faster than the steps. Each step is solved by Newton's method, starting from the extrapolated
+/// states. A step that cannot be solved, e.g. near strong shocks that move over several cells, is halved.
 class BackwardDifference : public TimeScheme {
  public:
   BackwardDifference(FlowRun& run, double step);
@@ -22,7 +21,7 @@ class BackwardDifference : public TimeScheme {
   int unsolved() const override { return unsolved_; }
 
  private:
-  /// now * (next state) + known = area / step * (difference in time).
+  /// now * (next state) + known = area / step * (time difference).
   struct Weights {
     double next, last, before;
   };
@@ -38,13 +37,15 @@ class BackwardDifference : public TimeScheme {
   double newton(double rate, double size, double enough);
 
   FlowRun& run_;
-  double step_, last_step_ = 0;  ///< wanted; of the step before, 0 where there is none
+  double step_, last_step_ = 0;  ///< requested step; previous step, 0 if there is none
   ImplicitSystem system_;
   NewtonSystem newton_;
-  std::vector<char> held_;     ///< as NoSlipNodes::held_rows
-  NodeRows last_, before_;     ///< what is conserved at the owned nodes, at the step's start and one earlier
-  NodeRows known_;             ///< of the difference in time: area / step times what is known
-  NodeRows fluxes_, balance_;  ///< of the last measured states: net fluxes; these and the difference in time
+  std::vector<char> held_;  ///< as NoSlipNodes::held_rows
+  /// Conserved variables at the owned nodes, at the start of the step and one step earlier.
+  NodeRows last_, before_;
+  NodeRows known_;  ///< known part of the time difference: area / step times earlier states
+  /// At the last measured states: net fluxes; their sum with the time difference.
+  NodeRows fluxes_, balance_;
   NodeRows change_;
   std::vector<State> start_;
   int unsolved_ = 0;

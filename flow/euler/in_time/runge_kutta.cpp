@@ -16,7 +16,8 @@ namespace {
 constexpr double largest_explicit_cfl = 0.8;
 constexpr int most_halvings_of_step = 8;
 
-/// One stage of a step: the step's start and the stage before it advanced by an Euler step, mixed.
+/// One stage of a step: a combination of the start of the step and the previous stage advanced by an Euler
+/// step.
 struct Stage {
   double start, advanced;
 };
@@ -47,8 +48,8 @@ RungeKutta::RungeKutta(FlowRun& run, double cfl)
       wave_sums_(run.mesh.nodes()),
       start_(run.mesh.owned_nodes()) {}
 
-/// CFL number times the least over all nodes of all ranks: area over half the sum of wave speed times face
-/// size.
+/// CFL number times the minimum over all nodes of all ranks of area over half the sum of wave speed times
+/// face size.
 double RungeKutta::longest_step() {
   const auto speed = [&](std::int32_t node, Point normal) {
     const State& state = run_.states[node];
@@ -79,19 +80,19 @@ bool RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
   return take(step, fluxes, most_halvings_of_step);
 }
 
-/// The shortest steps keep the states of the first stage that failed: later ones spread the failure.
+/// With the shortest steps the states of the first failed stage are kept, as later stages spread the failure.
 bool RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings) {
   const std::vector<State> before = run_.states;
   for (std::size_t node = 0; node < start_.size(); ++node)
     start_[node] = run_.model.gas.conserved(before[node]);
-  std::optional<std::vector<State>> failed;  // of a rank without nodes too
+  std::optional<std::vector<State>> failed;  // also needed on ranks without nodes
   for (std::size_t k = 0; k < stages.size(); ++k) {
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
     if (halvings == 0 && !failed && !is_everywhere(is_gas)) failed = run_.states;
   }
   if (is_everywhere(is_gas)) return true;
   if (halvings == 0) {
-    if (is_everywhere(is_finite)) return true;  // what little is missing may come back
+    if (is_everywhere(is_finite)) return true;  // slightly unphysical values may recover
     run_.states = *failed;
     return false;
   }

@@ -6,12 +6,12 @@
 
 namespace quadloop::euler {
 
-/// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988). One that leaves a node
-/// without density or pressure, as an expansion round a corner may when it begins, is taken in halves, and
-/// these again.
+/// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988). A step that makes density or
+/// pressure negative at a node, e.g. in a starting expansion around a corner, is halved, repeatedly if
+/// necessary.
 class RungeKutta : public TimeScheme {
  public:
-  /// Of a larger `cfl` 0.8 is used.
+  /// `cfl` is limited to 0.8.
   RungeKutta(FlowRun& run, double cfl);
 
   double longest_step() override;

@@ -6,17 +6,17 @@
 
 namespace quadloop::euler {
 
-/// A number and its derivatives by `count` others: what is computed with such numbers instead of doubles
-/// comes out with its exact derivatives (forward differentiation). Comparisons look at the value alone, so a
-/// function with branches gets the derivative of the branch that it takes.
+/// A number with its derivatives with respect to `count` variables: computing with such numbers instead of
+/// doubles gives exact derivatives (forward-mode automatic differentiation). Comparisons use the value only,
+/// so a function with branches gets the derivative of the branch taken.
 template <std::size_t count>
 struct DualNumber {
   double value = 0;
   std::array<double, count> slopes{};
 
   constexpr DualNumber() = default;
-  constexpr DualNumber(double constant) : value{constant} {}  // as doubles do
-  /// The k-th of the others.
+  constexpr DualNumber(double constant) : value{constant} {}  // implicit, as for doubles
+  /// The k-th variable.
   static constexpr DualNumber variable(double value, std::size_t k) {
     DualNumber number(value);
     number.slopes[k] = 1;
@@ -61,7 +61,7 @@ struct DualNumber {
   }
 };
 
-/// A vector in the plane of any kind of number.
+/// A plane vector of any number type.
 template <class Real>
 struct VectorOf {
   Real x{}, y{};

@@ -14,7 +14,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// What the solver makes of a condition; none where it cannot use it.
+/// Returns the solver's condition; empty if it is not supported.
 Condition used_as(BoundaryCondition condition) {
   switch (condition.kind()) {
     case BoundaryCondition::wall:
@@ -30,7 +30,7 @@ Condition used_as(BoundaryCondition condition) {
   return Condition::none;
 }
 
-/// What the case or the mesh says of a boundary; the last choice counts.
+/// Returns the condition in the case or the mesh; the last choice counts.
 BoundaryCondition condition_of(const BoundaryEdges& boundary, const EulerOptions& options) {
   BoundaryCondition condition = boundary.condition;
   for (const BoundaryChoice& choice : options.boundaries) {
@@ -46,8 +46,8 @@ std::string fault_of_condition(const std::string& name, BoundaryCondition condit
              : fmt::format("'{}' has the condition '{}'", name, condition.word());
 }
 
-/// Throws InputError that names all boundaries whose condition is missing or of no use here, and the words
-/// that can be used.
+/// Throws InputError that names all boundaries with a missing or unsupported condition, and the supported
+/// ones.
 void require_conditions(const std::vector<const BoundaryEdges*>& boundaries, const EulerOptions& options) {
   std::vector<std::string> faults, tables;
   for (const BoundaryEdges* boundary : boundaries) {
@@ -57,10 +57,10 @@ void require_conditions(const std::vector<const BoundaryEdges*>& boundaries, con
     tables.push_back(fmt::format("[boundary.{}]", boundary->name));
   }
   if (faults.empty()) return;
-  std::vector<std::string> usable = condition_words();
-  std::erase_if(usable, [](const std::string& known) {
-    return used_as(*BoundaryCondition::named(known)) == Condition::none;
-  });
+  std::vector<std::string> usable;
+  for (const auto& [word, condition] : values_of_bc()) {
+    if (used_as(condition) != Condition::none) usable.emplace_back(word);
+  }
   const std::string last = usable.back();
   usable.pop_back();
   throw InputError(fmt::format("the flow solver cannot use these boundaries: {}; in {} set bc to {} or {}",
@@ -99,11 +99,11 @@ FluxOf<Real> inflow_flux(const FlowModel& model, const StateOf<Real>& state, con
                      : farfield_flux(model, state, normal);
 }
 
-/// Of the speed of sound: what is left where gas comes back so fast that hardly any leaves.
+/// Relative to the speed of sound: limit for strong backflow, where hardly any gas leaves.
 constexpr double slowest_choked = 0.1;
 
-/// What a gas that meets a vacuum has where its fan stands still: it leaves with the speed of sound. The wave
-/// that runs into the gas keeps entropy and speed + 2 sound / (gamma - 1).
+/// State at the sonic point of an expansion into vacuum. The wave that runs into the gas keeps entropy and
+/// speed + 2 sound / (gamma - 1).
 template <class Real, class Vector>
 StateOf<Real> choked(const Gas& gas, const StateOf<Real>& state, const Vector& normal) {
   using std::pow;
@@ -128,7 +128,7 @@ FluxOf<Real> outflow_flux(const FlowModel& model, const BoundaryModel& boundary,
       model.gas, {density, u + faster * normal.x, v + faster * normal.y, *boundary.pressure}, normal);
 }
 
-/// How a wall's push answers to the pressure.
+/// Derivative of the wall flux, which depends on the pressure only.
 void add_wall_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
   const auto& [rho, u, v, p] = state;
   const double g = gas.gamma - 1;
@@ -139,7 +139,7 @@ void add_wall_matrix(const Gas& gas, const State& state, Point normal, double fa
   }
 }
 
-/// Upwind between the state inside and one outside.
+/// Upwind derivative between the inner state and an outer one.
 void add_open_matrix(const Gas& gas, const State& state, const State& outside, Point normal, double factor,
                      Matrix4& sum) {
   add_flux_matrix(gas, state, normal, 0.5 * factor, sum);

@@ -12,20 +12,19 @@
 
 namespace quadloop::euler {
 
-/// What happens at a boundary. `none` stands for a boundary without edges; a `wall` is `no_slip` to a viscous
-/// flow.
+/// Boundary condition. `none` is for a boundary without edges; in viscous flow a `wall` is `no_slip`.
 enum class Condition { none, wall, no_slip, farfield, inflow, outflow, symmetry };
 
-/// Whether the forces count what the flow does there: a body does, a plane of symmetry does not.
+/// Whether the boundary counts for the forces: walls do, symmetry planes do not.
 bool feels_force(Condition condition);
 
 struct BoundaryModel {
   Condition condition = Condition::none;
-  std::optional<double> pressure = {};     ///< behind an outflow; none: a vacuum
-  std::optional<double> temperature = {};  ///< of a wall, else adiabatic
+  std::optional<double> pressure = {};     ///< back pressure of an outflow; empty: vacuum
+  std::optional<double> temperature = {};  ///< of a wall; empty: adiabatic
 };
 
-/// The gas, the free stream and what happens at each boundary of a mesh, in the mesh's order.
+/// The gas, the free stream and the condition of each boundary of a mesh, in the mesh's order.
 struct FlowModel {
   Gas gas;
   State free_stream{};
@@ -34,28 +33,28 @@ struct FlowModel {
   std::vector<BoundaryModel> boundaries;
 };
 
-/// Throws InputError for a boundary with edges whose condition the solver cannot use. *Collective.*
+/// Throws InputError for a boundary with edges whose condition is not supported. *Collective.*
 FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options);
 
-/// What leaves the domain through a boundary of length 1 with this outward unit normal, the flow inside being
-/// `state`.
+/// Returns the flux out of the domain through a boundary of length 1 with this outward unit normal, for the
+/// inner state `state`.
 ///
 ///   wall, no_slip, symmetry
 ///             the pressure alone
-///   farfield  the upwind flux against the free stream, which lets waves out: lift errs by the order of
-///             chord over far-field distance (Residual::surround for one with the lift's vortex)
-///   inflow    the free stream where it comes in faster than sound, else as farfield
-///   outflow   the flow itself where it is faster than sound, else with the given pressure and the density
-///             and speed that the outgoing waves then carry; where none is given as into a vacuum, with the
-///             speed of sound (Toro 2009, 4.6): what is carried out slower would leave the flow undecided
+///   farfield  the upwind flux against the free stream, which lets waves out: lift has an error of the order
+///             of chord over far-field distance (Residual::surround adds the vortex of the lift)
+///   inflow    the free stream if supersonic, else as farfield
+///   outflow   the inner state if supersonic, else with the given back pressure and the density and speed of
+///             the outgoing waves; without back pressure as into a vacuum, with the speed of sound (Toro
+///             2009, 4.6), as subsonic outflow would leave the flow undetermined
 ///
-/// For doubles, and for numbers with derivatives by the state or the normal.
+/// Works with doubles, and with dual numbers for derivatives with respect to the state or the normal.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> boundary_flux(const FlowModel& model, const BoundaryModel& boundary, const StateOf<Real>& state,
                            const Vector& normal);
 
-/// Adds `factor` times how that flux answers to the state inside, as an implicit step takes it: at a wall or
-/// a plane of symmetry its derivative, elsewhere first-order upwind against what is outside.
+/// Adds `factor` times the derivative of this flux with respect to the inner state, for implicit steps: exact
+/// at walls and symmetry planes, elsewhere first-order upwind against the outer state.
 void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
                          Point normal, double factor, Matrix4& sum);
 

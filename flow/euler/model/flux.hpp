@@ -8,7 +8,7 @@
 
 namespace quadloop::euler {
 
-/// What crosses a face of length 1 with this unit normal.
+/// Returns the flux through a face of length 1 with this unit normal.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> physical_flux(const Gas& gas, const StateOf<Real>& state, const Vector& normal) {
   const auto& [rho, u, v, p] = state;
@@ -16,8 +16,8 @@ FluxOf<Real> physical_flux(const Gas& gas, const StateOf<Real>& state, const Vec
   return {mass, mass * u + p * normal.x, mass * v + p * normal.y, mass * gas.total_enthalpy(state)};
 }
 
-/// How the physical flux through a normal of any length answers to a small change of the state: its
-/// derivative.
+/// Returns the change of the physical flux, for a normal of any length, due to a small change of the state:
+/// its derivative.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> flux_change(const Gas& gas, const StateOf<Real>& state, const StateOf<Real>& change,
                          const Vector& normal) {
@@ -30,18 +30,18 @@ FluxOf<Real> flux_change(const Gas& gas, const StateOf<Real>& state, const State
           d_mass * gas.total_enthalpy(state) + mass * d_enthalpy};
 }
 
-/// Sizes of the three wave speeds through a face, kept away from zero.
+/// Absolute values of the three wave speeds through a face, bounded away from zero.
 template <class Real>
 struct WaveSpeedsOf {
-  Real fast, slow, middle;  ///< |q + c|, |q - c|, |q|, with q the speed along the normal
+  Real fast, slow, middle;  ///< |q + c|, |q - c|, |q|, with q the normal velocity
 };
 using WaveSpeeds = WaveSpeedsOf<double>;
 
-/// An entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For the
-/// sound waves delta is a fifth of |q| + c, so that no expansion shock stands at a sonic line. For the middle
-/// wave, which carries entropy and shear, it is a fiftieth: enough to damp the odd-even decay of grid-aligned
-/// shocks, and little dissipation of the slow flow near a stagnation point. Beside a strong shock it is that
-/// share of the speed of sound at least (ShockSensor).
+/// Entropy fix after Harten (1983): a speed below delta becomes (speed^2 + delta^2) / (2 delta). For acoustic
+/// waves delta is 0.2 (|q| + c), which prevents expansion shocks at a sonic line. For the entropy and shear
+/// wave it is 0.02 (|q| + c): enough to damp the odd-even decoupling of grid-aligned shocks, with little
+/// dissipation of slow flow near a stagnation point. Near a strong shock it is at least `shock_share` times
+/// the speed of sound (ShockSensor).
 template <class Real = double>
 WaveSpeedsOf<Real> wave_speeds(const std::type_identity_t<Real>& along,
                                const std::type_identity_t<Real>& sound,
@@ -56,7 +56,7 @@ WaveSpeedsOf<Real> wave_speeds(const std::type_identity_t<Real>& along,
           std::max<Real>(kept(along, 0.02 * largest), shock_share * sound)};
 }
 
-/// The state between two states that linearises the jump from one to the other (Roe 1981).
+/// The average of two states that linearises the jump between them (Roe 1981).
 template <class Real>
 struct RoeAverageOf {
   Real density, x_velocity, y_velocity, enthalpy, sound;
@@ -75,9 +75,9 @@ RoeAverageOf<Real> roe_average(const Gas& gas, const StateOf<Real>& left, const 
   return {root_left * root_right, u, v, enthalpy, sqrt(sound_squared)};
 }
 
-/// |A| dW for the matrix A of the flux along a normal, at a state between, with its wave speeds made
-/// positive: middle dW + first [1, u, v, H] + second [0, nx, ny, q]. That form needs no eigenvectors.
-/// `pressure` is the change of pressure, `momentum` density times that of q.
+///|A| dW, where A is the flux Jacobian along a normal at an intermediate state: middle dW + first [1, u, v,
+/// H] + second [0, nx, ny, q]. This form needs no eigenvectors. `pressure` is the change of pressure,
+///`momentum` density times the change of q.
 template <class Real>
 struct UpwindPartOf {
   Real first, second;
@@ -93,11 +93,11 @@ UpwindPartOf<Real> upwind_part(const WaveSpeedsOf<Real>& waves, const std::type_
           even * momentum + odd * pressure / sound};
 }
 
-/// The share of the jump of speed across a face that waves of sound are to damp. In full it is as large as
-/// the flow's own speed allows where that is the speed of sound, and too large by their ratio where the flow
-/// is slower (Rieper 2011): there it is the Mach number, but not much below the free stream's, nor below
-/// `jump`, the change of pressure as a share of it: a shock or a vacuum into gas at rest needs all of it.
-/// Smooth where one passes the other, as they do all over the far field: derivatives are taken of it.
+/// Fraction of the jump of normal velocity across a face that the acoustic waves damp. Full damping is right
+/// at sonic speed and, in slower flow, too large by the ratio of speed of sound to speed (Rieper 2011): the
+/// fraction is then the Mach number, but not much less than that of the free stream, nor than `jump`, the
+/// relative change of pressure: a shock, or a vacuum into gas at rest, needs full damping. The blending is
+/// smooth, as the limits cross everywhere in the far field and derivatives are taken.
 template <class Real>
 Real slow_share(const Gas& gas, const RoeAverageOf<Real>& mean, const Real& jump) {
   using std::sqrt;
@@ -110,9 +110,9 @@ Real slow_share(const Gas& gas, const RoeAverageOf<Real>& mean, const Real& jump
   return sqrt(sqrt(least + (1 - least) * fourth));
 }
 
-/// What crosses a face of length 1 with this unit normal, which points from `left` to `right` (Roe 1981), in
-/// slow flow much as Rieper (2011) has it. The flux of two equal states is the physical one but for rounding.
-/// `shock_share` is the edge's by ShockSensor.
+/// Returns the Roe flux (1981) through a face of length 1 with this unit normal, which points from `left` to
+/// `right`; in slow flow with reduced damping, after Rieper (2011). The flux of two equal states is the
+/// physical one up to rounding. `shock_share` is that of the edge by ShockSensor.
 template <class Real = double, class Vector = Point>
 FluxOf<Real> roe_flux(const Gas& gas, const StateOf<Real>& left, const StateOf<Real>& right,
                       const Vector& normal, const std::type_identity_t<Real>& shock_share = 0) {

@@ -4,17 +4,17 @@
 
 namespace quadloop::euler {
 
-/// How a flux answers to a change of what is conserved: row by row.
+/// Derivative of a flux with respect to the conserved variables, row-major.
 using Matrix4 = std::array<double, 16>;
 
-/// middle times the identity, and what is left of a flux matrix's two waves of sound: with the change of
-/// pressure dp and of momentum along the normal dm (less the mean motion), (even_p dp + odd_m dm) [1, u, v,
-/// H] + (odd_p dp + even_m dm) [0, nx, ny, q].
+/// Decomposition of a flux matrix: `middle` times the identity, plus the contributions of the two acoustic
+/// waves: with the change of pressure dp and of momentum along the normal dm (minus the mean motion), (even_p
+/// dp + odd_m dm) [1, u, v, H] + (odd_p dp + even_m dm) [0, nx, ny, q].
 struct WaveMatrix {
   double middle = 0, first_pressure = 0, first_momentum = 0, second_pressure = 0, second_momentum = 0;
 };
 
-/// Where a flux matrix is taken, and the normal.
+/// State and normal of a flux matrix.
 struct MatrixPoint {
   double x_velocity, y_velocity, enthalpy;
   Point normal;
@@ -38,14 +38,14 @@ inline void add_matrix(const Gas& gas, const MatrixPoint& at, const WaveMatrix& 
   }
 }
 
-/// The physical flux's matrix at a state.
+/// Adds the matrix of the physical flux at a state.
 inline void add_flux_matrix(const Gas& gas, const State& state, Point normal, double factor, Matrix4& sum) {
   const MatrixPoint at{state[1], state[2], gas.total_enthalpy(state), normal};
   add_matrix(gas, at, {state[1] * normal.x + state[2] * normal.y, 0, 1, 1, 0}, factor, sum);
 }
 
-/// The flux's speeds, none less than a tenth of the largest (a fifth, of sound waves): a matrix whose middle
-/// wave all but vanishes makes implicit steps swing to and fro near stagnation points.
+/// Wave speeds of the flux, at least a tenth of the largest (a fifth for acoustic waves): with a vanishing
+/// middle wave, implicit steps oscillate near stagnation points.
 inline WaveSpeeds steadying_speeds(double along, double sound) {
   const double largest = std::abs(along) + sound;
   const WaveSpeeds waves = wave_speeds(along, sound);
@@ -53,10 +53,10 @@ inline WaveSpeeds steadying_speeds(double along, double sound) {
           std::max(waves.middle, 0.1 * largest)};
 }
 
-/// The same with its eigenvalues replaced by their sizes, at the mean of two states. Returns the largest of
-/// them. `skewness` is what SkewEdge adds to an edge's flux in units of the flux along the edge; the middle
-/// wave, which answers for it where the flow crosses the edge slowly, is made larger by that much of the
-/// flow's speed. `shock_share` is the flux's.
+/// Adds the matrix with the absolute values of its eigenvalues, at the mean of two states. Returns the
+/// largest eigenvalue. `skewness` is the contribution of SkewEdge to the flux relative to that along the
+/// edge; the middle wave, which stabilises it where the flow crosses the edge slowly, is increased by this
+/// fraction of the flow speed. `shock_share` is that of the flux.
 inline double add_upwind_matrix(const Gas& gas, const State& left, const State& right, Point normal,
                                 double factor, Matrix4& sum, double skewness = 0, double shock_share = 0) {
   const RoeAverage mean = roe_average(gas, left, right);

@@ -7,20 +7,20 @@
 
 namespace quadloop::euler {
 
-/// Density, x velocity, y velocity, pressure, in units of the free stream's density and speed of sound.
+/// Density, x velocity, y velocity, pressure, in units of free-stream density and speed of sound.
 using State = std::array<double, 4>;
 
-/// What crosses a face per time: mass, x momentum, y momentum, energy.
+/// Flux through a face per time: mass, x momentum, y momentum, energy.
 using Flux = std::array<double, 4>;
 
-/// Either in another kind of number: functions of them are templates, so that derivatives can be taken of the
-/// same ones (dual_number.hpp).
+/// States and fluxes of another number type: functions of them are templates, so that they can be
+/// differentiated (dual_number.hpp).
 template <class Real>
 using StateOf = std::array<Real, 4>;
 template <class Real>
 using FluxOf = std::array<Real, 4>;
 
-/// What is conserved, per area: mass, x momentum, y momentum, energy.
+/// Conserved variables per area: mass, x momentum, y momentum, energy.
 template <class Real>
 struct ConservedOf {
   Real mass, x_momentum, y_momentum, energy;
@@ -30,8 +30,7 @@ using Conserved = ConservedOf<double>;
 /// A perfect gas.
 struct Gas {
   double gamma = 1.4;  ///< ratio of specific heats
-  /// The Mach number below which roe_flux() takes no flow to be: that of a free stream slower than sound. 1:
-  /// all flows are taken as fast.
+  /// Lower limit of the Mach number in roe_flux(): that of a subsonic free stream. 1: no low-Mach correction.
   double least_mach = 1;
 
   template <class Real = double>
@@ -40,7 +39,7 @@ struct Gas {
     return sqrt(gamma * state[3] / state[0]);
   }
 
-  /// Per mass.
+  /// Per unit mass.
   template <class Real = double>
   Real total_enthalpy(const StateOf<Real>& state) const {
     return gamma / (gamma - 1) * state[3] / state[0] + 0.5 * (state[1] * state[1] + state[2] * state[2]);
@@ -56,7 +55,8 @@ struct Gas {
     return {w.mass, u, v, (gamma - 1) * (w.energy - 0.5 * (w.x_momentum * u + w.y_momentum * v))};
   }
 
-  /// The flow of density 1 and speed of sound 1 that moves at this Mach number, `degrees` above the x axis.
+  /// Returns the free stream with density 1 and speed of sound 1 at this Mach number, `degrees` above the x
+  /// axis.
   State free_stream(double mach, double degrees) const;
 };
 

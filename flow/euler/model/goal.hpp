@@ -8,13 +8,14 @@
 
 namespace quadloop {
 
-/// A number that a flow is solved for, as a coefficient: over dynamic pressure and reference length.
+/// An output functional, as a coefficient: divided by dynamic pressure and reference length.
 struct Goal {
   enum class Quantity {
-    lift,      ///< across the free stream
-    drag,      ///< along it
-    moment,    ///< nose up, over another reference length
-    pressure,  ///< the integral of the pressure, less the free stream's, over the length of the boundaries
+    lift,    ///< normal to the free stream
+    drag,    ///< along the free stream
+    moment,  ///< nose up, additionally divided by the reference length
+    /// Integral of the pressure, minus the free-stream pressure, over the length of the boundaries.
+    pressure,
   };
   static constexpr WordTable<Quantity, 4> words{{{"lift", Quantity::lift},
                                                  {"drag", Quantity::drag},
@@ -22,10 +23,10 @@ struct Goal {
                                                  {"pressure", Quantity::pressure}}};
 
   Quantity quantity = Quantity::drag;
-  /// Names of the boundaries that it is of; none: all that feel a force.
+  /// Names of its boundaries; empty: all with a force.
   std::vector<std::string> boundaries = {};
-  Point about = {};   ///< of a moment
-  double weight = 1;  ///< of its error beside those of other goals
+  Point about = {};   ///< reference point of a moment
+  double weight = 1;  ///< weight of its error relative to other functionals
 
   friend bool operator==(const Goal&, const Goal&) = default;
 };

@@ -12,12 +12,12 @@ namespace quadloop::euler {
 
 namespace {
 
-/// One cell's part of an edge's dual face.
+/// Contribution of one cell to the dual face of an edge.
 struct Facet {
   GlobalNodeId global_low, global_high;
   NodeId low, high;
-  Point normal;                        ///< as long as the facet
-  Skewness of_middle, left_over, sum;  ///< as of a SkewFace
+  Point normal;                        ///< its length is that of the facet
+  Skewness of_middle, left_over, sum;  ///< as in SkewFace
 };
 
 template <class Nodes>
@@ -29,18 +29,18 @@ Point centre_of(const HaloMesh& mesh, const Nodes& nodes) {
 
 Point middle(Point a, Point b) { return 0.5 * (a + b); }
 
-/// Turned by a right angle, clockwise.
+/// Rotates by 90 degrees clockwise.
 Point turned(Point v) { return {v.y, -v.x}; }
 
-/// The part of the edge from node a to node b of a counter-clockwise cell.
+/// Returns the facet of the edge from node a to node b of a counter-clockwise cell.
 Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
   const GlobalNodeId global_a = mesh.global(a), global_b = mesh.global(b);
   const double side = global_a < global_b ? 1 : -1;
   const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
               normal = side * turned(across);
   Facet facet{global_a, global_b, a, b, normal, {}, {}, {}};
-  if (is_quad) {  // half from the facet's own middle; the rest is what each triangle leaves over at an edge
-                  // for the next one
+  // half by the facet's own midpoint; the rest is what each triangle passes on from one edge to the next
+  if (is_quad) {
     facet.of_middle = {0.5 * across.x * normal, 0.5 * across.y * normal};
     facet.left_over = {side * along.x / 24 * turned(along), side * along.y / 24 * turned(along)};
     facet.sum = facet.of_middle + facet.left_over;
@@ -52,7 +52,7 @@ Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_q
   return facet;
 }
 
-/// The facets of an edge together.
+/// Adds up the facets of an edge.
 void add(const Facet& facet, Facet& sum) {
   sum.normal = sum.normal + facet.normal;
   sum.of_middle = sum.of_middle + facet.of_middle;
@@ -60,10 +60,10 @@ void add(const Facet& facet, Facet& sum) {
   sum.sum = sum.sum + facet.sum;
 }
 
-/// Less than this share of an edge's length squared is rounding.
+/// Relative to the squared edge length; less is rounding.
 constexpr double least_skew = 1e-10;
 
-/// Twice the area of a quadrilateral.
+/// Returns twice the area of a quadrilateral.
 double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3] - p[1]); }
 
 [[noreturn]] void refuse_edge(const char* what, Point a, Point b, const char* fault) {

@@ -10,45 +10,46 @@ namespace quadloop::euler {
 
 struct SkewFace;
 
-/// An edge between two nodes and the face of the median dual that it crosses.
+/// An edge between two nodes with its face of the median dual.
 struct DualEdge {
-  std::int32_t low, high;  ///< nodes of this rank; the first has the lower number over all ranks
-  Point normal;            ///< of length 1, from the first to the second
-  double size;  ///< the face's length: the two segments from the edge's middle to the centres of its cells,
-                ///< as a vector
-  Point half;   ///< from the first node to the edge's middle
+  std::int32_t low, high;  ///< local nodes, ordered by their global numbers
+  Point normal;            ///< unit normal from the first to the second node
+  /// Length of the face: of the vector sum of the two segments from the edge's midpoint to the centres of its
+  /// cells.
+  double size;
+  Point half;  ///< from the first node to the edge's midpoint
 };
 
-/// What an edge's dual face lacks of symmetry about the edge's middle, where cells beside it are
-/// quadrilaterals: the integral over the face of place (from the middle) times normal. A flux that varies
-/// linearly carries that times its gradient beside its value in the middle. In triangles these terms cancel
-/// round each node; what is here counts from that, so that the fluxes of a linear field add up exactly on any
-/// mesh, but for long thin cells on curved walls: there it fades, since it would make the scheme unstable.
+/// Correction of an edge's dual face that is not symmetric about the edge's midpoint, next to quadrilaterals:
+/// the integral over the face of position (relative to the midpoint) times normal. A linearly varying flux
+/// contributes this times its gradient in addition to its value at the midpoint. In triangles these terms
+/// cancel around each node; the correction is relative to that, so that the fluxes of a linear field sum
+/// exactly on any mesh. It fades out for long thin cells on curved walls, where it would be unstable.
 struct SkewEdge {
-  std::size_t edge;      ///< into the edges
-  Point with_x, with_y;  ///< normals that go with the gradient along x and along y
+  std::size_t edge;      ///< index into the edges
+  Point with_x, with_y;  ///< normals for the gradient along x and along y
 };
 
-/// A boundary edge, the domain to its left.
+/// A boundary edge with the domain to its left.
 struct BoundaryFace {
   std::int32_t from, to;
   std::int32_t boundary;
-  Point normal;      ///< of length 1, out of the domain
-  double half_size;  ///< each of its two nodes has one half of it
-  double blend;      ///< 1; less at thin cells, to 0: how much of the other node counts in a half
+  Point normal;      ///< unit normal out of the domain
+  double half_size;  ///< half the face length, the part of each of its two nodes
+  double blend;      ///< weight of the other node in a half: 1; less, down to 0, at thin cells
 };
 
 /// The median dual of a mesh around this rank's owned nodes: each node's part of a cell is bounded by the
-/// middles of its two edges and the mean of the cell's nodes. Edges and boundary faces come in the order of
-/// their nodes' numbers over all ranks, so that what a node adds up over them has the same bits on any number
-/// of ranks. Every edge and face that touches an owned node is there; nodes that are not owned may lack some.
+/// midpoints of its two edges and the mean of the cell's nodes. Edges and boundary faces are ordered by the
+/// global numbers of their nodes, so that sums over them are bitwise independent of the number of ranks. All
+/// edges and faces that touch an owned node are present; for other nodes some may be missing.
 class DualMesh {
  public:
-  /// `mesh` must outlive it and stay as it is. Throws InputError where an edge of one cell alone is on no
+  /// `mesh` must outlive the object unchanged. Throws InputError if an edge with a single cell is on no
   /// boundary. *Collective.*
   DualMesh(const Communicator& comm, const Mesh& mesh);
 
-  std::int64_t first_node() const { return first_node_; }  ///< as of the mesh
+  std::int64_t first_node() const { return first_node_; }  ///< as in the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
   std::size_t nodes() const { return halo_.points().size(); }
   bool is_owned(std::int32_t node) const { return node < owned_nodes(); }
@@ -73,7 +74,7 @@ class DualMesh {
   IdVector<NodeId, double> areas_;
   std::vector<DualEdge> edges_;
   std::vector<SkewEdge> skew_edges_;
-  std::vector<char> open_;  ///< while it is built, for each edge: 1 where it has one cell and no boundary yet
+  std::vector<char> open_;  ///< during construction, for each edge: 1 if it has one cell and no boundary yet
   std::vector<BoundaryFace> faces_;
 };
 

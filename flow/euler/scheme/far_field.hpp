@@ -6,19 +6,18 @@
 
 namespace quadloop::euler {
 
-/// The flow outside the far field: the free stream, or with the compressible point vortex that has the body's
-/// lift (Thomas and Salas 1986), for a free stream slower than sound. It stands in the middle of the box of
-/// the walls that feel a force. Density and pressure follow from the speed by constant total enthalpy and
-/// entropy.
+/// The flow outside the far field: the free stream, optionally with the compressible point vortex of the lift
+/// (Thomas and Salas 1986), for a subsonic free stream. The vortex is at the centre of the bounding box of
+/// the walls with a force. Density and pressure follow from the speed by constant total enthalpy and entropy.
 class FarField {
  public:
-  /// Without lift. *Collective.*
+  /// Starts without lift. *Collective.*
   FarField(const Communicator& comm, const DualMesh& mesh, const FlowModel& model);
 
-  /// `lift` is lift per depth over the free stream's density and speed: the circulation, clockwise above 0.
+  /// Circulation, positive clockwise: lift per unit depth over free-stream density and speed.
   void set_circulation(double circulation) { circulation_ = circulation; }
 
-  /// The state outside at a place.
+  /// Returns the outer state at a point.
   State at(Point place) const;
 
  private:

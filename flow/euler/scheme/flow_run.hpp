@@ -7,7 +7,7 @@
 
 namespace quadloop::euler {
 
-/// A flow while it is solved: what it is solved on, which must outlive it, and what changes meanwhile.
+/// A flow during its solution: the problem, which must outlive it, and the changing data.
 struct FlowRun {
   const Communicator& comm;
   const EulerOptions& options;
@@ -15,7 +15,7 @@ struct FlowRun {
   const FlowModel& model;
   Residual residual;
   std::vector<State> states;  ///< of each node
-  bool is_carried = false;    ///< the states are those of a flow that was given
+  bool is_carried = false;    ///< whether the states are those of a given flow
 };
 
 }  // namespace quadloop::euler

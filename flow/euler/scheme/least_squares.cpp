@@ -4,7 +4,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// One over the square of half an edge's length: the factor 4 cancels.
+/// Inverse square of half the edge length: the factor 4 cancels.
 double weight(const DualEdge& edge) { return 1 / dot(edge.half, edge.half); }
 
 }  // namespace

@@ -64,7 +64,7 @@ void Limiter::find_changes(const std::vector<Gradient>& gradients) {
   }
 }
 
-/// The factors fall as the change grows, so that the largest change of a node, up or down, decides.
+/// Factors decrease with the change, so the largest change of a node in each direction decides.
 void Limiter::find_factors(const std::vector<State>& states) {
   for (std::size_t node = 0; node < factors_.size(); ++node) {
     for (std::size_t k = 0; k < 4; ++k) {

@@ -13,7 +13,7 @@ NoSlipNodes::NoSlipNodes(const DualMesh& mesh, const FlowModel& model) : gamma_{
       if (mesh.is_owned(node)) nodes_.push_back({node, energy});
     }
   }
-  // where two walls meet the hotter counts
+  // where two walls meet, the hotter one counts
   std::ranges::sort(nodes_, [](const Node& a, const Node& b) {
     return a.node != b.node ? a.node < b.node : a.energy > b.energy;
   });

@@ -8,35 +8,35 @@
 
 namespace quadloop::euler {
 
-/// The nodes on walls to which a viscous flow sticks. What they conserve is partly known: no momentum, and at
-/// a wall of given temperature an energy that the density alone decides; the rows of these in an implicit
-/// step say so.
+/// The nodes on no-slip walls. Their conserved variables are partly prescribed: zero momentum and, at an
+/// isothermal wall, an energy that depends on the density alone. The corresponding rows of an implicit step
+/// express this.
 class NoSlipNodes {
  public:
   NoSlipNodes(const DualMesh& mesh, const FlowModel& model);
 
   bool empty() const { return nodes_.empty(); }
 
-  /// Brings the states to rest, and to the wall's temperature.
+  /// Sets the velocity to 0, and the temperature of isothermal walls.
   void hold(std::vector<State>& states) const;
 
-  /// Takes the momentum out of the owned nodes' net fluxes: what is left of it is the wall's friction, the
-  /// force per depth on the fluid. At walls of given temperature the energy too.
+  /// Moves the momentum of the owned nodes' net fluxes to `friction`: the wall friction, as force per unit
+  /// depth on the fluid. At isothermal walls the energy flux is removed too.
   void take_friction(std::vector<Flux>& sums, std::vector<Point>& friction) const;
 
-  /// Of each of so many nodes the last of the rows, from 1 on, that say what is known; 0 where none does.
+  /// Returns for each of `nodes` nodes the last prescribed row, counted from 1; 0 if there is none.
   std::vector<char> held_rows(std::size_t nodes) const;
 
-  /// Writes these rows into the owned nodes' diagonal blocks; in other blocks they are 0.
+  /// Writes the prescribed rows to the owned nodes' diagonal blocks; in other blocks they are 0.
   void hold(std::vector<Matrix4>& diagonal) const;
 
  private:
   struct Node {
     std::int32_t node;
-    double energy;  ///< per mass at rest, of the wall's temperature; 0: adiabatic
+    double energy;  ///< per unit mass at rest, at the wall temperature; 0: adiabatic
   };
   double gamma_;
-  std::vector<Node> nodes_;  ///< owned, ascending
+  std::vector<Node> nodes_;  ///< owned nodes, ascending
 };
 
 }  // namespace quadloop::euler

@@ -6,7 +6,7 @@ namespace quadloop::euler {
 
 namespace {
 
-/// What an edge's reconstructed density and pressure must keep of the node's own.
+/// Fraction of the node's value that reconstructed density and pressure must keep.
 constexpr double least_share = 0.1;
 
 State extrapolated(const State& state, const Gradient& gradient, double x, double y) {
@@ -142,7 +142,7 @@ void Residual::add_skew(const std::vector<State>& states) {
   }
 }
 
-/// A boundary face, with a state inside.
+/// Flux through a boundary face, for an inner state.
 Flux Residual::through(const BoundaryFace& face, const State& state) const {
   const BoundaryModel& boundary = model_.boundaries[face.boundary];
   if (!far_field_ || boundary.condition != Condition::farfield)

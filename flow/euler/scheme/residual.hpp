@@ -14,36 +14,37 @@
 
 namespace quadloop::euler {
 
-/// The net flux out of each owned node's dual cell: second order, with states at the middles of edges from
-/// limited gradients and Roe's flux between them; a viscous flow's less what gradients not limited carry.
+/// The net flux out of each owned node's dual cell: second order, with Roe fluxes between states at the
+/// midpoints of edges from limited gradients; in viscous flow minus the viscous fluxes of unlimited
+/// gradients.
 class Residual {
  public:
-  /// Both must outlive it.
+  /// Mesh and model must outlive the object.
   Residual(const DualMesh& mesh, const FlowModel& model, const EulerOptions& options);
 
-  /// `states` has an entry for each node; those of copies are brought up to date first. The result has one
-  /// for each node too, of which those of owned nodes count; what no-slip walls decide is 0. *Collective.*
+  /// `states` has an entry for each node; those of ghosts are updated first. The result has an entry for each
+  /// node, valid for owned nodes; components prescribed by no-slip walls are 0. *Collective.*
   const std::vector<Flux>& evaluate(std::vector<State>& states);
 
   const NoSlipNodes& no_slip() const { return no_slip_; }
-  /// The force per depth on the fluid by the walls' friction, by the last evaluation: an entry for each node,
-  /// none where the flow is not viscous.
+  /// Friction force of the walls on the fluid per unit depth, from the last evaluation: an entry for each
+  /// node; empty in inviscid flow.
   const std::vector<Point>& friction() const { return friction_; }
 
-  /// What lies beyond far fields from now on: the free stream, until it is given a vortex.
+  /// Sets the flow beyond far-field boundaries; initially the free stream.
   void surround(const FarField& far_field) { far_field_ = far_field; }
 
-  /// From now on the limiter's factors stay as they are, and so do the shock sensor's shares.
+  /// Freezes the limiter's factors and the shock sensor's shares.
   void freeze_limiter();
   void release_limiter();
   bool limiter_is_live() const { return limiter_ && !limiter_->frozen(); }
   bool limiter_is_frozen() const { return limiter_ && limiter_->frozen(); }
 
-  /// What the last evaluation was made with: gradients of all nodes, limited.
+  /// Limited gradients of all nodes, from the last evaluation.
   const std::vector<Gradient>& gradients() const { return gradients_; }
   const LeastSquares& least_squares() const { return least_squares_; }
   const Limiter* limiter() const { return limiter_ ? &*limiter_ : nullptr; }
-  /// There is one where there is a limiter.
+  /// Null without a limiter.
   const ShockSensor* shocks() const { return shocks_ ? &*shocks_ : nullptr; }
   double shock_share(std::int32_t a, std::int32_t b) const { return shocks_ ? shocks_->share(a, b) : 0; }
 
@@ -65,23 +66,23 @@ class Residual {
   std::vector<Flux> sums_;
   NoSlipNodes no_slip_;
   std::optional<FarField> far_field_;
-  std::vector<ViscousGradient> viscous_gradients_;  ///< of a viscous flow
+  std::vector<ViscousGradient> viscous_gradients_;  ///< in viscous flow
   std::vector<Point> friction_;
 };
 
-/// On both sides of an edge's middle.
+/// States on both sides of an edge's midpoint.
 struct EdgeStates {
   State left, right;
-  bool reconstructed;  ///< else they are the nodes' own
+  bool reconstructed;  ///< false: the states of the nodes
 };
 
-/// Where a reconstructed density or pressure would come near zero, the edge takes the nodes' own states:
+/// If a reconstructed density or pressure would be close to zero, the edge uses the states of the nodes:
 /// first order.
 EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& states,
                             const std::vector<Gradient>& gradients);
 
-/// What a SkewEdge adds to the flux through its edge's face, with the means of the two nodes' states and
-/// gradients.
+/// Returns the contribution of a SkewEdge to the flux through its edge's face, from the means of the two
+/// nodes' states and gradients.
 template <class Real = double>
 FluxOf<Real> skew_flux(const Gas& gas, const SkewEdge& skew, const StateOf<Real>& state,
                        const StateOf<Real>& along_x, const StateOf<Real>& along_y) {
@@ -90,9 +91,9 @@ FluxOf<Real> skew_flux(const Gas& gas, const SkewEdge& skew, const StateOf<Real>
   return {from_x[0] + from_y[0], from_x[1] + from_y[1], from_x[2] + from_y[2], from_x[3] + from_y[3]};
 }
 
-/// What acts on one node's half of a boundary face: nearer to the node's own state than the half's middle is,
-/// which makes up for what the edge along the boundary leaves over (see SkewEdge). The fluxes of a linear
-/// field then add up exactly there too.
+/// Returns the state at one node's half of a boundary face. It is closer to the node's own state than the
+/// half's midpoint; this compensates what the boundary edge passes on (see SkewEdge), so that the fluxes of a
+/// linear field sum exactly there too.
 inline State state_at_half(const BoundaryFace& face, const State& own, const State& other) {
   State state;
   for (std::size_t k = 0; k < 4; ++k) state[k] = own[k] + face.blend * (other[k] - own[k]) / 6;

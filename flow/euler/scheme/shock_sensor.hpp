@@ -8,14 +8,14 @@
 
 namespace quadloop::euler {
 
-/// Of two pressures, over the lower of them or the least that counts.
+/// Returns the jump of two pressures relative to the lower one, or to `least` if that is larger.
 template <class Real = double>
 Real pressure_jump(const Real& a, const Real& b, double least) {
   return (std::max(a, b) - std::min(a, b)) / std::max<Real>(std::min(a, b), least);
 }
 
-/// How much the middle wave is to be damped where such a jump is: it rises smoothly from 0 at a jump of 0.7
-/// to 1 at 1.2.
+/// Returns the additional damping of the middle wave at such a jump: rises smoothly from 0 at 0.7 to 1 at
+/// 1.2.
 template <class Real = double>
 Real shock_share(const Real& jump) {
   constexpr double weakest = 0.7, range = 0.5;
@@ -25,37 +25,37 @@ Real shock_share(const Real& jump) {
   return x * x * (3 - 2 * x);
 }
 
-/// Where strong shocks stand. Roe's flux lets a shock that lies along cells break up (the carbuncle, Quirk
-/// 1994): nothing damps what varies along it. At nodes with a strong pressure jump to a neighbour the middle
-/// wave of all their edges becomes as fast as sound, so that the flux turns into that of Harten, Lax and van
-/// Leer with Einfeldt's speeds (1988), which is free of this; most other edges know nothing of it. Shocks of
-/// a normal Mach number below some 1.3, which spread over two or three edges, do not count.
+/// Detects strong shocks. Roe's flux lets a shock aligned with cells break up (the carbuncle, Quirk 1994), as
+/// nothing damps variations along it. At nodes with a strong pressure jump to a neighbour the middle wave of
+/// all edges is made as fast as sound, which gives the flux of Harten, Lax and van Leer with Einfeldt's
+/// speeds (1988), which is free of the carbuncle; most other edges are unaffected. Shocks of a normal Mach
+/// number below about 1.3, which spread over two or three edges, do not count.
 class ShockSensor {
  public:
-  /// The mesh must outlive the sensor. Jumps count relative to no less than that pressure.
+  /// The mesh must outlive the sensor. Jumps are relative to at least `least_pressure`.
   ShockSensor(const DualMesh& mesh, double least_pressure);
 
-  /// Looks at the states, whose copies are up to date. *Collective.*
+  /// Evaluates the states; ghosts must be up to date. *Collective.*
   void find(const std::vector<State>& states);
 
-  /// Of an edge between these nodes.
+  /// Damping of the edge between these nodes.
   double share(std::int32_t a, std::int32_t b) const { return shares_[decider(a, b)]; }
-  /// Which of the two has the larger share.
+  /// Returns the node with the larger share.
   std::int32_t decider(std::int32_t a, std::int32_t b) const { return shares_[b] > shares_[a] ? b : a; }
 
-  /// From now on the shares stay as they were in the last call.
+  /// Freezes the shares of the last call.
   void freeze() { frozen_ = true; }
   void release() { frozen_ = false; }
   bool frozen() const { return frozen_; }
 
-  /// What the last call found at an owned node: the largest jump to a neighbour.
+  /// Largest jump to a neighbour of an owned node, from the last call.
   double jump(std::int32_t node) const { return jumps_[node]; }
   double least_pressure() const { return least_pressure_; }
 
  private:
   const DualMesh& mesh_;
   double least_pressure_;
-  std::vector<double> jumps_, shares_;  ///< of each node
+  std::vector<double> jumps_, shares_;  ///< for each node
   bool frozen_ = false;
 };
 

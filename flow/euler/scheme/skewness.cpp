@@ -6,10 +6,10 @@ namespace quadloop::euler {
 
 namespace {
 
-constexpr double farthest = 0.9;         ///< as Nearness::reach counts
-constexpr double least_size = 1.0 / 20;  ///< of a face, in lengths of its edge
+constexpr double farthest = 0.9;         ///< in units of Nearness::reach
+constexpr double least_size = 1.0 / 20;  ///< size of a face relative to its edge length
 
-/// 1 up to the limit, nothing from one and a half of it on.
+/// 1 up to the limit, decreasing to 0 at 1.5 times the limit.
 double fading(double ratio) { return std::clamp(3 - 2 * ratio, 0.0, 1.0); }
 
 }  // namespace

@@ -13,7 +13,7 @@ Point mean_along(Point low, Point high, double change, Point way) {
   return mean + (change - dot(mean, way)) / dot(way, way) * way;
 }
 
-/// Heat flows by this times the gradient of the temperature.
+/// Heat flux over the temperature gradient.
 double conductivity(const FlowModel& model) {
   return model.viscosity / ((model.gas.gamma - 1) * model.prandtl);
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* save_as = "save the mesh as .vtu, .msh (Gmsh), .su2 or .cgns";
 constexpr const char* is_geometry = "it contains a geometry; a mesh is required here";
 
-/// A kind whose files begin so, after blanks; or have the text anywhere in their first bytes.
+/// A kind of file identified by its beginning, after blanks, or by a text within its first bytes.
 struct Signature {
   std::string_view begins, contains;
   const char* what;
@@ -80,7 +80,7 @@ std::string first_bytes(const std::string& path) {
 }
 
 std::string_view without_blanks_before(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the mark of UTF-8
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // UTF-8 byte order mark
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? std::string_view() : text.substr(first);
 }
@@ -93,7 +93,7 @@ bool is_binary_stl(std::string_view begins, std::uintmax_t size) {
   return triangles > 0 && size == 84 + std::uintmax_t{50} * triangles;
 }
 
-/// HDF5 is the container of many formats; the suffix tells which.
+/// HDF5 is the container of many formats, distinguished by the suffix.
 FileKind hdf5_kind(const std::string& path) {
   const std::string name = small_letters(path);
   if (name.ends_with(".cas.h5") || name.ends_with(".msh.h5"))

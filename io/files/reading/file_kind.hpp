@@ -6,14 +6,14 @@
 
 namespace quadloop {
 
-/// What a file is by its first bytes, whatever its name.
+/// The kind of a file by its first bytes, independent of its name.
 struct FileKind {
   std::string what;                   ///< "a VTK file in the legacy format", for a message
-  std::vector<std::string> suffixes;  ///< of names under which it is read; empty where no reader takes it
-  std::string cure;                   ///< what to do where none does
+  std::vector<std::string> suffixes;  ///< suffixes under which it is read; empty if there is no reader
+  std::string cure;                   ///< remedy if there is none
 };
 
-/// Nothing where the first bytes are those of no known kind, or the path is no regular file.
+/// Empty if the first bytes are of no known kind, or the path is not a regular file.
 std::optional<FileKind> kind_of_file(const std::string& path);
 
 }  // namespace quadloop

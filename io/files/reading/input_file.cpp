@@ -38,7 +38,7 @@ class InputDescriptor {
   InputDescriptor(const InputDescriptor&) = delete;
   InputDescriptor& operator=(const InputDescriptor&) = delete;
 
-  /// 0 at the end.
+  /// Returns 0 at the end.
   std::size_t read(char* into, std::size_t size, const std::string& path) const {
     for (;;) {
       const ssize_t got = ::read(number_, into, size);
@@ -54,7 +54,7 @@ class InputDescriptor {
 
 namespace {
 
-/// Before anything is opened: that alone waits for ever on a pipe that nobody writes to.
+/// Checked before opening, which alone would block on a pipe without a writer.
 struct stat require_readable_kind(const std::string& path, bool pipes) {
   struct stat found = {};
   if (::stat(path.c_str(), &found) != 0) refuse_opening(path, errno);

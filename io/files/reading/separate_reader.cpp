@@ -25,10 +25,10 @@ namespace {
 
 constexpr const char* cure = "; take it from a copy, or write it anew";
 
-/// What reading a file may cost: generous for every whole one, also for thousands of boundaries (20 s for 100
-/// MB) and packed arrays.
+/// Limits for reading a file: generous for any intact one, even with thousands of boundaries (20 s for 100
+/// MB) or packed arrays.
 struct Allowance {
-  std::uint64_t seconds;  ///< of the processor; ten times as much by the clock
+  std::uint64_t seconds;  ///< CPU time; ten times as much wall clock time
   std::uint64_t bytes;
 };
 
@@ -40,7 +40,8 @@ Allowance allowance_for(const std::string& path) {
   return {5 + size / (std::uint64_t{1} << 19), (std::uint64_t{1} << 28) + 64 * size};
 }
 
-/// Where the variable of the environment says; else beside the program, in the build, where it is installed.
+/// Returns the path in the environment variable; else next to the program, in the build, or where it is
+/// installed.
 std::string find_reader(const std::string& path) {
   std::vector<std::string> places;
   if (const char* named = std::getenv("QUADLOOP_READER"); named != nullptr) {
@@ -54,16 +55,16 @@ std::string find_reader(const std::string& path) {
   for (const std::string& place : places) {
     if (::access(place.c_str(), X_OK) == 0) return place;
   }
-  throw InputError(fmt::format("{}: cannot be read: the program that reads such files is not at {}; install "
-                               "quadloop again, or set QUADLOOP_READER to the path of quadloop-reader",
-                               path, fmt::join(places, ", nor at ")));
+  throw InputError(
+      fmt::format("{}: cannot be read: the program that reads such files is not at {}; install "
+                  "quadloop again, or set QUADLOOP_READER to the path of quadloop-reader",
+                  path, fmt::join(places, ", nor at ")));
 }
 
-/// What a spawned process begins with.
+/// Descriptors and signals of a spawned process.
 class SpawnSettings {
  public:
-  /// `output` becomes the reader's descriptor; of the others it has none. Its signals are those of a new
-  /// program.
+  /// The reader gets `output` as its descriptor and no others. Its signals are those of a new program.
   explicit SpawnSettings(int output) {
     posix_spawn_file_actions_init(&files_);
     posix_spawn_file_actions_adddup2(&files_, output, ReaderProtocol::descriptor);
@@ -85,7 +86,7 @@ class SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  /// 0, or an errno.
+  /// Returns 0, or an errno.
   int start(const std::vector<std::string>& arguments, pid_t& id) const {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
@@ -98,7 +99,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// The reader, which is waited for however the program goes on.
+/// The reader process, which is waited for in any case.
 class Child {
  public:
   explicit Child(pid_t id) : id_{id} {}
@@ -142,14 +143,14 @@ class Child {
   throw Error(static_cast<ExitStatus>(status), message);
 }
 
-/// What the reader has to say, up to its end. `has_begun` tells whether it has said anything.
+/// Receives the reader's data up to its end. `has_begun`: whether it has sent anything.
 void take(PipeReader& pipe, const std::string& path, const std::string& reader, const Allowance& allowance,
-          const std::function<void(PipeReader&)>& receive, bool& has_begun) {
+          std::uint64_t wanted_begin, const std::function<void(PipeReader&)>& receive, bool& has_begun) {
   std::uint64_t begin = 0, end = 0;
   int status = 0;
   pass(pipe, begin);
   has_begun = true;
-  if (begin != ReaderProtocol::begin)
+  if (begin != wanted_begin)
     throw InputError(path + ": cannot be read: " + reader +
                      " is of another version than this program; install quadloop again");
   pass(pipe, status);
@@ -166,7 +167,7 @@ void take(PipeReader& pipe, const std::string& path, const std::string& reader, 
 namespace detail {
 
 void run_reader(const std::string& kind, const std::string& path, const std::vector<std::string>& more,
-                const std::function<void(PipeReader&)>& receive) {
+                std::uint64_t begin, const std::function<void(PipeReader&)>& receive) {
   const Allowance allowance = allowance_for(path);
   const std::string reader = find_reader(path);
   std::vector<std::string> arguments{reader, std::to_string(allowance.seconds),
@@ -183,15 +184,16 @@ void run_reader(const std::string& kind, const std::string& path, const std::vec
     throw InputError(path + ": cannot be read: " + reader + " cannot be started: " + std::strerror(failure));
   }
   Child child(id);
-  PipeReader pipe(ends[0]);  // closed before the reader is waited for, which then has nobody to write to
+  PipeReader pipe(ends[0]);  // closed before waiting for the reader, which then has no receiver
   bool has_begun = false;
   try {
-    take(pipe, path, reader, allowance, receive, has_begun);
+    take(pipe, path, reader, allowance, begin, receive, has_begun);
   } catch (const PipeEnded&) {
     const int status = child.wait_status();
     if (!has_begun && WIFEXITED(status))
-      throw InputError(fmt::format("{}: cannot be read: {} ended at once, with status {}; install quadloop again",
-                                   path, reader, WEXITSTATUS(status)));
+      throw InputError(
+          fmt::format("{}: cannot be read: {} ended at once, with status {}; install quadloop again", path,
+                      reader, WEXITSTATUS(status)));
     refuse_ending(path, status, allowance);
   }
 }

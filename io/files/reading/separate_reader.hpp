@@ -8,35 +8,41 @@
 
 namespace quadloop {
 
-/// How quadloop-reader (io/reader) and a program that starts it talk: `quadloop-reader SECONDS BYTES KIND PATH
-/// ...`, what it may take of processor time and of memory before the rest. On its descriptor it sends `begin`,
-/// a status, the value or the text of an error, `end`.
+/// Protocol between quadloop-reader (io/reader) and the program that starts it with `quadloop-reader SECONDS
+/// BYTES KIND PATH ...`; the first two arguments limit CPU time and memory. On its descriptor the reader
+/// sends `begin`, a status, the value or an error message, `end`.
 struct ReaderProtocol {
   static constexpr int descriptor = 3;
-  static constexpr std::uint64_t begin = 0x71'6c'72'65'61'64'00'01;  ///< the last two bytes: its version
-  static constexpr std::uint64_t end = ~begin;
-  static constexpr int done = 0, too_much_memory = -1;  ///< else an ExitStatus
+  static constexpr std::uint64_t version = 1, end = 0x71'6c'72'65'61'64'65'72;
+
+  /// Before a value of this type.
+  template <class Value>
+  static std::uint64_t begin() {
+    return signature_of<Value>() + version;
+  }
+  static constexpr int done = 0, too_much_memory = -1;  ///< other values: an ExitStatus
 };
 
 namespace detail {
 
-/// What read_separately() does, whatever is read.
+/// Implementation of read_separately() for any data.
 void run_reader(const std::string& kind, const std::string& path, const std::vector<std::string>& more,
-                const std::function<void(PipeReader&)>& receive);
+                std::uint64_t begin, const std::function<void(PipeReader&)>& receive);
 
 }  // namespace detail
 
-/// What a library reads from the file at `path`, in a process of its own, the program quadloop-reader, so that
-/// a damaged file can bring down the library but not this process: libcgns and libhdf5 trust what a file says
-/// of itself. `kind` and `more` are arguments of that program, which sends a Result (see pass()). It may take
-/// processor time and memory in proportion to the file, and knows nothing of MPI. Its Error is thrown here;
-/// where it crashes, hangs or asks for too much, an InputError says that the file is damaged; another where
-/// the program is not there. Not collective.
+/// Reads the file at `path` with a library in a separate process, the program quadloop-reader, so that a
+/// damaged file can crash the library but not this process: libcgns and libhdf5 do not validate files. `kind`
+/// and `more` are arguments of that program, which sends a Result (see pass()). Its CPU time and memory are
+/// limited in proportion to the file size, and it does not use MPI. Its Error is thrown here; if it crashes,
+/// hangs or exceeds the limits, an InputError says that the file is damaged; another one if the program is
+/// missing. Not collective.
 template <class Result>
 Result read_separately(const std::string& kind, const std::string& path,
                        const std::vector<std::string>& more = {}) {
   Result result{};
-  detail::run_reader(kind, path, more, [&](PipeReader& pipe) { pass(pipe, result); });
+  detail::run_reader(kind, path, more, ReaderProtocol::begin<Result>(),
+                     [&](PipeReader& pipe) { pass(pipe, result); });
   return result;
 }
 

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr std::size_t room = std::size_t{1} << 16;  // bytes gathered before a call of the system
+constexpr std::size_t room = std::size_t{1} << 16;  // bytes collected per system call
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace quadloop {
 
-/// Sends values through a pipe, whose end it owns. Where nobody reads any more, what is put is lost.
+/// Sends values through a pipe, whose end it owns. If there is no reader, data are discarded.
 class PipeWriter {
  public:
   static constexpr bool reads = false;
@@ -30,14 +30,15 @@ class PipeWriter {
   std::vector<char> waiting_;
 };
 
-/// Thrown where the pipe ends before the values do.
+/// Thrown if the pipe ends before the values do.
 struct PipeEnded {};
 
-/// Receives them.
+/// Receives values.
 class PipeReader {
  public:
   static constexpr bool reads = true;
-  static constexpr std::size_t largest_step = std::size_t{1} << 22;  // values; what a wrong size can cost
+  // number of values; limits the memory that a wrong size can allocate
+  static constexpr std::size_t largest_step = std::size_t{1} << 22;
 
   explicit PipeReader(int descriptor);
   ~PipeReader();
@@ -49,7 +50,17 @@ class PipeReader {
  private:
   int descriptor_;
   std::vector<char> room_;
-  std::size_t begin_ = 0, end_ = 0;  ///< of what waits in it
+  std::size_t begin_ = 0, end_ = 0;  ///< of the unread bytes in it
+};
+
+/// Takes down how a type is sent, from a value of it that holds nothing.
+class PipeSignature {
+ public:
+  static constexpr bool reads = false;
+
+  void bytes(const void*, std::size_t size) { number = (number ^ size) * 0x100000001b3; }
+
+  std::uint64_t number = 0xcbf29ce484222325;  ///< FNV-1a
 };
 
 namespace detail {
@@ -68,13 +79,16 @@ struct IsOptional<std::optional<T>> : std::true_type {};
 template <class Pipe, class T>
 void pass(Pipe& pipe, T& value);
 
-/// The elements of a text or of a list. Memory is taken as they come, not by what the size promises.
+/// Passes the elements of a string or vector. Memory is allocated as they arrive, not by the announced size.
 template <class Pipe, class List>
 void pass_list(Pipe& pipe, List& list) {
   using Element = typename List::value_type;
   std::uint64_t size = list.size();
   pass(pipe, size);
-  if constexpr (std::is_trivially_copyable_v<Element>) {
+  if constexpr (std::is_same_v<Pipe, PipeSignature>) {
+    Element one{};
+    pass(pipe, one);
+  } else if constexpr (std::is_trivially_copyable_v<Element>) {
     for (std::size_t done = 0; done < size;) {
       const std::size_t step = std::min<std::size_t>(size - done, PipeReader::largest_step);
       if constexpr (Pipe::reads) list.resize(done + step);
@@ -89,8 +103,8 @@ void pass_list(Pipe& pipe, List& list) {
   }
 }
 
-/// Puts a value into a PipeWriter, or takes it, empty until then, from a PipeReader. A type of several fields
-/// has an overload of `pass_fields` beside it.
+/// Writes a value to a PipeWriter, or reads it, initially empty, from a PipeReader. For a type with several
+/// fields overload `pass_fields`.
 template <class Pipe, class T>
 void pass(Pipe& pipe, T& value) {
   if constexpr (detail::IsOptional<T>::value) {
@@ -99,7 +113,12 @@ void pass(Pipe& pipe, T& value) {
     if constexpr (Pipe::reads) {
       if (there) value.emplace();
     }
-    if (there) pass(pipe, *value);
+    if constexpr (std::is_same_v<Pipe, PipeSignature>) {
+      typename T::value_type one{};
+      pass(pipe, one);
+    } else if (there) {
+      pass(pipe, *value);
+    }
   } else if constexpr (std::is_same_v<T, std::string> || detail::IsVector<T>::value) {
     pass_list(pipe, value);
   } else if constexpr (std::is_trivially_copyable_v<T>) {
@@ -109,12 +128,21 @@ void pass(Pipe& pipe, T& value) {
   }
 }
 
-/// One after another.
+/// Passes several values one after another.
 template <class Pipe, class First, class Second, class... More>
 void pass(Pipe& pipe, First& first, Second& second, More&... more) {
   pass(pipe, first);
   pass(pipe, second);
   (pass(pipe, more), ...);
+}
+
+/// Tells types that are sent in different ways, of two builds of a program too.
+template <class T>
+std::uint64_t signature_of() {
+  PipeSignature signature;
+  T value{};
+  pass(signature, value);
+  return signature.number;
 }
 
 }  // namespace quadloop

@@ -27,7 +27,7 @@ Colour line_colour(std::size_t i) {
   return colours[i % colours.size()];
 }
 
-/// From values to places along an axis, 0 to 1.
+/// Maps values to positions along an axis, 0 to 1.
 class Scale {
  public:
   Scale(const ChartAxis& axis, const std::vector<double>& values) : axis_{axis} {
@@ -113,7 +113,7 @@ class ChartPicture {
     return names;
   }
 
-  /// Where a panel's title alone does not tell its lines.
+  /// Whether a legend is needed because a panel's title does not identify its lines.
   bool has_legend() const {
     return std::ranges::any_of(chart_.panels, [](const ChartPanel& panel) {
       return std::ranges::any_of(
@@ -159,7 +159,7 @@ class ChartPicture {
     canvas_.text({0.5 * (frame.low.x + frame.high.x), frame.high.y + 42}, chart_.x.title, TextAlign::centre);
   }
 
-  /// Broken where a value is none that the axes show.
+  /// Interrupted at values that the axes cannot show.
   template <class Across, class Up>
   void draw_line(const ChartLine& line, const Scale& y, const Across& across, const Up& up) {
     const auto number = std::ranges::find(names_, line.name) - names_.begin();
@@ -173,14 +173,14 @@ class ChartPicture {
         finish_run();
         continue;
       }
-      // Far out of the frame Cairo's coordinates end.
+      // Cairo's coordinates are limited.
       run.push_back({std::clamp(across(p.x), -1e5, 1e5), std::clamp(up(p.y), -1e5, 1e5)});
     }
     finish_run();
     canvas_.stroke(line_colour(number), 1, 2);
   }
 
-  /// With the first row at 0.
+  /// Positions relative to the first row.
   std::vector<Point> legend_places() const {
     std::vector<Point> places;
     Point at{chart_left, 0};

@@ -11,31 +11,31 @@
 namespace quadloop {
 
 struct ChartLine {
-  std::string name;  ///< lines of one name share their colour
+  std::string name;  ///< lines of the same name have the same colour
   std::vector<Point> points;
 };
 
 struct ChartAxis {
   std::string title;
-  bool logarithmic = false;                         ///< values that are not above 0 are left out
+  bool logarithmic = false;                         ///< values that are not positive are omitted
   bool reversed = false;                            ///< large values at the bottom
-  std::optional<std::array<double, 2>> range = {};  ///< absent: all values, with some room
+  std::optional<std::array<double, 2>> range = {};  ///< empty: all values, with a margin
 };
 
-/// Lines over one axis.
+/// A plot of lines.
 struct ChartPanel {
   ChartAxis y;
   std::vector<ChartLine> lines;
 };
 
-/// Panels one below the other, over one x axis.
+/// Panels one below the other, with a common x axis.
 struct Chart {
   ChartAxis x;
   std::vector<ChartPanel> panels;
-  std::vector<double> marks = {};  ///< places of x with a thin line from top to bottom
+  std::vector<double> marks = {};  ///< x positions of thin vertical lines
 };
 
-/// The chart as a file's bytes; sizes as in PlotOptions. Throws InputError where a panel has nothing to show.
+/// Returns the chart as a file's bytes; sizes as in PlotOptions. Throws InputError if a panel is empty.
 std::string draw_chart(const Chart& chart, double size, std::optional<Point> centimetres, PlotFormat format);
 
 }  // namespace quadloop

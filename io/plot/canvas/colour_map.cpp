@@ -15,7 +15,7 @@ Colour interpolated(const std::array<Colour, count>& stops, double t) {
   return mixed(stops[i], stops[i + 1], at - static_cast<double>(i));
 }
 
-/// Two colours that part at a pale grey (Moreland 2009).
+/// Diverging map of two colours with a pale grey centre (Moreland 2009).
 Colour diverging_colour(double t) {
   static constexpr std::array<Colour, 9> stops{{{0.231, 0.298, 0.753},
                                                 {0.384, 0.510, 0.918},

@@ -7,16 +7,16 @@
 
 namespace quadloop {
 
-/// The colour of a number from 0 to 1; what lies outside has that of the nearer end.
+/// Maps a number from 0 to 1 to a colour; values outside are clamped.
 using ColourMap = Colour (*)(double);
 
 /// "viridis", "coolwarm", "grey", "plasma".
 std::vector<std::string> colour_map_names();
 
-/// One of these by its name; null where there is none.
+/// Returns the map of this name; null if there is none.
 ColourMap colour_map_named(const std::string& name);
 
-/// Viridis: 0 dark blue to 1 yellow, evenly perceived.
+/// Viridis: 0 dark blue to 1 yellow, perceptually uniform.
 Colour perceptual_colour(double t);
 /// 0 red, 0.5 yellow, 1 green.
 Colour quality_colour(double t);

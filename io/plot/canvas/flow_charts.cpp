@@ -12,7 +12,7 @@ namespace quadloop {
 
 namespace {
 
-/// A line's words; in quotes, two quotes are one.
+/// Splits a line into fields; within quotes, two quotes are one.
 std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words(1);
   bool quoted = false;

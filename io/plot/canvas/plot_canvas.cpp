@@ -26,7 +26,7 @@ struct DestroyContext {
 using Surface = std::unique_ptr<cairo_surface_t, DestroySurface>;
 using Context = std::unique_ptr<cairo_t, DestroyContext>;
 
-/// Cairo is C: no exception may pass through it.
+/// No exception may propagate through Cairo, which is C.
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) noexcept {
   try {
     static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
@@ -50,7 +50,7 @@ Surface make_surface(PlotFormat format, double width, double height, std::string
                                               static_cast<int>(std::lround(height))));
   Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, width, height));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
-                                 "2000-01-01T00:00:00Z");  // the same bytes at any time
+                                 "2000-01-01T00:00:00Z");  // for reproducible bytes
   return surface;
 }
 
@@ -59,7 +59,7 @@ void choose_font(cairo_t* context) {
   cairo_set_font_size(context, font_size);
 }
 
-/// Text that Cairo takes; what it refuses would spoil the whole picture, so that is tried on a scratch
+/// Returns text that Cairo accepts. As rejected text would spoil the whole picture, it is tested on a scratch
 /// context.
 std::string printable(std::string text) {
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
@@ -76,7 +76,7 @@ std::string printable(std::string text) {
 }  // namespace
 
 struct Canvas::Cairo {
-  std::string bytes;  ///< before the surface, which writes here to its end
+  std::string bytes;  ///< declared before the surface, which writes to it until its end
   PlotFormat format = PlotFormat::png;
   Surface surface;
   Context context;

@@ -17,7 +17,7 @@ struct Colour {
   double red = 0, green = 0, blue = 0;
 };
 
-/// `share` of b in a.
+/// Mixes a with the fraction `share` of b.
 constexpr Colour mixed(Colour a, Colour b, double share) {
   return {a.red + share * (b.red - a.red), a.green + share * (b.green - a.green),
           a.blue + share * (b.blue - a.blue)};
@@ -25,45 +25,46 @@ constexpr Colour mixed(Colour a, Colour b, double share) {
 
 enum class TextAlign { left, centre, right };
 
-/// An image, row by row from the top; of each pixel 8 bits of alpha (0 or 255), red, green, blue.
+/// An image, row by row from the top; each pixel has 8 bits of alpha (0 or 255), red, green, blue.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint32_t> pixels;
 };
 
-/// A white sheet in pixels, the origin at its top left, y downwards. What is added becomes one path, until it
-/// is filled or stroked. Coordinates must stay within some 10^6 pixels. The same calls give the same bytes.
+/// A white sheet in pixels, with the origin at its top left and y downwards. Added lines and polygons form
+/// one path until it is filled or stroked. Coordinates must stay within about 10^6 pixels. The same calls
+/// give the same bytes.
 class Canvas {
  public:
-  /// `scale`: how many pixels of the file (of SVG and PDF: points) one pixel of the sheet becomes.
+  /// `scale`: pixels of the file (SVG and PDF: points) per pixel of the sheet.
   Canvas(PlotFormat format, double width, double height, double scale = 1);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Keeps what follows within the box, until unclip().
+  /// Clips what follows to the box, until unclip().
   void clip(const Box& box);
   void unclip();
 
   void add_polygon(std::span<const Point> corners);
   void add_line(Point a, Point b);
   void add_polyline(std::span<const Point> points);
-  /// A crisp fill puts each pixel into one polygon alone, so that neighbours show no seam.
+  /// A crisp fill assigns each pixel to one polygon only, so that neighbours have no visible seam.
   void fill_crisp(Colour colour);
   void fill(Colour colour);
   void stroke(Colour colour, double opacity, double width);
 
-  /// `at`: the middle of the text's height, its left, centre or right. Text that is no UTF-8 is shown as far
-  /// as it is ASCII.
+  /// `at`: the middle of the text's height at its left, centre or right. Text that is not UTF-8 is reduced to
+  /// ASCII.
   void text(Point at, const std::string& text, TextAlign align = TextAlign::left);
-  /// Turned to run upwards; `middle` is its middle.
+  /// Rotated to run upwards, centred at `middle`.
   void text_upwards(Point middle, const std::string& text);
   double text_width(const std::string& text) const;
 
-  /// The image stretched over the box.
+  /// Scales the image to the box.
   void paint(const Box& box, const Image& image);
 
-  /// The picture's bytes; the canvas is not to be used any more. Throws a Fault where Cairo failed.
+  /// Returns the picture's bytes; the canvas must not be used afterwards. Throws a Fault if Cairo failed.
   std::string finish();
 
  private:

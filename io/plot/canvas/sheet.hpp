@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// How large a sheet is, and how large its units are in the file and in images on it.
+/// The size of a sheet, and the scale of its units in the file and in images on it.
 struct Sheet {
-  std::optional<Point> size;  ///< where it is given in both directions
-  double scale = 1;           ///< of the file's pixels or points, to a unit
-  double resolution = 1;      ///< of an image's pixels, to a unit
+  std::optional<Point> size;  ///< if both dimensions are given
+  double scale = 1;           ///< pixels or points of the file per unit
+  double resolution = 1;      ///< pixels of an image per unit
 };
 
-/// A sheet of this width and height: text of 16 units is 8 pt high in print; 300 dots an inch.
+/// Returns a sheet of this width and height: text of 16 units is 8 pt high in print; 300 dpi.
 inline Sheet sheet_of(std::optional<Point> centimetres, PlotFormat format) {
   if (!centimetres) return {};
   constexpr double units_per_centimetre = 144 / 2.54, points = 0.5, dots = 300 / 144.0;

@@ -5,16 +5,16 @@
 
 namespace quadloop {
 
-/// Numbers along an axis, as they are written there.
+/// Numbers along an axis, with their labels.
 struct Ticks {
   std::vector<double> values;
   std::vector<std::string> labels;
 };
 
-/// Round numbers between low and high, about `most` of them.
+/// Returns about `most` round numbers between low and high.
 Ticks round_ticks(double low, double high, double most);
 
-/// Powers of ten between low and high, both above 0; at most `most` of them.
+/// Returns at most `most` powers of ten between low and high, which must be positive.
 Ticks decade_ticks(double low, double high, double most);
 
 }  // namespace quadloop

@@ -32,7 +32,7 @@ void for_pieces(std::size_t size, std::size_t largest, const Visit& visit) {
     visit(begin, static_cast<int>(std::min(largest, size - begin)));
 }
 
-/// Refused rather than cut short: collective pieces are bounded by the callers.
+/// Fault rather than truncation: callers limit the size of collective messages.
 int count_of(std::size_t size) {
   QUADLOOP_REQUIRE(size <= largest_message, "a collective message of more than 1 GiB", size);
   return static_cast<int>(size);
@@ -46,7 +46,7 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   return offsets;
 }
 
-/// The same kind of error on every rank, whichever rank met it.
+/// Throws the same type of error on every rank.
 [[noreturn]] void rethrow(ExitStatus status, const std::string& message) {
   switch (status) {
     case ExitStatus::bad_input: throw InputError(message);

@@ -12,12 +12,13 @@
 
 namespace quadloop {
 
-/// A group of ranks that work together; the only place where MPI is called. Every member function but rank()
-/// and size() is *collective* (all ranks enter it, in the same order) unless it says otherwise. Data are
-/// trivially copyable values. There is no floating-point sum: its result would depend on the number of ranks.
+/// A group of cooperating ranks; the only class that calls MPI. Every member function except rank() and
+/// size() is *collective* (all ranks call it, in the same order) unless stated otherwise. Data are trivially
+/// copyable values. There is no floating-point sum, as it would depend on the number of ranks: see
+/// reproducible_sum().
 class Communicator {
  public:
-  /// In bytes. MPI counts are 32-bit: longer data go in pieces.
+  /// In bytes. MPI counts are 32-bit: longer data are sent in pieces.
   static constexpr std::size_t largest_message = std::size_t{1} << 30;
 
   explicit Communicator(MPI_Comm to_duplicate);
@@ -36,27 +37,27 @@ class Communicator {
   double minimum(double value) const;
   double maximum(double value) const;
   bool any(bool value) const { return maximum(std::int64_t{value}) != 0; }
-  /// The sum of the values of all lower ranks.
+  /// Returns the sum of the values of all lower ranks.
   std::int64_t exclusive_sum(std::int64_t value) const;
   void barrier() const;
-  /// A barrier for a wait of seconds to hours: a rank that waits sleeps between its looks, so that the
-  /// processors are free for another program, where barrier() keeps each of them busy. Ranks leave it up to
-  /// 10 ms late for each doubling of their number.
+  /// A barrier for waits of seconds to hours: a waiting rank sleeps between polls, so that the processors are
+  /// free for another program, while barrier() keeps each of them busy. Ranks leave it up to 10 ms late for
+  /// each doubling of their number.
   void patient_barrier() const;
 
-  /// One value from every rank, in the order of ranks, on every rank.
+  /// Returns one value from every rank, in the order of ranks, on every rank.
   template <class T>
   std::vector<T> all_gather(const T& value) const;
 
-  /// All ranks' values one after another, on every rank.
+  /// Returns the values of all ranks, concatenated, on every rank.
   template <class T>
   std::vector<T> all_gather_values(std::span<const T> values) const;
 
-  /// The values of rank `from` on every rank.
+  /// Sends the values of rank `from` to every rank.
   template <class T>
   void broadcast(std::vector<T>& values, int from = 0) const;
 
-  /// One number for each rank; the result's entry r came from rank r.
+  /// Sends one number to each rank; entry r of the result is from rank r.
   std::vector<std::int64_t> exchange_counts(const std::vector<std::int64_t>& to_rank) const;
 
   struct Outgoing {
@@ -65,18 +66,19 @@ class Communicator {
   };
   struct Incoming {
     int from;
-    std::span<std::byte> bytes;  ///< room for them
+    std::span<std::byte> bytes;  ///< receive buffer
   };
-  /// Point to point, entered by the ranks named alone, self included: each expects one message of just that
-  /// length from those that send to it. Any length: it goes in pieces of at most `largest_piece` bytes.
+  /// Point to point, called only by the ranks involved, possibly including itself: each expects one message
+  /// of exactly this length from each sender. Any length: data are sent in pieces of at most `largest_piece`
+  /// bytes.
   void exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
                          std::size_t largest_piece = largest_message) const;
 
-  /// Point to point, not collective: sends to, receives from one rank. Any length.
+  /// Point to point, not collective: sends to or receives from one rank. Any length.
   void send_bytes(std::span<const std::byte> bytes, int to) const;
   std::vector<std::byte> receive_bytes(int from) const;
 
-  /// Runs `local` on every rank; if it throws on any, the lowest such rank's Error is thrown on all.
+  /// Runs `local` on every rank; if it throws on any, all ranks throw the Error of the lowest such rank.
   void together(const std::function<void()>& local) const;
 
  private:
@@ -88,7 +90,7 @@ class Communicator {
   int size_ = 1;
 };
 
-/// The root's words on every rank; none holds a zero byte. *Collective.*
+/// Returns the root's strings on every rank; they must not contain zero bytes. *Collective.*
 std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words);
 
 namespace detail {

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// Of each rank that counts, its stretch of all.
+/// Returns the range of each rank with a non-zero count.
 std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts) {
   std::vector<Exchange::Source> found;
   std::size_t begin = 0;
@@ -44,7 +44,7 @@ std::size_t Exchange::arrivals_before(int rank) const {
   return found == sources_.end() ? arrivals() : found->begin;
 }
 
-/// Both sides know the number of rows.
+/// The number of rows is known on both sides.
 void Exchange::move(std::span<const Source> to, Bytes rows, std::span<const Source> from, Room room,
                     std::size_t row) const {
   std::vector<Communicator::Outgoing> out;

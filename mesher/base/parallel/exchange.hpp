@@ -13,9 +13,9 @@
 
 namespace quadloop {
 
-/// Ways between ranks, found once, on which rows of values then go point to point as often as wanted, there
-/// and back. Each rank has items, each of them for one rank, itself allowed; they arrive by the rank that
-/// they come from, and in its order.
+/// A communication pattern between ranks, set up once, for repeated point-to-point transfer of rows of values
+/// in both directions. Each rank has items, each with one destination rank, possibly itself; they arrive
+/// ordered by source rank, then in its order.
 ///
 ///     const Exchange questions(comm, rank_of_question);
 ///     const auto asked = questions.deliver(points);
@@ -23,28 +23,28 @@ namespace quadloop {
 ///     answers = questions.answer(answers);  // in the order of `points`
 class Exchange {
  public:
-  /// The items that arrive from one rank: [begin, end) of all.
+  /// The items that arrive from one rank: the range [begin, end).
   struct Source {
     int rank;
     std::size_t begin, end;
     std::size_t size() const { return end - begin; }
   };
 
-  /// Item i of this rank is for rank `ranks[i]`. `comm` must outlive the exchange. *Collective.*
+  /// Item i of this rank goes to rank `ranks[i]`. `comm` must outlive the object. *Collective.*
   Exchange(const Communicator& comm, std::span<const int> ranks);
 
   std::size_t items() const { return targets_.empty() ? 0 : targets_.back().end; }
   std::size_t arrivals() const { return sources_.empty() ? 0 : sources_.back().end; }
-  /// Those ranks alone from which something arrives, ascending.
+  /// The ranks from which something arrives, ascending.
   std::span<const Source> sources() const { return sources_; }
-  /// How many items arrive from lower ranks than `rank`.
+  /// Number of items that arrive from ranks lower than `rank`.
   std::size_t arrivals_before(int rank) const;
 
-  /// From `width` values for each item those of each arrival. *Collective.*
+  /// Sends `width` values per item; returns those of each arrival. *Collective.*
   template <std::ranges::contiguous_range Rows>
   std::vector<std::ranges::range_value_t<Rows>> deliver(const Rows& rows, std::size_t width = 1) const;
 
-  /// The way back: from `width` values for each arrival those of each item. *Collective.*
+  /// Reverse direction: sends `width` values per arrival; returns those of each item. *Collective.*
   template <std::ranges::contiguous_range Rows>
   std::vector<std::ranges::range_value_t<Rows>> answer(const Rows& rows, std::size_t width = 1) const;
 
@@ -58,10 +58,10 @@ class Exchange {
 
   const Communicator* comm_;
   std::vector<Source> targets_, sources_;
-  std::vector<std::size_t> order_;  ///< the items by their ranks; empty where they stand so
+  std::vector<std::size_t> order_;  ///< items sorted by rank; empty if already sorted
 };
 
-/// Values that are put together one by one, each for a rank.
+/// Values collected one by one, each with a destination rank.
 template <class T>
 class Outbox {
  public:
@@ -69,7 +69,7 @@ class Outbox {
     ranks_.push_back(rank);
     values_.push_back(value);
   }
-  /// Those for this rank, by the rank that they come from, then in its order. *Collective.*
+  /// Returns the values for this rank, by source rank, then in its order. *Collective.*
   std::vector<T> deliver(const Communicator& comm) const { return Exchange(comm, ranks_).deliver(values_); }
 
  private:
@@ -77,14 +77,14 @@ class Outbox {
   std::vector<T> values_;
 };
 
-/// All ranks' values on the root, one rank's after the other's; elsewhere none. *Collective.*
+/// Gathers the values of all ranks on the root, in the order of ranks; empty elsewhere. *Collective.*
 template <std::ranges::contiguous_range Values>
 auto gather_at_root(const Communicator& comm, const Values& values) {
   return Exchange(comm, std::vector<int>(values.size(), 0)).deliver(values);
 }
 
-/// The root's values in pieces: `counts[r]` of them for each rank r, in the order of ranks. Both count on the
-/// root alone. *Collective.*
+/// Distributes the root's values: `counts[r]` of them to each rank r, in the order of ranks. Both arguments
+/// are used on the root only. *Collective.*
 template <std::ranges::contiguous_range Values>
 auto scatter_from_root(const Communicator& comm, const Values& values, std::span<const std::int64_t> counts) {
   std::vector<int> ranks;
@@ -93,13 +93,13 @@ auto scatter_from_root(const Communicator& comm, const Values& values, std::span
   return Exchange(comm, ranks).deliver(std::span(values).first(ranks.size()));
 }
 
-/// A row of numbers, from 0, of which each rank has one range, in the order of ranks.
+/// The numbers from 0 on, partitioned into one contiguous range per rank, in the order of ranks.
 class RankRanges {
  public:
   /// `begin` is the first number of this rank's range. *Collective.*
   RankRanges(const Communicator& comm, std::int64_t begin) : begins_{comm.all_gather(begin)} {}
 
-  /// The rank that has the number.
+  /// Returns the rank that has the number.
   int rank_of(std::int64_t number) const {
     return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end(), number) - begins_.begin()) - 1;
   }
@@ -109,38 +109,38 @@ class RankRanges {
   std::vector<std::int64_t> begins_;
 };
 
-/// Entries of a rank's row that stand for entries of other ranks' rows, their owners', and are brought up to
-/// date from them.
+/// Ghost entries of a rank's array, which are copies of entries on their owner ranks and are updated from
+/// them.
 class CopyExchange {
  public:
   struct Copy {
-    std::int32_t entry = 0;  ///< on this rank
+    std::int32_t entry = 0;  ///< index on this rank
     int owner = 0;
-    std::int32_t owners_entry = 0;  ///< counted from `first_owned` there
+    std::int32_t owners_entry = 0;  ///< index on the owner, relative to `first_owned` there
   };
   /// *Collective.*
   CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned = 0);
 
-  /// Rows of `width` values: those of copies are replaced by their owners'. *Collective.*
+  /// Replaces the rows of ghosts, of `width` values each, by those of their owners. *Collective.*
   template <std::ranges::contiguous_range Rows>
   void update_rows(Rows& rows, std::size_t width) const;
   template <std::ranges::contiguous_range Values>
   void update(Values& values) const {
     update_rows(values, 1);
   }
-  /// The same for the owned entries for which `changed` holds, alone. *Collective.*
+  /// Updates only the ghosts of owned entries for which `changed` is true. *Collective.*
   template <std::ranges::contiguous_range Values, class Changed>
   void update(Values& values, const Changed& changed) const;
-  /// The same where few entries have a value: `take(entry, value)` is called for each copy with what
-  /// `value_of(entry)` is on its owner. *Collective.*
+  /// For sparse values: calls `take(entry, value)` for each ghost with the result of `value_of(entry)` on its
+  /// owner. *Collective.*
   template <class ValueOf, class Take>
   void update_some(const ValueOf& value_of, const Take& take) const;
 
  private:
-  static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< of copies that it sorts by them
+  static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< sorts the copies by owner
 
-  Exchange exchange_;                         ///< from copies to owners
-  std::vector<std::int32_t> copies_, owned_;  ///< the entries of items and of arrivals
+  Exchange exchange_;                         ///< from ghosts to owners
+  std::vector<std::int32_t> copies_, owned_;  ///< entries of items and of arrivals
 };
 
 template <std::ranges::contiguous_range Rows>
@@ -183,7 +183,7 @@ void CopyExchange::update(Values& values, const Changed& changed) const {
     bool is_new;
   };
   const auto at = std::ranges::begin(values);
-  std::vector<Item> items;  // all of them: their number is known, and few are at the border
+  std::vector<Item> items;  // all entries: their number is known, and few are at interfaces
   items.reserve(owned_.size());
   for (const std::int32_t entry : owned_) items.push_back({at[entry], changed(entry)});
   items = exchange_.answer(items);

@@ -9,7 +9,7 @@ namespace quadloop {
 
 namespace {
 
-/// The first of the names, which is taken off; a comma within brackets is part of it.
+/// Removes and returns the first name; a comma within brackets belongs to it.
 std::string_view next_name(std::string_view& names) {
   int open = 0;
   std::size_t end = 0;
@@ -22,7 +22,7 @@ std::string_view next_name(std::string_view& names) {
   return name;
 }
 
-/// Which of several ranks this is; empty where it is the only one.
+/// Returns the rank, if there are several; empty for a single one.
 std::string text_of_rank() {
   int begun = 0, ended = 0, rank = 0, size = 1;
   MPI_Initialized(&begun);

@@ -19,8 +19,8 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double kib = 1024;
 
-/// The number after a word of a text file, as in "MemAvailable: 123 kB"; the file's first number where the
-/// word is empty.
+/// Returns the number after a word of a text file, e.g. "MemAvailable: 123 kB"; the file's first number if
+/// the word is empty.
 std::optional<double> number_in(const std::string& path, const std::string& word) {
   std::ifstream file(path);
   if (word.empty()) {
@@ -37,7 +37,7 @@ std::optional<double> number_in(const std::string& path, const std::string& word
   return {};
 }
 
-/// What one control group leaves; file pages that it need not keep count as free.
+/// Returns the free memory of one control group; reclaimable file pages count as free.
 double free_in_group(const std::string& folder, const char* limit, const char* usage,
                      const char* reclaimable) {
   const auto most = number_in(folder + limit, ""), used = number_in(folder + usage, "");
@@ -45,7 +45,7 @@ double free_in_group(const std::string& folder, const char* limit, const char* u
   return std::max(0.0, *most - *used + number_in(folder + "/memory.stat", reclaimable).value_or(0));
 }
 
-/// A limit of this process less what it has.
+/// Returns a limit of this process minus its usage.
 double left_of(int resource, const char* taken) {
   rlimit limit{};
   if (getrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -83,7 +83,7 @@ double free_in_control_groups(const std::string& membership, const std::string& 
     if (!unified && ("," + controllers + ",").find(",memory,") == std::string::npos) continue;
     const std::string mounted = unified ? root : root + "/memory";
     for (std::filesystem::path group = line.substr(second + 1);;
-         group = group.parent_path()) {  // the groups above limit it too
+         group = group.parent_path()) {  // parent groups are limits too
       const std::string folder = mounted + (group == "/" ? "" : group.string());
       least =
           std::min(least, unified ? free_in_group(folder, "/memory.max", "/memory.current", "inactive_file")

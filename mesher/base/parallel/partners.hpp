@@ -11,14 +11,14 @@
 
 namespace quadloop {
 
-/// An item of any rank, by its number there.
+/// An item by its rank and its number there.
 struct Partner {
-  int rank = -1;  ///< below 0: there is none
+  int rank = -1;  ///< negative: none
   std::int64_t item = 0;
   bool found() const { return rank >= 0; }
 };
 
-/// What identifies an item over all ranks, and its partner, which looks for it in turn.
+/// Keys of an item and of its partner, which has them swapped.
 template <std::size_t width>
 struct PairKey {
   std::array<std::uint64_t, width> own, partner;
@@ -43,8 +43,8 @@ struct PairCard {
 
 }  // namespace detail
 
-/// For each key of this rank the item, of any rank, whose own key is its partner's: one may be its own. No
-/// two items have the same own key. The same answers on any number of ranks. *Collective.*
+/// Returns for each key of this rank the item, on any rank, whose own key is the partner's key; this may be
+/// the item itself. Own keys must be distinct. Independent of the number of ranks. *Collective.*
 template <std::size_t width>
 std::vector<Partner> find_partners(const Communicator& comm, std::span<const PairKey<width>> keys) {
   std::vector<int> ranks;

@@ -10,7 +10,7 @@ namespace quadloop {
 ReproducibleSums::ReproducibleSums(std::size_t sums, double largest, std::int64_t count)
     : bits_{62 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count)))},
       top_{std::ilogb(largest) + 1},
-      // 2^(bits - top) may be too large for a number: in two steps.
+      // 2^(bits - top) may overflow, so it is applied in two factors.
       first_scale_{std::ldexp(1, (bits_ - top_) / 2)},
       second_scale_{std::ldexp(1, bits_ - top_ - (bits_ - top_) / 2)},
       parts_{std::ldexp(1, bits_)},
@@ -18,7 +18,7 @@ ReproducibleSums::ReproducibleSums(std::size_t sums, double largest, std::int64_
 
 namespace {
 
-/// Entry by entry, over all ranks, in pieces that stay small whatever the number of ranks. *Collective.*
+/// Sums entry by entry over all ranks, in pieces of bounded size. *Collective.*
 std::vector<std::int64_t> sum_over(const Communicator& comm, std::span<const std::int64_t> own) {
   constexpr std::size_t piece = std::size_t{1} << 16;
   std::vector<std::int64_t> sums(own.size(), 0);

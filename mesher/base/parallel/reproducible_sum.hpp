@@ -10,17 +10,17 @@
 
 namespace quadloop {
 
-/// The sum of all ranks' values, with the same bits whatever the order of the values and the number of ranks:
-/// values are added as integers that count a unit set by the largest of them and by how many there are. Off
-/// by less than 2^-60 of the largest value's size times their number for up to 2^31 values, beside the
-/// rounding of the result. 0 for no values; not a number where any value is not finite. *Collective.*
+/// Returns the sum of all ranks' values, bitwise independent of their order and of the number of ranks:
+/// values are added as integers in a unit that depends on the largest value and the number of values. The
+/// error, before rounding of the result, is less than 2^-60 of the largest absolute value times the number of
+/// values, for up to 2^31 values. 0 for no values; NaN if any value is not finite. *Collective.*
 double reproducible_sum(const Communicator& comm, std::span<const double> values);
 
-/// Many such sums at once, of values whose largest size is known beforehand.
+/// Several such sums at once, of values with a known bound.
 class ReproducibleSums {
  public:
-  /// Each of `sums` sums is of at most `count` values over all ranks, none larger than `largest`, which is
-  /// above 0; the same on every rank.
+  /// Each of `sums` sums is over at most `count` values on all ranks, with absolute values up to `largest`,
+  /// which must be positive; the arguments are the same on every rank.
   ReproducibleSums(std::size_t sums, double largest, std::int64_t count);
 
   void add(std::size_t sum, double value) {
@@ -31,15 +31,14 @@ class ReproducibleSums {
     units_[2 * sum + 1] += static_cast<std::int64_t>(rest + std::copysign(0.5, rest));
   }
 
-  /// Over all ranks. *Collective.*
+  /// Returns the sums over all ranks. *Collective.*
   std::vector<double> over(const Communicator& comm) const;
 
  private:
-  // Each value is high + low / 2^bits units of 2^(top - bits), and both parts of all of them fit into a
-  // 64-bit sum.
+  // Each value is high + low / 2^bits units of 2^(top - bits), and the sums of both parts fit into 64 bits.
   int bits_, top_;
   double first_scale_, second_scale_, parts_;
-  std::vector<std::int64_t> units_;  ///< of each sum the high part, then the low one
+  std::vector<std::int64_t> units_;  ///< high part, then low part of each sum
 };
 
 }  // namespace quadloop

@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "mesher/base/error.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -49,7 +51,7 @@ std::int64_t drop_near_repeats(Chain& chain, double rounding) {
 class LooseEnds {
  public:
   LooseEnds(std::vector<Chain>& chains, double most) : chains_{chains}, most_{most} {
-    std::map<Point, std::vector<std::size_t>> at;
+    std::map<Point, std::vector<std::size_t>>& at = all_;
     for (std::size_t c = 0; c < chains.size(); ++c) {
       if (!chains[c].open || chains[c].points.size() < 2) continue;
       at[chains[c].points.front()].push_back(2 * c);
@@ -60,7 +62,8 @@ class LooseEnds {
     }
   }
 
-  /// Joins all pairs; returns their number and the first place in the order of input.
+  /// Joins all pairs; returns their number and the first place in the order of input. Throws InputError where
+  /// more than two ends meet.
   std::pair<std::int64_t, Point> join() {
     std::map<std::size_t, std::size_t> later_to_earlier;
     for (const auto& [place, end] : loose_) {
@@ -70,6 +73,7 @@ class LooseEnds {
         continue;
       later_to_earlier.emplace(end, near.front());
     }
+    refuse_forks(later_to_earlier);
     std::pair<std::int64_t, Point> joined{0, {}};
     std::size_t first = std::numeric_limits<std::size_t>::max();
     for (const auto& [later, earlier] : later_to_earlier) {
@@ -87,14 +91,42 @@ class LooseEnds {
     return end % 2 == 0 ? points.front() : points.back();
   }
 
+  /// Calls `take` with each entry of a map by places that is near another place.
+  template <class Map, class Take>
+  void for_each_near(const Map& map, Point place, Take take) const {
+    for (auto at = map.lower_bound({place.x - most_, -std::numeric_limits<double>::infinity()});
+         at != map.end() && at->first.x <= place.x + most_; ++at) {
+      if (at->first != place && std::abs(at->first.y - place.y) <= most_) take(*at);
+    }
+  }
+
   std::vector<std::size_t> others_near(Point place) const {
     std::vector<std::size_t> found;
-    for (auto at = loose_.lower_bound({place.x - most_, -std::numeric_limits<double>::infinity()});
-         at != loose_.end(); ++at) {
-      if (at->first.x > place.x + most_) break;
-      if (at->first != place && std::abs(at->first.y - place.y) <= most_) found.push_back(at->second);
-    }
+    for_each_near(loose_, place, [&](const auto& other) { found.push_back(other.second); });
     return found;
+  }
+
+  /// An end that stays loose although several others are near it.
+  void refuse_forks(const std::map<std::size_t, std::size_t>& later_to_earlier) const {
+    std::set<std::size_t> loose;
+    for (const auto& [place, end] : loose_) loose.insert(end);
+    for (const auto& [later, earlier] : later_to_earlier) {
+      loose.erase(later);
+      loose.erase(earlier);
+    }
+    for (const std::size_t end : loose) {
+      std::vector<std::size_t> near;
+      for_each_near(all_, point(end),
+                    [&](const auto& at) { near.insert(near.end(), at.second.begin(), at.second.end()); });
+      if (near.size() < 2) continue;
+      const Chain& chain = chains_[end / 2];
+      std::string names = fmt::format("'{}'", chain.name);
+      for (const std::size_t other : near) names += fmt::format(", '{}'", chains_[other / 2].name);
+      throw InputError(fmt::format(
+          "{}: boundary '{}': {} chains end within {:.2g} of ({}, {}) ({}), where two should; give each piece "
+          "of the outline once, or make geometry.join smaller if they are different points",
+          chain.source, chain.name, near.size() + 1, most_, point(end).x, point(end).y, names));
+    }
   }
 
   /// A chain that closes on itself needs three points besides the repeated one.
@@ -104,6 +136,7 @@ class LooseEnds {
 
   std::vector<Chain>& chains_;
   double most_;
+  std::map<Point, std::vector<std::size_t>> all_;  ///< ends by place
   std::map<Point, std::size_t> loose_;
 };
 

@@ -64,39 +64,90 @@ std::vector<LoopGroup> groups_of(const std::vector<SplitLoop>& loops) {
   return groups;
 }
 
-/// Finds the loops that enclose a point which is on none of them.
-class LoopsAround {
+Box box_of_loop(const SplitLoop& loop) {
+  Box box;
+  for (const Point p : loop.points) box.include(p);
+  return box;
+}
+
+/// One loop, for queries by point in logarithmic time.
+class SearchedLoop {
  public:
-  explicit LoopsAround(const std::vector<SplitLoop>& loops) {
-    for (std::int32_t l = 0; l < size32(loops); ++l) {
-      const auto& points = loops[l].points;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        edges_.push_back({points[i], points[(i + 1) % points.size()], l});
-    }
-    tree_ = BoxTree(size32(edges_), [&](std::int32_t e) { return box_of(edges_[e].a, edges_[e].b); });
+  explicit SearchedLoop(const SplitLoop& loop)
+      : points_{loop.points},
+        sorted_{loop.points},
+        tree_(size32(loop.points), [&](std::int32_t e) { return box_of(points_[e], after(e)); }) {
+    std::ranges::sort(sorted_);
   }
 
-  /// Ascending; by an exact count of the edges that a ray to the left crosses.
-  std::vector<std::int32_t> of(Point p) const {
-    std::set<std::int32_t> odd;
+  bool has_point(Point p) const { return std::ranges::binary_search(sorted_, p); }
+
+  /// For a point that is not on the loop: an exact count of the edges that a ray to the left crosses.
+  bool encloses(Point p) const {
+    bool odd = false;
     tree_.for_each_meeting({{-std::numeric_limits<double>::infinity(), p.y}, p}, [&](std::int32_t e) {
-      const auto& [a, b, loop] = edges_[e];
+      const Point a = points_[e], b = after(e);
       if ((a.y > p.y) == (b.y > p.y) || orientation(std::min(a, b, lower), std::max(a, b, lower), p) > 0)
         return;
-      if (!odd.insert(loop).second) odd.erase(loop);
+      odd = !odd;
     });
-    return {odd.begin(), odd.end()};
+    return odd;
   }
 
  private:
-  struct Edge {
-    Point a, b;
-    std::int32_t loop = 0;
-  };
   static bool lower(Point a, Point b) { return a.y < b.y; }
+  Point after(std::int32_t e) const { return points_[e + 1 < size32(points_) ? e + 1 : 0]; }
 
-  std::vector<Edge> edges_;
+  const std::vector<Point>& points_;
+  std::vector<Point> sorted_;
   BoxTree tree_;
+};
+
+/// Finds the loops around points and around other loops.
+class LoopsAround {
+ public:
+  explicit LoopsAround(const std::vector<SplitLoop>& loops)
+      : loops_{loops}, tree_(size32(loops), [&](std::int32_t l) { return box_of_loop(loops[l]); }) {
+    searched_.reserve(loops.size());
+    for (const SplitLoop& loop : loops) searched_.emplace_back(loop);
+  }
+
+  /// The loops that enclose a point which is on none of them, ascending.
+  std::vector<std::int32_t> of(Point p) const {
+    std::vector<std::int32_t> around;
+    tree_.for_each_meeting({p, p}, [&](std::int32_t l) {
+      if (searched_[l].encloses(p)) around.push_back(l);
+    });
+    std::ranges::sort(around);
+    return around;
+  }
+
+  /// The loops that satisfy `may_be(l)` and of which all points of the inner loop lie inside that are not
+  /// common to both; ascending.
+  template <class MayBe>
+  std::vector<std::int32_t> of_loop(std::int32_t inner, const MayBe& may_be) const {
+    std::vector<std::int32_t> around;
+    tree_.for_each_meeting(box_of_loop(loops_[inner]), [&](std::int32_t l) {
+      if (l != inner && may_be(l) && is_inside(loops_[inner], searched_[l])) around.push_back(l);
+    });
+    std::ranges::sort(around);
+    return around;
+  }
+
+ private:
+  static bool is_inside(const SplitLoop& inner, const SearchedLoop& loop) {
+    bool any = false;
+    for (const Point p : inner.points) {
+      if (loop.has_point(p)) continue;
+      if (!loop.encloses(p)) return false;
+      any = true;
+    }
+    return any;
+  }
+
+  const std::vector<SplitLoop>& loops_;
+  BoxTree tree_;
+  std::vector<SearchedLoop> searched_;
 };
 
 /// Counts for the user.
@@ -114,16 +165,17 @@ class IslandUnion {
         around_{loops_},
         areas_(loops_.size()),
         sign_(loops_.size(), 0),
+        group_of_(loops_.size()),
         outer_(groups_.size()) {
     for (std::size_t l = 0; l < loops_.size(); ++l) areas_[l] = area_of(loops_[l].points);
-    std::vector<std::int32_t> group_of(loops_.size());
     for (std::int32_t g = 0; g < size32(groups_); ++g) {
-      for (const std::int32_t l : groups_[g]) group_of[l] = g;
+      for (const std::int32_t l : groups_[g]) group_of_[l] = g;
     }
     for (std::int32_t g = 0; g < size32(groups_); ++g) {
       outer_[g] = around_.of(loops_[groups_[g].front()].points.front());
-      std::erase_if(outer_[g], [&](std::int32_t l) { return group_of[l] == g; });
-      for (const std::int32_t l : groups_[g]) sign_[l] = sign_of(l, g);
+      std::erase_if(outer_[g], [&](std::int32_t l) { return group_of_[l] == g; });
+      const std::int32_t largest = largest_of(groups_[g]);
+      for (const std::int32_t l : groups_[g]) sign_[l] = sign_of(l, g, largest);
     }
   }
 
@@ -149,31 +201,24 @@ class IslandUnion {
                        loop.points.front().x, loop.points.front().y);
   }
 
-  /// For two loops that meet: whether all points of the inner one that are not shared lie inside the other.
-  bool is_inside(std::int32_t inner, std::int32_t l) const {
-    const std::set<Point> shared(loops_[l].points.begin(), loops_[l].points.end());
-    bool any = false;
-    for (const Point p : loops_[inner].points) {
-      if (shared.contains(p)) continue;
-      if (std::ranges::count(around_.of(p), l) == 0) return false;
-      any = true;
-    }
-    return any;
-  }
   /// Whether this loop may be a hole in the other: its file specifies its direction, or both belong to one
   /// feature.
   bool may_be_hole_in(std::int32_t l, std::int32_t other) const {
     return outline_.loops[l].directed || source(l) == source(other);
   }
 
-  /// +1 for a loop with domain inside, -1 for an island.
-  int sign_of(std::int32_t l, std::int32_t g) const {
+  std::int32_t largest_of(const LoopGroup& group) const {
+    return *std::ranges::max_element(group, {}, [&](std::int32_t l) { return std::abs(areas_[l]); });
+  }
+
+  /// +1 for a loop with domain inside, -1 for an island. Among loops that meet and are not enclosed the largest
+  /// one is an outer boundary, and others whose specified direction says so.
+  int sign_of(std::int32_t l, std::int32_t g, std::int32_t largest) const {
     const std::vector<std::int32_t>& outer = outer_[g];
-    std::vector<std::int32_t> around;  // relevant for this loop
-    for (const std::int32_t other : groups_[g]) {
-      if (other != l && may_be_hole_in(l, other) && is_inside(l, other)) around.push_back(other);
-    }
-    if (outer.empty() && around.empty()) return is_outermost(l, g) ? 1 : -1;
+    std::vector<std::int32_t> around = around_.of_loop(
+        l, [&](std::int32_t other) { return group_of_[other] == g && may_be_hole_in(l, other); });
+    if (outer.empty() && around.empty())
+      return l == largest || (outline_.loops[l].directed && areas_[l] > 0) ? 1 : -1;
     if ((outer.size() + around.size()) % 2 == 1) return -1;
     around.insert(around.end(), outer.begin(), outer.end());
     const bool is_hole =
@@ -181,15 +226,6 @@ class IslandUnion {
             ? areas_[l] > 0
             : std::ranges::any_of(around, [&](std::int32_t other) { return source(other) == source(l); });
     return is_hole ? 1 : -1;
-  }
-
-  /// Whether a loop is an outer boundary, among loops that meet and are not enclosed: the largest one is, and
-  /// others whose specified direction says so.
-  bool is_outermost(std::int32_t l, std::int32_t g) const {
-    const LoopGroup& group = groups_[g];
-    const std::int32_t largest =
-        *std::ranges::max_element(group, {}, [&](std::int32_t other) { return std::abs(areas_[other]); });
-    return l == largest || (outline_.loops[l].directed && areas_[l] > 0);
   }
 
   int outside_of(std::int32_t g) const {
@@ -214,10 +250,16 @@ class IslandUnion {
             {loop.points[i], loop.points[(i + 1) % loop.points.size()], weight, size32(origins) - 1});
       }
     }
-    for (const WindingLoop& found : outline_of_positive(edges, outside_of(g))) {
+    const std::vector<WindingLoop> all_found = outline_of_positive(edges, outside_of(g));
+    std::map<Point, int> visits;
+    for (const WindingLoop& found : all_found) {
+      for (const Point p : found.points) ++visits[p];
+    }
+    for (const WindingLoop& found : all_found) {
       OutlineLoop loop;
       for (std::size_t i = 0; i < found.points.size(); ++i) {
-        if (i > 0 && found.origin[i] == found.origin[i - 1]) continue;  // another loop split the segment here
+        // Another loop split the segment here; the point stays where loops touch.
+        if (i > 0 && found.origin[i] == found.origin[i - 1] && visits[found.points[i]] == 1) continue;
         const auto [l, segment] = origins[found.origin[i]];
         loop.points.push_back(found.points[i]);
         loop.boundary.push_back(outline_.loops[l].boundary[segment]);
@@ -244,6 +286,7 @@ class IslandUnion {
   LoopsAround around_;
   std::vector<double> areas_;
   std::vector<int> sign_;
+  std::vector<std::int32_t> group_of_;          ///< for each loop
   std::vector<std::vector<std::int32_t>> outer_;  ///< for each group the loops of other groups around it
 };
 

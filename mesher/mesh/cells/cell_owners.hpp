@@ -9,14 +9,13 @@
 
 namespace quadloop {
 
-/// Which rank has a cell, by its number over all ranks: triangles before quads, from 0.
+/// Owner ranks of cells by their global numbers: triangles before quads, from 0.
 class CellOwners {
  public:
   /// *Collective.*
   CellOwners(const Communicator& comm, const Mesh& mesh);
 
-  /// The number of one of this rank's cells, its triangles, then its quads; and back, on the rank that has
-  /// it.
+  /// Global number of one of this rank's cells, triangles, then quads; and the inverse, on the owner rank.
   std::int64_t number(std::int64_t local) const {
     return local < own_triangles_ ? first_triangle_ + local : first_quad_ + local - own_triangles_;
   }
@@ -32,8 +31,8 @@ class CellOwners {
   RankRanges triangles_, quads_;
 };
 
-/// Of cells anywhere, by their numbers over all ranks, the rows of `width` values that their ranks have;
-/// `rows` are those of this rank's cells. *Collective.*
+/// Fetches rows of `width` values of arbitrary cells, given by global number, from their owners. `rows` are
+/// those of this rank's cells. *Collective.*
 template <class T>
 std::vector<T> rows_of_cells(const Communicator& comm, const CellOwners& owners,
                              std::span<const std::int64_t> cells, const std::vector<T>& rows,

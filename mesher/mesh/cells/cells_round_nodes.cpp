@@ -10,17 +10,17 @@ namespace quadloop {
 
 namespace {
 
-/// Sums over the cells round a node; places are counted from the node, values from the first cell's.
+/// Sums over the cells around a node; positions are relative to the node, values to that of the first cell.
 struct Sums {
   double cells = 0, first = 0, value = 0;
   Point place;
-  double xx = 0, xy = 0, yy = 0;  ///< squares of the distances from the mean place
-  Point slope;                    ///< distances times differences from the mean value
+  double xx = 0, xy = 0, yy = 0;  ///< second moments about the mean position
+  Point slope;                    ///< position times value, both relative to their means
 };
 
 Point mean_place(const Sums& sums) { return (1 / sums.cells) * sums.place; }
 
-/// `from_node`: the way to the cell's centroid.
+/// `from_node`: vector from the node to the cell's centroid.
 void add_cell(double value, Point from_node, Sums& sum, AroundNode& node) {
   node.smallest = std::min(node.smallest, value);
   node.largest = std::max(node.largest, value);
@@ -30,7 +30,7 @@ void add_cell(double value, Point from_node, Sums& sum, AroundNode& node) {
   sum.place = sum.place + from_node;
 }
 
-/// Once all cells have been added.
+/// Call after all cells have been added.
 void add_slope(double value, Point from_node, Sums& sum) {
   const Point d = from_node - mean_place(sum);
   const double difference = value - sum.first - sum.value / sum.cells;
@@ -40,7 +40,7 @@ void add_slope(double value, Point from_node, Sums& sum) {
   sum.slope = sum.slope + difference * d;
 }
 
-/// Centroids that are this much nearer to a line than they are long along it tell no slope across it.
+/// If the centroids are closer to a line than this, relative to their extent along it, there is no gradient.
 constexpr double flat = 1e-12;
 
 void solve(const Sums& sums, AroundNode& node) {
@@ -98,7 +98,7 @@ std::vector<AroundNode> CellsRoundNodes::of(const std::vector<double>& of_cells)
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<AroundNode> around(halo_.points().size(), {none, -none, {}, false});
   std::vector<Sums> sums(mesh_.owned_nodes);
-  const auto visit_all = [&](const auto& visit) {  // in global order, so that ranks add up alike
+  const auto visit_all = [&](const auto& visit) {  // in global order, so that sums do not depend on the ranks
     std::size_t cell = 0;
     halo_.for_each_cell([&](const auto& nodes) {
       const Point centroid = halo_shapes_[cell].centroid;
@@ -117,7 +117,7 @@ std::vector<AroundNode> CellsRoundNodes::of(const std::vector<double>& of_cells)
     if (sums[node].cells > 0) solve(sums[node], around[node]);
   }
   halo_.exchange().update(around);
-  around.resize(mesh_.points.size());  // the mesh's own copies come before the halo's
+  around.resize(mesh_.points.size());  // the mesh's own ghosts come before those of the halo
   return around;
 }
 

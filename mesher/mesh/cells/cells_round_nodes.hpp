@@ -7,33 +7,34 @@
 
 namespace quadloop {
 
-/// The area and the centroid of a cell with these corners, counter-clockwise. The mean of the corners where
-/// it has no area.
+/// Area and centroid of a cell given by its corners, counter-clockwise. A cell without area has the mean of
+/// its corners.
 struct CellShape {
   double area = 0;
   Point centroid;
-  Point from_first;  ///< the centroid from the first corner: far from the origin it has more digits
+  Point from_first;  ///< centroid relative to the first corner: more accurate far from the origin
 };
 CellShape shape_of(std::span<const Point> corners);
 
-/// Of this rank's cells, its triangles, then its quads.
+/// Returns the shapes of this rank's cells, triangles, then quads.
 std::vector<CellShape> cell_shapes(const Mesh& mesh);
 
-/// What the cells round a node tell of one of their variables.
+/// Values of one variable in the cells around a node.
 struct AroundNode {
-  double smallest = 0, largest = 0;  ///< of the cells that touch the node
-  Point gradient;                    ///< by least squares, the cells' means at their centroids
-  bool has_gradient = false;         ///< not where their centroids lie on one line (at corners of the domain)
+  double smallest = 0, largest = 0;  ///< over the cells that touch the node
+  Point gradient;                    ///< by least squares from the cell averages at the centroids
+  bool has_gradient = false;         ///< false if the centroids lie on one line (at corners of the domain)
 };
 
-/// The cells round each node, to be asked for one variable after another.
+/// The cells around each node; evaluates any number of variables.
 class CellsRoundNodes {
  public:
   /// `mesh` must outlive it. *Collective.*
   CellsRoundNodes(const Communicator& comm, const Mesh& mesh);
 
-  /// At this rank's owned nodes and copies, from one value for each of its cells. The gradient is exact for
-  /// values of a linear function at the centroids. The same bits on any number of ranks. *Collective.*
+  /// Returns the values at owned nodes and ghosts, from one value for each cell of this rank. The gradient is
+  /// exact for linear functions sampled at the centroids. Bitwise independent of the number of ranks.
+  /// *Collective.*
   std::vector<AroundNode> of(const std::vector<double>& of_cells) const;
 
   const std::vector<CellShape>& shapes() const { return shapes_; }  ///< of this rank's cells

@@ -11,14 +11,14 @@ namespace quadloop {
 
 namespace {
 
-/// A directed edge and the cell to its left; none where a rank only asks for it.
+/// A directed edge and the cell to its left; no cell in a request.
 struct DirectedEdge {
   std::int64_t from, to, cell;
   friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
 };
 
-/// What this rank's own cells do not tell, asked of the rank that owns the edge's lower node: of each edge
-/// the cell to its right, of a boundary edge that to its left.
+/// Requests to the owner of the edge's lower node for cells that are not on this rank: the cell to the right
+/// of an edge, or to the left of a boundary edge.
 struct Questions {
   std::vector<DirectedEdge> edges;
   std::vector<int> ranks;
@@ -31,7 +31,7 @@ struct Questions {
   }
 };
 
-/// The cell to the left of an edge among sorted ones.
+/// Returns the cell to the left of an edge, from sorted edges.
 std::int64_t cell_left_of(const std::vector<DirectedEdge>& sorted, std::int64_t from, std::int64_t to) {
   const auto found = std::ranges::lower_bound(sorted, DirectedEdge{from, to, 0});
   return found != sorted.end() && found->from == from && found->to == to ? found->cell : EdgeCells::none;
@@ -52,7 +52,7 @@ void ask(const Communicator& comm, const Questions& questions) {
   for (std::size_t i = 0; i < answers.size(); ++i) *questions.answers[i] = answers[i];
 }
 
-/// Fills in what this rank's own cells tell, and collects the questions of the rest.
+/// Fills in what follows from this rank's own cells, and collects requests for the rest.
 class OwnEdges {
  public:
   OwnEdges(const Communicator& comm, const Mesh& mesh, EdgeCells& cells)

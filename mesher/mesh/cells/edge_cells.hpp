@@ -8,18 +8,18 @@
 
 namespace quadloop {
 
-/// Cells of a plane mesh by the numbers over all ranks, triangles before quads, from 0.
+/// Neighbour cells of edges, by global cell numbers, triangles before quads, from 0.
 struct EdgeCells {
   static constexpr std::int64_t none = -1;
 
-  std::vector<std::int64_t> across;       ///< at each edge of this rank's cells, as for_each_cell_edge()
-                                          ///< visits them: the cell on its other side
-  std::vector<std::int64_t> of_boundary;  ///< at each boundary edge, boundary after boundary: the cell to
-                                          ///< its left
-  std::int64_t first_triangle = 0, first_quad = 0;  ///< numbers of this rank's first
+  /// For each edge of this rank's cells, in the order of for_each_cell_edge(): the cell on the other side.
+  std::vector<std::int64_t> across;
+  /// For each boundary edge, boundary after boundary: the cell to its left.
+  std::vector<std::int64_t> of_boundary;
+  std::int64_t first_triangle = 0, first_quad = 0;  ///< global numbers of this rank's first cells
 };
 
-/// The mesh is valid. *Collective.*
+/// The mesh must be valid. *Collective.*
 EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

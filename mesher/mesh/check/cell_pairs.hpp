@@ -9,12 +9,12 @@
 
 namespace quadloop {
 
-/// Finds the two cells at each edge that touches a wanted owned node, each as a Value of the caller's: its
-/// number, its area. Linear in the number of cells.
+/// Finds the two cells at each edge that touches a selected owned node, each represented by a Value of the
+/// caller, e.g. its number or area. Linear in the number of cells.
 template <class Value>
 class CellPairs {
  public:
-  /// `is_wanted(node)` is asked of owned nodes.
+  /// `is_wanted(node)` selects owned nodes.
   template <class IsWanted>
   CellPairs(const HaloMesh& mesh, const IsWanted& is_wanted)
       : mesh_{mesh}, last_(mesh.points().size(), unwanted) {
@@ -23,10 +23,9 @@ class CellPairs {
     }
   }
 
-  /// Calls `value_of(nodes, number)` for the cells at wanted nodes, numbered as HaloMesh::for_each_cell()
-  /// visits them, and `visit(from, to, first, second)` once for each edge inside the domain. Of an edge
-  /// between owned nodes both must be wanted. An edge between ranks is visited on each rank that owns one of
-  /// its nodes.
+  /// Calls `value_of(nodes, number)` for the cells at selected nodes, numbered as HaloMesh::for_each_cell()
+  /// visits them, and `visit(from, to, first, second)` once for each interior edge. Of an edge between owned
+  /// nodes both must be selected. An edge between ranks is visited on each rank that owns one of its nodes.
   template <class ValueOf, class Visit>
   void for_each(const ValueOf& value_of, const Visit& visit) {
     std::int32_t number = 0;
@@ -37,8 +36,8 @@ class CellPairs {
     });
   }
 
-  /// After for_each(): calls `visit(from, to, value)` for each edge with one cell. Where all nodes are
-  /// wanted, these are the edges of the boundary.
+  /// After for_each(): calls `visit(from, to, value)` for each edge with one cell. If all nodes are selected,
+  /// these are the boundary edges.
   template <class Visit>
   void for_each_single(const Visit& visit) const {
     for (std::int32_t i = 0; i < mesh_.owned_nodes(); ++i) {
@@ -50,10 +49,10 @@ class CellPairs {
 
  private:
   static constexpr std::int32_t none = -1, unwanted = -2;
-  /// An edge, and the cell that it was met with first.
+  /// An edge, and the first cell found at it.
   struct Side {
-    NodeId other;       ///< not valid once the second cell was met
-    std::int32_t next;  ///< of the same node
+    NodeId other;       ///< invalid after the second cell was found
+    std::int32_t next;  ///< next side of the same node
     Value value;
   };
 
@@ -82,7 +81,7 @@ class CellPairs {
 
   const HaloMesh& mesh_;
   std::vector<Side> sides_;
-  IdVector<NodeId, std::int32_t> last_;  ///< of each node its last side
+  IdVector<NodeId, std::int32_t> last_;  ///< last side of each node
 };
 
 }  // namespace quadloop

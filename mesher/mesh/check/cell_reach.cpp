@@ -13,7 +13,8 @@ namespace quadloop {
 
 namespace {
 
-constexpr double largest_slope = 0.5;  ///< of the leaves' sizes: (g - 1) / 2 for the largest gradation g = 2
+/// Maximum slope of the quadtree cell sizes: (g - 1) / 2 for the largest gradation g = 2.
+constexpr double largest_slope = 0.5;
 
 }  // namespace
 
@@ -47,7 +48,7 @@ double CellReach::distance_to(std::int32_t cell, Point p) const {
   return inside ? 0 : nearest;
 }
 
-/// The largest of longest edge less `slope` times the distance, over the cells within `distance`; 0 where
+/// Returns the maximum of longest edge minus `slope` times distance, over the cells within `distance`; 0 if
 /// there are none.
 double CellReach::largest_within(Point p, double distance, double slope) const {
   const Box around{{p.x - distance, p.y - distance}, {p.x + distance, p.y + distance}};

@@ -7,22 +7,22 @@
 
 namespace quadloop {
 
-/// Inside validate_geometry() only: how coarse a mesh is at a place, where the cells themselves may be
-/// fragments of larger leaves. Sizes of leaves change by half of their distance at most (the largest
-/// gradation), so a long cell near by says that leaves are not much smaller here.
+/// For validate_geometry() only: the local mesh size, where the cells themselves may be fragments of larger
+/// quadtree cells. Quadtree cell sizes change by at most half of their distance (largest gradation), so a
+/// long cell nearby implies that quadtree cells here are not much smaller.
 class CellReach {
  public:
-  /// `mesh` is whole on this rank and outlives this; `longest` has the longest edge of each cell, triangles
-  /// first.
+  /// `mesh` is whole on this rank and must outlive the object; `longest` has the longest edge of each cell,
+  /// triangles first.
   CellReach(const Mesh& mesh, const std::vector<double>& longest) : mesh_{mesh}, longest_{longest} {}
 
-  /// The largest of longest edge less half the distance to the point, over the cells near it; `enough` ends
-  /// the search, which goes no farther than 16 times as far. Of the nearest cell the longest edge, where none
-  /// is as near. Builds its index when first asked.
+  /// Returns the maximum of longest edge minus half the distance to the point, over nearby cells; the longest
+  /// edge of the nearest cell if none is nearby. The search stops at `enough` and extends to 16 times
+  /// `enough` at most. Builds the index on first use.
   double size_at(Point p, double enough);
 
-  /// The longest edge of the cells that come within `distance` of the point; of the nearest cell, where none
-  /// does.
+  /// Returns the longest edge of the cells within `distance` of the point; that of the nearest cell if there
+  /// is none.
   double longest_within(Point p, double distance);
 
  private:

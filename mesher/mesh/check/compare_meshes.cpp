@@ -14,7 +14,7 @@ namespace {
 template <std::size_t width>
 using Cells = std::vector<std::array<NodeId, width>>;
 
-/// The cells with the nodes of each in ascending order, and so the cells: the same list for the same cells.
+/// Sorts the nodes of each cell, then the cells, so that equal cells give equal lists.
 template <std::size_t width>
 Cells<width> in_one_order(Cells<width> cells) {
   for (auto& nodes : cells) std::ranges::sort(nodes);
@@ -29,7 +29,7 @@ std::optional<std::array<NodeId, width>> first_other(const Cells<width>& found, 
   return at == one.end() ? std::nullopt : std::optional(*at);
 }
 
-/// The shortest edge at each node, squared.
+/// Returns the square of the shortest edge at each node.
 IdVector<NodeId, double> shortest_edges(const Mesh& mesh) {
   IdVector<NodeId, double> shortest(mesh.points.size(), std::numeric_limits<double>::infinity());
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t) {
@@ -42,7 +42,7 @@ IdVector<NodeId, double> shortest_edges(const Mesh& mesh) {
   return shortest;
 }
 
-/// Empty where the cells are the same, in whatever order.
+/// Returns the difference; empty if the cells are the same, in any order.
 template <std::size_t width>
 std::string cell_difference(const std::string& kind, const std::vector<std::array<NodeId, width>>& found,
                             const std::vector<std::array<NodeId, width>>& wanted) {

@@ -10,27 +10,26 @@
 
 namespace quadloop {
 
-/// Of a local edge: how far a node may lie off and still be the same; other programs write coordinates with
-/// few digits.
+/// Tolerance for equal node positions, relative to a local edge; other programs write coordinates with few
+/// digits.
 inline constexpr double same_place_tolerance = 1e-6;
 
-/// A flag for each node of a whole mesh whose place in `points` is farther off than that, of the shortest
-/// cell edge at it. As many points as nodes.
+/// Flags the nodes of a whole mesh whose position in `points` differs by more than this tolerance times the
+/// shortest cell edge at the node. There must be as many points as nodes.
 NodeFlags nodes_elsewhere(const std::vector<Point>& points, const Mesh& mesh);
 
-/// The nodes of the first cell that only `found` has, in ascending order; none where both lists, of the same
-/// length, have the same cells.
+/// Returns the nodes, ascending, of the first cell that only `found` has; empty if both lists, which must be
+/// equally long, have the same cells.
 std::optional<std::array<NodeId, 3>> other_cell(const std::vector<std::array<NodeId, 3>>& found,
                                                 const std::vector<std::array<NodeId, 3>>& wanted);
 std::optional<std::array<NodeId, 4>> other_cell(const std::vector<std::array<NodeId, 4>>& found,
                                                 const std::vector<std::array<NodeId, 4>>& wanted);
 
-/// How a solution at so many nodes differs from one on `mesh`, in words for a message; empty where it does
-/// not. `points` are those of its nodes, or none where they are not known.
+/// Returns, for a message, how a solution at this many nodes differs from one on `mesh`; empty if it does
+/// not. `points` are its node positions, empty if not known.
 std::string node_difference(std::int64_t nodes, const std::vector<Point>& points, const Mesh& mesh);
 
-/// The same of a solution on the mesh `found`: its nodes, each within the tolerance above, and its cells in
-/// any order.
+/// Returns the difference of the meshes: nodes within the tolerance above, cells in any order.
 std::string difference(const Mesh& found, const Mesh& whole);
 
 }  // namespace quadloop

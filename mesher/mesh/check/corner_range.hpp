@@ -8,19 +8,18 @@
 
 namespace quadloop {
 
-/// A cell's corner, as it can be compared without its angle.
+/// A cell's corner, which can be compared without computing its angle.
 struct CellCorner {
-  double cross, dot;  ///< of the sides to the next node and to the previous one
+  double cross, dot;  ///< of the sides to the next and to the previous node
 
   CellCorner(Point previous, Point p, Point next)
       : cross{quadloop::cross(next - p, previous - p)}, dot{quadloop::dot(next - p, previous - p)} {}
-  /// 0 to 180 where the corner turns left, negative where it is inverted.
+  /// Angle: 0 to 180 if the corner turns left, negative if it is inverted.
   double degrees() const { return std::atan2(cross, dot) * (180 / std::numbers::pi); }
 };
 
-/// The smallest and the largest of many corners' angles: those that surely lie between are passed over by
-/// their cotangents, the inverse tangent, which costs ten times as much, is taken of the others alone. The
-/// same bits in any order.
+/// The smallest and the largest of many angles. Corners that are certainly in between are skipped by their
+/// cotangents, as the inverse tangent costs ten times as much. Bitwise independent of the order.
 class CornerRange {
  public:
   void include(const CellCorner& corner) {
@@ -34,12 +33,12 @@ class CornerRange {
       largest_ = degrees;
       least_cotangent_ = above(corner.dot / corner.cross);
     }
-    if (!(corner.cross > 0)) {  // no cotangent tells what lies beside it: all others are measured
+    if (!(corner.cross > 0)) {  // no cotangent bound is valid: all other corners are measured
       most_cotangent_ = -std::numeric_limits<double>::infinity();
       least_cotangent_ = -most_cotangent_;
     }
   }
-  /// Degrees; infinite, and minus that, of no corner.
+  /// Degrees; plus and minus infinity if there is no corner.
   double smallest() const { return smallest_; }
   double largest() const { return largest_; }
 
@@ -56,7 +55,8 @@ class CornerRange {
   double smallest_ = std::numeric_limits<double>::infinity(),
          largest_ = -std::numeric_limits<double>::infinity();
   double most_cotangent_ = -std::numeric_limits<double>::infinity(),
-         least_cotangent_ = std::numeric_limits<double>::infinity();  ///< of corners that may be passed over
+         /// Bounds of the corners that may be skipped.
+      least_cotangent_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace quadloop

@@ -18,7 +18,7 @@ bool is_delaunay(const Mesh& whole, std::span<const std::int32_t> triangle_to_bl
     const auto& nodes = whole.triangles[t];
     const Point a = whole.point(nodes[0]), b = whole.point(nodes[1]), c = whole.point(nodes[2]);
     if (orientation(a, b, c) <= 0) return false;
-    // An edge that is not Delaunay lies opposite a blunt corner of one of its triangles.
+    // An edge that is not Delaunay is opposite an obtuse corner of one of its triangles.
     for (unsigned blunt = blunt_corners(a, b, c); blunt != 0; blunt &= blunt - 1) {
       const std::size_t k = (std::countr_zero(blunt) + std::size_t{1}) % 3;
       const std::int32_t across = table.cell_left_of(nodes[(k + 1) % 3], nodes[k]);

@@ -7,10 +7,10 @@
 
 namespace quadloop {
 
-/// Whether a mesh that is whole on this rank is a constrained Delaunay triangulation: triangles alone, and
-/// none whose circumcircle holds the opposite node of a neighbour; edges between triangles of two blocks are
-/// constraints. Exact; nodes on one circle are no contradiction. `triangle_to_block` has an entry for each
-/// triangle, or none where all are of one block.
+/// Whether a mesh that is whole on this rank is a constrained Delaunay triangulation: triangles only, and no
+/// circumcircle contains the opposite node of a neighbour; edges between triangles of two blocks are
+/// constraints. Exact; cocircular nodes are allowed. `triangle_to_block` has an entry for each triangle;
+/// empty: one block.
 bool is_delaunay(const Mesh& whole, std::span<const std::int32_t> triangle_to_block = {});
 
 }  // namespace quadloop

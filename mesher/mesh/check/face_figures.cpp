@@ -54,11 +54,11 @@ double degrees_between(Point a, Point b) {
   return std::atan2(std::abs(cross(a, b)), dot(a, b)) * 180 / std::numbers::pi;
 }
 
-/// `towards` leads from a cell's centre to the other one, or to the boundary; `to_middle` to the edge's
-/// middle.
+/// `towards`: from a cell's centre to that of the neighbour, or to the boundary; `to_middle`: from the centre
+/// to the midpoint of the edge.
 double skewness_of(Point edge, Point to_middle, Point towards, double least_share) {
   const double along = cross(edge, towards);
-  if (along == 0) return 0;  // there is no mesh in which the line does not cross the edge's
+  if (along == 0) return 0;  // degenerate: the line never meets the edge's line
   const double off = length(to_middle - cross(edge, to_middle) / along * towards);
   return off / std::max(0.5 * length(edge), least_share * length(towards));
 }
@@ -79,7 +79,7 @@ FaceFigures over_ranks(const Communicator& comm, const FaceFigures& of_rank) {
           comm.sum(of_rank.flat)};
 }
 
-/// A flag for each of this rank's cells, triangles first.
+/// Returns a flag for each of this rank's cells, triangles first.
 std::vector<char> cells_in_layers(const Mesh& mesh, const LayerPlaces& places) {
   std::vector<char> flags;
   const auto add = [&](const auto& cells) {

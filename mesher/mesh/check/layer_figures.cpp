@@ -32,7 +32,7 @@ class Columns {
     }
   }
 
-  /// From a node of the wall on, itself first.
+  /// Returns the nodes of the column, from the wall node on.
   std::vector<NodeId> from(NodeId foot) const {
     std::vector<NodeId> nodes{foot};
     for (const std::vector<NodeId>* next = above(foot); next != nullptr; next = above(nodes.back()))
@@ -40,12 +40,12 @@ class Columns {
     return nodes;
   }
 
-  /// Whether the layers go on in a strip, as those on a base do behind which a wake begins.
+  /// Whether the layers continue in a strip, as those on a blunt base where a wake begins.
   bool ends_in_strip(const std::vector<NodeId>& column) const { return places_[column.back()].left > 0; }
 
-  /// Of a node above the wall's; above a sharp edge its distance.
+  /// Height of a node above the wall; above a sharp edge its distance.
   double height(NodeId foot, NodeId node) const {
-    constexpr double sharp = -0.5;  // columns of a fan stand where the wall turns by more than 120 degrees
+    constexpr double sharp = -0.5;  // columns of a fan start where the wall turns by more than 120 degrees
     const auto edges = edges_at_.find(foot);
     const Point way = mesh_.point(node) - mesh_.point(foot);
     if (edges == edges_at_.end()) return length(way);
@@ -88,12 +88,13 @@ class Columns {
   std::unordered_map<NodeId, std::vector<std::array<NodeId, 2>>> edges_at_;
 };
 
-/// What the columns of one boundary add up to.
+/// Sums over the columns of one boundary.
 struct LayerTally {
   std::int64_t columns = 0, cut = 0;
   std::vector<double> first, growth, thickness;
 
-  /// One with a node at the border to another part is left out: what goes on from there is not here.
+  /// Adds a column, unless one of its nodes lies on the border of a partition, where its continuation is
+  /// missing.
   void add(const Mesh& mesh, const Columns& columns_of, NodeId foot, const NodeFlags& at_border) {
     const std::vector<NodeId> column = columns_of.from(foot);
     if (std::ranges::any_of(column, [&](NodeId node) { return at_border[node] != 0; })) {
@@ -112,7 +113,7 @@ struct LayerTally {
   }
 };
 
-/// One strip's columns, on both sides of its line.
+/// The columns of one strip, on both sides of its line.
 class StripColumns {
  public:
   StripColumns(const Mesh& whole, const StripLayers& strip) : mesh_{whole}, strip_{strip} {}
@@ -132,7 +133,7 @@ class StripColumns {
     return mesh_.points[strip_.node(column, row).value()];
   }
 
-  /// The layers from one row on.
+  /// Adds the layers from one row outwards.
   void add_side(std::int32_t column, std::int32_t foot, std::int32_t step, LayerTally& tally) const {
     double whole = 0, before = 0;
     for (std::int32_t layer = 1; layer <= strip_.layers.count; ++layer) {
@@ -147,7 +148,7 @@ class StripColumns {
     tally.thickness.push_back(whole);
   }
 
-  /// From the row's edges on either side of the column.
+  /// Distance from the row's edges on both sides of the column.
   double distance_from_line(std::int32_t column, std::int32_t row, Point p) const {
     const Point foot = at(column, row);
     double most = 0;
@@ -174,7 +175,7 @@ LayerFigures figures_of(const std::string& name, const WallLayers& layers, Layer
           layers.thickness};
 }
 
-/// Nodes of the edges between a part of a mesh and others.
+/// Flags the nodes on edges between partitions.
 NodeFlags border_of_part(const Mesh& mesh) {
   NodeFlags at_border(mesh.points.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
@@ -186,7 +187,7 @@ NodeFlags border_of_part(const Mesh& mesh) {
   return at_border;
 }
 
-/// The mesh with cells for which `takes` holds alone.
+/// Returns the mesh with only the cells for which `takes` is true.
 template <class Takes>
 Mesh with_cells(const Mesh& mesh, const Takes& takes) {
   Mesh part;
@@ -211,7 +212,8 @@ std::vector<LayerFigures> layer_figures(const Mesh& whole, const LayerPlaces& pl
   std::vector<LayerFigures> figures;
   for (std::size_t b = 0; b < tallies.size(); ++b) {
     const BoundaryEdges& boundary = whole.boundaries[b];
-    if (tallies[b].columns + tallies[b].cut == 0) continue;  // no layers, or none of its own: a wake's base
+    // no layers, or none of its own: the base of a wake
+    if (tallies[b].columns + tallies[b].cut == 0) continue;
     figures.push_back(figures_of(boundary.name, boundary.layers, std::move(tallies[b])));
   }
   for (const StripLayers& strip : whole.strips)

@@ -11,7 +11,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double fixed_point = 1 << 30;  // 2^33 cells of quality 1 fit into 64 bits
+constexpr double fixed_point = 1 << 30;  // sums of 2^33 cells of quality 1 fit into 64 bits
 
 double quality_of_triangle(Point a, Point b, Point c) {
   const double edges = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
@@ -23,12 +23,12 @@ double quality_of_corner(Point previous, Point p, Point next) {
   return edges > 0 ? 2 * cross(next - p, previous - p) / edges : 0;
 }
 
-/// As std::llround, which is a function call; above 1 half a unit more is told exactly.
+/// As std::llround, without the function call; for values from 1 on adding 0.5 is exact enough.
 std::int64_t nearest_whole(double value) {
   return value >= 1 ? static_cast<std::int64_t>(value + 0.5) : std::llround(value);
 }
 
-/// What one rank adds up.
+/// Quality sums of one rank.
 struct QualityTally {
   CornerRange angles;
   double worst = std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ namespace {
                   what, place.x, place.y));
 }
 
-/// A node's place at random in the plane of 64-bit integers, where products wrap around.
+/// A random position of a node in the plane of 64-bit integers, with wrap-around arithmetic.
 struct RandomPlace {
   std::uint64_t x, y;
 
@@ -49,8 +49,8 @@ std::vector<RandomPlace> random_places(const Mesh& mesh) {
   return places;
 }
 
-/// Whether the corner at a turns left for certain, exactly and in rounded arithmetic: seen from any of its
-/// three points, as rounding changes no product by as much.
+/// Whether the corner at a certainly turns left, both exactly and in rounded arithmetic from any of its three
+/// points: the products exceed any rounding error.
 bool surely_turns_left(Point to_next, Point to_previous) {
   constexpr double rounding = 1e-13;
   const double reach =
@@ -73,10 +73,10 @@ auto twice_area(const std::array<Place, 4>& p) {
   return cross(p[2] - p[0], p[3] - p[1]);
 }
 
-/// One rank's cells and boundary edges, each looked at once.
+/// One pass over one rank's cells and boundary edges.
 class Tally {
  public:
-  /// `box` and `count` are those of all ranks' nodes, and of their cells and boundary edges.
+  /// `box` is the bounding box of all ranks' nodes, `count` the number of all cells and boundary edges.
   Tally(const Mesh& mesh, const Box& box, std::int64_t count)
       : mesh_{mesh},
         places_{random_places(mesh)},
@@ -88,10 +88,10 @@ class Tally {
   }
 
   bool all_surely_positive() const { return surely_positive_; }
-  /// Over all ranks 0 where the edges of cells and boundary cancel each other: then only, but for once in
-  /// about 2^60 times, as an area is a polynomial of the places with a term for each edge.
+  /// The sum over all ranks is 0 if the edges of cells and boundary cancel; otherwise it is 0 with a
+  /// probability of about 2^-60, as the area is a polynomial of the positions with a term for each edge.
   std::uint64_t random_area() const { return random_area_; }
-  /// Twice what the cells cover and what the boundary encloses, over all ranks. *Collective.*
+  /// Twice the area of the cells and twice that enclosed by the boundary, over all ranks. *Collective.*
   std::vector<double> twice_areas(const Communicator& comm) const { return twice_areas_.over(comm); }
 
  private:
@@ -130,14 +130,14 @@ class Tally {
 /// The lower number first.
 using UndirectedEdge = std::pair<GlobalNodeId, GlobalNodeId>;
 
-/// An edge whose uses do not cancel, with the place of an end.
+/// An edge whose uses do not cancel, with the position of an end.
 struct UnmatchedEdge {
   GlobalNodeId low, high;
   int uses;
   Point place;
 };
 
-/// Where there are some. *Collective.*
+/// Reports the unmatched edges, of which there must be some. *Collective.*
 [[noreturn]] void report_unmatched(const Communicator& comm, const Mesh& mesh) {
   std::map<UndirectedEdge, std::pair<int, Point>> uses;
   const auto add = [&](GlobalNodeId a, GlobalNodeId b, int way, Point place) {
@@ -166,7 +166,7 @@ struct UnmatchedEdge {
   report_unsound("some edges do not have a cell, or the boundary, on either side", {});
 }
 
-/// Of every cell, exactly. *Collective.*
+/// Checks the corners of every cell exactly. *Collective.*
 void require_positive(const Communicator& comm, const Mesh& mesh) {
   comm.together([&] {
     Faults faults;

@@ -23,13 +23,13 @@ double area_of(const HaloMesh& mesh, const Nodes& nodes) {
   return 0.5 * cross(c - a, mesh.point(nodes.back()) - b);
 }
 
-/// Turned by a right angle, clockwise.
+/// Rotates by 90 degrees clockwise.
 Point turned(Point v) { return {v.y, -v.x}; }
 
-/// What a node's dual cell adds up to over its edges; places count from the node.
+/// Sums over the edges of a node's dual cell; positions are relative to the node.
 struct DualSum {
   double area = 0;
-  Point with_x, with_y;  ///< columns of the sum of (middle) x (face)
+  Point with_x, with_y;  ///< columns of the sum of (midpoint) x (face)
 
   void add_face(Point middle, Point face) {
     with_x = with_x + middle.x * face;
@@ -42,7 +42,7 @@ struct DualSum {
   }
 };
 
-/// The part of a cell round its k-th node is bounded by the middles of its two edges there and the mean of
+/// The part of a cell around its k-th node is bounded by the midpoints of its two edges there and the mean of
 /// the cell's nodes.
 template <class Nodes>
 void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum& sum) {
@@ -58,7 +58,7 @@ void add_corner(const HaloMesh& mesh, const Nodes& nodes, std::size_t k, DualSum
   sum.area += 0.5 * cross(centre, before - after);
 }
 
-/// A flag for each node of the halo mesh that lies on the boundary; right for all. *Collective.*
+/// Flags the boundary nodes of the halo mesh, correctly for all its nodes. *Collective.*
 NodeFlags boundary_nodes(const HaloMesh& mesh) {
   NodeFlags flags(mesh.points().size(), 0);
   for (const HaloEdge& edge : mesh.boundary_edges()) {
@@ -68,14 +68,14 @@ NodeFlags boundary_nodes(const HaloMesh& mesh) {
   return flags;
 }
 
-/// The largest and the smallest area of the cells round a node.
+/// The largest and the smallest area of the cells around a node.
 struct AreaRange {
   double smallest = std::numeric_limits<double>::infinity(), largest = 0;
   double ratio() const { return area_ratio(largest, smallest); }
 };
 using AreaRanges = IdVector<NodeId, AreaRange>;
 
-/// Of the owned nodes.
+/// Returns the ranges at the owned nodes.
 AreaRanges areas_round_nodes(const HaloMesh& mesh) {
   AreaRanges ranges(mesh.owned_nodes());
   mesh.for_each_cell([&](const auto& nodes) {
@@ -91,9 +91,9 @@ AreaRanges areas_round_nodes(const HaloMesh& mesh) {
 
 enum Ring : std::int32_t { triangles = 1, parallelograms = 2, others = 4 };
 
-/// What a cell of positive area brings to the rings of its nodes. Corners of parallelograms are exact each,
-/// those of triangles together. The skew that is let pass is far below what makes a node inexact, also where
-/// a cell is very long.
+/// Returns the kind of a cell of positive area for the rings of its nodes. Parallelograms are exact at each
+/// corner, triangles only together. The accepted skew is far below what makes a node inexact, even for very
+/// long cells.
 template <class Nodes>
 std::int32_t kind_of(const HaloMesh& mesh, const Nodes& nodes) {
   constexpr double least_skew = 1e-7;
@@ -104,8 +104,8 @@ std::int32_t kind_of(const HaloMesh& mesh, const Nodes& nodes) {
                                                                          : Ring::others;
 }
 
-/// Of the inner nodes whose ring is neither of triangles nor of parallelograms alone, all with an area, which
-/// are few: for each its place among them, -1 for all other nodes.
+/// Numbers the few inner nodes that need a check: their ring has mixed cells or other quads, all with
+/// positive area. -1 for all other nodes.
 IdVector<NodeId, std::int32_t> places_of_doubtful_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary,
                                                         const AreaRanges& areas) {
   IdVector<NodeId, std::int32_t> places(mesh.owned_nodes(), 0);
@@ -125,7 +125,7 @@ IdVector<NodeId, std::int32_t> places_of_doubtful_nodes(const HaloMesh& mesh, co
   return places;
 }
 
-/// How many there are on this rank.
+/// Returns the number on this rank.
 std::int64_t count_inexact_nodes(const HaloMesh& mesh, const NodeFlags& on_boundary,
                                  const AreaRanges& areas) {
   const IdVector<NodeId, std::int32_t> places = places_of_doubtful_nodes(mesh, on_boundary, areas);
@@ -148,8 +148,8 @@ void count_parallelograms(const Mesh& mesh, ShapeFigures& figures) {
   figures.quads = std::ssize(mesh.quads);
 }
 
-/// The largest ratio at edges between nodes round which the areas differ by `least` or more, as far as this
-/// rank knows: of owned nodes.
+/// Returns the largest ratio at edges between nodes whose ranges have a ratio of `least` or more, over this
+/// rank's owned nodes.
 double largest_ratio(const HaloMesh& mesh, const AreaRanges& ranges, double least) {
   double largest = 0;
   CellPairs<double> pairs(mesh, [&](NodeId node) { return ranges[node].ratio() >= least; });
@@ -160,8 +160,8 @@ double largest_ratio(const HaloMesh& mesh, const AreaRanges& ranges, double leas
   return largest;
 }
 
-/// An edge's ratio is at most that of all cells round either of its nodes: so only nodes of large ratios are
-/// looked at, and fewer than all as soon as an edge among them reaches the bound. *Collective.*
+/// The ratio at an edge is at most that of all cells around either node: so only nodes of large ratios are
+/// visited, until an edge among them reaches the bound. *Collective.*
 double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh, const AreaRanges& ranges) {
   double bound = 1;
   for (const AreaRange& range : ranges) bound = std::max(bound, range.largest > 0 ? range.ratio() : 1);
@@ -174,8 +174,7 @@ double largest_area_ratio(const Communicator& comm, const HaloMesh& mesh, const 
   }
 }
 
-/// The nodes that a node shares boundary edges with, by their numbers over all ranks; more than four are not
-/// needed to tell passages.
+/// Neighbours of a node along boundary edges, by global number; four are enough to detect passages.
 struct BoundaryNeighbours {
   std::array<GlobalNodeId, 4> nodes;
   void add(GlobalNodeId node) {
@@ -185,7 +184,7 @@ struct BoundaryNeighbours {
   bool holds(GlobalNodeId node) const { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }
 };
 
-/// Those of the nodes on the boundary, which are few.
+/// Boundary neighbours of the boundary nodes, which are few.
 class BoundaryRing {
  public:
   /// *Collective.*
@@ -216,7 +215,7 @@ class BoundaryRing {
   std::vector<BoundaryNeighbours> neighbours_;
 };
 
-/// Each cell counts where its first node is owned. *Collective.*
+/// Counts passage cells; each is counted by the owner of its first node. *Collective.*
 std::int64_t count_passage_cells(const HaloMesh& mesh, const NodeFlags& on_boundary) {
   BoundaryRing ring(mesh, on_boundary);
   const auto is_boundary = [&](NodeId a, NodeId b) { return ring.of(a).holds(mesh.global(b)); };

@@ -7,14 +7,14 @@
 
 namespace quadloop {
 
-/// What a distributed mesh is like for those who solve on it; over all ranks.
+/// Statistics of a distributed mesh for flow solvers, over all ranks.
 struct ShapeFigures {
-  std::int64_t quads = 0, parallelograms = 0;       ///< those quads whose skew_of is at most parallel_skew
-  std::int64_t inner_nodes = 0, inexact_nodes = 0;  ///< nodes off the boundary; those at which median-dual
-                                                    ///< cells are not exact for linear fields
-  /// Of the two cells at an inner edge, the larger area by the smaller; 0 without inner edges.
+  std::int64_t quads = 0, parallelograms = 0;  ///< parallelograms: quads with skew_of() at most parallel_skew
+  /// Nodes off the boundary; those where median-dual cells are not exact for linear fields.
+  std::int64_t inner_nodes = 0, inexact_nodes = 0;
+  /// Largest ratio of the two cell areas at an inner edge; 0 without inner edges.
   double area_ratio_max = 0;
-  /// Cells that fill a passage: all nodes on the boundary, but no two boundary edges that meet.
+  /// Cells that span a passage: all nodes are on the boundary, but no two boundary edges of the cell meet.
   std::int64_t passage_cells = 0;
 
   double parallelogram_share() const {
@@ -25,11 +25,11 @@ struct ShapeFigures {
   }
 };
 
-/// A node counts as inexact where the sum over its edges of (middle of the edge) x (face of the median dual
-/// that the edge crosses), which should be the dual cell's area times the unit matrix, misses that by more
-/// than 0.2 percent of the area: a scheme that takes a linear flux at the middles of edges, as node-centred
-/// solvers do, is wrong there by as much. Triangles and parallelograms miss nothing. The same on any number
-/// of ranks. *Collective.*
+/// Computes the statistics. A node counts as inexact if the sum over its edges of (midpoint of the edge) x
+/// (face of the median dual crossed by the edge), which should be the dual area times the identity matrix,
+/// differs from it by more than 0.2 % of the area: the error of a node-centred scheme that evaluates a linear
+/// flux at edge midpoints. Triangles and parallelograms are exact. Independent of the number of ranks.
+/// *Collective.*
 ShapeFigures shape_figures(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

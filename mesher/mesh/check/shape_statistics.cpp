@@ -20,13 +20,13 @@ constexpr double sharp_vertex_degrees = 60, sharp_corner_degrees = 30;
 
 struct PointHash {
   std::size_t operator()(Point p) const {
-    constexpr std::size_t odd = 0x9E3779B97F4A7C15;  // 2^64 by the golden ratio
+    constexpr std::size_t odd = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
     const std::hash<double> hash;
     return (hash(p.x) * odd) ^ hash(p.y);
   }
 };
 
-/// Calls `visit(from, to)` for the segments of all chains, but for those without length.
+/// Calls `visit(from, to)` for all segments of non-zero length of all chains.
 template <class Visit>
 void for_each_segment(std::span<const Chain> geometry, const Visit& visit) {
   for (const Chain& chain : geometry) {
@@ -38,16 +38,17 @@ void for_each_segment(std::span<const Chain> geometry, const Visit& visit) {
   }
 }
 
-/// 0 to 360, of the domain to the left of the way from `previous` over p to `next`.
+/// Returns the interior angle, 0 to 360, with the domain to the left of the path from `previous` over p to
+/// `next`.
 double interior_degrees(Point previous, Point p, Point next) {
   const double degrees = corner_degrees(previous, p, next);
   return degrees < 0 ? degrees + 360 : degrees;
 }
 
-/// The vertices where the outline is sharp, and the smallest excepted corner of a cell at each.
+/// The sharp vertices of the geometry, and the smallest exempt cell angle at each.
 class SharpVertices {
  public:
-  /// The outline passes each vertex once; where it runs on from chain to chain, their end points are
+  /// The geometry passes each vertex once; where it continues from chain to chain, their end points are
   /// identical.
   explicit SharpVertices(std::span<const Chain> geometry) {
     std::unordered_map<Point, Point, PointHash> following;
@@ -59,8 +60,8 @@ class SharpVertices {
     });
   }
 
-  /// Whether the corner of a cell at p is excepted. `own` tells that it lies between two boundary edges: it
-  /// is the boundary's own angle.
+  /// Whether the cell corner at p is exempt. `own`: it lies between two boundary edges, i.e. is the
+  /// boundary's own angle.
   bool excepts(Point p, double degrees, bool own) {
     if (!(degrees > 0 && degrees < sharp_corner_degrees)) return false;
     auto vertex = smallest_.find(p);
@@ -91,13 +92,13 @@ void count_corner(double degrees, ShapeStatistics& shape) {
   shape.corners_above_150 += degrees > 150 ? 1 : 0;
 }
 
-/// Whether a corner has surely between 30 and 150 degrees: what is counted is outside.
+/// Whether a corner is certainly between 30 and 150 degrees; only others are counted.
 bool is_ordinary(const CellCorner& corner) {
   constexpr double tangent_of_30 = 0.57735, slightly_more = 1 + 1e-4;
   return corner.cross > tangent_of_30 * slightly_more * std::abs(corner.dot);
 }
 
-/// Tells the cells that fill a passage from side to side.
+/// Finds the cells that span a passage.
 class PassageTest {
  public:
   PassageTest(const Mesh& mesh, const MeshTopology& topology)
@@ -107,7 +108,7 @@ class PassageTest {
 
   bool is_boundary(NodeId from, NodeId to) const { return !is_inner(from, to); }
 
-  /// Whether all nodes of a cell lie on the boundary, and no two of its edges that meet do.
+  /// Whether all nodes of a cell are on the boundary, and no two of its boundary edges meet.
   template <std::size_t width>
   bool fills(const std::array<NodeId, width>& cell) const {
     for (const NodeId node : cell) {
@@ -178,7 +179,7 @@ void add_all_corners(const Mesh& mesh, const MeshTopology& topology, std::span<c
   });
 }
 
-/// One ratio for each edge between two cells.
+/// Returns one ratio for each inner edge.
 std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topology) {
   const std::vector<double> areas = cell_areas(mesh);
   const auto area = [&](std::int32_t cell) { return areas[cell]; };
@@ -186,13 +187,14 @@ std::vector<double> ratios_at_edges(const Mesh& mesh, const MeshTopology& topolo
   auto beyond = topology.beyond().begin();
   for_each_cell_edge(mesh, [&](NodeId from, NodeId to, std::int32_t cell) {
     const std::int32_t other = *beyond++;
-    if (to < from) return;  // the cell on the other side says it
+    if (to < from) return;  // counted by the cell on the other side
     if (other >= 0) ratios.push_back(area_ratio(area(cell), area(other)));
   });
   return ratios;
 }
 
-/// The smallest value that 99 percent do not exceed. Reorders the values, of which there are some.
+/// Returns the 99th percentile (smallest value that 99 % do not exceed) of a non-empty list. Reorders the
+/// values.
 double percentile_99(std::vector<double>& values) {
   const std::size_t rank = (values.size() * 99 + 99) / 100;  // rounded up
   const auto at = values.begin() + rank - 1;

@@ -26,10 +26,10 @@ void for_each_boundary_edge(const Mesh& mesh, const Visit& visit) {
   }
 }
 
-/// Exactly, and as any solver will compute it.
+/// Both exactly and in the rounded arithmetic of a solver.
 bool turns_left(Point a, Point b, Point c) { return cross(b - a, c - a) > 0 && orientation(a, b, c) > 0; }
 
-/// The first node that a cell has twice, if any.
+/// Returns a node that a cell has twice, if any.
 NodeId repeated_node(std::span<const NodeId> cell) {
   for (std::size_t k = 1; k < cell.size(); ++k) {
     const auto before = cell.first(k);
@@ -42,7 +42,7 @@ bool is_unused_node(const MeshFault& fault) {
   return fault.what.find("belongs to no cell") != std::string::npos;
 }
 
-/// Whether later rules have no meaning for what check_indices found.
+/// Whether the errors of check_indices make the later rules meaningless.
 bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
 
 std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
@@ -60,7 +60,7 @@ struct ConformingFaults {
 
 using BoundaryEdge = std::array<NodeId, 2>;
 
-/// Flags the ends of boundary edges on which another one lies in the opposite direction.
+/// Flags the ends of boundary edges that coincide with one in the opposite direction.
 NodeFlags nodes_at_cracks(const Mesh& mesh) {
   using Ends = std::pair<Point, Point>;
   std::vector<Ends> edges;

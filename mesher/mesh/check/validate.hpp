@@ -11,71 +11,76 @@
 
 namespace quadloop {
 
-/// What every mesh obeys that may be written.
+/// Rules that every written mesh satisfies.
 enum class MeshRule {
-  indices,  ///< connectivity names existing nodes; every node belongs to a cell; coordinates are finite; no
-            ///< boundary is empty
-  coincident,  ///< no two nodes share a position but on the two sides of a crack: boundary edges that lie on
-               ///< each other and run in opposite directions
+  /// Connectivity refers to existing nodes; every node belongs to a cell; coordinates are finite; no boundary
+  /// is empty.
+  indices,
+  /// No two nodes coincide, except on the two sides of a crack: coincident boundary edges in opposite
+  /// directions.
+  coincident,
   positive,    ///< cells are strictly convex and counter-clockwise, exactly and in rounded arithmetic
   conforming,  ///< no cell has a node twice; an edge has two cells in opposite directions, or one cell and
                ///< one boundary edge in its direction
   closed,      ///< boundary edges form closed loops, none is listed twice
-  area,        ///< the cells' areas add up to what the boundary encloses (relative 1e-10)
-  overlap,     ///< cells go round an inner node once; boundary edges meet at shared nodes only
-  geometry,    ///< boundary nodes lie on their boundary, and its points near the mesh's boundary
+  area,        ///< the cells' areas sum to that enclosed by the boundary (relative 1e-10)
+  overlap,     ///< cells wind once around an inner node; boundary edges meet only at shared nodes
+  geometry,    ///< boundary nodes lie on their boundary, and points of the geometry near the mesh's boundary
 };
 const char* name_of(MeshRule rule);
 
-/// One broken rule at one place.
+/// A violated rule with its location.
 struct MeshFault {
   MeshRule rule;
   std::string what;
   Point place;
 };
 
-/// To which block each cell belongs, where there are several.
+/// Block of each cell, if there are several blocks.
 struct CellBlocks {
   std::int32_t count = 1;
   std::span<const std::int32_t> of_triangle, of_quad;
 };
 
-/// All faults of a mesh that is whole on this rank, in the order of the rules; O(n log n). Where connectivity
-/// or coordinates make no sense the later rules are not looked at.
+/// Returns all errors of a mesh that is whole on this rank, in the order of the rules; O(n log n). If
+/// connectivity or coordinates are invalid, the later rules are skipped.
 std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks = {});
 
-/// Those of them alone that no movement of nodes can cure: of the rules indices, conforming and closed.
+/// Returns only the errors that moving nodes cannot repair: those of the rules indices, conforming and
+/// closed.
 std::vector<MeshFault> validate_topology(const Mesh& mesh, const CellBlocks& blocks = {});
 
-/// Nodes where the boundary passes more than once (bow ties): allowed, but worth a figure. The mesh is valid.
+/// Counts nodes where the boundary passes more than once (non-manifold boundary nodes): allowed, but
+/// reported. The mesh must be valid.
 std::int64_t pinched_nodes(const Mesh& mesh, const MeshTopology& topology);
 
-/// The connected regions of a mesh: cells that edges join, so a pinched node does not connect.
+/// The connected regions of a mesh: cells connected by edges; a pinched node does not connect.
 struct MeshRegions {
   std::int64_t count = 0;
-  std::int64_t smallest_cells = 0;  ///< cells of the region with the fewest
-  Point smallest_place;             ///< a node of it
+  std::int64_t smallest_cells = 0;  ///< number of cells of the smallest region
+  Point smallest_place;             ///< one of its nodes
 };
 
-/// Of a mesh that is whole on this rank; linear in time. `topology` keeps all edges.
+/// The mesh must be whole on this rank; linear in time. `topology` must keep all edges.
 MeshRegions connected_regions(const Mesh& mesh, const MeshTopology& topology);
 
-/// How a mesh follows its geometry.
+/// How well a mesh fits its geometry.
 struct GeometryFit {
   std::vector<MeshFault> faults;
-  std::int64_t boundaries_dropped = 0;  ///< of the geometry, that the mesh lacks
-  std::int64_t loops_dropped = 0;  ///< loops, or open chains, on which no boundary node lies; a fault where
-                                   ///< they are longer than the cells there
-  /// Points where a closed boundary turns by more than 30 degrees, ends of open ones.
+  std::int64_t boundaries_dropped = 0;  ///< boundaries of the geometry that the mesh lacks
+  /// Loops, or open chains, without a boundary node; an error if they are longer than the cells there.
+  std::int64_t loops_dropped = 0;
+  /// Points where a closed boundary turns by more than 30 degrees, and ends of open ones.
   std::int64_t sharp_corners = 0;
-  std::int64_t sharp_corners_lost = 0;  ///< of these, no mesh node
-  double boundary_node_distance = 0;    ///< largest distance of a boundary node to its boundary
-  double geometry_distance = 0;  ///< largest distance of a point of the geometry to its boundary in the mesh
-  double area_error = 0;         ///< relative
+  std::int64_t sharp_corners_lost = 0;  ///< of these, those without a mesh node
+  double boundary_node_distance = 0;    ///< largest distance of a boundary node from its boundary
+  /// Largest distance of a point of the geometry from its boundary in the mesh.
+  double geometry_distance = 0;
+  double area_error = 0;  ///< relative
 };
 
-/// What chords cut off, and small islands that are dropped, may make of the area in all, as a share; a mesh
-/// that misses more is not of its geometry.
+/// Largest relative area error from chords and dropped small islands; a mesh with a larger one does not
+/// belong to its geometry.
 inline constexpr double largest_area_error = 0.05;
 
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to

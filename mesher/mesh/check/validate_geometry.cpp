@@ -17,10 +17,10 @@ namespace quadloop {
 namespace {
 
 constexpr double sharp_degrees = 30;
-constexpr double fragments = 2, loop_reach = 4;  ///< a leaf may be that much larger than its pieces, which
-                                                 ///< lie within so many sizes of a loop
+/// Maximum ratio of a quadtree cell to its fragments, and their maximum distance from a loop in sizes.
+constexpr double fragments = 2, loop_reach = 4;
 
-/// Segments that answer which of them is nearest.
+/// Segments with a nearest-segment search.
 class SegmentSet {
  public:
   void add(Point a, Point b) { segments_.emplace_back(a, b); }
@@ -29,7 +29,7 @@ class SegmentSet {
     for (const auto& [a, b] : segments_) boxes.push_back(box_of(a, b));
     tree_ = BoxTree(boxes);
   }
-  /// Number of the nearest segment, the lowest of equals, and how far it is: infinitely, where there is none.
+  /// Returns the nearest segment, the lowest number of equals, and its distance; infinite if there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
     const std::uint32_t found = tree_.nearest(p, [&](std::int32_t number) {
@@ -47,8 +47,8 @@ class SegmentSet {
 
 /// All chains of one name.
 struct NamedOutline {
-  std::vector<std::size_t> chains;         ///< which they are
-  std::vector<std::size_t> segment_chain;  ///< of each segment
+  std::vector<std::size_t> chains;         ///< indices of the chains
+  std::vector<std::size_t> segment_chain;  ///< chain of each segment
   SegmentSet segments;
 };
 
@@ -97,7 +97,7 @@ std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
   return longest;
 }
 
-/// Compares the two, boundary by boundary.
+/// Compares mesh and geometry, boundary by boundary.
 class Comparison {
  public:
   Comparison(const Mesh& mesh, std::span<const Chain> geometry, double tolerance)
@@ -151,7 +151,7 @@ class Comparison {
     }
   }
 
-  /// Where the joint of two boundaries is lost within a leaf, the edges of one end on the other.
+  /// If the joint of two boundaries is lost within a quadtree cell, the edges of one end on the other.
   bool ends_beyond_joint(Point p, double away) {
     if (!all_segments_) {
       all_segments_.emplace();
@@ -162,8 +162,8 @@ class Comparison {
     return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
   }
 
-  /// No point of a loop that the mesh has is farther from its boundary there than the cells round it are
-  /// long.
+  /// Checks that each point of a loop in the mesh is closer to its boundary than the length of the cells
+  /// around it.
   void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
     SegmentSet edges;
     for (const auto& edge : boundary.edges) edges.add(mesh_.point(edge[0]), mesh_.point(edge[1]));
@@ -185,7 +185,8 @@ class Comparison {
           p);
   }
 
-  /// The mesher drops loops smaller than its smallest leaf, both ways; a larger one has to be in the mesh.
+  /// The mesher drops loops smaller than its smallest quadtree cell in both directions; a larger one must be
+  /// in the mesh.
   void compare_loops() {
     for (std::size_t c = 0; c < geometry_.size(); ++c) {
       const Chain& chain = geometry_[c];
@@ -233,11 +234,11 @@ class Comparison {
   const Mesh& mesh_;
   std::span<const Chain> geometry_;
   std::map<std::string, NamedOutline> outlines_;
-  std::vector<char> met_;  ///< of each chain: a boundary node of its name lies on it
+  std::vector<char> met_;  ///< for each chain: whether a boundary node of its name lies on it
   MeshTopology topology_;
   std::vector<double> longest_;
   CellReach reach_;
-  std::optional<SegmentSet> all_segments_;  ///< of every boundary, once they are asked for
+  std::optional<SegmentSet> all_segments_;  ///< of every boundary; built on first use
   Point centre_;
   double tolerance_ = 0;
   GeometryFit fit_;

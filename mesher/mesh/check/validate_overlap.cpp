@@ -14,13 +14,14 @@ namespace {
 
 constexpr double turn_tolerance = 1e-4;  // degrees
 constexpr double full_turn = 360;
-constexpr std::size_t most_components = 2000;  // whose winding is counted; beyond, the other rules must do
+// above this number windings are not counted; the other rules must suffice
+constexpr std::size_t most_components = 2000;
 
 struct Segment {
   Point from, to;
 };
 
-/// Whether two boundary edges meet but at a common end, or as the two sides of a crack.
+/// Whether two boundary edges meet other than at a common end or as the two sides of a crack.
 bool meet_wrongly(const Segment& s, const Segment& t) {
   const bool common_from = s.from == t.from || s.from == t.to, common_to = s.to == t.from || s.to == t.to;
   if (!common_from && !common_to) return segments_meet(s.from, s.to, t.from, t.to);
@@ -43,7 +44,7 @@ void check_boundary_crossings(const std::vector<Segment>& segments, Faults& faul
   }
 }
 
-/// How often the segments go round p, exactly: signed crossings of the ray to its right.
+/// Returns the winding number of the segments around p, exactly: signed crossings of the ray to its right.
 std::int32_t winding(const std::vector<Segment>& segments, Point p) {
   std::int32_t turns = 0;
   for (const Segment& s : segments) {
@@ -54,7 +55,7 @@ std::int32_t winding(const std::vector<Segment>& segments, Point p) {
   return turns;
 }
 
-/// One cell of each connected piece of the mesh, as a point inside it.
+/// Returns a point inside one cell of each connected component of the mesh.
 std::vector<Point> piece_seeds(const Mesh& mesh) {
   IdVector<NodeId, NodeId> parent(mesh.points.size());
   std::ranges::copy(parent.ids(), parent.begin());
@@ -88,10 +89,11 @@ std::vector<Point> piece_seeds(const Mesh& mesh) {
   return seeds;
 }
 
-/// What cells of positive corners add up to round each node.
+/// Turns of the cells of positive corners around each node.
 struct TurnsAround {
-  IdVector<NodeId, std::int32_t> crossings;  ///< corners that hold the direction of x, the first side counted
-  IdVector<NodeId, double> degrees;          ///< at marked nodes alone
+  /// Corners that contain the direction of x, including their first side.
+  IdVector<NodeId, std::int32_t> crossings;
+  IdVector<NodeId, double> degrees;  ///< at boundary nodes only
 
   TurnsAround(const Mesh& mesh, const NodeFlags& measured)
       : crossings(mesh.points.size(), 0), degrees(mesh.points.size(), 0) {
@@ -114,8 +116,8 @@ struct TurnsAround {
   }
 };
 
-/// Round a node inside, cells of positive corners close a ring: they go round as often as they hold any one
-/// direction, exactly. On the boundary the angle alone can tell.
+/// Around an inner node, cells of positive corners form a ring: they wind around it as often as they contain
+/// any one direction, exactly. On the boundary only the angle can be checked.
 void check_turns(const Mesh& mesh, const NodeFlags& on_boundary, Faults& faults) {
   const TurnsAround turns(mesh, on_boundary);
   for (const NodeId node : on_boundary.ids()) {
@@ -155,7 +157,7 @@ void check_overlap(const Mesh& mesh, const MeshTopology& topology, Faults& fault
   }
   const bool inverted = std::any_of(faults.begin(), faults.end(),
                                     [](const MeshFault& f) { return f.rule == MeshRule::positive; });
-  if (!inverted) check_turns(mesh, at_edge, faults);  // around an inverted cell they say nothing
+  if (!inverted) check_turns(mesh, at_edge, faults);  // around an inverted cell turns are meaningless
   check_boundary_crossings(segments, faults);
   const std::vector<Point> seeds = piece_seeds(mesh);
   for (const Point seed : seeds.size() < most_components ? seeds : std::vector<Point>{}) {

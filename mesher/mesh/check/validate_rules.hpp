@@ -1,7 +1,7 @@
 #pragma once
 
-// Inside validate() and require_sound() only: the rules one by one. All but the first want a mesh that keeps
-// the first.
+// For validate() and require_sound() only: the individual rules. All but the first require a mesh that
+// satisfies the first.
 
 #include <vector>
 

@@ -6,15 +6,15 @@
 
 namespace quadloop {
 
-/// Where a mesh is at its worst; the first place in the order of the cells where several are.
+/// Locations of the worst cells of a mesh; the first in the order of the cells if there are several.
 struct WorstPlaces {
   Point smallest_angle, largest_angle;  ///< the corners
   Point worst_quality;                  ///< the mean of the cell's nodes
   Point largest_area_ratio;             ///< the middle of the edge
 };
 
-/// Of a mesh with cells that is whole on this rank and names existing nodes. Angles and quality are those of
-/// cells outside layers; `places` is empty where there are none. Linear in time.
+/// The mesh must have cells, be whole on this rank and have valid node numbers. Angles and quality are those
+/// of cells outside layers; `places` is empty if there are none. Linear in time.
 WorstPlaces worst_places(const Mesh& whole_mesh, const MeshTopology& topology, const LayerPlaces& places);
 
 }  // namespace quadloop

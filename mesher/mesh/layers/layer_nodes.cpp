@@ -13,7 +13,8 @@ namespace quadloop {
 
 namespace {
 
-/// The nodes that one rank's cells join to each node by an edge; one of two cells stands there twice.
+/// Neighbours of each node along edges of this rank's cells; those of an edge between two cells are listed
+/// twice.
 class Neighbours {
  public:
   explicit Neighbours(const Mesh& mesh) : starts_(mesh.points.size() + 1) {
@@ -39,7 +40,7 @@ class Neighbours {
   std::vector<NodeId> nodes_;
 };
 
-/// Brings the best value of a node that any rank has to all that hold it.
+/// Shares the best value of a node among all ranks that hold it.
 template <class Value>
 class BestOfAll {
  public:
@@ -52,13 +53,13 @@ class BestOfAll {
         owners_{comm, mesh.first_node},
         exchange_{comm, owners_, mesh.owned_nodes, mesh.copies} {}
 
-  /// Copies get their owners' values. *Collective.*
+  /// Updates ghosts from their owners. *Collective.*
   template <class Values>
   void update_copies(Values& values) const {
     exchange_.update(values);
   }
 
-  /// The nodes of this rank that have got a better value. *Collective.*
+  /// Returns the nodes of this rank whose value has improved. *Collective.*
   std::vector<NodeId> share(IdVector<NodeId, Value>& values) const {
     const IdVector<NodeId, Value> before = values;
     struct Offer {
@@ -90,7 +91,7 @@ class BestOfAll {
   NodeExchange exchange_;
 };
 
-/// A node in a strip stays there.
+/// A node in a strip keeps its place.
 bool deeper(const LayerPlace& a, const LayerPlace& b) {
   if (b.strip >= 0) return false;
   return a.left != b.left ? a.left > b.left : a.boundary < b.boundary;
@@ -98,7 +99,7 @@ bool deeper(const LayerPlace& a, const LayerPlace& b) {
 
 bool lower(const double& a, const double& b) { return a < b; }
 
-/// From the nodes given on, as far as their layers reach.
+/// Propagates layers from the given nodes, as far as they extend.
 void spread(const Neighbours& neighbours, std::vector<NodeId> from, LayerPlaces& places) {
   for (std::size_t next = 0; next < from.size(); ++next) {
     const NodeId node = from[next];
@@ -112,7 +113,7 @@ void spread(const Neighbours& neighbours, std::vector<NodeId> from, LayerPlaces&
   }
 }
 
-/// The nodes of strips that this rank has; those of a wall's own columns are the wall's.
+/// Places the nodes of strips that are on this rank; those of a wall's own columns belong to the wall.
 void place_strips(const Mesh& mesh, LayerPlaces& places) {
   if (mesh.strips.empty()) return;
   std::unordered_map<GlobalNodeId, NodeId> copies;
@@ -136,7 +137,7 @@ void place_strips(const Mesh& mesh, LayerPlaces& places) {
   }
 }
 
-/// This rank's nodes on walls that carry layers.
+/// Returns this rank's nodes on walls with layers.
 std::vector<NodeId> wall_nodes(const Communicator& comm, const Mesh& mesh, LayerPlaces& places) {
   std::vector<NodeId> nodes;
   for (const LayeredEdge& edge : layered_edges(comm, mesh)) {
@@ -150,7 +151,7 @@ std::vector<NodeId> wall_nodes(const Communicator& comm, const Mesh& mesh, Layer
   return nodes;
 }
 
-/// The nodes of layers, from the front to the wall.
+/// Returns the nodes of layers, from the outer edge to the wall.
 std::vector<NodeId> from_front(const LayerPlaces& places) {
   std::vector<NodeId> nodes;
   for (const NodeId node : places.ids()) {
@@ -189,7 +190,7 @@ IdVector<NodeId, double> heights_to_front(const Communicator& comm, const Mesh& 
   const std::vector<NodeId> nodes = from_front(places);
   const BestOfAll<double> best(comm, mesh, lower);
   std::vector<Point> points = mesh.points;
-  best.update_copies(points);  // a copy may be off by rounding, and heights would depend on the ranks
+  best.update_copies(points);  // a ghost may differ by rounding, and heights would depend on the ranks
   const auto edge = [&](NodeId a, NodeId b) { return length(points[b.value()] - points[a.value()]); };
   do {
     for (const NodeId node : nodes) {

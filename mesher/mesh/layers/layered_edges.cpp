@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-/// A boundary edge as all ranks know it.
+/// A boundary edge, shared by all ranks.
 struct OutlineEdge {
   GlobalNodeId from, to;
   Point begin, end;
-  std::int32_t layers = none;  ///< the boundary whose layers it carries
-  bool is_cut = false;         ///< between a part of a mesh and another: no layers go on along it
+  std::int32_t layers = none;  ///< boundary whose layers are on it
+  bool is_cut = false;         ///< between partitions of a mesh: layers do not continue along it
 };
 
 Point direction(const OutlineEdge& e) {
@@ -25,9 +25,9 @@ Point direction(const OutlineEdge& e) {
   return (1 / length(along)) * along;
 }
 
-/// Whether layers that stand on `wall` end where `next` begins, given as they are walked, or with `backwards`
-/// the other way round. At 45 degrees rounding decides how they were made: an edge of a column tells itself
-/// by its length.
+/// Whether layers on `before` end where `after` begins; with `backwards` the edges are traversed in reverse.
+/// At 45 degrees rounding decided how the layers were made; an edge of a column is then recognised by its
+/// length.
 bool end_between(const OutlineEdge& before, const OutlineEdge& after, bool backwards) {
   constexpr double cosine_of_45 = 0.70710678118654757, rounding = 1e-9, half = 0.5;
   const Point a = direction(before), b = direction(after);
@@ -51,7 +51,7 @@ std::vector<OutlineEdge> own_edges(const Mesh& mesh) {
   return edges;
 }
 
-/// Lets the layers go on along the outline, one way.
+/// Continues the layers along the boundary, in one direction.
 void extend(std::vector<OutlineEdge>& edges, bool backwards) {
   std::unordered_map<GlobalNodeId, std::size_t> edge_at;
   for (std::size_t e = 0; e < edges.size(); ++e) edge_at.emplace(backwards ? edges[e].to : edges[e].from, e);

@@ -8,6 +8,7 @@
 
 #include "flow/adjoint/parameter_derivative.hpp"
 #include "flow/adjoint/solve_adjoint.hpp"
+#include "flow/euler/march.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/flow/adjoint/adjoint_run.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"

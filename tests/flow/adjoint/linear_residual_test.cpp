@@ -120,12 +120,13 @@ TEST(LinearResidual, IsTheDerivativeWhereFactorsAreKept) {
 TEST(LinearResidual, IsTheDerivativeWithoutLimiterAndOnEachBoundary) {
   EulerOptions options = options_at(0.6);
   options.limiter = EulerOptions::Limiter::none;
-  for (const char* const condition : {"farfield", "inflow", "outflow", "symmetry"}) {
+  for (const BoundaryCondition condition : {BoundaryCondition::farfield, BoundaryCondition::inflow,
+                                            BoundaryCondition::outflow, BoundaryCondition::symmetry}) {
     for (const std::optional<double> pressure : {std::optional(0.9), std::optional<double>()}) {
       options.boundaries[1] = {"far", condition, pressure};
       AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options);
       const std::vector<State> direction = made.made_up(4);
-      EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8) << condition;
+      EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8) << condition.word();
     }
   }
 }

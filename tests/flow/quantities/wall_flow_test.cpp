@@ -80,7 +80,7 @@ TEST(WallFlow, OfNodesIsTheirsAndItsFrictionTheSlope) {
     EXPECT_NEAR(row[4], 0.1 * 3, 1e-14) << at.x;
   });
   for (const double viscosity : {0.0, 0.1}) {
-    const Mesh smooth = grid(viscosity > 0 ? "inviscid_wall" : "wall");
+    const Mesh smooth = grid(viscosity > 0 ? BoundaryCondition::inviscid_wall : BoundaryCondition::wall);
     const Field slips = wall_flow(world(), smooth, at_nodes(smooth), dense_stream(viscosity), {"wall"}, "it");
     EXPECT_EQ(slips.width(), viscosity > 0 ? 5U : 4U);
     on_the_south(smooth, slips, [&](std::span<const double> row, Point) {

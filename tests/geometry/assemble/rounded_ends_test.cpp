@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "tests/geometry/outlines.hpp"
 
 namespace quadloop {
 namespace {
@@ -70,15 +73,18 @@ TEST(RoundedEnds, RoundingGrowsWithTheLargestCoordinate) {
 TEST(RoundedEnds, ThreeEndsAreNotGuessedAt) {
   const std::vector<Chain> given{chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, ulps(2)}, {0, 1}}),
                                  chain(true, {{1, ulps(4)}, {0.5, 1}})};
-  const Repaired three(given);
-  for (std::size_t c = 0; c < given.size(); ++c) EXPECT_EQ(three.chains[c].points, given[c].points);
-  EXPECT_TRUE(three.warnings.empty());
+  const std::string said = test::refusal([&] { const Repaired three(given); });
+  EXPECT_NE(said.find("file:1: boundary 'wall': 3 chains end within 3.6e-15 of (1, 0) ('wall', 'wall', 'wall')"),
+            std::string::npos)
+      << said;
 }
 
 TEST(RoundedEnds, AnEndThatMeetsAnotherExactlyIsNotLoose) {
-  const Repaired met(
-      {chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, ulps(2)}, {0, 1}})});
-  EXPECT_EQ(met.chains[2].points.front(), (Point{1, ulps(2)}));
+  const std::string said = test::refusal([] {
+    const Repaired met(
+        {chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, 0}, {1, 1}}), chain(true, {{1, ulps(2)}, {0, 1}})});
+  });
+  EXPECT_NE(said.find("3 chains end within"), std::string::npos) << said;
 }
 
 TEST(RoundedEnds, AChainClosesOnItselfUnlessTwoPointsWouldRemain) {

@@ -10,6 +10,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/geometry/outlines.hpp"
+#include "tests/support/growth.hpp"
 
 namespace quadloop {
 namespace {
@@ -225,6 +226,30 @@ TEST(UnitedIslands, RandomIslandsCoverWhatTheyCoverEach) {
       EXPECT_EQ(found, wanted) << trial << ": " << p.x << ' ' << p.y;
     }
   }
+}
+
+TEST(UnitedIslands, APointThatTouchesAnEdgeIsCommon) {
+  const Chain house = rectangle("house", {10, 10}, {20, 20});
+  for (const Chain& wedge : {closed("wedge", {{20, 15}, {30, 10}, {30, 20}}),
+                             closed("wedge", {{17, 20}, {19, 30}, {15, 30}}),
+                             closed("wedge", {{-50, 3}, {-40, 8}, {-40, -2}})}) {
+    Warnings warnings;
+    const Geometry g = united({sea, house, wedge}, &warnings);
+    EXPECT_EQ(g.loop_count(), 3);
+    EXPECT_DOUBLE_EQ(area_of(g), sea_area - 100 - std::abs(area_of(united({wedge}))));
+    int common = 0;
+    for (std::int32_t s = 0; s < g.size(); ++s) common += g.point(s) == wedge.points.front() ? 1 : 0;
+    EXPECT_EQ(common, 2) << wedge.points.front().x;
+  }
+}
+
+TEST(UnitedIslands, TimeGrowsWithTheIslandsOfOneGroup) {
+  test::expect_linear("islands that overlap in a row", 250, [](int count) {
+    std::vector<Chain> chains{rectangle("sea", {-9, -9}, {count + 9., 10})};
+    for (int i = 0; i < count; ++i) chains.push_back(rectangle("h", {i * 0.9, 0}, {i * 0.9 + 1, 1}));
+    for (Chain& chain : chains) chain.source = "file";  // each may be a hole in each other
+    EXPECT_EQ(united(chains).loop_count(), 2);
+  });
 }
 
 TEST(UnitedIslands, ATownOnAGridIsUnitedWhole) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
@@ -187,6 +188,78 @@ TEST_F(OgrReader, ReadsTheLayersThatAreNamed) {
   layers_ = {"walls", "in?"};
   const std::string said = test::refusal(folder_, [&] { read("b.dxf", text); });
   EXPECT_NE(said.find("one of [walls, in?]; its layers are: old, wall"), std::string::npos) << said;
+}
+
+/// A square of lines without handles, as R12 has them.
+std::string dxf_square(const std::string& layer, double x, double side) {
+  return dxf_line(layer, x, x, x + side, x) + dxf_line(layer, x + side, x, x + side, x + side) +
+         dxf_line(layer, x + side, x + side, x, x + side) + dxf_line(layer, x, x + side, x, x);
+}
+
+/// A drawing with layers "wall", "old" (frozen) and "dark" (off), a block "Hole" and the entities.
+std::string drawing_with_block(const std::string& content, const std::string& entities) {
+  std::string layers;
+  for (const auto& [name, frozen, colour] : {std::tuple("wall", 0, 7), {"old", 1, 7}, {"dark", 0, -7}})
+    layers +=
+        fmt::format("  0\nLAYER\n  2\n{}\n 70\n{}\n 62\n{}\n  6\nCONTINUOUS\n", name, frozen, colour);
+  return "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n" + layers +
+         "  0\nENDTAB\n  0\nENDSEC\n  0\nSECTION\n  2\nBLOCKS\n"
+         "  0\nBLOCK\n  8\n0\n  2\nHole\n 70\n0\n 10\n0\n 20\n0\n  3\nHole\n" +
+         content + "  0\nENDBLK\n  8\n0\n  0\nENDSEC\n" + dxf_of(entities);
+}
+
+std::string with_header(const std::string& drawing) {
+  return "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1015\n  0\nENDSEC\n" + drawing;
+}
+
+std::string insert_of(const std::string& block, const std::string& layer, bool with_classes = false) {
+  return fmt::format("  0\nINSERT\n{}  8\n{}\n{}  2\n{}\n 10\n3\n 20\n3\n 30\n0\n",
+                     with_classes ? "100\nAcDbEntity\n" : "", layer,
+                     with_classes ? "100\nAcDbBlockReference\n" : "", block);
+}
+
+TEST_F(OgrReader, LayersWithinABlockAreHiddenAsElsewhere) {
+  const std::string content = dxf_square("wall", 0, 2) + dxf_square("old", 3, 1) + dxf_square("dark", 5, 1);
+  const std::string text = with_header(drawing_with_block(content, insert_of("Hole", "wall")));
+  const auto chains = read("a.dxf", text);
+  ASSERT_EQ(chains.size(), 4u);
+  for (const Chain& chain : chains) {
+    EXPECT_EQ(chain.name, "wall");
+    EXPECT_LE(chain.points[0].x, 5) << "3 for the place of the block, and 2";
+  }
+  ASSERT_EQ(warnings_.size(), 1u);
+  for (const char* piece : {"4 entity not visible on layer 'old'", "4 entity not visible on layer 'dark'"})
+    EXPECT_NE(warnings_[0].find(piece), std::string::npos) << piece << " in " << warnings_[0];
+  layers_ = {"old"};
+  EXPECT_EQ(read("b.dxf", text).size(), 4u);
+}
+
+TEST_F(OgrReader, ReadsBlocksOfDrawingsWithClasses) {
+  const auto chains = read("a.dxf", with_header(drawing_with_block(dxf_square("0", 0, 2),
+                                                                   insert_of("Hole", "wall", true))));
+  ASSERT_EQ(chains.size(), 4u);
+  EXPECT_EQ(chains[0].name, "wall") << "what is on layer 0 of a block takes the layer of the reference";
+  EXPECT_TRUE(warnings_.empty()) << warnings_.front();
+}
+
+TEST_F(OgrReader, NamesOfADrawingHaveNoCase) {
+  const auto chains = read("a.dxf", with_header(drawing_with_block(
+                                        dxf_square("0", 0, 2),
+                                        insert_of("HOLE", "Wall", true) + dxf_circle("A1", "OLD", 1))));
+  ASSERT_EQ(chains.size(), 4u);
+  EXPECT_EQ(chains[0].name, "wall");
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("1 CIRCLE not visible on layer 'old'"), std::string::npos) << warnings_[0];
+  layers_ = {"OLD"};
+  EXPECT_EQ(read("b.dxf", drawing_of(dxf_circle("A1", "old", 1))).size(), 1u);
+}
+
+TEST_F(OgrReader, WarnsOfReferencesToMissingBlocks) {
+  read("a.dxf", with_header(drawing_with_block("", insert_of("nope", "wall") + dxf_square("wall", 0, 1))));
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("1 INSERT of block 'nope', whose content is not in the file"),
+            std::string::npos)
+      << warnings_[0];
 }
 
 TEST_F(OgrReader, ASplineHasAPointAtEachKnot) {

@@ -16,6 +16,88 @@
 namespace quadloop {
 namespace {
 
+/// The values of any members in a row, as text.
+class Dump {
+ public:
+  template <class... Values>
+  void add(const Values&... values) {
+    (add_one(values), ...);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  template <class Value>
+  void add_one(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      text_ += std::to_string(static_cast<int>(value));
+    else if constexpr (std::is_arithmetic_v<Value>)
+      text_ += std::to_string(value);
+    else
+      text_ += value;
+    text_ += " ";
+  }
+  template <class Value>
+  void add_one(const std::optional<Value>& value) {
+    value ? add_one(*value) : add_one("-");
+  }
+  template <class Value>
+  void add_one(const std::vector<Value>& values) {
+    for (const Value& value : values) add_one(value);
+    add_one(";");
+  }
+  void add_one(Point p) { add(p.x, p.y); }
+  void add_one(BoundaryCondition c) { add(c.word()); }
+  void add_one(const Box& b) { add(b.low, b.high); }
+  void add_one(const SizeSource::Disc& d) { add(d.centre, d.radius); }
+  void add_one(const SizeSource::Line& l) { add(l.from, l.to); }
+  void add_one(const RootOptions& r) { add(r.corner, r.tree_edge, r.trees_x, r.trees_y); }
+  void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
+  void add_one(const Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
+  void add_one(const LayerSpec& s) { add(s.first, s.growth, s.growth_to, s.count, s.equal, s.y_plus); }
+  void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
+  void add_one(const GeometryInput& f) {
+    const Transform& t = f.transform;
+    add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.layers, f.unit);
+  }
+  void add_one(const BoundaryRule& r) {
+    add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
+  }
+  void add_one(const SizeSource& s) {
+    std::visit([&](const auto& shape) { add_one(shape); }, s.shape);
+    add(s.spacing);
+  }
+  void add_one(const FlowSettings& f) {
+    add(f.reynolds, f.reference_length, f.density, f.speed, f.alpha, f.gamma, f.pressure);
+  }
+  void add_one(const AdaptOptions& a) {
+    add(a.cycles, a.passes, a.source, a.variables, a.indicator, a.threshold, a.refine, a.coarsen, a.max_nodes,
+        a.norm, a.growth, a.until.cl, a.until.cd, a.until.estimate, a.min, a.facets, a.transfer);
+  }
+
+  std::string text_;
+};
+
+/// What a case was read into, so far as other parts of the program see it.
+std::string text_of(const Settings& s) {
+  const SizeOptions& size = s.mesh.size;
+  const EulerOptions& e = s.solver.euler;
+  Dump dump;
+  dump.add(s.title, s.files, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt, s.morph_to);
+  dump.add(s.far_field ? s.far_field->half_width : 0, s.output_prefix, s.formats, s.fields, s.partitions);
+  dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands);
+  dump.add(s.mesh.type, s.mesh.quads, s.mesh.snap, s.mesh.may_vanish, s.mesh.mirror, size.gradation,
+           size.curvature, size.gap, size.sources, size.root);
+  dump.add(s.smooth.sweeps, s.smooth.objective, s.smooth.method, s.solver.kind, s.solver.case_template);
+  dump.add(e.mach, e.alpha, e.gamma, e.viscosity, e.prandtl, e.time, e.end_time, e.time_step, e.average_from,
+           e.unsteady, e.flow_throughs, e.cfl, e.iterations, e.tolerance, e.limiter, e.initial, e.far_field,
+           e.reference_length, e.goals, e.adjoint_fields);
+  const CommandSolver& c = s.solver.command;
+  dump.add(c.command.arguments, c.command.timeout, c.mesh, c.solution, c.ranks);
+  for (const OutflowPressure& outflow : s.solver.pressures) dump.add(outflow.pattern, outflow.pressure);
+  for (const WallTemperature& wall : s.solver.wall_temperatures) dump.add(wall.pattern, wall.temperature);
+  return dump.text();
+}
+
 /// Where a table stands in the case of this test.
 std::string place_of(const std::string& table) {
   const std::map<std::string, std::string> places{{"boundary.NAME", "boundary.box"},
@@ -47,9 +129,12 @@ class Accepted {
     }
   }
 
-  std::vector<std::string> assignments() const {
+  /// All of them, but that of the key left out.
+  std::vector<std::string> assignments(const std::string& left_out = "") const {
     std::vector<std::string> all;
-    for (const auto& [key, value] : values_) all.push_back(key + "=" + value);
+    for (const auto& [key, value] : values_) {
+      if (key != left_out) all.push_back(key + "=" + value);
+    }
     return all;
   }
 
@@ -100,11 +185,10 @@ class CaseKeys : public ::testing::Test {
     for (const char* const list : {"source", "wake", "layer_line"})
       if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
     const std::string path = folder_.write("case.toml", tables);
-    const std::vector<std::string> warnings = read_settings(path, accepted.assignments()).warnings;
-    EXPECT_EQ(std::ranges::count_if(
-                  warnings, [](const std::string& w) { return w.find("nothing: it needs") < w.size(); }),
-              0)
-        << name << ": " << warnings.front();
+    const Settings settings = read_settings(path, accepted.assignments());
+    for (const std::string& warning : settings.warnings)
+      EXPECT_EQ(warning.find("nothing: it needs"), std::string::npos) << name << ": " << warning;
+    expect_other_settings(path, accepted, name, place_of(table.text().name) + "." + key.text.name, settings);
     CaseTable below = read_case(path, accepted.assignments());
     for (std::string rest = place_of(table.text().name); !rest.empty();) {
       const std::string first = rest.substr(0, rest.find('.'));
@@ -119,6 +203,20 @@ class CaseKeys : public ::testing::Test {
     EXPECT_TRUE(key.differs(target, Target{})) << name << " changes nothing";
     ++keys_;
   }
+  /// Without the key the settings are others, or the case is refused, as the key is required.
+  void expect_other_settings(const std::string& path, const Accepted& accepted, const std::string& name,
+                             const std::string& place, const Settings& settings) {
+    try {
+      const Settings without =
+          read_settings(path, accepted.assignments(place.starts_with('.') ? place.substr(1) : place));
+      EXPECT_NE(text_of(without), text_of(settings)) << name << " is ignored";
+      ++compared_;
+    } catch (const InputError& error) {
+      const std::string said = error.what();
+      EXPECT_TRUE(said.find("missing") < said.size() || said.find("needs") < said.size())
+          << name << ": " << said;
+    }
+  }
   template <class Target>
   void expect_effects(const KeyTable<Target>& table) {
     for (const Key<Target>& key : table.keys()) expect_effect(table, key);
@@ -126,7 +224,7 @@ class CaseKeys : public ::testing::Test {
   }
 
   test::InputFolder folder_;
-  std::size_t keys_ = 0, tables_ = 0;
+  std::size_t keys_ = 0, tables_ = 0, compared_ = 0;
 };
 
 TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
@@ -148,6 +246,7 @@ TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
   expect_effects(output_keys());
   EXPECT_EQ(tables_, case_tables().size()) << "each table is tried";
   EXPECT_GT(keys_, 100U);
+  EXPECT_GT(compared_, 90U) << "the others are required";
 }
 
 TEST_F(CaseKeys, EachIsDescribedOnce) {
@@ -183,9 +282,9 @@ TEST_F(CaseKeys, HelpNamesTheNearestKey) {
       return std::string(error.what());
     }
   };
-  EXPECT_EQ(
-      guess("spacing.maxi"),
-      "'spacing.maxi' is no key and no table of a case file; do you mean 'spacing.max'? See 'quadloop help'");
+  EXPECT_EQ(guess("spacing.maxi"),
+            "'spacing.maxi' is no key and no table of a case file; do you mean 'spacing.max'? See "
+            "'quadloop help', or 'quadloop COMMAND --help' for a command");
   EXPECT_NE(guess("gradatoin").find("'spacing.gradation'?"), std::string::npos);
   EXPECT_NE(guess("qqqqqq").find("no table of a case file; see"), std::string::npos);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "generate/digests.hpp"
+#include "io/gis/gis_formats.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
@@ -53,6 +54,22 @@ TEST_F(SettingsTest, CoordinatesInAUnitBecomeMetres) {
   ASSERT_EQ(extents.size(), 1u);
   EXPECT_EQ(extents[0].box.high, (Point{4, 4})) << "as they stand in the file";
   EXPECT_EQ(extents[0].metres, 1e-3);
+}
+
+TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
+  folder_.write("map.geojson",
+                R"({"type":"FeatureCollection","name":"shore","features":[{"type":"Feature","properties":{},)"
+                R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}}]})");
+  add_gis_formats();
+  const auto load_layers = [&](const std::string& layers) {
+    const std::string text = "[geometry]\nfile = \"map.geojson\"\nlayers = " + layers + "\n";
+    return load(read_settings(folder_.write("map.toml", text), {}));
+  };
+  const std::string said = test::refusal(folder_, [&] { load_layers(R"(["sh*", "shor"])"); });
+  EXPECT_NE(said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(load_layers(R"(["SHORE"])").boundaries().size(), 1u);
 }
 
 TEST_F(SettingsTest, ReadsEveryKey) {

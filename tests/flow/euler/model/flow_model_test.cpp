@@ -156,8 +156,9 @@ TEST(FlowModel, RefusesAConditionThatItCannotUse) {
 std::map<std::string, Condition> usable_conditions() {
   Mesh mesh = test::irregular_grid(2, {1, 1}, 0);
   std::map<std::string, Condition> usable;
-  for (const std::string& word : condition_words()) {
-    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = *BoundaryCondition::named(word);
+  for (const auto& [name, condition] : values_of_bc()) {
+    const std::string word = name;
+    for (BoundaryEdges& boundary : mesh.boundaries) boundary.condition = condition;
     try {
       usable[word] = flow_model(world(), mesh, {}).boundaries[0].condition;
     } catch (const InputError&) {

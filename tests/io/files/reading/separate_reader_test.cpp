@@ -21,6 +21,7 @@
 #include "io/files/staging_folder.hpp"
 #include "io/model/mesh_of_file.hpp"
 #include "io/model/pass_mesh.hpp"
+#include "io/tree/tree_share.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
@@ -97,6 +98,14 @@ TEST(ValuePipe, BringsAMeshWithItsSolution) {
   EXPECT_EQ(found.warnings, loaded.warnings);
 }
 
+TEST(ValuePipe, TypesHaveSignatures) {
+  EXPECT_EQ(signature_of<FileMesh>(), signature_of<FileMesh>());
+  EXPECT_NE(signature_of<std::vector<int>>(), signature_of<std::vector<double>>());
+  EXPECT_NE(signature_of<std::vector<int>>(), signature_of<std::vector<std::vector<int>>>());
+  EXPECT_NE(signature_of<std::optional<int>>(), signature_of<std::optional<std::string>>());
+  EXPECT_NE(signature_of<FileBoundary>(), signature_of<StripLayers>());
+}
+
 TEST(ValuePipe, EndsWhereTheValuesDo) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
@@ -115,7 +124,7 @@ TEST(ValuePipe, EndsWhereTheValuesDo) {
 struct ReadSeparately : testing::Test {
   ReadSeparately() {
     test::write_bytes(path, "some bytes");
-    write_numbers("begin", std::vector<std::uint64_t>{ReaderProtocol::begin});
+    write_numbers("begin", std::vector<std::uint64_t>{ReaderProtocol::begin<std::string>()});
     write_numbers("end", std::vector<std::uint64_t>{ReaderProtocol::end});
   }
   ~ReadSeparately() override { ::unsetenv("QUADLOOP_READER"); }
@@ -185,10 +194,10 @@ TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
 
 TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
   ::setenv("QUADLOOP_READER", "/nowhere/reader", 1);
-  const std::string missing =
-      test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
-  EXPECT_TRUE(says(missing, "a.cgns: cannot be read: the program that reads such files is not at "
-                            "/nowhere/reader; install quadloop again, or set QUADLOOP_READER"))
+  const std::string missing = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  EXPECT_TRUE(says(missing,
+                   "a.cgns: cannot be read: the program that reads such files is not at "
+                   "/nowhere/reader; install quadloop again, or set QUADLOOP_READER"))
       << missing;
   const std::string ended = refusal_of("exit 127");
   EXPECT_TRUE(says(ended, "/reader ended at once, with status 127; install quadloop again")) << ended;
@@ -197,11 +206,13 @@ TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
 }
 
 TEST_F(ReadSeparately, IsDoneByTheProgramOfThisBuild) {
-  const std::string refused = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  const std::string refused = test::refusal_text<Error>([&] { read_separately<FileMesh>("cgns", path); });
   EXPECT_TRUE(says(refused, "a.cgns: the CGNS library refuses: ")) << refused;
   const std::string no_tree =
-      test::refusal_text<Error>([&] { read_separately<std::string>("tree", path, {"0", "1"}); });
+      test::refusal_text<Error>([&] { read_separately<TreeShare>("tree", path, {"0", "1"}); });
   EXPECT_TRUE(says(no_tree, "a.cgns: cannot be opened, or is no HDF5 file")) << no_tree;
+  const std::string other = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
+  EXPECT_TRUE(says(other, "quadloop-reader is of another version than this program")) << other;
 }
 
 TEST_F(ReadSeparately, AMissingFileIsRefusedBeforeAnyReader) {
