@@ -96,7 +96,7 @@ class Parts(ProgramTest):
 
     def test_refusals(self):
         self.write("b.mesh", convert_test.TWO_BLOCKS)
-        self.refused(1, ["4 parts", "3 cells"], "convert", "b.mesh", "out.mesh", "--parts", "4", "-q")
+        self.refused(1, ["4 partitions", "3 cells"], "convert", "b.mesh", "out.mesh", "--parts", "4", "-q")
         self.refused(1, ["out.cgns", "one block"], "convert", "b.mesh", "out.cgns", "--parts", "2", "-q")
         self.refused(1, ["out.su2"], "convert", "b.mesh", "out.su2", "--parts", "2", "-q")
         self.refused(1, ["none.parts"], "convert", "none.parts", "out.mesh", "-q")

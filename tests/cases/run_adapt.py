@@ -63,7 +63,7 @@ def check_state(program, folder, ranks):
     check_ranks(program, case, folder / "su2", ranks, ["--cycles", "2"])
     found = [(folder / "su2" / f"on_{ranks[0]}" / f"cycle_{cycle:02}" / "flow.csv").exists() for cycle in (0, 1, 2)]
     require(found == [False, True, True], f"the state is there in cycles {found}")
-    expect_refusal(program, 1, ["solver.solution", "starting state", "flow.su2"], "adapt", case, "-o", folder / "su2" / "never", "--set",
+    expect_refusal(program, 1, ["solver.solution", "initial state", "flow.su2"], "adapt", case, "-o", folder / "su2" / "never", "--set",
                    "solver.solution=flow.csv")
 
 

@@ -138,7 +138,7 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
   };
   EXPECT_NE(said(one, two).find("more loops of 'body'"), std::string::npos);
   EXPECT_NE(said(two, one).find("near (5.5, 0.5)"), std::string::npos);
-  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("has 4 corners where the mesh has 3"),
+  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("has 4 feature points and that of the mesh has 3"),
             std::string::npos);
 }
 

@@ -186,7 +186,7 @@ TEST_F(ReadSeparately, ACrashOrAnEarlyEndIsADamagedFile) {
   const std::string ended = refusal_of("cat begin >&3; exit 0");
   EXPECT_TRUE(says(ended, "a.cgns: is damaged: the library that reads it gave up")) << ended;
   const std::string slow = refusal_of("cat begin >&3; kill -XCPU $$");
-  EXPECT_TRUE(says(slow, "a.cgns: is damaged: reading it came to no end within 5 seconds")) << slow;
+  EXPECT_TRUE(says(slow, "a.cgns: is damaged: reading it did not end within 5 seconds")) << slow;
   write_status(0, 10);
   const std::string wrong = refusal_of("cat begin status length a.cgns begin >&3");
   EXPECT_TRUE(says(wrong, "a.cgns: is damaged: what was read from it did not come through")) << wrong;
