@@ -66,8 +66,9 @@ TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
     return load(read_settings(folder_.write("map.toml", text), {}));
   };
   const std::string said = test::refusal(folder_, [&] { load_layers(R"(["sh*", "shor"])"); });
-  EXPECT_NE(said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("geometry.layers: no layer matches 'shor'; the layers are: shore; do you mean 'shore'?"),
+      std::string::npos)
       << said;
   EXPECT_EQ(load_layers(R"(["SHORE"])").boundaries().size(), 1u);
 }
