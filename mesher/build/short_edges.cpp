@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
 
 #include "mesher/base/id_vector.hpp"
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/geometry/segment_tree.hpp"
 
@@ -14,100 +16,168 @@ namespace quadloop {
 
 namespace {
 
-/// A part of the geometry between two consecutive feature points.
-struct Base {
+/// The part of a boundary between two consecutive feature points, shorter than `min`.
+struct ShortEdge {
   std::int32_t first = 0, last = 0;  ///< vertices at its ends
+  double length = 0;
 };
 
-Point middle_of(const Geometry& g, Base base) { return 0.5 * (g.point(base.first) + g.point(base.last)); }
+/// Consecutive short edges of one boundary, shorter than `min` in total.
+struct Base {
+  std::int32_t first = 0, last = 0;  ///< vertices at its ends
+  std::span<const ShortEdge> edges;
+};
 
-double width_of(const Geometry& g, Base base) { return length(g.point(base.last) - g.point(base.first)); }
+Point middle_of(const Geometry& g, std::int32_t first, std::int32_t last) {
+  return 0.5 * (g.point(first) + g.point(last));
+}
 
+/// Whether p lies in the closed triangle, which may be a segment.
 bool in_closed_triangle(Point p, Point a, Point b, Point c) {
+  Box box = box_of(a, b);
+  box.include(c);
+  if (!box.contains(p)) return false;
   const int ab = orientation(a, b, p), bc = orientation(b, c, p), ca = orientation(c, a, p);
   return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
 }
 
-/// Number of bases of a kind, with the widest of them.
-struct CountedBases {
+/// Number of short edges of a kind, with the longest of them.
+struct CountedEdges {
   int count = 0;
-  Base widest;
+  double longest = 0;
+  Point at;  ///< middle of the longest
+  std::string boundary;
 
-  void add(const Geometry& g, Base base) {
-    if (count++ == 0 || width_of(g, base) > width_of(g, widest)) widest = base;
+  void add(const Geometry& g, const ShortEdge& edge) {
+    ++count;
+    if (edge.length <= longest) return;
+    longest = edge.length;
+    at = middle_of(g, edge.first, edge.last);
+    boundary = g.boundary(g.boundary_of(edge.first)).name;
   }
 };
 
-class ShortEdges {
+bool is_small(const Geometry& g, std::int32_t loop, double min) {
+  Box box;
+  for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) box.include(g.point(v));
+  return box.width() < min && box.height() < min;
+}
+
+/// Returns the short edges of a loop in the order of vertices; those without a gap in front of them do not
+/// come first. An edge with layers does not count, as it has columns, whose width is not limited.
+std::vector<ShortEdge> short_edges_of(const Geometry& g, std::int32_t loop, double min) {
+  std::vector<ShortEdge> edges;
+  for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
+    if (!g.kept(v) || g.boundary(g.boundary_of(v)).layers) continue;
+    if (const auto stretch = g.stretch_shorter_than(min, v))
+      edges.push_back({v, stretch->end, stretch->length});
+  }
+  if (edges.empty()) return edges;
+  std::int32_t before = edges.back().last;
+  const auto after_gap = std::ranges::find_if(
+      edges, [&](const ShortEdge& edge) { return std::exchange(before, edge.last) != edge.first; });
+  if (after_gap != edges.end()) std::ranges::rotate(edges, after_gap);
+  return edges;
+}
+
+/// The bases of a geometry whose ends can be merged, and the short edges that must stay.
+class Bases {
  public:
-  ShortEdges(const Geometry& geometry, double min)
-      : g_{geometry}, min_{min}, segments_{geometry}, segments_of_(geometry.boundaries().size(), 0) {
+  Bases(const Geometry& geometry, double min)
+      : g_{geometry}, segments_{geometry}, segments_of_(geometry.boundaries().size(), 0) {
     for (std::int32_t s = 0; s < g_.size(); ++s) ++segments_of_[g_.boundary_of(s)];
+    edges_.resize(g_.loop_count());
+    for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
+      if (is_small(g_, loop, min)) continue;  // the mesh drops it
+      edges_[loop] = short_edges_of(g_, loop, min);
+      add_bases(edges_[loop], min);
+    }
   }
 
-  /// Returns the short base that starts at the vertex, e.g. a blunt trailing edge: the boundary continues
-  /// smoothly from both of its ends for some leaf sizes. With consecutive feature points, as along a coast, a
-  /// mesh loses some of them anyway. A base with layers has columns instead of leaves, whose width is not
-  /// limited.
-  std::optional<Base> short_base_at(std::int32_t v) const {
-    if (!g_.kept(v) || g_.boundary(g_.boundary_of(v)).layers) return {};
-    const std::optional<Geometry::Stretch> stretch = g_.stretch_shorter_than(min_, v);
-    if (!stretch || !is_smooth(stretch->end, [&](std::int32_t u) { return g_.next(u); }) ||
-        !is_smooth(v, [&](std::int32_t u) { return g_.previous(u); }))
-      return {};
-    return Base{v, stretch->end};
-  }
+  const CountedEdges& left() const { return left_; }
 
-  /// Whether the ends can be merged, for a loop that the mesh keeps.
-  bool can_merge(Base base) {
-    const std::int32_t loop = g_.loop_of(base.first), segments = segments_in(base);
-    const BoundaryId boundary = g_.boundary_of(base.first);
-    const bool is_needed = segments_of_[boundary] <= segments ||
-                           g_.boundary(boundary).condition == BoundaryCondition::interface ||
-                           g_.loop_start(loop + 1) - g_.loop_start(loop) < 4 + segments;
-    if (is_needed || !leaves_outline_simple(base)) return false;
-    segments_of_[boundary] -= segments;
-    return true;
+  /// Returns bases that can be merged at the same time, at least one if there are any: the parts of the
+  /// geometry that they change lie apart.
+  std::vector<Base> independent() {
+    const BoxTree boxes(size32(bases_), [&](std::int32_t b) { return box_of(bases_[b]); });
+    std::vector<char> is_taken(bases_.size(), 0);
+    std::vector<Base> taken;
+    for (std::int32_t b = 0; b < std::ssize(bases_); ++b) {
+      const Base& base = bases_[b];
+      if (is_needed(base) ||
+          boxes.any_meeting(box_of(base), [&](std::int32_t other) { return is_taken[other] != 0; }))
+        continue;
+      segments_of_[g_.boundary_of(base.first)] -= segments_in(base);
+      is_taken[b] = 1;
+      taken.push_back(base);
+    }
+    return taken;
   }
 
  private:
-  /// Whether there is no feature point within four leaf sizes.
-  template <class Next>
-  bool is_smooth(std::int32_t from, const Next& next) const {
-    constexpr double leaves = 4;
-    double way = 0;
-    for (std::int32_t v = from; way < leaves * min_; v = next(v)) {
-      if (v != from && g_.kept(v)) return false;
-      way += length(g_.point(next(v)) - g_.point(v));
+  /// Splits consecutive edges into bases as long as possible; if such a base cannot be merged, its first edge
+  /// alone may be.
+  void add_bases(std::span<const ShortEdge> edges, double min) {
+    while (!edges.empty()) {
+      std::size_t count = 1;
+      double sum = edges[0].length;
+      for (; count < edges.size() && edges[count].first == edges[count - 1].last; ++count) {
+        sum += edges[count].length;
+        if (sum >= min || g_.boundary_of(edges[count].first) != g_.boundary_of(edges[0].first)) break;
+      }
+      if (!can_merge(base_of(edges.first(count)))) count = 1;
+      const Base base = base_of(edges.first(count));
+      if (can_merge(base)) {
+        bases_.push_back(base);
+      } else {
+        left_.add(g_, edges[0]);
+      }
+      edges = edges.subspan(count);
     }
-    return true;
   }
 
-  std::int32_t segments_in(Base base) const {
-    std::int32_t count = 0;
-    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) ++count;
-    return count;
+  static Base base_of(std::span<const ShortEdge> edges) {
+    return {edges.front().first, edges.back().last, edges};
   }
 
-  bool is_in(Base base, std::int32_t segment) const {
-    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) {
-      if (v == segment) return true;
-    }
-    return false;
+  bool can_merge(const Base& base) const { return !is_needed(base) && leaves_outline_simple(base); }
+
+  /// Whether the boundary or the loop consists of little more than the base.
+  bool is_needed(const Base& base) const {
+    const std::int32_t loop = g_.loop_of(base.first), segments = segments_in(base);
+    const BoundaryId boundary = g_.boundary_of(base.first);
+    return segments_of_[boundary] <= segments ||
+           g_.boundary(boundary).condition == BoundaryCondition::interface ||
+           g_.loop_start(loop + 1) - g_.loop_start(loop) < 4 + segments;
+  }
+
+  std::int32_t segments_in(const Base& base) const {
+    const std::int32_t loop = g_.loop_of(base.first), count = base.last - base.first;
+    return count > 0 ? count : count + g_.loop_start(loop + 1) - g_.loop_start(loop);
+  }
+
+  bool is_in(const Base& base, std::int32_t segment) const {
+    if (base.first < base.last) return segment >= base.first && segment < base.last;
+    return (segment >= base.first || segment < base.last) && g_.loop_of(segment) == g_.loop_of(base.first);
+  }
+
+  /// The box of the base and of the two segments beside it: merging changes nothing outside.
+  Box box_of(const Base& base) const {
+    Box box;
+    for (std::int32_t v = g_.previous(base.first); v != base.last; v = g_.next(v)) box.include(g_.point(v));
+    box.include(g_.point(base.last));
+    box.include(g_.point(g_.next(base.last)));
+    return box;
   }
 
   /// Whether the two segments that would end in the middle of the base touch no other segment, and nothing
   /// lies between them and the old ones.
-  bool leaves_outline_simple(Base base) const {
+  bool leaves_outline_simple(const Base& base) const {
     const std::int32_t before = g_.previous(base.first), after = base.last;
-    const Point to = middle_of(g_, base), from = g_.point(before), end = g_.point(g_.next(after));
-    if (on_segment(end, from, to) || on_segment(from, to, end) || on_segment(to, from, end)) return false;
-    Box box;
-    box.include(from);
-    box.include(end);
-    for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) box.include(g_.point(v));
-    box.include(g_.point(base.last));
-    return !segments_.any_meeting(box, [&](std::int32_t s) {
+    const Point to = middle_of(g_, base.first, base.last), from = g_.point(before),
+                end = g_.point(g_.next(after));
+    if (on_segment(end, from, to) || on_segment(from, to, end)) return false;
+    return !segments_.any_meeting(box_of(base), [&](std::int32_t s) {
       if (s == before || s == after || is_in(base, s)) return false;
       return touches(s, from, to, g_.point(base.first)) || touches(s, end, to, g_.point(after)) ||
              is_between(s, base, to);
@@ -115,7 +185,7 @@ class ShortEdges {
   }
 
   /// Whether the segment meets the triangles between the base's own segments and `to`.
-  bool is_between(std::int32_t segment, Base base, Point to) const {
+  bool is_between(std::int32_t segment, const Base& base, Point to) const {
     const Point a = g_.point(segment), b = g_.point(g_.next(segment));
     for (std::int32_t v = base.first; v != base.last; v = g_.next(v)) {
       const Point p = g_.point(v), q = g_.point(g_.next(v));
@@ -135,9 +205,11 @@ class ShortEdges {
   }
 
   const Geometry& g_;
-  double min_;
   SegmentTree segments_;
   IdVector<BoundaryId, std::int32_t> segments_of_;
+  std::vector<std::vector<ShortEdge>> edges_;  ///< of each loop
+  std::vector<Base> bases_;
+  CountedEdges left_;
 };
 
 /// Returns the geometry without the vertices of the merged bases except the last one, which moves to the
@@ -145,9 +217,9 @@ class ShortEdges {
 Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
   std::vector<char> is_dropped(g.size(), 0);
   std::vector<Point> moved{g.points().begin(), g.points().end()};
-  for (const Base base : bases) {
+  for (const Base& base : bases) {
     for (std::int32_t v = base.first; v != base.last; v = g.next(v)) is_dropped[v] = 1;
-    moved[base.last] = middle_of(g, base);
+    moved[base.last] = middle_of(g, base.first, base.last);
   }
   std::vector<Point> points;
   std::vector<std::int32_t> starts{0};
@@ -166,42 +238,34 @@ Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
           std::move(of_segment)};
 }
 
-std::string text_of(const Geometry& g, const CountedBases& bases, double min, const char* consequence) {
-  const Point at = middle_of(g, bases.widest);
+std::string text_of(const CountedEdges& edges, double min, const char* consequence) {
   return fmt::format(
       "{} edge{} between corners shorter than spacing.min = {:g}, the longest {:.3g} at ({:.6g}, {:.6g}) of "
       "boundary '{}': {}; make spacing.min smaller",
-      bases.count, bases.count == 1 ? "" : "s", min, width_of(g, bases.widest), at.x, at.y,
-      g.boundary(g.boundary_of(bases.widest.first)).name, consequence);
-}
-
-bool is_small(const Geometry& g, std::int32_t loop, double min) {
-  Box box;
-  for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) box.include(g.point(v));
-  return box.width() < min && box.height() < min;
+      edges.count, edges.count == 1 ? "" : "s", min, edges.longest, edges.at.x, edges.at.y, edges.boundary,
+      consequence);
 }
 
 }  // namespace
 
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
                                            std::vector<std::string>& warnings) {
-  ShortEdges edges(geometry, min);
-  std::vector<Base> merged;
-  CountedBases joined, left;
-  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
-    if (is_small(geometry, loop, min)) continue;
-    for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
-      const std::optional<Base> base = edges.short_base_at(v);
-      if (!base) continue;
-      const bool can_merge = edges.can_merge(*base);
-      if (can_merge) merged.push_back(*base);
-      (can_merge ? joined : left).add(geometry, *base);
+  std::optional<Geometry> result;
+  CountedEdges merged, left;
+  for (bool is_done = false; !is_done;) {
+    const Geometry& current = result ? *result : geometry;
+    Bases bases(current, min);
+    left = bases.left();
+    const std::vector<Base> chosen = bases.independent();
+    for (const Base& base : chosen) {
+      for (const ShortEdge& edge : base.edges) merged.add(current, edge);
     }
+    is_done = chosen.empty();
+    if (!is_done) result = with_merged(current, chosen);
   }
-  if (left.count > 0) warnings.push_back(text_of(geometry, left, min, "triangles there may be thin"));
-  if (merged.empty()) return {};
-  warnings.push_back(text_of(geometry, joined, min, "the two ends became one node"));
-  return with_merged(geometry, merged);
+  if (left.count > 0) warnings.push_back(text_of(left, min, "triangles there may be thin"));
+  if (result) warnings.push_back(text_of(merged, min, "the two ends became one node"));
+  return result;
 }
 
 }  // namespace quadloop

@@ -8,14 +8,14 @@
 
 namespace quadloop {
 
-/// Returns the geometry with the two ends of each short base merged to one vertex at its midpoint; empty if
-/// no base was merged. A short base is a part of the boundary, of one or more segments, between feature
-/// points that is shorter than `min`, with no other feature point within 4 `min` along the boundary: e.g. a
-/// blunt trailing edge, which would get one thin triangle. A base with layers does not count, as it has
-/// columns, and leaves only at their outer edge. A base is kept if it is all of its boundary, if it belongs
-/// to an interface, if its loop is smaller than `min` in both directions, or if the boundary would touch
-/// itself. One warning gives the number of merged edges and the location of the longest, another one those of
-/// the bases that are kept.
+/// Returns the geometry with each base merged to one vertex at the midpoint of its ends; empty if no base was
+/// merged. A base is one or more consecutive edges between feature points of one boundary, shorter than `min`
+/// in total: e.g. a blunt trailing edge or a tiny notch, which would get thin triangles. This is repeated
+/// until no edge between feature points is shorter than `min`, except those that stay: an edge with layers,
+/// as it has columns, and leaves only at their outer edge; all of a boundary; an edge of an interface or of a
+/// loop smaller than `min` in both directions; an edge without which the boundary would touch itself. One
+/// warning gives the number of merged edges and the location of the longest, another one those of the edges
+/// that stay without layers.
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
                                            std::vector<std::string>& warnings);
 

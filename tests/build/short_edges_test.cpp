@@ -90,6 +90,58 @@ TEST(ShortEdges, ABaseOfSeveralSegmentsIsMergedAsAWhole) {
   EXPECT_EQ(merged->point(1), (Point{2, -1}));
 }
 
+/// A box of 4 by 2 whose floor has the given points between its lower corners.
+Geometry box_with(const std::vector<Point>& on_floor) {
+  std::vector<Point> points{{0, 0}};
+  points.insert(points.end(), on_floor.begin(), on_floor.end());
+  for (const Point p : {Point{4, 0}, Point{4, 2}, Point{0, 2}}) points.push_back(p);
+  return outline({points});
+}
+
+TEST(ShortEdges, ConsecutiveEdgesBecomeOneVertex) {
+  std::vector<std::string> warnings;
+  const auto notch =
+      short_edges_merged(box_with({{2, 0}, {2, -0.0625}, {2.0625, -0.0625}, {2.0625, 0}}), 0.25, warnings);
+  ASSERT_TRUE(notch);
+  ASSERT_EQ(notch->size(), 5);
+  EXPECT_EQ(notch->point(1), (Point{2.03125, 0}));
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "3 edges between corners shorter than spacing.min = 0.25, the longest 0.0625 at (2, -0.03125) of "
+            "boundary 'wall': the two ends became one node; make spacing.min smaller");
+}
+
+TEST(ShortEdges, AnEdgeNearAnotherCornerIsMergedToo) {
+  std::vector<std::string> warnings;
+  const auto tab = short_edges_merged(box_with({{2, 0}, {2, 0.5}, {2.125, 0.5}, {2.125, 0}}), 0.25, warnings);
+  ASSERT_TRUE(tab);
+  EXPECT_EQ(tab->size(), 7);
+  EXPECT_EQ(tab->point(2), (Point{2.0625, 0.5}));
+}
+
+TEST(ShortEdges, NoShortEdgeStaysInARowOfThem) {
+  std::vector<Point> teeth;
+  for (int i = 0; i < 40; ++i) teeth.push_back({1 + i / 20.0, i % 2 == 0 ? 0 : 0.1});
+  for (const double min : {0.1125, 0.25, 0.3, 0.7}) {
+    std::vector<std::string> warnings;
+    const auto merged = short_edges_merged(box_with(teeth), min, warnings);
+    const Geometry& result = merged ? *merged : box_with(teeth);
+    for (std::int32_t v = 0; v < result.size(); ++v)
+      EXPECT_FALSE(result.kept(v) && result.stretch_shorter_than(min, v)) << v << " for " << min;
+    EXPECT_TRUE(merged) << min;
+  }
+}
+
+TEST(ShortEdges, OfTwoEdgesWithACommonEndOneIsMergedFirst) {
+  const std::vector<Point> step{{2, 0}, {2, 0.1875}, {2.1875, 0.1875}, {2.1875, 1}};
+  std::vector<std::string> warnings;
+  const auto merged = short_edges_merged(box_with(step), 0.2, warnings);
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->size(), 7);
+  EXPECT_EQ(merged->point(1), (Point{2, 0.09375}));
+  EXPECT_EQ(merged->point(2), step[2]) << "0.21 from the new vertex";
+}
+
 TEST(ShortEdges, ABaseWithADentThatHoldsAnotherLoopStays) {
   std::vector<Point> dented{{5, -2}, {0, 0}, {5, 2}, {10, 0.25}};
   for (int i = 1; i < 8; ++i) {

@@ -4,7 +4,7 @@
     run_short_edges.py --quadloop PROGRAM [--count N] [--report]
 
 The outlines have what collections of airfoils have: blunt bases of 1e-5 to 1e-2 chords in one segment or three, doubled points, tiny segments at
-the nose, cusps. spacing.min is 1e-5 to 1e-3, so that some bases are resolved and the others merged. Fails where a cell's
+the nose, tiny spikes, cusps. spacing.min is 1e-5 to 1e-3, so that some bases are resolved and the others merged. Fails where a cell's
 corner is below 20 degrees; --report prints the counts of meshes with one below 1, 5 and 20 degrees and does not fail.
 """
 import argparse
@@ -57,6 +57,10 @@ def outline(number):
         nose, step = panels, 10 ** rng.uniform(-6, -4)
         x, y = points[nose]
         points.insert(nose + 1, (x + 0.1 * step, y - step))
+    if number % 4 == 3:
+        at, width = panels // 2, 10 ** rng.uniform(-6, -4)
+        x, y = points[at]
+        points[at + 1:at + 1] = [(x - 0.5 * width, y + width), (x - width, y)]
     return points, {"min": 10 ** rng.uniform(-5, -3), "spacing": rng.choice([0.005, 0.01, 0.02])}
 
 
