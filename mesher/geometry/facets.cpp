@@ -4,19 +4,43 @@
 
 namespace quadloop {
 
+namespace {
+
+constexpr double visible_degrees = 2 + 1e-9;  // a circle of 180 points turns by 2 degrees, up to rounding
+
+/// A straight side of a polygon, from a vertex to the next one that is not on it.
+struct Side {
+  double length = 0;
+  bool ends_in_facet = false;
+};
+
+/// Points on the side turn by no more than rounded coordinates do.
+template <class Next>
+Side side_from(const Geometry& geometry, std::int32_t v, const Next& next) {
+  constexpr double straight_degrees = 0.1;
+  Side side;
+  double turned = 0;
+  std::int32_t u = v;
+  do {
+    side.length += length(geometry.point(next(u)) - geometry.point(u));
+    u = next(u);
+    turned += geometry.bend_degrees(u);
+  } while (u != v && !geometry.kept(u) && turned <= straight_degrees);
+  side.ends_in_facet = u != v && geometry.bend_degrees(u) > visible_degrees;
+  return side;
+}
+
+}  // namespace
+
 std::vector<Facet> facets_of(const Geometry& geometry) {
-  constexpr double visible_degrees = 2 + 1e-9;  // a circle of 180 points turns by 2 degrees, up to rounding
-  const auto length_of = [&](std::int32_t s) {
-    return length(geometry.point(geometry.next(s)) - geometry.point(s));
-  };
   std::vector<Facet> facets;
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     const double turn = geometry.bend_degrees(v);
     if (turn <= visible_degrees) continue;
-    const double beside =
-        std::max(geometry.bend_degrees(geometry.previous(v)), geometry.bend_degrees(geometry.next(v)));
-    if (beside > visible_degrees)
-      facets.push_back({v, turn, std::min(length_of(v), length_of(geometry.previous(v)))});
+    const Side before = side_from(geometry, v, [&](std::int32_t u) { return geometry.previous(u); }),
+               after = side_from(geometry, v, [&](std::int32_t u) { return geometry.next(u); });
+    if (before.ends_in_facet || after.ends_in_facet)
+      facets.push_back({v, turn, std::min(after.length, before.length)});
   }
   return facets;
 }
