@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
-#include <utility>
+#include <variant>
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/facets.hpp"
@@ -14,43 +15,100 @@ namespace quadloop {
 
 namespace {
 
-/// Warns of a corner spacing that cannot be reached, or of a boundary without a sharp corner.
-Warnings corner_warnings(const Geometry& geometry, double min) {
-  IdVector<BoundaryId, char> has_corner(geometry.boundaries().size(), 0);
+/// Warns of a requested size that `min` limits, if it does. `what`: "boundary 'a' requests a spacing".
+void warn_if_limited(const std::string& what, double wanted, Point at, double min, Warnings& warnings) {
+  if (wanted >= min) return;
+  warnings.push_back(fmt::format("{} of {:.6g} at ({:.6g}, {:.6g}), but spacing.min = {} is larger", what,
+                                 wanted, at.x, at.y, min));
+}
+
+/// Warns of sizes of boundaries and of their corners that cannot be reached, and of a boundary without a
+/// sharp corner. The place is the first one.
+void warn_of_boundaries(const Geometry& geometry, double min, Warnings& warnings) {
+  IdVector<BoundaryId, std::int32_t> first(geometry.boundaries().size(), -1), corner = first;
+  const auto set_first = [](std::int32_t& place, std::int32_t v) { place = place < 0 ? v : place; };
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    set_first(first[geometry.boundary_of(v)], v);
     if (geometry.corner_spacing_of(v) == 0) continue;
     for (const std::int32_t segment : {geometry.previous(v), v})
-      has_corner[geometry.boundary_of(segment)] = 1;
+      set_first(corner[geometry.boundary_of(segment)], v);
   }
-  Warnings warnings;
-  for (const BoundaryId b : has_corner.ids()) {
+  for (const BoundaryId b : first.ids()) {
     const Boundary& boundary = geometry.boundary(b);
-    if (boundary.corner_spacing > 0 && has_corner[b] == 0) {
+    const std::string requests = fmt::format("boundary '{}' requests a ", boundary.name);
+    if (boundary.spacing > 0 && first[b] >= 0)
+      warn_if_limited(requests + "spacing", boundary.spacing, geometry.point(first[b]), min, warnings);
+    if (boundary.corner_spacing == 0) continue;
+    if (corner[b] >= 0) {
+      warn_if_limited(requests + "corner_spacing", boundary.corner_spacing, geometry.point(corner[b]), min,
+                      warnings);
+    } else {
       warnings.push_back(
-          fmt::format("boundary '{}' has no corner for its corner_spacing = {}: it turns by more than its "
-                      "corner = {} degrees nowhere",
+          fmt::format("boundary '{}' has corner_spacing = {}, but no corner: it turns nowhere by more than "
+                      "corner = {} degrees",
                       boundary.name, boundary.corner_spacing, boundary.corner_degrees));
-    } else if (boundary.corner_spacing > 0 && boundary.corner_spacing < min) {
-      warnings.push_back(fmt::format(
-          "boundary '{}' asks for a corner_spacing of {}, but spacing.min = {} ends the refinement before",
-          boundary.name, boundary.corner_spacing, min));
     }
   }
-  return warnings;
 }
 
 /// Warns of narrow parts of the domain with fewer quadtree cells across than requested.
-Warnings gap_warnings(const MeshOptions& options, const Geometry& geometry, const Lattice& lattice) {
-  if (!options.size.gap) return {};
-  const double finest = lattice.edge(lattice.finest_level(options.size.min));
+void warn_of_gaps(const MeshOptions& options, const Geometry& geometry, double finest, Warnings& warnings) {
+  if (!options.size.gap) return;
   const auto narrow = Proximity(geometry).narrow_parts(*options.size.gap * finest);
-  if (narrow.segments == 0) return {};
-  return {
-      fmt::format("spacing.gap asks for {} leaves across parts of the domain that are narrower than {} "
-                  "leaves of {}, at {} segments "
-                  "of the outline, the first at ({}, {}); spacing.min = {} ends the refinement before",
-                  *options.size.gap, *options.size.gap, finest, narrow.segments, narrow.first.x,
-                  narrow.first.y, options.size.min)};
+  if (narrow.segments == 0) return;
+  warnings.push_back(fmt::format(
+      "spacing.gap requests {} cells across gaps, but gaps at {} segments of the geometry, the first at "
+      "({:.6g}, {:.6g}), are narrower than {} cells of {}; spacing.min = {} permits no smaller cells",
+      *options.size.gap, narrow.segments, narrow.first.x, narrow.first.y, *options.size.gap, finest,
+      options.size.min));
+}
+
+/// The points of one boundary where it turns by more than `curvature` within a smallest cell.
+struct SharpTurns {
+  std::int64_t points = 0;
+  double wanted = std::numeric_limits<double>::infinity();  ///< smallest size that `curvature` requests
+  Point at;                                                 ///< where
+};
+
+/// Each point turns along half of the segments beside it; consecutive ones within `finest` turn together.
+IdVector<BoundaryId, SharpTurns> sharp_turns(const Geometry& geometry, double curvature, double finest) {
+  IdVector<BoundaryId, SharpTurns> sharp(geometry.boundaries().size(), {});
+  double turn = 0, reach = 0;
+  const auto change = [&](std::int32_t v, double sign) {
+    turn += sign * geometry.bend_degrees(v);
+    reach += sign * 0.5 *
+             (length(geometry.point(v) - geometry.point(geometry.previous(v))) +
+              length(geometry.point(geometry.next(v)) - geometry.point(v)));
+  };
+  std::int32_t first = 0;
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    if (geometry.kept(v) || geometry.previous(v) != v - 1) {
+      first = v;
+      turn = reach = 0;
+    }
+    change(v, 1);
+    while (reach > finest && first < v) change(first++, -1);
+    if (reach > finest || turn <= curvature) continue;
+    SharpTurns& of_boundary = sharp[geometry.boundary_of(v)];
+    ++of_boundary.points;
+    if (const double wanted = curvature / turn * reach; wanted < of_boundary.wanted)
+      of_boundary = {of_boundary.points, wanted, geometry.point((first + v) / 2)};
+  }
+  return sharp;
+}
+
+void warn_of_curvature(const MeshOptions& options, const Geometry& geometry, double finest,
+                       Warnings& warnings) {
+  if (!options.size.curvature) return;
+  const auto sharp = sharp_turns(geometry, *options.size.curvature, finest);
+  for (const BoundaryId b : sharp.ids()) {
+    const auto& [points, wanted, at] = sharp[b];
+    if (points == 0) continue;
+    const std::string requests = fmt::format(
+        "spacing.curvature = {} requests smaller cells at {} points of boundary '{}', the smallest",
+        *options.size.curvature, points, geometry.boundary(b).name);
+    warn_if_limited(requests, wanted, at, options.size.min, warnings);
+  }
 }
 
 /// The points of one boundary at which the flow resolves the facets of the polygon.
@@ -77,59 +135,55 @@ IdVector<BoundaryId, Facets> facets_in_small_cells(const MeshOptions& options, c
   return facets;
 }
 
-Warnings facet_warnings(const MeshOptions& options, const Geometry& geometry) {
-  Warnings warnings;
+void warn_of_facets(const MeshOptions& options, const Geometry& geometry, Warnings& warnings) {
   const auto facets = facets_in_small_cells(options, geometry);
   for (const BoundaryId b : facets.ids()) {
     const auto& [points, turn, shortest, first] = facets[b];
-    if (points == 0) continue;
+    if (points < 2) continue;  // no side lies between two of them
     warnings.push_back(fmt::format(
-        "boundary '{}' turns by up to {:.3g} degrees at {} points that are no corners, the first "
+        "boundary '{}' turns by up to {:.3g} degrees at {} points that are not corners, the first "
         "at ({}, {}). Cells smaller than {:.3g} resolve the straight facets between its points, and the "
         "pressure of a flow has a peak at each point; give the outline more points",
         geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
   }
-  return warnings;
+}
+
+Point centre_of(const SizeSource& source) {
+  if (const Box* const box = std::get_if<Box>(&source.shape)) return box->centre();
+  if (const auto* const disc = std::get_if<SizeSource::Disc>(&source.shape)) return disc->centre;
+  const auto& line = std::get<SizeSource::Line>(source.shape);
+  return 0.5 * (line.from + line.to);
+}
+
+void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warnings) {
+  for (const SizeSource& source : options.size.sources) {
+    warn_if_limited(source.where + ": this [[source]] requests a spacing", source.spacing, centre_of(source),
+                    options.size.min, warnings);
+    if (meets(source, root)) continue;
+    warnings.push_back(
+        fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), "
+                    "and does nothing; move it",
+                    source.where, root.low.x, root.low.y, root.high.x, root.high.y));
+  }
 }
 
 }  // namespace
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
-  const double min = options.size.min;
   const Lattice lattice = choose_root(geometry, options.size.root);
-  const Box root = lattice.box();
-  if (const double finest = lattice.edge(lattice.finest_level(min)); finest > options.size.max) {
-    warnings.push_back(
-        fmt::format("leaves stay at {}, above spacing.max = {}: sizes halve from the root's, and spacing.min "
-                    "= {} forbids the next one; "
-                    "make spacing.min {} or less",
-                    finest, options.size.max, min, finest / 2));
+  const double min = options.size.min, finest = lattice.edge(lattice.finest_level(min));
+  if (finest > options.size.max) {
+    warnings.push_back(fmt::format(
+        "the cells are {} wide, larger than spacing.max = {}: sizes are the root's edge divided by "
+        "powers of two, and spacing.min = {} forbids the next one; set spacing.min to {} or less",
+        finest, options.size.max, min, finest / 2));
   }
-  for (const Boundary& b : geometry.boundaries()) {
-    if (b.spacing > 0 && b.spacing < min) {
-      warnings.push_back(fmt::format(
-          "boundary '{}' asks for a spacing of {}, but spacing.min = {} ends the refinement before", b.name,
-          b.spacing, min));
-    }
-  }
-  for (std::string& warning : gap_warnings(options, geometry, lattice))
-    warnings.push_back(std::move(warning));
-  for (std::string& warning : corner_warnings(geometry, min)) warnings.push_back(std::move(warning));
-  for (std::string& warning : facet_warnings(options, geometry)) warnings.push_back(std::move(warning));
-  for (const SizeSource& source : options.size.sources) {
-    if (source.spacing < min) {
-      warnings.push_back(fmt::format(
-          "{}: this [[source]] asks for a spacing of {}, but spacing.min = {} ends the refinement before",
-          source.where, source.spacing, min));
-    }
-    if (!meets(source, root)) {
-      warnings.push_back(
-          fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), "
-                      "and does nothing; move it",
-                      source.where, root.low.x, root.low.y, root.high.x, root.high.y));
-    }
-  }
+  warn_of_boundaries(geometry, min, warnings);
+  warn_of_curvature(options, geometry, finest, warnings);
+  warn_of_gaps(options, geometry, finest, warnings);
+  warn_of_facets(options, geometry, warnings);
+  warn_of_sources(options, lattice.box(), warnings);
   return warnings;
 }
 

@@ -80,8 +80,8 @@ class MeshWarnings(ProgramTest):
         edges = json.loads(self.done("check", "case.mesh", "--json")[0])["boundary_edges"]
         self.assertGreaterEqual(edges, 8 / 0.05)
         _, warnings = self.done("mesh", "case.toml", "--set", "spacing.min=0.05")
-        self.assertIn("leaves stay at 0.0625, above spacing.max = 0.05", warnings)
-        self.assertIn("make spacing.min 0.03125 or less", warnings)
+        self.assertIn("the cells are 0.0625 wide, larger than spacing.max = 0.05", warnings)
+        self.assertIn("set spacing.min to 0.03125 or less", warnings)
 
     def test_leaves_too_coarse_for_the_area(self):
         disc = "".join(f"{math.cos(math.tau * k / 99)} {math.sin(math.tau * k / 99)}\n" for k in range(99))
@@ -138,9 +138,9 @@ class MeshWarnings(ProgramTest):
             self.assertEqual((self.folder / "again.mesh").read_bytes(), mesh)
             self.assertEqual((self.folder / "again.tree.h5").read_bytes(), tree)
         _, warnings = self.mesh(kite, case + "corner_spacing = 0.06\ncorner = 170\n")
-        self.assertIn("boundary 'kite' has no corner for its corner_spacing = 0.06", warnings)
+        self.assertIn("boundary 'kite' has corner_spacing = 0.06, but no corner", warnings)
         _, warnings = self.mesh(kite, case + "corner_spacing = 0.01\n")
-        self.assertIn("boundary 'kite' asks for a corner_spacing of 0.01, but spacing.min = 0.02", warnings)
+        self.assertIn("boundary 'kite' requests a corner_spacing of 0.01 at", warnings)
 
     def test_a_restart_has_the_same_root_to_the_bit(self):
         """The trees' edge times their number rounds to another corner than the user's edge does."""

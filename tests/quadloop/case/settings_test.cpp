@@ -406,7 +406,8 @@ TEST_F(SettingsTest, WarnsOfSourcesThatDoNothing) {
   EXPECT_NE(warnings[0].find(
                 "case.toml:9: this [[source]] lies outside the root, which reaches from (0, 0) to (4, 4)"),
             std::string::npos);
-  EXPECT_NE(warnings[1].find("case.toml:12: this [[source]] asks for a spacing of 0.25"), std::string::npos);
+  EXPECT_NE(warnings[1].find("case.toml:12: this [[source]] requests a spacing of 0.25 at (5, 2)"),
+            std::string::npos);
   EXPECT_NE(warnings[2].find("case.toml:12: this [[source]] lies outside the root"), std::string::npos);
 }
 
@@ -499,26 +500,76 @@ TEST_F(SettingsTest, TheDigestFollowsTheSettingsOfTheMesh) {
   EXPECT_NE(base, digest({"source=[{disc=[0,0,1],spacing=1}]"}));
 }
 
-/// A regular polygon of 60 sides of a tenth, which turns by 6 degrees at each point.
-Warnings warnings_of_polygon(double spacing) {
+/// A regular polygon of radius 1, with points in the middle of its sides or without.
+Chain polygon(int corners, bool has_middles = false) {
   std::vector<Point> points;
-  for (int k = 0; k < 60; ++k) {
-    const double angle = k * std::numbers::pi / 30;
-    points.push_back({std::cos(angle), std::sin(angle)});
+  const auto corner = [&](int k) {
+    const double angle = k * 2 * std::numbers::pi / corners;
+    return Point{std::cos(angle), std::sin(angle)};
+  };
+  for (int k = 0; k < corners; ++k) {
+    points.push_back(corner(k));
+    if (has_middles) points.push_back(0.5 * (corner(k) + corner(k + 1)));
   }
-  Settings settings;
-  settings.outline.rules = {{"ring", spacing, {}, {}, "here"}};
+  return {"ring", false, points, "ring"};
+}
+
+Warnings warnings_of(const Chain& ring, Settings settings) {
   Warnings warnings;
-  const Geometry geometry = assemble({{"ring", false, points, "ring"}}, settings.outline, warnings);
+  const Geometry geometry = assemble({ring}, settings.outline, warnings);
   return spacing_warnings(mesh_options(settings, geometry), geometry);
 }
 
+Settings with_spacing(double spacing) {
+  Settings settings;
+  settings.outline.rules = {{"ring", spacing, {}, {}, "here"}};
+  return settings;
+}
+
 TEST(SpacingWarnings, TellOfAPolygonInFineCells) {
-  EXPECT_TRUE(warnings_of_polygon(0.06).empty());
-  const Warnings fine = warnings_of_polygon(0.02);
+  EXPECT_TRUE(warnings_of(polygon(60), with_spacing(0.06)).empty());
+  const Warnings fine = warnings_of(polygon(60), with_spacing(0.02));
   ASSERT_EQ(fine.size(), 1u);
   EXPECT_EQ(fine[0].find("boundary 'ring' turns by up to 6 degrees at 60 points"), 0u) << fine[0];
   EXPECT_NE(fine[0].find("smaller than 0.105"), std::string::npos) << fine[0];
+}
+
+TEST(SpacingWarnings, PointsOnStraightSidesDoNotHideAPolygon) {
+  const Warnings fine = warnings_of(polygon(60, true), with_spacing(0.02));
+  ASSERT_EQ(fine.size(), 1u);
+  EXPECT_EQ(fine[0].find("boundary 'ring' turns by up to 6 degrees at 60 points"), 0u) << fine[0];
+  EXPECT_NE(fine[0].find("smaller than 0.105"), std::string::npos) << fine[0];
+}
+
+TEST(SpacingWarnings, TellOfCurvatureThatMinLimits) {
+  Settings settings = with_spacing(1);
+  settings.max = 1;
+  settings.min = 0.3;
+  settings.mesh.size.curvature = 5;
+  const Warnings limited = warnings_of(polygon(360), settings);  // 5 degrees of the circle are 0.0873 long
+  ASSERT_EQ(limited.size(), 1u);
+  EXPECT_EQ(limited[0].find("spacing.curvature = 5 requests smaller cells at 3"), 0u) << limited[0];
+  EXPECT_NE(limited[0].find("of boundary 'ring', the smallest of 0.08726"), std::string::npos) << limited[0];
+  EXPECT_NE(limited[0].find("), but spacing.min = 0.3 is larger"), std::string::npos) << limited[0];
+  settings.min = 0.08;
+  EXPECT_TRUE(warnings_of(polygon(360), settings).empty());
+  settings.min = 0.02;  // one point of a polygon: no cell is small enough
+  for (const std::string& warning : warnings_of(polygon(60), settings))
+    EXPECT_EQ(warning.find("curvature"), std::string::npos) << warning;
+}
+
+TEST(SpacingWarnings, GiveThePlaceOfSizesThatMinLimits) {
+  Settings settings = with_spacing(0.125);
+  settings.outline.rules[0].corner_spacing = 0.0625;
+  settings.max = 1;
+  settings.min = 0.25;
+  const Warnings limited = warnings_of(polygon(4), settings);
+  ASSERT_EQ(limited.size(), 2u);
+  EXPECT_EQ(limited[0],
+            "boundary 'ring' requests a spacing of 0.125 at (1, 0), but spacing.min = 0.25 is larger");
+  EXPECT_EQ(
+      limited[1],
+      "boundary 'ring' requests a corner_spacing of 0.0625 at (1, 0), but spacing.min = 0.25 is larger");
 }
 
 TEST(MeshOptions, WithoutAMinimumSizesGoDownToGaps) {
@@ -535,7 +586,7 @@ TEST(MeshOptions, WithoutAMinimumSizesGoDownToGaps) {
   settings.min = 0.05;
   const Warnings limited = spacing_warnings(mesh_options(settings, geometry), geometry);
   ASSERT_EQ(limited.size(), 1u);
-  EXPECT_EQ(limited[0].find("spacing.gap asks for 4 leaves"), 0u) << limited[0];
+  EXPECT_EQ(limited[0].find("spacing.gap requests 4 cells across gaps"), 0u) << limited[0];
 }
 
 }  // namespace
