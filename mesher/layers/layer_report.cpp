@@ -285,6 +285,18 @@ void add_warning_of_base(const LayerStrip& strip, std::vector<std::string>& warn
                   strip.place, at.x, at.y, strip.name, height, strip.spec.first));
 }
 
+/// Warns of a wake that does not continue the walls: their columns are squeezed on its inner side.
+void add_warning_of_turn(const LayerStrip& strip, std::vector<std::string>& warnings) {
+  constexpr double too_sharp = 15;
+  if (strip.turn_degrees <= too_sharp) return;
+  const Point at = strip.columns[0][strip.columns[0].size() / 2];
+  warnings.push_back(fmt::format(
+      "{}{} turns by {:.0f} degrees from the direction of the trailing edge near ({:.6g}, {:.6g}): the layers "
+      "there are thin or their cells skewed; begin its path in the direction of the edge and bend it "
+      "gradually, in steps of at most {} degrees",
+      strip.place, strip.name, strip.turn_degrees, at.x, at.y, too_sharp));
+}
+
 }  // namespace
 
 std::vector<std::string> size_warnings(const LayerFront& front, double min) {
@@ -293,6 +305,7 @@ std::vector<std::string> size_warnings(const LayerFront& front, double min) {
   for (const LayerStrip& strip : front.strips) {
     add_warning_of_strip(strip, min, warnings);
     add_warning_of_base(strip, warnings);
+    add_warning_of_turn(strip, warnings);
   }
   return warnings;
 }

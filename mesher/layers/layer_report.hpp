@@ -44,8 +44,8 @@ std::vector<std::string> warnings_of(const LayerReport& report);
 
 /// Warnings where `min`, the smallest allowed leaf size, exceeds the size that layers need: beside the last
 /// layers of walls that have at least half their requested thickness (the five boundaries with the largest
-/// difference), beside strips, and on bases of blunt edges that are too narrow for layers of their own. Each
-/// with its place.
+/// difference), beside strips, and on bases of blunt edges that are too narrow for layers of their own; and
+/// of wakes that turn by more than 15 degrees at their edge. Each with its place.
 std::vector<std::string> size_warnings(const LayerFront& front, double min);
 
 }  // namespace quadloop

@@ -122,19 +122,34 @@ TEST(LayerReport, WarnsOfLeavesThatMinKeepsAboveTheLastLayer) {
     EXPECT_EQ(std::ranges::count(made.result.report.warnings, warning), 1) << warning;
 }
 
+/// Warnings of a body in a box, with a wake from its blunt edge of twice this height at x = 1; the path may
+/// be empty.
+std::vector<std::string> warnings_of_wake(double half, std::vector<Point> path) {
+  Boundary box{"box", 0.5, 30, "none"}, body{"body", 0.1, 30, "wall"};
+  body.layers = four;
+  const std::vector<Point> points{{-4, -4}, {4, -4},   {4, 4},     {-4, 4},   {-1, 0.3},
+                                  {0, 0.3}, {1, half}, {1, -half}, {0, -0.3}, {-1, -0.3}};
+  std::vector<BoundaryId> of_segment(10, BoundaryId{1});
+  std::fill_n(of_segment.begin(), 4, BoundaryId{0});
+  const Geometry geometry({box, body}, points, {0, 4, 10}, of_segment);
+  return size_warnings(layer_front(geometry, {}, {{{"body"}, std::move(path), 1.5, 0.1, {}, "case.toml:7"}}),
+                       0);
+}
+
+TEST(LayerReport, WarnsOfAWakeThatTurnsAtItsEdge) {
+  EXPECT_TRUE(warnings_of_wake(0.05, {{2, 0.25}}).empty()) << "14 degrees";
+  EXPECT_TRUE(warnings_of_wake(0.05, {{1.5, 0.1}, {2, 0.3}, {2.5, 0.6}}).empty()) << "a gradual bend";
+  const std::vector<std::string> sharp = warnings_of_wake(0.05, {{2, 0.5}});
+  ASSERT_EQ(sharp.size(), 1U);
+  EXPECT_TRUE(
+      sharp[0].starts_with("case.toml:7: wake turns by 27 degrees from the direction of the trailing "
+                           "edge near (1.01, 0)"))
+      << sharp[0];
+}
+
 TEST(LayerReport, WarnsOfABaseWithoutLayers) {
-  const auto warnings = [](double half) {
-    Boundary box{"box", 0.5, 30, "none"}, body{"body", 0.1, 30, "wall"};
-    body.layers = four;
-    const std::vector<Point> points{{-4, -4}, {4, -4},   {4, 4},     {-4, 4},   {-1, 0.3},
-                                    {0, 0.3}, {1, half}, {1, -half}, {0, -0.3}, {-1, -0.3}};
-    std::vector<BoundaryId> of_segment(10, BoundaryId{1});
-    std::fill_n(of_segment.begin(), 4, BoundaryId{0});
-    const Geometry geometry({box, body}, points, {0, 4, 10}, of_segment);
-    return size_warnings(layer_front(geometry, {}, {{{"body"}, {}, 1.5, 0.1, {}, "case.toml:7"}}), 0);
-  };
-  EXPECT_TRUE(warnings(0.05).empty());
-  const std::vector<std::string> narrow = warnings(0.005);
+  EXPECT_TRUE(warnings_of_wake(0.05, {}).empty());
+  const std::vector<std::string> narrow = warnings_of_wake(0.005, {});
   ASSERT_EQ(narrow.size(), 1U);
   EXPECT_TRUE(narrow[0].starts_with(
       "case.toml:7: the blunt trailing edge at (1, 0), where wake begins, is too narrow"))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -186,10 +187,11 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, Pl
   std::vector<Point> path{middle_of(g, {first, last})};
   const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
   path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
-  if (line.path.empty()) {
-    const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
-    path.push_back(path[0] + line.length * on);
-  }
+  const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
+  if (line.path.empty()) path.push_back(path[0] + line.length * on);
+  if (path.size() > 1)
+    placed.turn_degrees =
+        std::acos(std::clamp(dot(on, direction_of(path[0], path[1])), -1.0, 1.0)) * (180 / std::numbers::pi);
   placed.edge = first;
   placed.base_end = last;
   placed.path = std::move(path);

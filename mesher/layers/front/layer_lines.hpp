@@ -46,6 +46,7 @@ struct PlacedLine {
   std::string name = {};   ///< "wake" or "layer_line"; of several "wake_1", "wake_2" ...
   std::string place = {};  ///< what a message about it begins with: "case.toml:12: ", or nothing
   std::optional<MirrorAxis> across = {};  ///< as the line's
+  double turn_degrees = 0;  ///< of a wake: between the bisector of the walls at the edge and the path
 };
 
 /// Finds the edges at which wakes begin. An edge is a vertex where the wall turns away from the domain by

@@ -114,6 +114,7 @@ class Strip {
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
     strip_.name = line.name;
     strip_.place = line.place;
+    strip_.turn_degrees = line.turn_degrees;
     strip_.spec = line.layers;
     strip_.asked = thickness_;
     strip_.root = root;

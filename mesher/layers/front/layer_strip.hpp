@@ -23,6 +23,7 @@ struct WakeRoot {
 /// join the last rows to the strip's front, so that the cells outside need not match.
 struct LayerStrip {
   std::string name, place;       ///< those of the PlacedLine
+  double turn_degrees = 0;       ///< that of the PlacedLine
   LayerSpec spec;                ///< the requested layers on each side
   double asked = 0;              ///< requested total thickness of one side
   std::optional<WakeRoot> root;  ///< if set, the first column consists of the wall's two columns
