@@ -171,7 +171,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   context.warn(
       saved ? unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes)
             : first_mesh_warnings(input));
-  for (const std::string& file : prepared.files) context.warn(renames_in(generated.result.mesh, file));
+  for (const std::string& file : prepared.files) context.warn(changes_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (comm.is_root()) add_extents(summary.figures, prepared.input.extents);
   if (parts) add_parts(summary, *parts, prepared.part_files);

@@ -187,7 +187,7 @@ SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, Re
 
 void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
             const RemeshProblem& problem, const std::optional<PartFigures>& parts) {
-  for (const std::string& file : problem.files) context.warn(renames_in(carried.generated.result.mesh, file));
+  for (const std::string& file : problem.files) context.warn(changes_in(carried.generated.result.mesh, file));
   const std::vector<std::string> files = with_files_beside(problem.files);
   MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
   if (context.comm.is_root()) add_extents(summary.figures, problem.input.extents);

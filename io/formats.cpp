@@ -12,6 +12,7 @@
 #include "io/files/output_path.hpp"
 #include "io/files/reading/file_kind.hpp"
 #include "io/fluent/fluent_file.hpp"
+#include "io/fluent/fluent_zones.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/medit/medit_file.hpp"
 #include "io/msh/msh_file.hpp"
@@ -60,6 +61,10 @@ FileFormat msh_row(const std::string& name) {
           .boundary_names = msh_group_names};
 }
 
+BoundaryCondition mapbc_condition_in_file(BoundaryCondition condition) {
+  return condition_of_mapbc(mapbc_condition(condition));
+}
+
 /// One for each byte order.
 template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
@@ -69,6 +74,7 @@ FileFormat ugrid_row(const std::string& name) {
           .read = read_ugrid<order>,
           .write = write_ugrid<order>,
           .boundary_names = mapbc_names,
+          .condition_in_file = mapbc_condition_in_file,
           .file_beside = mapbc_path};
 }
 
@@ -148,6 +154,8 @@ FileFormat fluent_row() {
           .read = read_fluent,
           .write = write_fluent,
           .boundary_names = fluent_zone_names,
+          .condition_in_file =
+              [](BoundaryCondition condition) { return condition_of_fluent(fluent_number(condition)); },
           .unknown_boundary = "a wall"};
 }
 
@@ -158,6 +166,7 @@ FileFormat plane_ugrid_row() {
           .read = read_ugrid_plane,
           .write = write_ugrid_plane,
           .boundary_names = mapbc_names,
+          .condition_in_file = mapbc_condition_in_file,
           .unknown_boundary = "of type 0 in the .mapbc",
           .file_beside = plane_mapbc_path};
 }
@@ -171,6 +180,7 @@ FileFormat foam_row() {
           .write = write_foam,
           .boundary_names = foam_patch_names,
           .unknown_boundary = "a plain patch, no wall",
+          .stores_interfaces = false,
           .single_block_name = false,
           .is_folder = true};
 }

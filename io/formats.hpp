@@ -44,6 +44,8 @@ struct FileFormat {
   /// Returns the variable names of a solution, with those that cannot be stored replaced by their names in
   /// the file; null: all can be stored.
   std::vector<std::string> (*variable_names)(const std::vector<std::string>& names) = nullptr;
+  /// Returns the condition that a file of this format has for a boundary of a given one; null: the same.
+  BoundaryCondition (*condition_in_file)(BoundaryCondition condition) = nullptr;
   /// Condition that other programs assume for a boundary without one; null: none.
   const char* unknown_boundary = nullptr;
   /// Returns the second file that is written with one of this name; null: there is none.
@@ -54,6 +56,7 @@ struct FileFormat {
   void (*write_solution)(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                          double gamma) = nullptr;
 
+  bool stores_interfaces = true;  ///< whether boundaries between two blocks can be stored
   bool single_block_name = true;  ///< whether the name of a single block can be stored
   bool is_folder = false;
 

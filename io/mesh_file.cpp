@@ -73,10 +73,18 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
 /// Data of a mesh that a format may not support.
 struct MeshContent {
   std::vector<std::string> boundary_names, block_names = {};
+  std::vector<BoundaryCondition> conditions;  ///< of the boundaries
+  std::vector<std::string> interfaces = {};   ///< names of boundaries with an edge between two cells
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
-  bool has_conditions = false, has_layers = false;
-  bool knows_walls = false;  ///< boundaries without a condition need no warning
+  bool has_layers = false;
+  bool knows_walls = false;  ///< a case determines the conditions, also if all are "none"
+
+  bool knows_conditions() const {
+    return knows_walls || std::ranges::any_of(conditions, [](BoundaryCondition condition) {
+             return condition != BoundaryCondition::none;
+           });
+  }
 };
 
 template <class Boundaries>
@@ -84,7 +92,7 @@ MeshContent content_of(const Boundaries& boundaries) {
   MeshContent content;
   for (const auto& boundary : boundaries) {
     content.boundary_names.push_back(boundary.name);
-    content.has_conditions = content.has_conditions || boundary.condition != BoundaryCondition::none;
+    content.conditions.push_back(boundary.condition);
   }
   return content;
 }
@@ -94,6 +102,21 @@ MeshContent content_of(const Mesh& mesh, const Field* solution) {
   content.has_layers = has_layers(mesh);
   content.solution = solution;
   return content;
+}
+
+bool is_between_cells(const EdgeTable& table, const std::array<NodeId, 2>& edge) {
+  return table.cell_left_of(edge[0], edge[1]) >= 0 && table.cell_left_of(edge[1], edge[0]) >= 0;
+}
+
+std::vector<std::string> names_of_interfaces(const LoadedMesh& whole) {
+  if (whole.blocks < 2) return {};
+  const EdgeTable table(whole.mesh);
+  std::vector<std::string> names;
+  for (const BoundaryEdges& boundary : whole.mesh.boundaries) {
+    if (std::ranges::any_of(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); }))
+      names.push_back(boundary.name);
+  }
+  return names;
 }
 
 /// Returns a line that counts the boundaries whose names the format cannot store.
@@ -108,6 +131,37 @@ std::vector<std::string> renames_of(const std::vector<std::string>& names, const
   return {fmt::format(
       "{}: {} boundar{} renamed, as this format cannot hold every name; the first, '{}', is '{}' there", path,
       renamed, renamed == 1 ? "y is" : "ies are", *first.in1, *first.in2)};
+}
+
+/// Returns the condition that a boundary has in a file of the format.
+BoundaryCondition condition_in(const FileFormat& format, BoundaryCondition condition) {
+  if (!format.holds(Content::conditions)) return BoundaryCondition::none;
+  return format.condition_in_file == nullptr ? condition : format.condition_in_file(condition);
+}
+
+/// Returns a line on the boundaries whose conditions the format cannot store, by condition; empty if there
+/// are none. Between two cells no format has another condition for "none".
+std::string lost_conditions(const MeshContent& content, const FileFormat& format, const std::string& path) {
+  if (!content.knows_conditions()) return {};
+  const bool stores_some = format.holds(Content::conditions);
+  std::string list;
+  for (const auto& [word, kind] : BoundaryCondition::words) {
+    const BoundaryCondition condition = kind, written = condition_in(format, condition);
+    std::vector<std::string> names;
+    for (std::size_t b = 0; b < content.conditions.size() && written != condition; ++b) {
+      const std::string& name = content.boundary_names[b];
+      const bool is_open =
+          condition == BoundaryCondition::none && std::ranges::count(content.interfaces, name) > 0;
+      if (content.conditions[b] == condition && !is_open) names.push_back(name);
+    }
+    if (names.empty()) continue;
+    const std::string change = stores_some ? fmt::format("{} becomes {}", word, written.word()) : word;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", change, some_names(names));
+  }
+  if (list.empty()) return {};
+  return fmt::format("{}: this format cannot store {}: {}", path,
+                     stores_some ? "all boundary conditions" : "boundary conditions, which are omitted",
+                     list);
 }
 
 /// Appends a line if blocks have names of their own, not "domain" or "block_<number>", and the format cannot
@@ -143,13 +197,16 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
       losses.push_back(std::move(renames));
   }
   if (content.blocks > 1 && !format.holds(Content::blocks)) lose("the blocks are written as one");
-  if (content.has_conditions && !format.holds(Content::conditions))
-    lose("this format cannot store boundary conditions, which are omitted");
+  if (std::string lost = lost_conditions(content, format, path); !lost.empty())
+    losses.push_back(std::move(lost));
+  if (!content.interfaces.empty() && !format.stores_interfaces)
+    losses.push_back(
+        fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
+                    some_names(content.interfaces)));
   if (content.has_layers && !format.holds(Content::layers))
     lose("this format cannot store the number of layers, which is omitted");
   append_block_names(format, content, path, losses);
-  if (format.unknown_boundary != nullptr && !content.knows_walls && !content.has_conditions &&
-      !content.boundary_names.empty())
+  if (format.unknown_boundary != nullptr && !content.knows_conditions() && !content.boundary_names.empty())
     losses.push_back(
         fmt::format("{}: the input does not specify which boundaries are walls; each is written as {}. A "
                     ".cgns file contains the conditions of the case: use it as input",
@@ -220,10 +277,16 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
 
-std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path, const std::string& format) {
+std::vector<std::string> changes_in(const Mesh& mesh, const std::string& path, const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
-  return row == nullptr ? std::vector<std::string>{}
-                        : renames_of(content_of(mesh.boundaries).boundary_names, *row, path);
+  if (row == nullptr) return {};
+  MeshContent content = content_of(mesh.boundaries);
+  content.knows_walls = true;
+  std::vector<std::string> changes = renames_of(content.boundary_names, *row, path);
+  if (std::string lost = lost_conditions(content, *row, path);
+      row->holds(Content::conditions) && !lost.empty())
+    changes.push_back(std::move(lost));
+  return changes;
 }
 
 std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& path,
@@ -233,6 +296,7 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
   MeshContent content = content_of(whole.mesh, whole.solution ? &*whole.solution : nullptr);
   content.blocks = whole.blocks;
   content.block_names = whole.block_names;
+  content.interfaces = names_of_interfaces(whole);
   return losses_of(content, *row, path);
 }
 
@@ -256,7 +320,6 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
           fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
   }
   MeshContent content = content_of(mesh.plane.boundaries);
-  content.has_conditions = content.has_conditions && row->holds(Content::conditions);
   content.solution = mesh.solution;
   std::ranges::move(losses_of(content, *row, path), std::back_inserter(losses));
   return losses;
@@ -291,9 +354,7 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
   const EdgeTable table(whole.mesh);
   std::size_t dropped = 0;
   for (BoundaryEdges& boundary : whole.mesh.boundaries) {
-    dropped += std::erase_if(boundary.edges, [&](const std::array<NodeId, 2>& edge) {
-      return table.cell_left_of(edge[0], edge[1]) >= 0 && table.cell_left_of(edge[1], edge[0]) >= 0;
-    });
+    dropped += std::erase_if(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   const FileFormat* format = solid_format(path);

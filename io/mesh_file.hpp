@@ -50,9 +50,10 @@ void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& pat
 /// mesh. Returns a line for each loss, with the output's name.
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path);
 
-/// Returns one line that counts the boundaries whose names the format, or else that of the suffix, cannot
-/// store, with the new name of the first; empty if all are kept.
-std::vector<std::string> renames_in(const Mesh& mesh, const std::string& path,
+/// Returns a line that counts the boundaries whose names the format, or else that of the suffix, cannot
+/// store, with the new name of the first, and a line on those whose conditions become others there; empty if
+/// all are kept.
+std::vector<std::string> changes_in(const Mesh& mesh, const std::string& path,
                                     const std::string& format = {});
 
 /// Returns the data of the mesh that the format, or else that of the suffix, does not support: one line each,

@@ -117,7 +117,7 @@ std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
   files.erase(std::unique(files.begin(), files.end()), files.end());
   std::vector<std::string> lines;
   for (const std::string& file : files) {
-    for (std::string& line : renames_in(mesh, file)) lines.push_back(std::move(line));
+    for (std::string& line : changes_in(mesh, file)) lines.push_back(std::move(line));
   }
   return lines;
 }

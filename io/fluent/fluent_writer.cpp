@@ -141,13 +141,15 @@ class FluentWriter {
     return patch.triangles > 0 && patch.quads > 0 ? 0 : patch.triangles > 0 ? 3 : 4;
   }
 
-  std::int64_t number_of(std::size_t n) const {
-    return faces_->is_interface(n) ? fluent_interior : fluent_number(outer_condition(n));
+  BoundaryCondition condition_of(std::size_t n) const { return stream_.patches()[n].condition; }
+  /// Whether flow passes through a patch because it has cells on both sides.
+  bool is_interior(std::size_t n) const {
+    const BoundaryCondition condition = condition_of(n);
+    return faces_->is_interface(n) &&
+           (condition == BoundaryCondition::none || condition == BoundaryCondition::interface);
   }
-  /// An interface without the other side in this file is not an interface.
-  BoundaryCondition outer_condition(std::size_t n) const {
-    const BoundaryCondition condition = stream_.patches()[n].condition;
-    return condition == BoundaryCondition::interface ? BoundaryCondition::none : condition;
+  std::int64_t number_of(std::size_t n) const {
+    return is_interior(n) ? fluent_interior : fluent_number(condition_of(n));
   }
 
   void write_names() {
@@ -158,9 +160,8 @@ class FluentWriter {
     if (faces_->internal() > 0) text += fluent_zone_name(inner_zone(), "interior", fluent_inner_zone);
     const std::vector<std::string> names = fluent_zone_names(stream_.patch_names());
     for (std::size_t n = 0; n < names.size(); ++n)
-      text += fluent_zone_name(
-          zone_of_patch(n),
-          fluent_word(faces_->is_interface(n) ? BoundaryCondition::interface : outer_condition(n)), names[n]);
+      text += fluent_zone_name(zone_of_patch(n), is_interior(n) ? "interior" : fluent_word(condition_of(n)),
+                               names[n]);
     file_.write(text);
   }
 

@@ -26,8 +26,8 @@ constexpr std::array<FluentZone, 14> zones{{{BoundaryCondition::wall, 3, "wall"}
                                             {BoundaryCondition::outflow, 36, "outflow"},
                                             {BoundaryCondition::symmetry, 7, "symmetry"},
                                             {BoundaryCondition::symmetry, 37, "axis"},
-                                            {BoundaryCondition::interface, fluent_interior, "interior"},
                                             {BoundaryCondition::interface, 24, "interface"},
+                                            {BoundaryCondition::interface, fluent_interior, "interior"},
                                             {BoundaryCondition::viscous_wall, 3, "wall"},
                                             {BoundaryCondition::inviscid_wall, 3, "wall"},
                                             {BoundaryCondition::none, 3, "wall"}}};

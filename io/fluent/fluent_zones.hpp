@@ -14,8 +14,8 @@ inline constexpr std::int64_t fluent_interior = 2;
 /// Zone name of inner faces without a boundary, in our files.
 inline constexpr const char* fluent_inner_zone = "interior-faces";
 
-/// Return Fluent's number for Boundary::condition, and the corresponding word: a wall if there is no
-/// condition.
+/// Return Fluent's number for the condition of a boundary of one cell per face, and the corresponding word: a
+/// wall if there is no condition.
 std::int64_t fluent_number(BoundaryCondition condition);
 std::string fluent_word(BoundaryCondition condition);
 

@@ -13,7 +13,8 @@ namespace quadloop {
 /// owner, neighbour and boundary, and cellZones if there are several blocks; the bytes are the same on any
 /// number of ranks. A plane mesh is extruded by one layer of thickness 1 along z; its boundary edges between
 /// two cells are no patches. Inner faces are in upper-triangular order. Patch types: the two ends are "empty"
-/// for one layer, else "symmetryPlane"; walls are "wall", symmetry boundaries "symmetry", all others "patch".
+/// for one layer, else "symmetryPlane"; walls are "wall", symmetry boundaries "symmetry", all others "patch";
+/// the entry physicalType is a condition that the type does not determine.
 /// Throws OutputError on all ranks. *Collective.*
 void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 

@@ -22,6 +22,8 @@ FoamPatch read_patch(FoamScanner& scan) {
       patch.first_face = scan.integer("the number of a face");
     } else if (key == "type") {
       patch.type = scan.token("the type of a patch");
+    } else if (key == "physicalType") {
+      patch.physical_type = scan.token("the physical type of a patch");
     }
     while (scan.token(";") != ";") {
     }
@@ -57,6 +59,12 @@ FoamZone read_zone(FoamScanner& scan, std::int64_t end) {
 }
 
 }  // namespace
+
+BoundaryCondition condition_of_foam_type(std::string_view type) {
+  if (type == "wall") return BoundaryCondition::wall;
+  return type.starts_with("symmetry") || type == "empty" ? BoundaryCondition::symmetry
+                                                         : BoundaryCondition::none;
+}
 
 std::vector<FoamZone> read_foam_zones(const std::string& path, std::int64_t end) {
   FoamScanner scan(path);

@@ -2,16 +2,23 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "mesher/geometry/boundary_conditions.hpp"
 
 namespace quadloop {
 
 /// A patch of a polyMesh.
 struct FoamPatch {
   std::string name, type;
+  std::string physical_type = {};            ///< empty if not specified in the file
   std::int64_t first_face = -1, faces = -1;  ///< -1 if not specified in the file
   std::vector<std::int32_t> cells = {};      ///< of its faces, by foam_patch_cells()
 };
+
+/// Returns the condition of patches of a type: "none" for those that OpenFOAM's field files specify.
+BoundaryCondition condition_of_foam_type(std::string_view type);
 
 /// Reads the patches in a file `boundary`. Throws InputError.
 std::vector<FoamPatch> read_foam_boundary(const std::string& path);

@@ -212,7 +212,8 @@ class FoamReader {
                                      file("boundary"), given.name, given.faces, start, faces_.size()));
       FileBoundary& patch = mesh_.boundaries.emplace_back();
       patch.name = given.name;
-      patch.condition = condition_of(given.type);
+      patch.condition =
+          BoundaryCondition::named(given.physical_type).value_or(condition_of_foam_type(given.type));
       patch.is_empty = given.type == "empty";
       patch.is_periodic = given.type.starts_with("cyclic");
       if (patch.is_periodic) cyclic.push_back(given.name);
@@ -234,12 +235,6 @@ class FoamReader {
       patch.faces.push_back(faces_[face]);
     else
       patch.faces.insert(patch.faces.end(), polygon->second.pieces.begin(), polygon->second.pieces.end());
-  }
-
-  static BoundaryCondition condition_of(std::string_view type) {
-    if (type == "wall") return BoundaryCondition::wall;
-    return type.starts_with("symmetry") || type == "empty" ? BoundaryCondition::symmetry
-                                                           : BoundaryCondition::none;
   }
 
   /// A face with more than four points, with the pieces of its cell at it.

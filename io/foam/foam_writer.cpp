@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/foam/foam_file.hpp"
+#include "io/foam/foam_patches.hpp"
 #include "io/stream/stream_blocks.hpp"
 #include "io/stream/stream_faces.hpp"
 #include "io/text/plain_names.hpp"
@@ -32,6 +33,12 @@ std::string foam_head(const std::string& type, const std::string& object, const 
 std::string foam_patch_type(BoundaryCondition condition) {
   if (condition.is_wall()) return "wall";
   return condition == BoundaryCondition::symmetry ? "symmetry" : "patch";
+}
+
+/// Returns the entry for a condition that the patch type does not determine; empty for others.
+std::string foam_physical_type(BoundaryCondition condition, const std::string& type) {
+  if (condition_of_foam_type(type) == condition) return {};
+  return std::string("        physicalType    ") + condition.word() + ";\n";
 }
 
 /// A face needs space for one number more than it has nodes.
@@ -127,9 +134,11 @@ class FoamWriter {
     std::string text = foam_head("polyBoundaryMesh", "boundary") + std::to_string(names.size()) + "\n(\n";
     std::int64_t start = faces_.internal();
     for (std::size_t n = 0; n < names.size(); ++n) {
-      text += "    " + names[n] + "\n    {\n        type            " + type_of(n) +
-              ";\n        nFaces          " + std::to_string(patches[n].faces()) +
-              ";\n        startFace       " + std::to_string(start) + ";\n    }\n";
+      const std::string type = type_of(n);
+      text += "    " + names[n] + "\n    {\n        type            " + type + ";\n" +
+              foam_physical_type(patches[n].condition, type) + "        nFaces          " +
+              std::to_string(patches[n].faces()) + ";\n        startFace       " + std::to_string(start) +
+              ";\n    }\n";
       start += patches[n].faces();
     }
     file.write(text);

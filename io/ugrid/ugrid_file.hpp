@@ -39,7 +39,7 @@ std::map<std::int32_t, MapbcPatch> read_mapbc(const std::string& path);
 std::vector<std::string> mapbc_names(const std::vector<std::string>& names);
 
 /// Return FUN3D's number for Boundary::condition, 0 if there is none; `axis` is the normal of the patch ('x',
-/// 'y', 'z'), if known. And the inverse, "none" for any other number.
+/// 'y', 'z'), if known. And the inverse, for walls the viscous or inviscid one, "none" for any other number.
 int mapbc_condition(BoundaryCondition condition, char axis = ' ');
 BoundaryCondition condition_of_mapbc(int number);
 

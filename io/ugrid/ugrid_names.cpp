@@ -11,16 +11,16 @@ namespace quadloop {
 
 namespace {
 
-/// FUN3D's numbers: viscous wall, Riemann invariants, subsonic inflow by total pressure, subsonic outflow by
-/// pressure, tangency.
+/// FUN3D's numbers: viscous wall, tangency, Riemann invariants, subsonic inflow by total pressure, subsonic
+/// outflow by pressure. For a number the first condition is read.
 constexpr std::array<std::pair<BoundaryCondition, int>, 7> conditions{
-    {{BoundaryCondition::wall, 4000},
+    {{BoundaryCondition::viscous_wall, 4000},
+     {BoundaryCondition::inviscid_wall, 3000},
      {BoundaryCondition::farfield, 5000},
      {BoundaryCondition::inflow, 7011},
      {BoundaryCondition::outflow, 7012},
-     {BoundaryCondition::symmetry, 3000},
-     {BoundaryCondition::viscous_wall, 4000},
-     {BoundaryCondition::inviscid_wall, 3000}}};
+     {BoundaryCondition::wall, 4000},
+     {BoundaryCondition::symmetry, 3000}}};
 constexpr int symmetry_x = 6661;  // followed by y and z: the plane normal to the axis
 
 }  // namespace

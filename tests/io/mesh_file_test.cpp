@@ -101,17 +101,15 @@ void convert_and_compare(LoadedMesh loaded, const std::string& first, const std:
   const bool layers_kept = layers_carried && format_named(second)->holds(Content::layers);
   EXPECT_EQ(back.mesh.strips, layers_kept ? loaded.mesh.strips : std::vector<StripLayers>{});
   EXPECT_EQ(back.mesh.boundaries[0].layers, layers_kept ? loaded.mesh.boundaries[0].layers : WallLayers{});
-  const bool conditions_carried = format_named(first)->holds(Content::conditions);
-  const bool conditions_kept = conditions_carried && format_named(second)->holds(Content::conditions);
-  // Fluent has a wall where nothing is said
-  const BoundaryCondition condition =
-      conditions_kept || second == "fluent.msh" ? BoundaryCondition::wall : BoundaryCondition::none;
+  const BoundaryCondition carried_condition = test::condition_back(first, BoundaryCondition::wall);
+  const BoundaryCondition condition = test::condition_back(second, carried_condition);
+  const bool knows_conditions = format_named(first)->holds(Content::conditions);
   EXPECT_EQ(back.mesh.boundaries[0].condition, condition);
   const std::size_t losses =
-      (conditions_carried && !conditions_kept ? 1U : 0U) + (carried && !kept ? 1U : 0U) +
+      (knows_conditions && condition != carried_condition ? 1U : 0U) + (carried && !kept ? 1U : 0U) +
       (kept && keeps_constants(first) && !keeps_constants(second) ? 1U : 0U) +
       (layers_carried && !layers_kept ? 1U : 0U) +
-      (!conditions_carried && format_named(second)->unknown_boundary != nullptr ? 1U : 0U);
+      (!knows_conditions && format_named(second)->unknown_boundary != nullptr ? 1U : 0U);
   EXPECT_EQ(losses_in(between, folder.file("b." + second)).size(), losses);
 }
 
@@ -173,14 +171,64 @@ TEST(MeshFile, NamesOfBlocksAreKeptOrReported) {
   EXPECT_GT(without, 0);
 }
 
-TEST(MeshFile, ConditionsOfInterfacesStay) {
-  for (const char* format : {"cgns", "qmesh"}) {
-    const test::TemporaryFolder folder;
-    LoadedMesh loaded = sample(Kind::hybrid, false);
-    loaded.mesh.boundaries[0].condition = BoundaryCondition::interface;
-    const LoadedMesh back = through_file(loaded, folder.file(std::string("a.") + format));
-    EXPECT_EQ(back.mesh.boundaries[0].condition, BoundaryCondition::interface) << format;
-    EXPECT_EQ(back.mesh.boundaries[1].condition, loaded.mesh.boundaries[1].condition) << format;
+/// Every condition through every format: it comes back, or a line names it and its boundary.
+TEST(MeshFile, ConditionsAreKeptOrReported) {
+  int kept = 0, reported = 0;
+  for (const std::string& format : formats_for({Content::mesh})) {
+    for (const auto& [word, condition] : BoundaryCondition::words) {
+      SCOPED_TRACE(format + ", " + word);
+      const test::TemporaryFolder folder;
+      LoadedMesh loaded = sample(Kind::hybrid, false);
+      loaded.mesh.boundaries[0].condition = condition;
+      loaded.mesh.boundaries[1].condition = BoundaryCondition::farfield;
+      const LoadedMesh back = through_file(loaded, folder.file("a." + format));
+      const BoundaryCondition wanted = test::condition_back(format, condition);
+      EXPECT_STREQ(back.mesh.boundaries[0].condition.word(), wanted.word());
+      std::string losses;
+      for (const std::string& loss : losses_in(loaded, folder.file("a." + format))) losses += loss + "\n";
+      const bool stores_some = format_named(format)->holds(Content::conditions);
+      const std::string line = std::string(word) +
+                               (stores_some ? std::string(" becomes ") + wanted.word() : "") + " ('" +
+                               loaded.mesh.boundaries[0].name + "'";
+      EXPECT_EQ(losses.find(line) == std::string::npos, wanted == condition) << losses;
+      ++(wanted == condition ? kept : reported);
+    }
+  }
+  EXPECT_EQ(kept, 5 * 9 - 6 + 7);
+  EXPECT_EQ(reported, 6 + 7 * 8);
+}
+
+/// The same for a boundary between two blocks, which a format may omit.
+TEST(MeshFile, ConditionsBetweenBlocksAreKeptOrReported) {
+  for (const std::string& format : formats_for({Content::mesh, Content::blocks, Content::conditions})) {
+    for (const char* word : {"none", "interface", "wall", "viscous_wall"}) {
+      SCOPED_TRACE(format + ", " + word);
+      const test::TemporaryFolder folder;
+      const std::string path = folder.file("a." + format);
+      LoadedMesh loaded = sample(Kind::hybrid, false);
+      loaded.mesh.strips.clear();
+      loaded.block_names = {"water", "steel"};
+      loaded.blocks = 2;
+      loaded.quad_to_block.back() = 1;
+      const auto [a, b, c, d] = loaded.mesh.quads.back();
+      loaded.mesh.boundaries.push_back({"between", *BoundaryCondition::named(word), {{a, d}}});
+      std::string losses;
+      for (const std::string& loss : losses_in(loaded, path)) losses += loss + "\n";
+      write_mesh_of_root(Communicator(MPI_COMM_SELF), loaded, path);
+      const Mesh back = read_mesh(path).mesh;
+      const auto found = std::ranges::find(back.boundaries, "between", &BoundaryEdges::name);
+      const bool is_stored = format != "polyMesh";
+      ASSERT_EQ(found != back.boundaries.end(), is_stored);
+      EXPECT_EQ(losses.find("no patch in this format and are omitted: 'between'") == std::string::npos,
+                is_stored);
+      if (!is_stored) continue;
+      const bool is_interior = format == "fluent.msh" && std::string(word) == "none";
+      const std::string wanted = format == "fluent.msh" && std::string(word) == "viscous_wall" ? "wall"
+                                 : is_interior                                                 ? "interface"
+                                                                                               : word;
+      EXPECT_EQ(found->condition.word(), wanted);
+      EXPECT_EQ(losses.find("('between')") == std::string::npos, wanted == word || is_interior) << losses;
+    }
   }
 }
 

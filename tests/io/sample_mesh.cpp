@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "io/formats.hpp"
 #include "mesher/base/ids.hpp"
 #include "tests/support/world.hpp"
 
@@ -169,6 +170,16 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 std::size_t files_in(const std::string& folder) {
   return static_cast<std::size_t>(
       std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+BoundaryCondition condition_back(const std::string& format, BoundaryCondition condition) {
+  if (!format_named(format)->holds(Content::conditions)) return BoundaryCondition::none;
+  const std::map<std::string, std::map<std::string, std::string>> changed{
+      {"fluent.msh", {{"viscous_wall", "wall"}, {"inviscid_wall", "wall"}, {"none", "wall"}}},
+      {"ugrid", {{"wall", "viscous_wall"}, {"symmetry", "inviscid_wall"}, {"interface", "none"}}}};
+  const auto row = changed.find(format.ends_with(".ugrid") ? "ugrid" : format);
+  if (row == changed.end() || !row->second.contains(condition.word())) return condition;
+  return *BoundaryCondition::named(row->second.at(condition.word()));
 }
 
 }  // namespace quadloop::test

@@ -35,4 +35,7 @@ ExitStatus status_of(const std::function<void()>& call);
 void write_bytes(const std::string& path, const std::string& bytes);
 std::size_t files_in(const std::string& folder);
 
+/// Returns the condition that a boundary has after a mesh was written in the format and read again.
+BoundaryCondition condition_back(const std::string& format, BoundaryCondition condition);
+
 }  // namespace quadloop::test

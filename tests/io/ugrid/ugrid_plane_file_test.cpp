@@ -45,7 +45,7 @@ TEST(UgridPlane, NamesStandInTheMapbc) {
   test::write_bytes(folder.file("m.mapbc"), "2\n1 4000 floor\n7 5000 walls\n");
   const LoadedMesh loaded = test::read_plane<read_ugrid_plane>(folder.file("m.ugrid"));
   EXPECT_EQ(loaded.mesh.boundaries[0].name, "floor");
-  EXPECT_EQ(loaded.mesh.boundaries[0].condition, BoundaryCondition::wall);
+  EXPECT_EQ(loaded.mesh.boundaries[0].condition, BoundaryCondition::viscous_wall);
   EXPECT_EQ(loaded.mesh.boundaries[1].condition, BoundaryCondition::farfield);
   test::write_bytes(folder.file("m.ugrid.mapbc"), "2\n1 0 own\n7 5000 walls\n");
   EXPECT_EQ(test::read_plane<read_ugrid_plane>(folder.file("m.ugrid")).mesh.boundaries[0].name, "own");
@@ -62,7 +62,7 @@ TEST(UgridPlane, RefusesWhatItCannotRead) {
 TEST(UgridPlane, WallsOfTwoKindsHaveNumbersOfFun3d) {
   EXPECT_EQ(mapbc_condition("viscous_wall"), 4000);
   EXPECT_EQ(mapbc_condition("inviscid_wall"), 3000);
-  EXPECT_EQ(condition_of_mapbc(4000), BoundaryCondition::wall);
+  EXPECT_EQ(condition_of_mapbc(4000), BoundaryCondition::viscous_wall);
   EXPECT_EQ(mapbc_path("a.b8.ugrid"), "a.mapbc");
   EXPECT_EQ(mapbc_path("a.ugrid"), "a.mapbc");
   EXPECT_EQ(mapbc_path("a"), "a.mapbc");
