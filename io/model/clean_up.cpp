@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -126,40 +127,22 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
                              boundary.name, a.x, a.y, b.x, b.y));
 }
 
-/// Assigns the edges to their boundaries, or to inner curves of the same names if they lie inside a block.
-void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded, const TextScanner& scan) {
-  const EdgeTable table(loaded.mesh);
+/// Assigns the edges to their boundaries.
+void place_edges(const std::vector<FileBoundary>& boundaries, LoadedMesh& loaded, const EdgeTable& table,
+                 const TextScanner& scan) {
   for (const FileBoundary& boundary : boundaries) {
-    BoundaryEdges outer{boundary.name, boundary.condition, {}, boundary.layers}, inner{boundary.name, {}, {}};
+    BoundaryEdges outer{boundary.name, boundary.condition, {}, boundary.layers};
     for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
       NodeId from{boundary.faces[i][0]}, to{boundary.faces[i][1]};
       const std::int32_t left = table.cell_left_of(from, to), right = table.cell_left_of(to, from);
       if (left < 0 && right < 0) refuse_edge(loaded.mesh, boundary, i, scan);
       const bool between = left >= 0 && right >= 0;
-      if (between && block_of_cell(loaded, left) == block_of_cell(loaded, right)) {
-        inner.edges.push_back({from, to});
-        continue;
-      }
       if (left < 0 || (between && block_of_cell(loaded, right) < block_of_cell(loaded, left)))
         std::swap(from, to);
       outer.edges.push_back({from, to});
     }
     if (!outer.edges.empty()) loaded.mesh.boundaries.push_back(std::move(outer));
-    if (!inner.edges.empty()) loaded.inner_curves.push_back(std::move(inner));
   }
-}
-
-void warn_of_inner_curves(LoadedMesh& loaded, const std::string& path) {
-  std::vector<std::string> names;
-  std::size_t count = 0;
-  for (const BoundaryEdges& curve : loaded.inner_curves) {
-    names.push_back(curve.name);
-    count += curve.edges.size();
-  }
-  if (names.empty()) return;
-  loaded.warnings.push_back(
-      fmt::format("{}: {} edges between two cells are not boundary edges and were left out: those of {}",
-                  path, count, some_names(names)));
 }
 
 void add_outer_boundary(Mesh& mesh) {
@@ -294,6 +277,29 @@ void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes) {
   renumber_nodes(mesh, new_id);
 }
 
+void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std::string& path) {
+  const auto is_inside = [&](const std::array<NodeId, 2>& edge) {
+    const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
+                       right = table.cell_left_of(edge[1], edge[0]);
+    return left >= 0 && right >= 0 && block_of_cell(loaded, left) == block_of_cell(loaded, right);
+  };
+  std::vector<std::string> names;
+  std::size_t count = 0;
+  for (BoundaryEdges& boundary : loaded.mesh.boundaries) {
+    const auto inner = std::ranges::stable_partition(boundary.edges, std::not_fn(is_inside));
+    if (inner.empty()) continue;
+    names.push_back(boundary.name);
+    count += inner.size();
+    loaded.inner_curves.push_back({boundary.name, {}, {inner.begin(), inner.end()}});
+    boundary.edges.erase(inner.begin(), inner.end());
+  }
+  if (names.empty()) return;
+  std::erase_if(loaded.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
+  loaded.warnings.push_back(
+      fmt::format("{}: {} edges between two cells are not boundary edges and were left out: those of {}",
+                  path, count, some_names(names)));
+}
+
 void drop_empty_groups(FileMesh& mesh) {
   std::vector<std::int32_t> new_number(mesh.block_names.size(), -1);
   for (const auto& blocks : mesh.cell_to_block) {
@@ -330,12 +336,13 @@ LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
   LoadedMesh loaded = cells_and_points(file);
   const std::int64_t turned = orient_cells(loaded.mesh);
   order_by_blocks(loaded);
-  place_edges(file.boundaries, loaded, scan);
-  if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
+  const EdgeTable table(loaded.mesh);
+  place_edges(file.boundaries, loaded, table, scan);
   if (turned > 0)
     loaded.warnings.push_back(
         fmt::format("{}: {} cells ran clockwise and were reversed", scan.path(), turned));
-  warn_of_inner_curves(loaded, scan.path());
+  separate_inner_curves(loaded, table, scan.path());
+  if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
   return loaded;
 }
 

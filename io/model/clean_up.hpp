@@ -8,6 +8,7 @@
 #include "io/model/file_mesh.hpp"
 #include "io/model/loaded_mesh.hpp"
 #include "io/text/text_scanner.hpp"
+#include "mesher/mesh/topology.hpp"
 
 namespace quadloop {
 
@@ -32,6 +33,10 @@ void drop_unused_nodes(FileMesh& mesh, const std::string& path);
 /// Merges all nodes at the same position to the first of them, with its values. `first_nodes` gives the first
 /// node of each zone of a file: nodes in the same zone as the first are not merged.
 void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes = {});
+
+/// Moves the boundary edges inside a block to inner curves of the same names, with a warning that names them;
+/// boundaries without other edges are removed. `table` has the edges of the mesh.
+void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std::string& path);
 
 /// Removes blocks without cells, and boundaries without faces.
 void drop_empty_groups(FileMesh& mesh);

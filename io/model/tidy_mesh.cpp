@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/model/clean_up.hpp"
 #include "io/model/orient_cells.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -126,6 +127,7 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
   warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were reversed");
   warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
        "boundaries without edges were left out");
+  separate_inner_curves(loaded, table, path);
   const std::size_t added = add_missing_boundary(mesh, table);
   if (added > 0)
     warn(added, fmt::format("outer edges belong to no boundary; they form the boundary \"{}\" now",

@@ -119,11 +119,29 @@ TEST(TidyMesh, AMeshWithoutBoundariesGetsOne) {
   EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 8U);
 }
 
+TEST(TidyMesh, EdgesInsideABlockBecomeInnerCurves) {
+  for (const std::int32_t blocks : {1, 2}) {
+    LoadedMesh loaded = square();
+    loaded.blocks = blocks;
+    loaded.quad_to_block.assign(2, blocks - 1);
+    loaded.mesh.boundaries[0].edges.insert(loaded.mesh.boundaries[0].edges.begin(), {node(4), node(7)});
+    loaded.mesh.boundaries.push_back({"between", "none", {{node(4), node(3)}}});
+    const Mesh before = square().mesh;
+    tidy_mesh(loaded, "m.mesh");
+    EXPECT_EQ(loaded.mesh.boundaries[0].edges, before.boundaries[0].edges);
+    EXPECT_EQ(loaded.mesh.boundaries.size(), blocks == 1 ? 2U : 3U);
+    ASSERT_EQ(loaded.inner_curves.size(), blocks == 1 ? 2U : 1U);
+    EXPECT_EQ(loaded.inner_curves[0].name, "wall");
+    EXPECT_EQ(loaded.inner_curves[0].edges, (std::vector{std::array{node(4), node(7)}}));
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_NE(loaded.warnings[0].find("left out: those of 'wall'"), std::string::npos);
+  }
+}
+
 TEST(TidyMesh, FaultsWithoutASingleCureStay) {
   LoadedMesh loaded = square();
   loaded.mesh.triangles.push_back(loaded.mesh.triangles[0]);
   loaded.triangle_to_block.push_back(0);
-  loaded.mesh.boundaries[0].edges.push_back({node(4), node(7)});  // inside
   loaded.mesh.boundaries[0].edges.push_back({node(0), node(8)});  // of no cell
   const Mesh before = loaded.mesh;
   tidy_mesh(loaded, "m.mesh");
