@@ -112,8 +112,6 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
     options.far_field = where;
   }
-  if (settings.half)  // only the half model has a boundary of that name
-    std::erase_if(options.rules, [&](const auto& rule) { return rule.pattern == settings.half->boundary; });
   Geometry geometry = assemble(std::move(chains), options, warnings);
   if (!axis) return geometry;
   const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);

@@ -26,6 +26,15 @@ bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name)
                      [&name](const BoundaryRule& rule) { return rule.claims && rule.pattern == name; });
 }
 
+/// Returns the names, and those of boundaries that are added later.
+std::vector<std::string> names_with_claimed(std::vector<std::string> names,
+                                            const std::vector<BoundaryRule>& rules) {
+  for (const BoundaryRule& rule : rules) {
+    if (rule.claims && std::ranges::count(names, rule.pattern) == 0) names.push_back(rule.pattern);
+  }
+  return names;
+}
+
 }  // namespace
 
 bool matches(std::string_view pattern, std::string_view name) {
@@ -56,17 +65,18 @@ std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
   for (const bool patterns : {true, false}) {
     for (const BoundaryRule& rule : rules) {
       if (is_pattern(rule.pattern) != patterns) continue;
-      bool found = false;
+      bool found = is_claimed(rules, rule.pattern);
       for (Boundary& boundary : boundaries) {
         if (!matches(rule.pattern, boundary.name) || (patterns && is_claimed(rules, boundary.name))) continue;
         apply_rule(rule, boundary);
         found = true;
       }
       if (!found && rule.must_match) {
+        const std::vector<std::string> known = names_with_claimed(names, rules);
         const std::string hint = rule.pattern == "farfield" ? "; geometry.far_field adds a far field"
-                                                            : guess_for(rule.pattern, names);
+                                                            : guess_for(rule.pattern, known);
         throw InputError(fmt::format("{}: no boundary of the geometry matches '{}'; it has: {}{}", rule.where,
-                                     rule.pattern, first_few(names), hint));
+                                     rule.pattern, first_few(known), hint));
       }
     }
   }

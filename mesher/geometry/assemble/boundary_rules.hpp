@@ -16,7 +16,8 @@ struct BoundaryRule {
   std::optional<BoundaryCondition> condition;
   std::string where;       ///< where the rule stands, for messages
   bool must_match = true;  ///< a rule of ours (not the user's) may find nothing
-  bool claims = false;  ///< the boundary was added by us: patterns, meant for the user's own, do not reach it
+  /// The boundary is added by us, perhaps later: patterns, meant for the user's own, do not reach it.
+  bool claims = false;
   std::optional<double> corner_spacing = {};
   std::optional<LayerSpec> layers = {};
 };
@@ -25,7 +26,8 @@ struct BoundaryRule {
 bool matches(std::string_view pattern, std::string_view name);
 
 /// Applies the rules in order, exact names after patterns, so that exact names override. Patterns do not
-/// match claimed boundaries. Throws InputError for a rule without a match.
+/// match claimed boundaries. Throws InputError for a rule without a match, neither in `names` nor among the
+/// claimed boundaries, which may be added later.
 std::vector<Boundary> boundaries_by_rules(const std::vector<std::string>& names,
                                           const std::vector<BoundaryRule>& rules,
                                           double default_corner_degrees);

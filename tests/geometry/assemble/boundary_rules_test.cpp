@@ -69,5 +69,16 @@ TEST(BoundaryRules, PatternsLeaveWhatIsClaimed) {
   EXPECT_EQ(boundaries_by_rules({"wing", "farfield"}, {ours, pattern, exact}, 30)[1].spacing, 2);
 }
 
+TEST(BoundaryRules, KnowBoundariesThatAreAddedLater) {
+  BoundaryRule ours, exact;
+  ours.pattern = exact.pattern = "axis";
+  ours.must_match = false;
+  ours.claims = true;
+  EXPECT_EQ(boundaries_by_rules({"body"}, {ours, exact}, 30).size(), 1U);
+  exact.pattern = "axs";
+  const std::string message = test::refusal([&] { boundaries_by_rules({"body"}, {ours, exact}, 30); });
+  EXPECT_NE(message.find("it has: body, axis; do you mean 'axis'?"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -92,6 +92,9 @@ TEST_F(MirrorTest, TablesOfTheDroppedSideMayStay) {
   EXPECT_EQ(names, (std::set<std::string>{"box", "middle", "upper"}));
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
   EXPECT_NE(refused(both + "[boundary.uper]\nspacing = 0.2\n").find("matches 'uper'"), std::string::npos);
+  EXPECT_NE(refused(both + "[boundary.midle]\nspacing = 0.2\n")
+                .find("it has: box, lower, upper, middle; do you mean 'middle'?"),
+            std::string::npos);
 }
 
 TEST_F(MirrorTest, AConditionThatTheImageHasNotIsToldOf) {
