@@ -131,10 +131,15 @@ TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
             0U);
   EXPECT_EQ(refusal("a.cas.h5", "\x89HDF\r\n").find(": is a mesh of Fluent in HDF5"), 0U);
   EXPECT_EQ(refusal("a.msh", "solid part\n facet normal 0 0 1\n").find(": is an STL surface"), 0U);
-  for (const char* text : {"CEND\nBEGIN BULK\n", "GRID,1,,0.,0.,0.\n", "$ by hand\nGRID*\n", "ID A,B\nBEGIN BULK\n"})
+  for (const char* text :
+       {"CEND\nBEGIN BULK\n", "GRID,1,,0.,0.,0.\n", "$ by hand\nGRID*\n", "ID A,B\nBEGIN BULK\n"})
     EXPECT_EQ(refusal("bdf.mesh", text).find(": is a Nastran file"), 0U) << text;
   EXPECT_EQ(refusal("unv.mesh", "    -1\n  2411\n").find(": is a universal file of I-deas"), 0U);
-  EXPECT_EQ(refusal("node.mesh", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n").find(": is a file of nodes of Triangle"), 0U);
+  for (const char* nodes : {"3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n", "3 2 0 0\n1 0 0\n", "1 2 0 0\n0 0.5 0.5",
+                            "# of triangle\n\n3 2 1 1 # head\n# rows\n1 0 0 7 1\n2 1 0 7 1\n"}) {
+    for (const char* name : {"node.mesh", "a.node"})
+      EXPECT_EQ(refusal(name, nodes).find(": is a file of nodes of Triangle"), 0U) << nodes;
+  }
   EXPECT_EQ(refusal("med.mesh", "\x89HDF\r\n heap INFOS_GENERALES").find(": is a mesh of Salome (MED)"), 0U);
   EXPECT_EQ(refusal("own.mesh", "3 \n1 0\n2 1\n3 0\n1\n"), "");
   EXPECT_EQ(refusal("a.cas", "(0 \"Fluent\")"), ": is a mesh of Fluent; give it a name that ends in .msh");

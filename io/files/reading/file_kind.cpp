@@ -99,22 +99,24 @@ bool is_binary_stl(std::string_view begins, std::uintmax_t size) {
 }
 
 /// Nodes of Triangle or TetGen: their number, 2 or 3 dimensions, numbers of attributes and of markers; then
-/// rows with consecutive numbers.
+/// rows with consecutive numbers from 0 or 1, at least one. Lines may be comments.
 bool is_node_file(std::string_view text) {
   std::istringstream rows{std::string(text)};
   std::string row;
   const auto next_numbers = [&] {
     std::vector<double> numbers;
-    std::getline(rows, row);
-    std::istringstream words(row.substr(0, row.find('#')));
-    for (double number; words >> number;) numbers.push_back(number);
+    while (numbers.empty() && std::getline(rows, row)) {
+      std::istringstream words(row.substr(0, row.find('#')));
+      for (double number; words >> number;) numbers.push_back(number);
+    }
     return numbers;
   };
   const std::vector<double> head = next_numbers();
   if (head.size() != 4 || (head[1] != 2 && head[1] != 3)) return false;
   const std::vector<double> one = next_numbers(), two = next_numbers();
-  return static_cast<double>(one.size()) == 1 + head[1] + head[2] + head[3] && one.size() == two.size() &&
-         two[0] == one[0] + 1;
+  const bool is_first =
+      static_cast<double>(one.size()) == 1 + head[1] + head[2] + head[3] && (one[0] == 0 || one[0] == 1);
+  return is_first && (two.empty() || (one.size() == two.size() && two[0] == one[0] + 1));
 }
 
 /// HDF5 is the container of many formats; the names of groups or the suffix tell which.
