@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/morph/merged_bases.hpp"
 #include "adapt/morph/outline_map.hpp"
 #include "mesher/base/error.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 /// Returns the image of each vertex of the mesh boundary, if the mesh boundary is all that is known of the
 /// old geometry.
 std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& change) {
-  const Geometry to = walked_as(outline, change.to);
+  const Geometry to = with_bases_as_in(outline, walked_as(outline, change.to));
   const OutlineMap map(outline, to, false, {change.file, "the mesh"});
   const OutlinePath path(outline);
   std::vector<Point> images;

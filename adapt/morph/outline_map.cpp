@@ -19,6 +19,7 @@ namespace quadloop {
 namespace {
 
 constexpr double least_corner = 10;   // degrees: a smaller turn does not correspond to a corner
+constexpr double most_cut_off = 0.5;  // height of a corner over the edge of a mesh that cuts it off
 constexpr double most_stretched = 2;  // maximum ratio of lengths, or its inverse, between vertices that stay
 
 using NameSet = std::set<std::string>;
@@ -289,13 +290,15 @@ std::optional<OutlineMap::LoopMap> OutlineMap::unchanged(std::int32_t loop, std:
   std::vector<double> arcs;
   for (const Anchor& anchor : standing) arcs.push_back(anchor.to);
   std::ranges::sort(arcs);
-  const double enough = new_path_.tolerance(), whole = new_path_.loop_length(image);
-  const auto has_vertex = [&](std::int32_t corner) {
-    const double arc = new_path_.arc_of(corner);
-    const auto after = std::ranges::lower_bound(arcs, arc - enough);
-    return (after != arcs.end() && *after <= arc + enough) || arcs.back() >= arc + whole - enough;
+  const auto place = [&](double arc) { return new_path_.point_at(new_path_.place_at(image, arc)); };
+  const auto is_shown = [&](std::int32_t corner) {
+    const auto after = std::ranges::lower_bound(arcs, new_path_.arc_of(corner));
+    const Point a = place(after == arcs.begin() ? arcs.back() : *(after - 1)),
+                b = place(after == arcs.end() ? arcs.front() : *after);
+    return distance_to_segment(to_.point(corner), a, b) <
+           std::max(new_path_.tolerance(), most_cut_off * length(b - a));
   };
-  if (!std::ranges::all_of(kept_vertices(to_, image), has_vertex)) return {};
+  if (!std::ranges::all_of(kept_vertices(to_, image), is_shown)) return {};
   return map;
 }
 

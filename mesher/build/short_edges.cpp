@@ -23,13 +23,16 @@ struct ShortEdge {
 };
 
 /// Consecutive short edges of one boundary, shorter than `min` in total.
-struct Base {
-  std::int32_t first = 0, last = 0;  ///< vertices at its ends
+struct Base : ShortBase {
   std::span<const ShortEdge> edges;
 };
 
 Point middle_of(const Geometry& g, std::int32_t first, std::int32_t last) {
   return 0.5 * (g.point(first) + g.point(last));
+}
+
+bool begins_another_boundary(const Geometry& g, std::int32_t v) {
+  return g.boundary_of(v) != g.boundary_of(g.previous(v));
 }
 
 /// Whether p lies in the closed triangle, which may be a segment.
@@ -137,7 +140,7 @@ class Bases {
   }
 
   static Base base_of(std::span<const ShortEdge> edges) {
-    return {edges.front().first, edges.back().last, edges};
+    return {{edges.front().first, edges.back().last}, edges};
   }
 
   bool can_merge(const Base& base) const { return !is_needed(base) && leaves_outline_simple(base); }
@@ -174,8 +177,7 @@ class Bases {
   /// lies between them and the old ones.
   bool leaves_outline_simple(const Base& base) const {
     const std::int32_t before = g_.previous(base.first), after = base.last;
-    const Point to = middle_of(g_, base.first, base.last), from = g_.point(before),
-                end = g_.point(g_.next(after));
+    const Point to = merged_end(g_, base), from = g_.point(before), end = g_.point(g_.next(after));
     if (on_segment(end, from, to) || on_segment(from, to, end)) return false;
     return !segments_.any_meeting(box_of(base), [&](std::int32_t s) {
       if (s == before || s == after || is_in(base, s)) return false;
@@ -197,6 +199,7 @@ class Bases {
   /// Whether the segment meets, at a point other than `fixed`, the triangle swept by the segment from `fixed`
   /// to `old` as its end moves to `to`.
   bool touches(std::int32_t segment, Point fixed, Point to, Point old) const {
+    if (old == to) return false;
     const Point a = g_.point(segment), b = g_.point(g_.next(segment));
     if (a != fixed && in_closed_triangle(a, fixed, old, to)) return true;
     if (b != fixed && in_closed_triangle(b, fixed, old, to)) return true;
@@ -212,14 +215,28 @@ class Bases {
   CountedEdges left_;
 };
 
-/// Returns the geometry without the vertices of the merged bases except the last one, which moves to the
-/// middle.
-Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
+std::string text_of(const CountedEdges& edges, double min, const char* consequence) {
+  return fmt::format(
+      "{} edge{} between corners shorter than spacing.min = {:g}, the longest {:.3g} at ({:.6g}, {:.6g}) of "
+      "boundary '{}': {}; make spacing.min smaller",
+      edges.count, edges.count == 1 ? "" : "s", min, edges.longest, edges.at.x, edges.at.y, edges.boundary,
+      consequence);
+}
+
+}  // namespace
+
+Point merged_end(const Geometry& g, ShortBase base) {
+  const bool first = begins_another_boundary(g, base.first), last = begins_another_boundary(g, base.last);
+  if (first == last) return middle_of(g, base.first, base.last);
+  return g.point(first ? base.first : base.last);
+}
+
+Geometry with_merged(const Geometry& g, std::span<const ShortBase> bases) {
   std::vector<char> is_dropped(g.size(), 0);
   std::vector<Point> moved{g.points().begin(), g.points().end()};
-  for (const Base& base : bases) {
+  for (const ShortBase base : bases) {
     for (std::int32_t v = base.first; v != base.last; v = g.next(v)) is_dropped[v] = 1;
-    moved[base.last] = middle_of(g, base.first, base.last);
+    moved[base.last] = merged_end(g, base);
   }
   std::vector<Point> points;
   std::vector<std::int32_t> starts{0};
@@ -238,16 +255,6 @@ Geometry with_merged(const Geometry& g, std::span<const Base> bases) {
           std::move(of_segment)};
 }
 
-std::string text_of(const CountedEdges& edges, double min, const char* consequence) {
-  return fmt::format(
-      "{} edge{} between corners shorter than spacing.min = {:g}, the longest {:.3g} at ({:.6g}, {:.6g}) of "
-      "boundary '{}': {}; make spacing.min smaller",
-      edges.count, edges.count == 1 ? "" : "s", min, edges.longest, edges.at.x, edges.at.y, edges.boundary,
-      consequence);
-}
-
-}  // namespace
-
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
                                            std::vector<std::string>& warnings) {
   std::optional<Geometry> result;
@@ -261,7 +268,7 @@ std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,
       for (const ShortEdge& edge : base.edges) merged.add(current, edge);
     }
     is_done = chosen.empty();
-    if (!is_done) result = with_merged(current, chosen);
+    if (!is_done) result = with_merged(current, std::vector<ShortBase>(chosen.begin(), chosen.end()));
   }
   if (left.count > 0) warnings.push_back(text_of(left, min, "triangles there may be thin"));
   if (result) warnings.push_back(text_of(merged, min, "the two ends became one node"));

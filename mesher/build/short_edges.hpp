@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,7 +10,19 @@
 
 namespace quadloop {
 
-/// Returns the geometry with each base merged to one vertex at the midpoint of its ends; empty if no base was
+/// A part of the boundary between two feature points.
+struct ShortBase {
+  std::int32_t first = 0, last = 0;  ///< vertices at its ends
+};
+
+/// Returns the place of the vertex to which both ends of a base are merged: the end where another boundary
+/// begins, which keeps its direction, or the midpoint if this is true of both ends or of neither.
+Point merged_end(const Geometry& geometry, ShortBase base);
+
+/// Returns the geometry with the vertices of each base replaced by one at merged_end().
+Geometry with_merged(const Geometry& geometry, std::span<const ShortBase> bases);
+
+/// Returns the geometry with each base merged to one vertex at merged_end(); empty if no base was
 /// merged. A base is one or more consecutive edges between feature points of one boundary, shorter than `min`
 /// in total: e.g. a blunt trailing edge or a tiny notch, which would get thin triangles. This is repeated
 /// until no edge between feature points is shorter than `min`, except those that stay: an edge with layers,

@@ -98,6 +98,23 @@ class Morph(ProgramTest):
             self.assertEqual(moved, before)
             self.assertEqual(said["nodes_moved"], 0)
 
+    def test_its_own_outline_keeps_every_bit_where_a_base_or_a_corner_is_no_edge_of_the_mesh(self):
+        def rounded(text):
+            """With a point more on the base."""
+            rows = text.splitlines()
+            return "\n".join(rows[:2] + [str(int(rows[2]) + 1)] + rows[3:83] + ["0.9755 0.001"] + rows[83:]) + "\n"
+        blunt = lens(points=80, cut=0.98)
+        self.write("case.toml", "\n".join(line for line in CASE.splitlines() if "layers" not in line))
+        for text in (blunt, rounded(blunt)):
+            for options in ((), ("--set", "mesh.type=\"delaunay\""), ("--set", "mesh.mirror=\"x\"")):
+                if options and "mirror" in options[1] and text != blunt:
+                    continue
+                self.write("body.geom", text)
+                self.assertIn("the two ends became one node", self.done("mesh", "case.toml", "-o", "in", *options)[1])
+                before = (self.folder / "in.mesh").read_bytes()
+                for ranks in (1, 3):
+                    self.assertEqual(self.morph(text, ranks=ranks)[0], before)
+
     def test_a_flap_turns_as_it_does_with_from(self):
         """What lies ahead of the hinge stays."""
         hinge, slope = 0.4, math.tan(math.radians(15))

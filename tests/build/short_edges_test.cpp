@@ -56,6 +56,20 @@ TEST(ShortEdges, ABaseWithLayersStays) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(ShortEdges, AnEndWhereAnotherBoundaryBeginsStaysInPlace) {
+  const std::vector<Point> half{{0, 0}, {4, 0}, {6, 0}, {6, 4}, {-2, 4}, {-2, 0}};
+  std::vector<Point> points = half;
+  points.insert(points.begin() + 1, {{1, 1}, {4, 0.0625}});
+  std::vector<BoundaryId> of_segment(points.size(), BoundaryId{1});
+  for (const std::int32_t s : {0, 1, 2}) of_segment[s] = BoundaryId{0};
+  const Geometry geometry({Boundary{"wall"}, Boundary{"axis"}}, points, {0, 8}, of_segment);
+  std::vector<std::string> warnings;
+  const std::optional<Geometry> merged = short_edges_merged(geometry, 0.125, warnings);
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->size(), 7);
+  EXPECT_EQ(merged->point(2), (Point{4, 0})) << "not in the middle, which is not on the axis";
+}
+
 TEST(ShortEdges, TheEdgeThatClosesALoopIsMergedToo) {
   std::vector<Point> points = body();
   points.push_back(points.front());

@@ -106,6 +106,22 @@ TEST(OutlineMap, OfTheSameOutlineIsTheIdentityAlsoWhereCornersAreBlunter) {
     EXPECT_NEAR(length(map.image(0, path.arc_of(v)) - from.point(v)), 0, 1e-14) << v;
 }
 
+TEST(OutlineMap, OfTheSameOutlineIsTheIdentityWhereTheMeshLostACorner) {
+  const std::vector<Point> tip{{0, 0}, {4, 0}, {4.3, 0.5}, {4, 1}, {0, 1}}, cut_off{{0, 0}, {4, 0}, {4, 1}, {0, 1}};
+  std::vector<Point> far_tip = tip;
+  far_tip[2] = {4.6, 0.5};
+  const Geometry from = outline({loop("body", {{0, 0}, {4, 0}, {4.24, 0.4}, {4.24, 0.6}, {4, 1}, {0, 1}})}),
+                 to = outline({loop("body", tip)});
+  const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
+  const OutlinePath path(from);
+  for (std::int32_t v = 0; v < from.size(); ++v)
+    EXPECT_NEAR(length(map.image(0, path.arc_of(v)) - from.point(v)), 0, 1e-14) << v;
+  EXPECT_THROW(OutlineMap(outline({loop("body", cut_off)}), outline({loop("body", far_tip)}), false,
+                          {"to.geom", "the mesh"}),
+               InputError)
+      << "a corner farther away is not one that the mesh lost";
+}
+
 TEST(OutlineMap, LoopsThatTheNewOutlineLacksStay) {
   const std::vector<Point> frame{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
   const Geometry from = outline({loop("far", frame), loop("body", square)}),
