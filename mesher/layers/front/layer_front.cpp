@@ -43,12 +43,13 @@ std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
 class OuterOutline {
  public:
   OuterOutline(const WallLine& line, const FittingColumns& fitting, const std::vector<PlacedLine>& lines,
-               std::optional<double> curvature)
+               std::optional<double> curvature, bool mirrored)
       : line_{line},
         g_{line.geometry()},
         lines_{lines},
         fitting_{fitting},
         curvature_{curvature},
+        mirrored_{mirrored},
         first_of_segment_(g_.points().size(), WallLine::none),
         covered_(g_.points().size(), 0),
         is_base_(g_.points().size(), 0) {
@@ -116,7 +117,7 @@ class OuterOutline {
   }
   bool begins_below(std::int32_t s) const;
   double spacing_after(std::int32_t i) const;
-  double spread(std::int32_t i) const;
+  double spread(std::int32_t i, bool turned) const;
   double front_width(std::int32_t i) const {
     return line_.width(i) == 0 ? 0 : length(fitting_.front[line_.next(i)] - fitting_.front[i]);
   }
@@ -128,6 +129,7 @@ class OuterOutline {
   const std::vector<PlacedLine>& lines_;
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
+  bool mirrored_;
   std::vector<std::int32_t> first_of_segment_;
   std::vector<char> covered_;  ///< flags of vertices on which a run's last column lies
   std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
@@ -225,19 +227,26 @@ double OuterOutline::spacing_of_turns(std::int32_t i) const {
   return spacing;
 }
 
-/// The width of the front over that of the wall around the place after a station, over half a thickness.
-double OuterOutline::spread(std::int32_t i) const {
-  const double reach = fitting_.thickness[i] / 4;
+/// The width of the front over that of the wall around the place after a station, over half a thickness: up
+/// to the last station within reach on one side, past it on the other; `turned`: the other way round.
+double OuterOutline::spread(std::int32_t i, bool turned) const {
+  const std::int32_t next = line_.next(i);
+  const double reach = fitting_.thickness[i] / 4, past = line_.width(i) + reach;
   double wall = line_.width(i), front = front_width(i);
-  line_.walk_on(i, line_.width(i) + reach, [&](std::int32_t j, double) {
-    if (line_.next(j) == WallLine::none) return;
+  const auto add = [&](std::int32_t j) {
+    if (j == WallLine::none || line_.next(j) == WallLine::none) return;
     wall += line_.width(j);
     front += front_width(j);
-  });
-  line_.walk_back(i, reach, [&](std::int32_t j, double) {
-    wall += line_.width(j);
-    front += front_width(j);
-  });
+  };
+  const auto add_after = [&](std::int32_t j, double) { add(j); };
+  const auto add_before = [&](std::int32_t j, double) { add(line_.previous(j)); };
+  if (turned) {
+    line_.walk_back(next, past, add_before);
+    line_.walk_on(next, reach, add_before);
+  } else {
+    line_.walk_on(i, past, add_after);
+    line_.walk_back(i, reach, add_after);
+  }
   return front / wall;
 }
 
@@ -245,7 +254,8 @@ double OuterOutline::spacing_after(std::int32_t i) const {
   const std::int32_t j = line_.next(i);
   const double spacing = leaf_over_last_layer * std::min(last_layer(i), last_layer(j));
   if (line_.width(i) == 0) return std::max(spacing, sine_of_sector * fitting_.thickness[i]);
-  const double wider = spread(i);
+  const double wider =
+      mirrored_ ? std::min(spread(i, false), spread(i, true)) : spread(i, false);  // as of the image
   return std::min(
       {spacing, g_.spacing_of(line_[i].segment) * std::min(1.0, wider), spacing_of_turns(i) * wider});
 }
@@ -483,12 +493,12 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 }
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
-                       const std::vector<LayerLine>& lines, const MeasuredWall& measured) {
+                       const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);
   FittingColumns fitting = fit_thickness(line);
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
-  OuterOutline(front.line, fitting, placed, curvature).build(front);
+  OuterOutline(front.line, fitting, placed, curvature, mirrored).build(front);
   require_disjoint(front);
   require_room(front);
   front.thickness = std::move(fitting.thickness);

@@ -53,10 +53,12 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// other or have sharp concave corners, so that no two columns cross and space for cells remains outside each
 /// wall; both are verified with exact predicates. `curvature`: degrees that the wall may turn along one cell.
 /// With a measured wall first heights follow it (followed_layers()). Depends on its arguments only; mirror
-/// images have mirrored fronts. Throws InputError with coordinates where no layers fit. `geometry` must
+/// images have mirrored fronts, and if `mirrored`, a geometry that is its own mirror image has a front with
+/// mirrored sizes. Throws InputError with coordinates where no layers fit. `geometry` must
 /// outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
-                       const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {});
+                       const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {},
+                       bool mirrored = false);
 
 /// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,

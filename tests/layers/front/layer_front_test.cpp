@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
@@ -210,6 +213,40 @@ TEST(LayerFront, LayersAreNoThickerAtAnEndThanTheBoundaryThereIsStraight) {
   const LayerFront front = layer_front(g);
   EXPECT_NEAR(front.thickness[0], 0.18, 1e-12);
   EXPECT_NEAR(front.thickness[front.line.size() - 1], layers_thickness(ten_layers), 1e-12);
+}
+
+/// The segments of the outer geometry by their ends, from left to right, with the sizes that they request;
+/// as mirror images in the x-axis if `mirrored`.
+std::map<std::pair<Point, Point>, double> sizes_of(const Geometry& outer, bool mirrored) {
+  std::map<std::pair<Point, Point>, double> sizes;
+  for (std::int32_t s = 0; s < outer.size(); ++s) {
+    Point a = outer.point(s), b = outer.point(outer.next(s));
+    if (mirrored) a = image_of(MirrorAxis::x, a), b = image_of(MirrorAxis::x, b);
+    sizes[std::minmax(a, b)] = outer.spacing_of(s);
+  }
+  return sizes;
+}
+
+TEST(LayerFront, AsksForMirroredSizesRoundASymmetricBodyWithAWakeOnItsAxis) {
+  std::vector<Point> above, body;
+  for (int k = 0; k <= 12; ++k) {
+    const double x = 0.5 * (1 + std::cos(std::acos(-1.0) * k / 12));
+    above.push_back({x, k == 0 || k == 12 ? 0 : 0.3 * std::sqrt(x) * (1 - x)});
+  }
+  for (std::size_t k = 0; k < above.size(); ++k) body.push_back(image_of(MirrorAxis::x, above[k]));
+  for (std::size_t k = above.size() - 2; k > 0; --k) body.push_back(above[k]);
+  LayerSpec spec = ten_layers;
+  spec.first = 0.004;
+  const Geometry geometry =
+      test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}}, {{"body", body, spec}}}, 0.06);
+  LayerLine wake;
+  wake.from = {"body"};
+  wake.length = 1;
+  wake.spacing = 0.1;
+  const LayerFront front = layer_front(geometry, {}, {wake}, {}, true);
+  EXPECT_EQ(sizes_of(front.outer, false), sizes_of(front.outer, true));
+  const LayerFront loose = layer_front(geometry, {}, {wake}, {}, false);
+  EXPECT_NE(sizes_of(loose.outer, false), sizes_of(loose.outer, true)) << "a front that shows the difference";
 }
 
 }  // namespace
