@@ -155,15 +155,37 @@ Edge edge_near(const Geometry& g, const std::vector<Edge>& edges, Point at, doub
                   said, at.x, at.y, distance(nearest), reach, places_of(g, edges)));
 }
 
+/// Reports that there is no edge. At an end of the walls on a symmetry boundary the edge has only one half.
+[[noreturn]] void refuse_without_edge(const Geometry& g, const WakeWall& wall, const std::string& said) {
+  std::vector<Edge> ends;
+  std::string symmetry;
+  const auto look_at = [&](std::int32_t vertex, std::int32_t beyond) {
+    const Boundary& boundary = g.boundary(g.boundary_of(beyond));
+    if (wall.has(beyond) || boundary.condition != BoundaryCondition::symmetry) return;
+    ends.push_back({vertex, vertex});
+    symmetry = boundary.name;
+  };
+  for (const std::int32_t s : wall.segments()) {
+    look_at(s, g.previous(s));
+    look_at(g.next(s), g.next(s));
+  }
+  if (!ends.empty())
+    throw InputError(
+        fmt::format("{}: the wall ends at {} on the symmetry boundary '{}', where a wake would have only one "
+                    "of its two sides, which is not supported; mesh the whole body (mesh.mirror without "
+                    "mesh.half), or remove the wake",
+                    said, places_of(g, ends), symmetry));
+  throw InputError(
+      fmt::format("{}: no trailing edge found: a sharp one turns by more than 120 degrees, a blunt one has "
+                  "two corners of more than 50 degrees close together; if several boundaries meet there, "
+                  "name them all: from = [\"a\", \"b\"]",
+                  said));
+}
+
 Edge edge_of(const Geometry& g, const WakeWall& wall, const LayerLine& line, const std::string& said) {
   const double reach = reach_of_edges(g, wall);
   const std::vector<Edge> edges = edges_of(g, wall, reach);
-  if (edges.empty())
-    throw InputError(
-        fmt::format("{}: no trailing edge found: a sharp one turns by more than 120 degrees, a blunt one has "
-                    "two corners of more than 50 degrees close together; if several boundaries meet there, "
-                    "name them all: from = [\"a\", \"b\"]",
-                    said));
+  if (edges.empty()) refuse_without_edge(g, wall, said);
   if (line.at) return edge_near(g, edges, *line.at, reach, said);
   if (edges.size() == 1) return edges[0];
   throw InputError(fmt::format(

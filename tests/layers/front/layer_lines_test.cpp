@@ -135,5 +135,29 @@ TEST(PlaceLines, AWakeNeedsAnEdgeOfABoundaryWithLayers) {
   says(wedge(0.8), "wedge", "no trailing edge found");
 }
 
+TEST(PlaceLines, AWakeAtHalfOfATrailingEdgeIsRefusedWithItsPlace) {
+  const auto says = [](BoundaryCondition of_axis) {
+    const Geometry bare = test::outline_of({{{"axis", {{-8, 0}}},
+                                             {"wedge", {{-1, 0}, {-1, 0.5}, {0, 0.5}}, ten_layers},
+                                             {"axis", {{2, 0}}},
+                                             {"box", {{8, 0}, {8, 8}, {-8, 8}}}}});
+    std::vector<Boundary> boundaries(bare.boundaries().begin(), bare.boundaries().end());
+    std::vector<BoundaryId> of_segment;
+    for (std::int32_t s = 0; s < bare.size(); ++s) of_segment.push_back(bare.boundary_of(s));
+    for (Boundary& boundary : boundaries) {
+      if (boundary.name == "axis") boundary.condition = of_axis;
+    }
+    const Geometry g(boundaries, {bare.points().begin(), bare.points().end()}, {0, bare.size()}, of_segment);
+    LayerLine wake = wake_of("wedge");
+    wake.where = "case.toml:9";
+    return test::refusal([&] { place_lines(g, {wake}); });
+  };
+  EXPECT_EQ(says(BoundaryCondition::symmetry),
+            "case.toml:9: wake, from = \"wedge\": the wall ends at (-1, 0), (2, 0) on the symmetry boundary "
+            "'axis', where a wake would have only one of its two sides, which is not supported; mesh the whole "
+            "body (mesh.mirror without mesh.half), or remove the wake");
+  EXPECT_NE(says(BoundaryCondition::wall).find("no trailing edge found"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace quadloop
