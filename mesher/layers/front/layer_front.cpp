@@ -231,7 +231,7 @@ double OuterOutline::spacing_of_turns(std::int32_t i) const {
 /// to the last station within reach on one side, past it on the other; `turned`: the other way round.
 double OuterOutline::spread(std::int32_t i, bool turned) const {
   const std::int32_t next = line_.next(i);
-  const double reach = fitting_.thickness[i] / 4, past = line_.width(i) + reach;
+  const double reach = fitting_.thickness[turned ? next : i] / 4, past = line_.width(i) + reach;
   double wall = line_.width(i), front = front_width(i);
   const auto add = [&](std::int32_t j) {
     if (j == WallLine::none || line_.next(j) == WallLine::none) return;

@@ -54,9 +54,8 @@ struct PlacedLine {
 /// bounding box, between two corners of more than 50 degrees each that turn by more than 120 degrees
 /// together. A wake begins at the only edge, or at the edge nearest to its `at`, which must be within a
 /// twentieth of the box from it. A wake without a path is straight and bisects the walls at the edge. Throws
-/// InputError for an unknown boundary or one without layers, for no or several matching edges (also half an
-/// edge on a symmetry boundary), and for two
-/// wakes at one edge.
+/// InputError for an unknown boundary or one without layers, for no or several matching edges (also for half
+/// an edge on a symmetry boundary), and for two wakes at one edge.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
 
 }  // namespace quadloop

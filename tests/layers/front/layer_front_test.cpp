@@ -236,7 +236,7 @@ TEST(LayerFront, AsksForMirroredSizesRoundASymmetricBodyWithAWakeOnItsAxis) {
   for (std::size_t k = 0; k < above.size(); ++k) body.push_back(image_of(MirrorAxis::x, above[k]));
   for (std::size_t k = above.size() - 2; k > 0; --k) body.push_back(above[k]);
   LayerSpec spec = ten_layers;
-  spec.first = 0.004;
+  spec.first = 0.01;
   const Geometry geometry =
       test::outline_of({{{"box", {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}}}, {{"body", body, spec}}}, 0.06);
   LayerLine wake;
