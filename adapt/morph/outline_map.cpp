@@ -187,13 +187,25 @@ OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points,
   }
 }
 
+void OutlineMap::refuse_loop(std::int32_t image, const Names& names) const {
+  const NameSet own = names_of(to_, image);
+  for (std::int32_t loop = 0; loop < from_.loop_count(); ++loop) {
+    const NameSet other = names_of(from_, loop);
+    if (other == own || !std::ranges::includes(other, own)) continue;
+    throw InputError(fmt::format(
+        "{}: a loop of {} alone, but the loop of {} has {}, as that of a half model; give the whole loop, as "
+        "`quadloop mesh --geometry-out` writes it",
+        names.to, listed(own), names.from, listed(other)));
+  }
+  throw InputError(
+      fmt::format("{}: has more loops of {} than {}; generate a new mesh", names.to, listed(own), names.from));
+}
+
 void OutlineMap::match_loops(const Names& names) {
   for (std::int32_t image = 0; image < to_.loop_count(); ++image) {
     const std::int32_t nearest =
         counterpart(to_, image, from_, [&](std::int32_t loop) { return !maps(loop); });
-    if (nearest < 0)
-      throw InputError(fmt::format("{}: has more loops of {} than {}; generate a new mesh", names.to,
-                                   listed(names_of(to_, image)), names.from));
+    if (nearest < 0) refuse_loop(image, names);
     loops_[nearest].image = image;
   }
   for (std::int32_t loop = 0; loop < from_.loop_count(); ++loop) {

@@ -66,6 +66,7 @@ class OutlineMap {
   };
   Stretch stretch_at(std::int32_t loop, double arc) const;
   void match_loops(const Names& names);
+  [[noreturn]] void refuse_loop(std::int32_t image, const Names& names) const;
   /// Counterparts begin at the one numbered `turn`.
   LoopMap anchored(std::int32_t image, const std::vector<std::int32_t>& corners,
                    const std::vector<std::int32_t>& counterparts, std::size_t turn) const;

@@ -115,6 +115,16 @@ class Morph(ProgramTest):
                 for ranks in (1, 3):
                     self.assertEqual(self.morph(text, ranks=ranks)[0], before)
 
+    def test_a_half_model_keeps_every_bit_on_its_whole_loop(self):
+        blunt = lens(points=80, cut=0.98)
+        self.write("case.toml", "\n".join(line for line in CASE.splitlines() if "layers" not in line))
+        self.write("body.geom", blunt)
+        self.mesh("--set", 'mesh.mirror="x"', "--set", 'mesh.half="axis"')
+        before = (self.folder / "in.mesh").read_bytes()
+        self.assertEqual({y for x, y in nodes_of(before) if x > 0.97 and abs(y) < 1e-3}, {0.0}, "the axis is straight")
+        self.assertEqual(self.morph((self.folder / "old.geom").read_text())[0], before)
+        self.refused(1, ["as that of a half model", "--geometry-out"], "morph", "in.mesh", "--geometry", "body.geom", "-o", "out.mesh")
+
     def test_a_flap_turns_as_it_does_with_from(self):
         """What lies ahead of the hinge stays."""
         hinge, slope = 0.4, math.tan(math.radians(15))
