@@ -197,8 +197,8 @@ void OutlineMap::refuse_loop(std::int32_t image, const Names& names) const {
         "`quadloop mesh --geometry-out` writes it",
         names.to, listed(own), names.from, listed(other)));
   }
-  throw InputError(
-      fmt::format("{}: has more loops of {} than {}; generate a new mesh", names.to, listed(own), names.from));
+  throw InputError(fmt::format("{}: has more loops of {} than {}; generate a new mesh", names.to, listed(own),
+                               names.from));
 }
 
 void OutlineMap::match_loops(const Names& names) {

@@ -78,8 +78,8 @@ class OutlineMap {
   /// Returns the map with those of them that may stay as further anchors.
   LoopMap with_standing(std::int32_t loop, const LoopMap& map, std::vector<Anchor> standing) const;
   static bool may_stay(Anchor begin, std::span<const Anchor> between, Anchor end);
-  /// Empty if a vertex of the old loop does not lie on the new one, or a corner of that is farther from the old
-  /// one's edge than half of the edge, so that the edge is not the trace of a corner lost by the mesh.
+  /// Empty if a vertex of the old loop does not lie on the new one, or a corner of that is farther from the
+  /// old one's edge than half of the edge, so that the edge is not the trace of a corner lost by the mesh.
   std::optional<LoopMap> unchanged(std::int32_t loop, std::int32_t image,
                                    const std::vector<Anchor>& standing) const;
 

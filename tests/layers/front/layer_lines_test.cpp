@@ -152,10 +152,11 @@ TEST(PlaceLines, AWakeAtHalfOfATrailingEdgeIsRefusedWithItsPlace) {
     wake.where = "case.toml:9";
     return test::refusal([&] { place_lines(g, {wake}); });
   };
-  EXPECT_EQ(says(BoundaryCondition::symmetry),
-            "case.toml:9: wake, from = \"wedge\": the wall ends at (-1, 0), (2, 0) on the symmetry boundary "
-            "'axis', where a wake would have only one of its two sides, which is not supported; mesh the whole "
-            "body (mesh.mirror without mesh.half), or remove the wake");
+  EXPECT_EQ(
+      says(BoundaryCondition::symmetry),
+      "case.toml:9: wake, from = \"wedge\": the wall ends at (-1, 0), (2, 0) on the symmetry boundary "
+      "'axis', where a wake would have only one of its two sides, which is not supported; mesh the whole "
+      "body (mesh.mirror without mesh.half), or remove the wake");
   EXPECT_NE(says(BoundaryCondition::wall).find("no trailing edge found"), std::string::npos);
 }
 
