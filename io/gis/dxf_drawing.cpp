@@ -164,7 +164,7 @@ void refuse_binary(const std::string& path, std::string_view text) {
     throw InputError(path + ": is a binary DXF, which is not read; export it as ASCII DXF");
 }
 
-/// GDAL 3.6 loops forever on some drawings that end within a section.
+/// GDAL 3.6 loops forever on some drawings that end within a section, or have none.
 [[noreturn]] void refuse_damaged(const std::string& path, const DxfPairs& pairs, const std::string& what) {
   throw InputError(fmt::format("{}:{}: {}; the drawing is truncated or damaged, export it again", path,
                                pairs.line_number(), what));
@@ -290,6 +290,7 @@ DxfDrawing::DxfDrawing(const std::string& path) {
   }
   if (!section.empty()) refuse_damaged(path, pairs, "section " + section + " does not end with ENDSEC");
   if (!pairs.at_end() && !pairs.is(0, "EOF")) refuse_damaged(path, pairs, "a group code is expected here");
+  if (first_section.empty()) refuse_damaged(path, pairs, "there is no SECTION");
   if (corrected_.empty() && is_corrected) corrected_ = std::move(text);
 }
 

@@ -1,10 +1,13 @@
 #include "mesher/layers/front/layer_strip.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
@@ -394,7 +397,13 @@ StripSize least_size(const PlacedLine& line) {
 }
 
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root) {
-  return Strip(line, root).built();
+  LayerStrip strip = Strip(line, root).built();
+  const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  if (std::ranges::all_of(strip.front, is_finite)) return strip;
+  throw InputError(fmt::format(
+      "{}{} returns to its first point ({}, {}) within the thickness of its layers, {:.3g}; change its path, "
+      "or make the layers thinner",
+      line.place, line.name, line.path[0].x, line.path[0].y, strip.asked));
 }
 
 }  // namespace quadloop

@@ -58,7 +58,8 @@ StripSize least_size(const PlacedLine& line);
 
 /// Builds the strip of a line. Downstream of a wake's root layers thicken: by a factor of 1.15 per column at
 /// the line, and by a tenth of the distance in total. Towards free ends cells become as high as wide. Far
-/// from ends columns are `spacing` apart.
+/// from ends columns are `spacing` apart. Throws InputError if the path returns to its first point within the
+/// thickness of the layers: it has no direction there.
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root);
 
 }  // namespace quadloop

@@ -55,6 +55,7 @@ TEST_F(OgrReader, RefusesADrawingThatEndsWithinASection) {
       << said(open + "EOF\n");
   EXPECT_NE(said(open + "SECTION\n2\nOBJECTS\n0\nENDSEC\n0\nEOF\n").find("does not end"), std::string::npos);
   EXPECT_NE(said(open + "ENDSEC\nzero\nEOF\n").find("d.dxf:19: a group code is expected"), std::string::npos);
+  EXPECT_NE(said("2\n0\n").find("d.dxf:3: there is no SECTION"), std::string::npos) << said("2\n0\n");
   EXPECT_EQ(said(open + "ENDSEC\n0\nEOF\n"), "");
 }
 

@@ -8,6 +8,7 @@
 
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
+#include "tests/geometry/outlines.hpp"
 
 namespace quadloop {
 namespace {
@@ -198,6 +199,15 @@ TEST(LayerStrip, ABentPathHasColumnsAcrossIt) {
   line.path = {{0, 0}, {2, 0}, {3.5, 1}};
   const LayerStrip strip = layer_strip(line, {});
   expect_positive(strip);
+}
+
+TEST(LayerStrip, APathThatReturnsToItsFirstPointWithinItsLayersIsRefused) {
+  PlacedLine line = straight(4, 0.05);
+  line.name = "layer_line";
+  line.path = {{0, 0}, {0.2, 0.1}, {0, 0}};
+  line.layers.first = 0.05;
+  const std::string message = test::refusal([&] { layer_strip(line, {}); });
+  EXPECT_EQ(message.find("layer_line returns to its first point (0, 0) within"), 0) << message;
 }
 
 }  // namespace
