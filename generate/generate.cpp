@@ -219,7 +219,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded, const MeasuredWall& measured,
                                const MeshChange& change) {
   StageTimes times;
-  times.begin("front");
+  times.begin("layer edge");
   MeshReport dropped;
   const Geometry geometry = geometry_with_layers(input, dropped);
   LayerFront front = front_of(input, geometry, measured);

@@ -47,8 +47,8 @@ std::vector<std::string> drift_warnings(const CarriedMesh& carried) {
   }
   if (count == 0) return {};
   return {
-      fmt::format("the transfer to the new mesh changed the integral of {} by {:.2g} of its size{}; it "
-                  "should be conserved to {:g}, except where layers move (docs/explanation/adaptation.md)",
+      fmt::format("the solution transfer changed the integral of {} by {:.2g} of its magnitude{}; it should conserve "
+                  "integrals to {:g}, except where layers move (docs/explanation/adaptation.md)",
                   carried.drifts()[worst].first, report.relative_drift[worst],
                   count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
 }

@@ -73,7 +73,7 @@ void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool wi
     figures.add_member("corners_in_passages", json_of(shape.corners_in_passages));
     return;
   }
-  add_count(figures, "corners of the outline", shape.corners_of_outline, "corners_of_outline");
+  add_count(figures, "corners of geometry", shape.corners_of_outline, "corners_of_outline");
   if (verbose) figures.add_lines(places_text(shape.sharp_places));
   figures.add("corners in passages", shape.corners_in_passages);
   if (verbose) figures.add_lines(places_text(shape.passages));

@@ -160,9 +160,9 @@ void add_objections(Figures& figures, const FaceFiguresByLayers& faces, const Sh
         fmt::format("{} cells of aspect ratio above {}", flat, FaceFigures::severe_aspect_ratio));
   if (objections.empty())
     objections.push_back(
-        fmt::format("no objection (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
+        fmt::format("all criteria satisfied (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
   const std::string su2 = shape.inexact_nodes == 0
-                              ? "no objection"
+                              ? "exact at all interior nodes"
                               : fmt::format("{:.2g} % of the quads are not parallelograms",
                                             100 * (1 - shape.parallelogram_share()));
   figures.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));

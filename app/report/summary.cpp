@@ -34,7 +34,7 @@ std::string vanished_text(const std::vector<std::string>& boundaries) {
   const std::size_t named = std::min(most_named, boundaries.size());
   const std::string more =
       named < boundaries.size() ? fmt::format(" and {} more", boundaries.size() - named) : "";
-  return fmt::format("  boundaries that vanished, smaller than spacing.min: {}{}\n",
+  return fmt::format("  boundaries dropped, smaller than spacing.min: {}{}\n",
                      fmt::join(boundaries.begin(), boundaries.begin() + named, ", "), more);
 }
 

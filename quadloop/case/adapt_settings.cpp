@@ -100,9 +100,9 @@ const KeyTable<AdaptKeys>& adapt_keys() {
            "[Indicator](../explanation/adaptation.md) of the cells to refine."),
        key<&AdaptKeys::options, &AdaptOptions::threshold>(
            "threshold", choice(AdaptOptions::threshold_words),
-           "Rule that selects the cells: `deviation` from the mean, a `fraction` of the cells, or the number "
-           "of `nodes` to reach.",
-           {.needs = {{"max_nodes", "it is the number of nodes to be met", "threshold = \"nodes\""}}}),
+           "Rule that selects the cells: a `deviation` above the mean, a `fraction` of the cells, or the "
+           "number of `nodes` to reach.",
+           {.needs = {{"max_nodes", "it is the number of nodes to reach", "threshold = \"nodes\""}}}),
        key<&AdaptKeys::options, &AdaptOptions::refine>(
            "refine", number({-100, 100}),
            "Refine above this number of standard deviations over the mean; with `threshold = \"fraction\"`, "
@@ -110,7 +110,8 @@ const KeyTable<AdaptKeys>& adapt_keys() {
            {.example = "2", .needs = {{"no norm", follow}}}),
        key<&AdaptKeys::options, &AdaptOptions::coarsen>(
            "coarsen", number({-100, 100}),
-           "Likewise for coarsening, below the mean; as a fraction 0.1 by default.",
+           "Coarsen below this number of standard deviations under the mean; with `threshold = "
+           "\"fraction\"`, fraction of the cells (default 0.1).",
            {.example = "2", .needs = {{"no norm", follow}}}),
        key<&AdaptKeys::options, &AdaptOptions::max_nodes>(
            "max_nodes", whole({1, 1e12}),

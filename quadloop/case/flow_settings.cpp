@@ -16,8 +16,8 @@ const KeyTable<FlowSettings>& flow_keys() {
       "flow",
       {key<&FlowSettings::reynolds>(
            "reynolds", number(Range::positive()),
-           "Reynolds number based on `reference_length`, at least 1000. With `pressure` any number above 0; "
-           "without `reynolds` the walls then have no friction.",
+           "Reynolds number based on `reference_length`, at least 1000. With `pressure` any number above 0 is "
+           "allowed; without `reynolds` the walls then have no friction.",
            {.example = "5000",
             .required = {{"speed times reference length over kinematic viscosity", "no pressure"}}}),
        key<&FlowSettings::reference_length>("reference_length", number(Range::positive()),
@@ -37,8 +37,8 @@ const KeyTable<FlowSettings>& flow_keys() {
        key<&FlowSettings::mach>(
            "mach", number({0, 100, true, false}),
            "Free-stream Mach number instead of `speed`. The speed of sound is that of `pressure` and "
-           "`density`, "
-           "without a pressure 1. Both may be given if they agree.",
+           "`density`; "
+           "without a pressure it is 1. Both keys may be given if they agree.",
            {.fallback = "none",
             .needs = {{"pressure > 0 or no pressure", "another pressure has no speed of sound"},
                       {"pressure or no speed", "give one of mach and speed"}}})}};

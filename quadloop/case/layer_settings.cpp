@@ -27,7 +27,7 @@ FlowConditions conditions_of_y_plus(const CaseTable& table, const std::string& k
                                   "reynolds = 1e6, and reference_length unless that is 1",
                                   text));
   if (!flow->reynolds || *flow->reynolds < FlowSettings::least_reynolds)
-    table.refuse(key, fmt::format("asks for a y+, for which 'flow.reynolds' must be {} or more; it {}",
+    table.refuse(key, fmt::format("requires 'flow.reynolds' of at least {} for a y+; it {}",
                                   FlowSettings::least_reynolds,
                                   flow->reynolds ? fmt::format("is {}", *flow->reynolds) : "is missing"));
   return {*flow->reynolds, flow->reference_length};
@@ -128,7 +128,7 @@ const KeyTable<LayerKeys>& layer_keys() {
        key<&LayerKeys::thickness>(
            "thickness", number(Range::positive()),
            "Total thickness: the smallest number of layers that reaches it. The last layer may exceed it.",
-           {.unit = "length", .needs = {{"no count", "which says as much; give one of them"}}}),
+           {.unit = "length", .needs = {{"no count", "give one of them"}}}),
        key<&LayerKeys::equal>("equal", whole({1, most_layers}),
                               "Number of layers of the first height before the growth begins.",
                               {.example = "2"})}};

@@ -206,7 +206,7 @@ const KeyTable<Settings>& mesh_keys() {
            {.fallback = "none",
             .needs =
                 {{"half",
-                  "no mesh of type = \"metric\" is kept symmetric; mesh one half of it: add half = \"axis\"",
+                  "a mesh of type = \"metric\" is not symmetric; mesh one half: add half = \"axis\"",
                   "type = \"metric\""}}}),
        key<&Settings::half>("half", half_domain(),
                             "Mesh only the half above the x axis (right of the y axis); the value names the "

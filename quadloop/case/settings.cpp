@@ -121,8 +121,8 @@ const KeyTable<Settings>& design_keys() {
   static const KeyTable<Settings> keys{
       "design",
       {key<&Settings::morph_to>("morph_to", number({0, 1}),
-                                "Quality down to which a mesh is [morphed](../how-to/morph.md) to a changed "
-                                "geometry instead of remeshed.",
+                                "Smallest mesh quality at which a mesh is [morphed](../how-to/morph.md) to a "
+                                "changed geometry; below it, the geometry is meshed again.",
                                 {.fallback = "none"})}};
   return keys;
 }

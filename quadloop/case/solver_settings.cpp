@@ -87,12 +87,12 @@ std::vector<Key<EulerOptions>> march_keys() {
           "Start of averaging: the stored flow and forces are means from then on ([unsteady "
           "flows](../how-to/unsteady-flows.md)).",
           {.fallback = "none",
-           .needs = {{"time = \"accurate\"", "a flow that is carried on has means over its second half"}}}),
+           .needs = {{"time = \"accurate\"", "a steady flow that continues in time is averaged over its second half"}}}),
       key<&EulerOptions::unsteady>(
           "unsteady", choice<EulerOptions::Unsteady>({{"stop", stop}, {"carry_on", carry_on}}),
-          "What a steady flow does that does not converge: keep the best state, or continue in time, with "
-          "means over the second half.",
-          {.needs = {{"time = \"steady\"", "an accurate flow goes on in time anyway", carries_on},
+          "What happens if a steady flow does not converge: keep the best state, or continue in time "
+          "and average over the second half.",
+          {.needs = {{"time = \"steady\"", "a time-accurate flow always continues in time", carries_on},
                      {"mach > 0", "its length is counted in flow-through times", carries_on}}}),
       key<&EulerOptions::flow_throughs>(
           "flow_throughs", number({0, 1e6, true, false}),

@@ -63,7 +63,7 @@ class MeshWarnings(ProgramTest):
     def test_a_boundary_that_may_vanish_stands_at_the_end_of_the_table(self):
         for ranks in (1, 2):
             table, warnings = self.mesh("4\n" + BOX + ISLE + ROCK, VANISH, ranks=ranks)
-            self.assertEqual(table.splitlines()[-1].strip(), "boundaries that vanished, smaller than spacing.min: isle")
+            self.assertEqual(table.splitlines()[-1].strip(), "boundaries dropped, smaller than spacing.min: isle")
             self.assertEqual(warnings.count("was dropped"), 2)
 
     def test_kept_corners_that_share_a_smallest_leaf(self):

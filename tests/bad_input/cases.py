@@ -90,7 +90,7 @@ CASES = [
     case_file("steps without end", CASE + "[solver]\ntime = \"accurate\"\nend_time = 2\ntime_step = 1e-300\n", "case.toml:9:", "time_step", "2e+300 steps", "2e-07 or more"),
     case_file("time without end", CASE + "[solver]\ntime = \"accurate\"\nend_time = inf\n", "case.toml:8:", "end_time", "finite"),
     case_file("means over no time", CASE + "[solver]\ntime = \"accurate\"\nend_time = 2\naverage_from = 2\n", "case.toml:9:", "average_from", "end_time"),
-    case_file("means of a flow carried on", CASE + "[solver]\nunsteady = \"carry_on\"\naverage_from = 1\n", "case.toml:8:", "average_from", "second half"),
+    case_file("means of a flow continued in time", CASE + "[solver]\nunsteady = \"carry_on\"\naverage_from = 1\n", "case.toml:8:", "average_from", "second half"),
     case_file("unknown goal", CASE + "[solver]\ngoal = \"range\"\n", "case.toml:7:", "goal"),
     case_file("solution outside the folder", CASE + "[solver]\nsolution = \"../a.mesh\"\n", "case.toml:7:", "solution"),
     case_file("half a sweep", CASE + "[smooth]\nsweeps = 2.5\n", "case.toml:7:", "sweeps"),

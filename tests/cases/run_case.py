@@ -70,7 +70,7 @@ def compare(found, expected):
 
 def write_expected(path, found):
     rows = [f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value!r}" for key, value in found.items()]
-    path.write_text("# What this case gives on any number of ranks; digest: SHA-256 of the .mesh file.\n" + "\n".join(rows) + "\n")
+    path.write_text("# Expected results on any number of ranks; digest: SHA-256 of the .mesh file.\n" + "\n".join(rows) + "\n")
     print(f"wrote {path}")
 
 

@@ -122,7 +122,7 @@ TEST_F(Case, SharesHaveDefaultsAndLimitsOfTheirOwn) {
 
 TEST_F(Case, ContradictionsAreRefused) {
   EXPECT_NE(refused("refine = 0.5\ncoarsen = -0.6\n").find("make it larger than -refine"), std::string::npos);
-  EXPECT_NE(refused("threshold = \"nodes\"\n").find("needs max_nodes; it is the number of nodes to be met"),
+  EXPECT_NE(refused("threshold = \"nodes\"\n").find("needs max_nodes; it is the number of nodes to reach"),
             std::string::npos);
   EXPECT_NE(refused("max_nodes = 10.5\n").find("must be a whole number, not 10.5"), std::string::npos);
   EXPECT_NE(refused("cycles = 1.5\n").find("must be a whole number"), std::string::npos);
