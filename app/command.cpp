@@ -12,7 +12,7 @@ std::string record_text(const CommandRecord& record, const Outcome& outcome) {
   json.add_raw("command", record.command.empty() ? "null" : json_of(record.command));
   json.add("status", static_cast<int>(outcome.status));
   json.add_raw("error", outcome.status == ExitStatus::done ? "null" : json_of(outcome.message));
-  json.append(record.figures);
+  json.append(record.statistics);
   json.add("warnings", record.warnings);
   json.add("files", record.files);
   return json.text() + "\n";

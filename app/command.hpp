@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/closing.hpp"
+#include "app/collective_exit.hpp"
 #include "app/command_line.hpp"
 #include "mesher/base/json.hpp"
 #include "mesher/base/parallel/communicator.hpp"
@@ -14,7 +14,7 @@ namespace quadloop {
 /// then.
 struct CommandRecord {
   std::string command;
-  JsonObject figures;                        ///< contents of the table, on the root rank
+  JsonObject statistics;                     ///< contents of the table, on the root rank
   std::vector<std::string> warnings, files;  ///< all warnings; the files that were written
   /// Warnings recorded so far that have not been shown to the user. On every rank.
   std::vector<std::string> noted = {};

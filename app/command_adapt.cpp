@@ -113,11 +113,11 @@ std::string line_of(const CycleRecord& record) {
 /// Adds a cycle's data and files to those of the run.
 void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles,
           CommandRecord& of_run) {
-  cycles.push_back(figures_of(record));
+  cycles.push_back(statistics_of(record));
   cycles.back().add("seconds", seconds_of(record));
-  of_run.figures = {};
-  of_run.figures.add("folder", folder);
-  of_run.figures.add("cycles", cycles);
+  of_run.statistics = {};
+  of_run.statistics.add("folder", folder);
+  of_run.statistics.add("cycles", cycles);
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + cycle_name(record.cycle)))
     files.push_back(entry.path());
@@ -130,7 +130,7 @@ std::string why_ended(const LoopEnd& end) {
   if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
   return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
-                     end.left->plan.reason_for_standing);
+                     end.left->plan.reason_for_rejection);
 }
 
 std::string closing_line(const std::string& folder, const LoopEnd& end) {
@@ -175,13 +175,13 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
     if (comm.is_root()) keep(record, folder, cycles, context.record);
     context.warn(of_cycle);
   };
-  context.record.figures.add("folder", folder);
-  context.record.figures.add("cycles", cycles);
+  context.record.statistics.add("folder", folder);
+  context.record.statistics.add("cycles", cycles);
   std::optional<DesignStart> start;
   if (former) start = read_start(comm, *former, morph_to, outline_file(arguments), adaptive->settings);
   const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
-  if (comm.is_root()) context.record.figures.add("nothing_to_change", end.nothing_to_change);
-  if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.figures.add("settled", end.settled);
+  if (comm.is_root()) context.record.statistics.add("nothing_to_change", end.nothing_to_change);
+  if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.statistics.add("settled", end.settled);
   if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end);
 }
 

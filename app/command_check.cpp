@@ -9,8 +9,8 @@
 
 #include "app/command.hpp"
 #include "app/report/check_report.hpp"
+#include "app/report/mesh3d_report.hpp"
 #include "app/report/refusals.hpp"
-#include "app/report/solid_report.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
@@ -48,14 +48,14 @@ CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) 
   const MeshTopology topology(mesh);
   report.shape =
       shape_statistics(mesh, topology, chains == nullptr ? std::span<const Chain>() : std::span(*chains));
-  report.figures = shape_figures(Communicator(MPI_COMM_SELF), mesh);
+  report.statistics = solver_statistics(Communicator(MPI_COMM_SELF), mesh);
   LayerPlaces places;
   if (has_layers(mesh)) {
     places = layer_places(Communicator(MPI_COMM_SELF), mesh);
-    report.layers = layer_figures(mesh, places);
+    report.layers = layer_statistics(mesh, places);
     report.by_layers = quality_by_layers(Communicator(MPI_COMM_SELF), mesh, places);
   }
-  report.faces = face_figures(Communicator(MPI_COMM_SELF), mesh, places);
+  report.faces = face_statistics(Communicator(MPI_COMM_SELF), mesh, places);
   report.worst = worst_places(mesh, topology, places);
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh, topology);
@@ -75,16 +75,16 @@ std::string regions_warning(const CheckReport& report) {
       regions.count, regions.smallest_cells, regions.smallest_place.x, regions.smallest_place.y);
 }
 
-void check_solid_on_root(const CommandContext& context, const CheckArguments& arguments,
-                         const FileMesh& mesh) {
+void check_mesh3d_on_root(const CommandContext& context, const CheckArguments& arguments,
+                          const FileMesh& mesh) {
   if (!arguments.geometry.empty())
     throw UsageError(arguments.input +
                      ": is a 3D mesh, which cannot be compared with a geometry; remove --geometry");
   context.warn(mesh.warnings);
-  const SolidFigures figures = check_solid(mesh);
-  context.record.figures = solid_record(arguments.input, mesh, figures);
-  if (context.shows_table()) std::cout << solid_text(mesh, figures, context.verbose) << std::flush;
-  if (!figures.faults.empty()) refuse_invalid_solid(arguments.input, figures);
+  const Mesh3dStatistics statistics = check_mesh3d(mesh);
+  context.record.statistics = mesh3d_record(arguments.input, mesh, statistics);
+  if (context.shows_table()) std::cout << mesh3d_text(mesh, statistics, context.verbose) << std::flush;
+  if (!statistics.faults.empty()) refuse_invalid_mesh3d(arguments.input, statistics);
 }
 
 void check_plane_on_root(const CommandContext& context, const CheckArguments& arguments,
@@ -95,7 +95,7 @@ void check_plane_on_root(const CommandContext& context, const CheckArguments& ar
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
   if (report.regions.count > 1) context.warn({regions_warning(report)});
-  context.record.figures = report_record(report);
+  context.record.statistics = report_record(report);
   if (context.shows_table()) std::cout << report_text(report, context.verbose) << std::flush;
   if (!report.faults.empty()) refuse_invalid(report.file, report.faults);
 }
@@ -105,7 +105,7 @@ void check_on_root(const CommandContext& context, const CheckArguments& argument
   if (const LoadedMesh* plane = std::get_if<LoadedMesh>(&mesh))
     check_plane_on_root(context, arguments, *plane);
   else
-    check_solid_on_root(context, arguments, std::get<FileMesh>(mesh));
+    check_mesh3d_on_root(context, arguments, std::get<FileMesh>(mesh));
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ void add_check_command(CommandLine& line, CommandContext& context) {
   command
       .add_option("input", arguments->input,
                   "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
-                      suffixes_for({Content::solid}) + ", a folder)")
+                      suffixes_for({Content::mesh3d}) + ", a folder)")
       .required()
       .value_name("IN");
   command

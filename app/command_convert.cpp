@@ -12,13 +12,13 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/report/figures.hpp"
+#include "app/report/mesh3d_report.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/refusals.hpp"
-#include "app/report/solid_report.hpp"
+#include "app/report/statistics.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/plane_of_solid.hpp"
+#include "io/model/plane_of_mesh3d.hpp"
 #include "io/parts/part_output.hpp"
 #include "mesher/base/error.hpp"
 
@@ -34,13 +34,13 @@ struct ConvertArguments {
 std::vector<std::string> formats_of_meshes() {
   std::vector<std::string> names;
   for (const FileFormat& format : file_formats()) {
-    if (format.holds(Content::mesh) || format.holds(Content::solid)) names.push_back(format.name);
+    if (format.holds(Content::mesh) || format.holds(Content::mesh3d)) names.push_back(format.name);
   }
   return names;
 }
 
 bool is_of_meshes(const FileFormat* format) {
-  return format != nullptr && (format->holds(Content::mesh) || format->holds(Content::solid));
+  return format != nullptr && (format->holds(Content::mesh) || format->holds(Content::mesh3d));
 }
 
 const FileFormat& output_format(const ConvertArguments& arguments) {
@@ -52,23 +52,23 @@ const FileFormat& output_format(const ConvertArguments& arguments) {
       arguments.output, fmt::join(formats_of_meshes(), ", .")));
 }
 
-[[noreturn]] void refuse_solid(const ConvertArguments& arguments, const FileFormat& output) {
+[[noreturn]] void refuse_mesh3d(const ConvertArguments& arguments, const FileFormat& output) {
   throw InputError(fmt::format("{}: contains a 3D mesh, which the format {} cannot store; {} can",
-                               arguments.input, output.name, suffixes_for({Content::solid}, "and")));
+                               arguments.input, output.name, suffixes_for({Content::mesh3d}, "and")));
 }
 
 /// A 3D mesh that is one cell thick is read as a plane mesh if the output format supports those.
 MeshOfFile read_convert_input(const ConvertArguments& arguments) {
   const FileFormat& output = output_format(arguments);
   const FileFormat* const format = format_of(arguments.input);
-  if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::solid))
-    refuse_solid(arguments, output);
+  if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::mesh3d))
+    refuse_mesh3d(arguments, output);
   MeshOfFile mesh = read_mesh_file(arguments.input);
-  const FileMesh* solid = std::get_if<FileMesh>(&mesh);
-  if (solid != nullptr && output.holds(Content::mesh) && is_one_cell_thick(*solid))
-    return plane_of_solid(*solid, arguments.input);
-  if (solid != nullptr && !output.holds(Content::solid)) refuse_solid(arguments, output);
-  if (solid == nullptr && !output.holds(Content::mesh))
+  const FileMesh* mesh3d = std::get_if<FileMesh>(&mesh);
+  if (mesh3d != nullptr && output.holds(Content::mesh) && is_one_cell_thick(*mesh3d))
+    return plane_of_mesh3d(*mesh3d, arguments.input);
+  if (mesh3d != nullptr && !output.holds(Content::mesh3d)) refuse_mesh3d(arguments, output);
+  if (mesh3d == nullptr && !output.holds(Content::mesh))
     throw InputError(fmt::format(
         "{}: contains a 2D mesh, but the format {} stores 3D meshes only; `quadloop extrude` extrudes it",
         arguments.input, output.name));
@@ -84,18 +84,18 @@ std::vector<std::string> warnings_of(const AnyMesh& mesh, const ConvertArguments
   return warnings;
 }
 
-Figures figures_of(const FileMesh& mesh) {
+Statistics statistics_of(const FileMesh& mesh) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
-  Figures figures;
-  figures.add("nodes", count(mesh.points));
-  figures.add("tetrahedra", count(mesh.tetrahedra));
-  figures.add("pyramids", count(mesh.pyramids));
-  figures.add("prisms", count(mesh.prisms));
-  figures.add("hexahedra", count(mesh.hexahedra));
-  if (mesh.has_blocks()) figures.add("blocks", count(mesh.block_names));
-  figures.add("boundaries", count(mesh.boundaries));
-  figures.add("variables", mesh.solution ? count(mesh.solution->names) : 0);
-  return figures;
+  Statistics statistics;
+  statistics.add("nodes", count(mesh.points));
+  statistics.add("tetrahedra", count(mesh.tetrahedra));
+  statistics.add("pyramids", count(mesh.pyramids));
+  statistics.add("prisms", count(mesh.prisms));
+  statistics.add("hexahedra", count(mesh.hexahedra));
+  if (mesh.has_blocks()) statistics.add("blocks", count(mesh.block_names));
+  statistics.add("boundaries", count(mesh.boundaries));
+  statistics.add("variables", mesh.solution ? count(mesh.solution->names) : 0);
+  return statistics;
 }
 
 /// Returns the request of --parts, which is known before the mesh is read.
@@ -111,23 +111,23 @@ PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks)
   return request;
 }
 
-Figures figures_of(const LoadedMesh& whole) {
+Statistics statistics_of(const LoadedMesh& whole) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
-  Figures figures;
-  figures.add("nodes", count(whole.mesh.points));
-  figures.add("triangles", count(whole.mesh.triangles));
-  figures.add("quads", count(whole.mesh.quads));
-  figures.add("blocks", whole.blocks);
-  figures.add("boundaries", count(whole.mesh.boundaries));
-  figures.add("variables", whole.solution ? count(whole.solution->names) : 0);
-  figures.add("cell variables", whole.solution ? count(whole.solution->cells.names) : 0);
-  return figures;
+  Statistics statistics;
+  statistics.add("nodes", count(whole.mesh.points));
+  statistics.add("triangles", count(whole.mesh.triangles));
+  statistics.add("quads", count(whole.mesh.quads));
+  statistics.add("blocks", whole.blocks);
+  statistics.add("boundaries", count(whole.mesh.boundaries));
+  statistics.add("variables", whole.solution ? count(whole.solution->names) : 0);
+  statistics.add("cell variables", whole.solution ? count(whole.solution->cells.names) : 0);
+  return statistics;
 }
 
 /// The parts that have been written, with the request.
 struct WrittenParts {
   PartRequest request;
-  PartFigures figures;
+  PartStatistics statistics;
 };
 
 /// *Collective.*
@@ -155,19 +155,19 @@ void write_output(const Communicator& comm, const MeshOfFile& input, const Conve
 /// On the root rank.
 void report(const CommandContext& context, const MeshOfFile& input, const ConvertArguments& arguments,
             const std::optional<WrittenParts>& parts) {
-  Figures figures = std::visit([](const auto& mesh) { return figures_of(mesh); }, input);
+  Statistics statistics = std::visit([](const auto& mesh) { return statistics_of(mesh); }, input);
   std::vector<std::string>& files = context.record.files;
   files = with_files_beside({arguments.output}, arguments.format);
   std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
   if (parts) {
     const PartRequest& request = parts->request;
-    add_parts(figures, parts->figures);
+    add_parts(statistics, parts->statistics);
     const std::vector<std::string> of_parts = part_file_names(request.prefix, request.parts, request.formats);
     files.insert(files.end(), of_parts.begin(), of_parts.end());
     wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
   }
-  context.record.figures = figures.record();
-  if (context.shows_table()) std::cout << figures.table() << wrote;
+  context.record.statistics = statistics.record();
+  if (context.shows_table()) std::cout << statistics.table() << wrote;
 }
 
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
@@ -196,7 +196,7 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   command
       .add_option("input", arguments->input,
                   "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
-                      suffixes_for({Content::solid}) + "), with its solution if it has one")
+                      suffixes_for({Content::mesh3d}) + "), with its solution if it has one")
       .required()
       .value_name("IN");
   command

@@ -15,12 +15,12 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
+#include "app/report/statistics.hpp"
 #include "io/files/output_path.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/plane_of_solid.hpp"
+#include "io/model/plane_of_mesh3d.hpp"
 #include "io/stream/stream_blocks.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
@@ -115,10 +115,11 @@ LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments
   LoadedMesh whole;
   context.comm.together([&] {
     require_readable_suffix(arguments.input);
-    require_solid_suffix(arguments.output);
+    require_mesh3d_suffix(arguments.output);
     if (!context.comm.is_root()) return;
     MeshOfFile input = read_mesh_file(arguments.input);
-    if (const FileMesh* solid = std::get_if<FileMesh>(&input); solid != nullptr && !is_one_cell_thick(*solid))
+    if (const FileMesh* mesh3d = std::get_if<FileMesh>(&input);
+        mesh3d != nullptr && !is_one_cell_thick(*mesh3d))
       throw InputError(arguments.input + ": is a 3D mesh already; give a 2D mesh");
     whole = plane_of(std::move(input), arguments.input);
     require_valid_input(whole, arguments.input);
@@ -188,15 +189,15 @@ void require_room(const Communicator& comm, const ExtrudedCounts& counts, const 
   });
 }
 
-Figures figures_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, double area) {
-  Figures figures;
-  figures.add("nodes", counts.nodes);
-  figures.add("prisms", counts.prisms);
-  figures.add("hexahedra", counts.hexahedra);
-  figures.add("layers", mesh.layers());
-  figures.add("height", mesh.height(), "{:.6g}");
-  figures.add("volume", area * mesh.height(), "{:.6g}");
-  return figures;
+Statistics statistics_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, double area) {
+  Statistics statistics;
+  statistics.add("nodes", counts.nodes);
+  statistics.add("prisms", counts.prisms);
+  statistics.add("hexahedra", counts.hexahedra);
+  statistics.add("layers", mesh.layers());
+  statistics.add("height", mesh.height(), "{:.6g}");
+  statistics.add("volume", area * mesh.height(), "{:.6g}");
+  return statistics;
 }
 
 /// *Collective.*
@@ -219,11 +220,11 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   write_mesh(outputs, mesh, arguments.output);
   outputs.commit();
   if (!comm.is_root()) return;
-  const Figures figures = figures_of(counts, mesh, area);
-  context.record.figures = figures.record();
+  const Statistics statistics = statistics_of(counts, mesh, area);
+  context.record.statistics = statistics.record();
   context.record.files = with_files_beside({arguments.output});
   if (context.shows_table())
-    std::cout << figures.table() << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
+    std::cout << statistics.table() << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
 void add_options(Command& command, ExtrudeArguments& arguments) {
@@ -233,7 +234,7 @@ void add_options(Command& command, ExtrudeArguments& arguments) {
   command
       .add_option(
           "-o,--output", arguments.output,
-          "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::solid}) + ", a folder)")
+          "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::mesh3d}) + ", a folder)")
       .required()
       .value_name("OUT");
   command.add_option("--layers", arguments.layers, "number of cell layers, of equal thickness")

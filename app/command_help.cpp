@@ -27,7 +27,7 @@ void add_help_command(CommandLine& line, CommandContext& context) {
   command.add_flag("--reference", arguments->reference, "print all tables of keys as Markdown");
   command.set_work([arguments, &context] {
     const std::string text = arguments->reference ? key_reference() : key_help(arguments->topic);
-    context.record.figures.add("help", text);
+    context.record.statistics.add("help", text);
     if (context.shows_table()) std::cout << text;
   });
 }

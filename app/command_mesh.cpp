@@ -79,8 +79,8 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
 
 /// Returns the geometry as it was meshed, without the dropped islands.
 Geometry meshed_geometry(const MeshInput& input) {
-  MeshReport told_already;
-  return without_small_islands(input.geometry, input.mesh.size.min, told_already);
+  MeshReport reported_already;
+  return without_small_islands(input.geometry, input.mesh.size.min, reported_already);
 }
 
 void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::string& path) {
@@ -90,11 +90,11 @@ void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::str
 }
 
 /// Writes the outputs; returns the statistics of the partitions, if requested.
-std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshResult& result,
-                                         const Prepared& prepared, const std::string& geometry_out) {
+std::optional<PartStatistics> write_outputs(const Communicator& comm, const MeshResult& result,
+                                            const Prepared& prepared, const std::string& geometry_out) {
   OutputSet outputs(comm);
   PartFiles part_files(comm);
-  std::optional<PartFigures> parts;
+  std::optional<PartStatistics> parts;
   const Settings& settings = prepared.input.settings;
   for (const std::string& format : settings.formats) {
     write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
@@ -109,7 +109,7 @@ std::optional<PartFigures> write_outputs(const Communicator& comm, const MeshRes
 }
 
 /// SU2 does not report cells for which its scheme is inaccurate.
-Warnings solver_warnings(const Settings& settings, const ShapeFigures& shape) {
+Warnings solver_warnings(const Settings& settings, const SolverStatistics& shape) {
   constexpr double few = 0.98;  // fraction of quads that are parallelograms
   const auto& formats = settings.formats;
   if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few)
@@ -156,7 +156,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   comm.together([&] { prepared = prepare(arguments, saved, context.record.noted); });
   MeshInput& input = *prepared.input.mesh;
   input.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const DemandedSplits demanded(comm, saved ? standing_splits(*saved, input) : std::vector<SplitDemand>{});
+  const DemandedSplits demanded(comm, saved ? unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
   const GeneratedMesh generated =
@@ -164,7 +164,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");
-  const std::optional<PartFigures> parts =
+  const std::optional<PartStatistics> parts =
       write_outputs(comm, generated.result, prepared, arguments.geometry_out);
   times.end();
   context.warn(generated.result.report.warnings);
@@ -173,10 +173,10 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
             : first_mesh_warnings(input));
   for (const std::string& file : prepared.files) context.warn(changes_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
-  if (comm.is_root()) add_extents(summary.figures, prepared.input.extents);
+  if (comm.is_root()) add_extents(summary.statistics, prepared.input.extents);
   if (parts) add_parts(summary, *parts, prepared.part_files);
   context.warn(solver_warnings(prepared.input.settings, summary.shape));
-  context.record.figures = record_of(summary);
+  context.record.statistics = record_of(summary);
   context.record.files = prepared.files;
   context.record.files.insert(context.record.files.end(), prepared.part_files.begin(),
                               prepared.part_files.end());

@@ -14,8 +14,8 @@
 #include "adapt/morph/morph_mesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/report/figures.hpp"
 #include "app/report/refusals.hpp"
+#include "app/report/statistics.hpp"
 #include "app/report/summary.hpp"
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
@@ -190,14 +190,14 @@ void use_derivative(const Communicator& comm, const MorphArguments& arguments, c
   if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, part, derivative);
 }
 
-Figures figures_of(const MorphReport& report) {
-  Figures figures;
-  figures.add("nodes moved", report.moved);
-  figures.add("largest move", report.largest_move, "{:.4g}");
-  figures.add("worst quality before", report.worst_before, "{:.3f}");
-  figures.add("worst quality after", report.worst_after, "{:.3f}");
-  figures.add_raw("smoothed", report.smoothed ? "yes" : "no", report.smoothed ? "true" : "false");
-  return figures;
+Statistics statistics_of(const MorphReport& report) {
+  Statistics statistics;
+  statistics.add("nodes moved", report.moved);
+  statistics.add("largest move", report.largest_move, "{:.4g}");
+  statistics.add("worst quality before", report.worst_before, "{:.3f}");
+  statistics.add("worst quality after", report.worst_after, "{:.3f}");
+  statistics.add_raw("smoothed", report.smoothed ? "yes" : "no", report.smoothed ? "true" : "false");
+  return statistics;
 }
 
 void run_morph(const CommandContext& context, const MorphArguments& arguments) {
@@ -233,11 +233,11 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   if (!arguments.output.empty()) context.record.files = with_files_beside({arguments.output});
   if (!arguments.outline_gradient.empty()) context.record.files.push_back(arguments.outline_gradient);
   if (!comm.is_root()) return;
-  const Figures figures = figures_of(report);
-  context.record.figures = figures.record();
-  context.record.figures.add("seconds", record_of(stages));
+  const Statistics statistics = statistics_of(report);
+  context.record.statistics = statistics.record();
+  context.record.statistics.add("seconds", record_of(stages));
   if (context.shows_table())
-    std::cout << figures.table(24) << stage_table(stages)
+    std::cout << statistics.table(24) << stage_table(stages)
               << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 

@@ -110,12 +110,12 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   return whole;
 }
 
-Figures transfer_figures(const CarriedMesh& carried) {
-  Figures figures;
-  figures.add_raw("nodes outside the old mesh", std::to_string(carried.report.outside),
-                  json_of(carried.report.outside), "outside");
-  for (const auto& [name, drift] : carried.drifts()) figures.add("drift of " + name, drift, "{:.3e}");
-  return figures;
+Statistics transfer_statistics(const RemeshedSolution& remeshed) {
+  Statistics statistics;
+  statistics.add_raw("nodes outside the old mesh", std::to_string(remeshed.report.outside),
+                     json_of(remeshed.report.outside), "outside");
+  for (const auto& [name, drift] : remeshed.drifts()) statistics.add("drift of " + name, drift, "{:.3e}");
+  return statistics;
 }
 
 /// Input of remesh; the whole mesh with its solution on the root only.
@@ -129,20 +129,20 @@ struct RemeshProblem {
 };
 
 /// Writes the outputs; returns the statistics of the partitions, if requested. *Collective.*
-std::optional<PartFigures> write(const Communicator& comm, const CarriedMesh& carried,
-                                 const RemeshProblem& problem) {
+std::optional<PartStatistics> write(const Communicator& comm, const RemeshedSolution& remeshed,
+                                    const RemeshProblem& problem) {
   OutputSet outputs(comm);
   PartFiles part_files(comm);
-  std::optional<PartFigures> parts;
-  const MeshResult& result = carried.generated.result;
+  std::optional<PartStatistics> parts;
+  const MeshResult& result = remeshed.generated.result;
   for (const std::string& file : problem.files) {
     if (file.ends_with(tree_suffix))
       write_tree(outputs, result.tree, file);
     else
-      write_mesh(outputs, result.mesh, file, &carried.start, problem.input.settings.solver.euler.gamma);
+      write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
   }
   if (!problem.part_files.empty())
-    parts = write_parts(part_files, comm, result.mesh, {.field = &carried.start}, problem.parts);
+    parts = write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
   part_files.commit(outputs);
   return parts;
 }
@@ -185,23 +185,24 @@ SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, Re
   return solved;
 }
 
-void report(const CommandContext& context, const CarriedMesh& carried, const StageTimes& times,
-            const RemeshProblem& problem, const std::optional<PartFigures>& parts) {
-  for (const std::string& file : problem.files) context.warn(changes_in(carried.generated.result.mesh, file));
+void report(const CommandContext& context, const RemeshedSolution& remeshed, const StageTimes& times,
+            const RemeshProblem& problem, const std::optional<PartStatistics>& parts) {
+  for (const std::string& file : problem.files)
+    context.warn(changes_in(remeshed.generated.result.mesh, file));
   const std::vector<std::string> files = with_files_beside(problem.files);
-  MeshSummary summary = summarise(context.comm, carried.generated, times.stages(), files);
-  if (context.comm.is_root()) add_extents(summary.figures, problem.input.extents);
+  MeshSummary summary = summarise(context.comm, remeshed.generated, times.stages(), files);
+  if (context.comm.is_root()) add_extents(summary.statistics, problem.input.extents);
   if (parts) add_parts(summary, *parts, problem.part_files);
-  Figures of_transfer = transfer_figures(carried);
-  if (carried.estimate) of_transfer.add("interpolation error", *carried.estimate, "{:.3e}");
-  if (carried.stretched) {
-    of_transfer.add_member("metric", record_of(*carried.stretched).text());
-    of_transfer.add_lines(lines_of(*carried.stretched));
+  Statistics of_transfer = transfer_statistics(remeshed);
+  if (remeshed.estimate) of_transfer.add("interpolation error", *remeshed.estimate, "{:.3e}");
+  if (remeshed.stretched) {
+    of_transfer.add_member("metric", record_of(*remeshed.stretched).text());
+    of_transfer.add_lines(lines_of(*remeshed.stretched));
   }
   if (problem.input.settings.morph_to)
-    of_transfer.add_raw("morphed", carried.morphed ? "yes" : "no", carried.morphed ? "true" : "false");
-  context.record.figures = record_of(summary);
-  context.record.figures.append(of_transfer.record());
+    of_transfer.add_raw("morphed", remeshed.morphed ? "yes" : "no", remeshed.morphed ? "true" : "false");
+  context.record.statistics = record_of(summary);
+  context.record.statistics.append(of_transfer.record());
   context.record.files = files;
   context.record.files.insert(context.record.files.end(), problem.part_files.begin(),
                               problem.part_files.end());
@@ -210,32 +211,33 @@ void report(const CommandContext& context, const CarriedMesh& carried, const Sta
 
 /// Returns the old cells on the changed geometry, if the case requests it and they are good enough; otherwise
 /// adds to `doubts` why the mesh is generated again. *Collective.*
-std::optional<CarriedMesh> morph(const Communicator& comm, const RemeshArguments& arguments,
-                                 const RemeshProblem& problem, const SolvedMesh& solved, Warnings& doubts) {
+std::optional<RemeshedSolution> morph(const Communicator& comm, const RemeshArguments& arguments,
+                                      const RemeshProblem& problem, const SolvedMesh& solved,
+                                      Warnings& doubts) {
   const std::optional<double>& least = problem.input.settings.morph_to;
   if (!least) return {};
   const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
   const MorphWish wish{*least, file};
   MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, wish);
   if (!morphed.refusal.empty()) doubts.push_back(why_anew(wish, morphed.refusal));
-  return std::move(morphed.carried);
+  return std::move(morphed.remeshed);
 }
 
 /// Flags cells by the solution, generates the mesh, and transfers the solution. *Collective.*
-CarriedMesh remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
-                   StageTimes& times, Warnings& warnings) {
+RemeshedSolution remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
+                        StageTimes& times, Warnings& warnings) {
   times.begin("adapt");
   const MeshInput& mesh = *problem.input.mesh;
   const std::optional<AdaptOptions>& adapt = problem.input.settings.adapt;
   const AdaptationPlan plan =
-      adapt ? plan_adaptation(comm, mesh, *adapt, solved) : standing_plan(solved.tree, mesh);
+      adapt ? plan_adaptation(comm, mesh, *adapt, solved) : unchanged_plan(solved.tree, mesh);
   times.end();
-  CarriedMesh carried = carry_over(comm, mesh, plan, solved);
-  carried.estimate = plan.estimate;
-  const Warnings& of_mesh = carried.generated.result.report.warnings;
+  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh, plan, solved);
+  remeshed.estimate = plan.estimate;
+  const Warnings& of_mesh = remeshed.generated.result.report.warnings;
   warnings.insert(warnings.end(), of_mesh.begin(), of_mesh.end());
   warnings.insert(warnings.end(), plan.warnings.begin(), plan.warnings.end());
-  return carried;
+  return remeshed;
 }
 
 void run_remesh(const CommandContext& context, const RemeshArguments& arguments) {
@@ -248,13 +250,13 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   const SolvedMesh solved = spread(comm, arguments, problem);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
-  std::optional<CarriedMesh> carried = morph(comm, arguments, problem, solved, warnings);
-  if (!carried) carried = remesh(comm, problem, solved, times, warnings);
-  times.append(carried->times);
+  std::optional<RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);
+  if (!remeshed) remeshed = remesh(comm, problem, solved, times, warnings);
+  times.append(remeshed->times);
   times.begin("write");
-  const std::optional<PartFigures> parts = write(comm, *carried, problem);
+  const std::optional<PartStatistics> parts = write(comm, *remeshed, problem);
   times.end();
-  report(context, *carried, times, problem, parts);
+  report(context, *remeshed, times, problem, parts);
 }
 
 std::string solution_help() {

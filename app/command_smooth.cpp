@@ -24,7 +24,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
-#include "mesher/mesh/check/shape_figures.hpp"
+#include "mesher/mesh/check/solver_statistics.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/outline/outline_match.hpp"
@@ -149,13 +149,13 @@ void require_valid_result(const Communicator& comm, const Loaded& loaded, const 
 /// Warns if all quads were parallelograms, as node-centred solvers prefer, and some are not any more: this
 /// command does not split cells.
 void warn_of_skew_quads(const CommandContext& context, const std::string& output,
-                        const ShapeFigures& figures) {
-  const std::int64_t skew = figures.quads - figures.parallelograms;
+                        const SolverStatistics& statistics) {
+  const std::int64_t skew = statistics.quads - statistics.parallelograms;
   if (skew == 0) return;
   context.warn(
       {fmt::format("{}: {} of the {} quads were parallelograms and no longer are; `mesh` with mesh.quads = "
                    "\"parallel\" would divide them",
-                   output, skew, figures.quads)});
+                   output, skew, statistics.quads)});
 }
 
 /// Smooths and writes; returns the text to show, on the root only. *Collective.*
@@ -163,7 +163,8 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
                              StageTimes& times) {
   const Communicator& comm = context.comm;
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
-  const bool parallel = comm.any(!part.quads.empty()) && shape_figures(comm, part).parallelogram_share() == 1;
+  const bool parallel =
+      comm.any(!part.quads.empty()) && solver_statistics(comm, part).parallelogram_share() == 1;
   SmoothOptions options = options_of(comm, arguments, loaded, part);
   if (parallel) options = sparing_parallelograms(options);
   times.begin("report");
@@ -171,7 +172,7 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   times.begin("smooth");
   const SmoothReport smoothed = smooth_mesh(comm, part, options);
   times.begin("check");
-  if (parallel) warn_of_skew_quads(context, arguments.output, shape_figures(comm, part));
+  if (parallel) warn_of_skew_quads(context, arguments.output, solver_statistics(comm, part));
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   require_valid_result(comm, loaded, arguments.input);
   times.begin("write");
@@ -181,14 +182,14 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   if (!comm.is_root()) return {};
-  Figures work;
+  Statistics work;
   work.add("sweeps", smoothed.sweeps);
   work.add("nodes that may move", smoothed.free_nodes);
   work.add("moves", smoothed.moves);
-  context.record.figures = work.record();
-  context.record.figures.add("before", record_of(before));
-  context.record.figures.add("after", record_of(after));
-  context.record.figures.add("seconds", record_of(stages));
+  context.record.statistics = work.record();
+  context.record.statistics.add("before", record_of(before));
+  context.record.statistics.add("after", record_of(after));
+  context.record.statistics.add("seconds", record_of(stages));
   return comparison_table(before, after) + work.table(24) + stage_table(stages);
 }
 

@@ -14,8 +14,8 @@
 #include "flow/adjoint/estimate_goals.hpp"
 #include "flow/euler/euler_solver.hpp"
 #include "flow/euler/shortfall.hpp"
-#include "flow/quantities/flow_quantities.hpp"
-#include "flow/quantities/wall_table.hpp"
+#include "flow/postprocess/flow_quantities.hpp"
+#include "flow/postprocess/wall_table.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/text/text_output.hpp"
@@ -150,19 +150,19 @@ EulerResult solve(const Communicator& comm, const SolveProblem& problem, const M
                      estimate_goals(options));
 }
 
-Figures result_figures(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
-  Figures figures;
-  figures.add("nodes", nodes);
-  figures.add("steps", result.iterations);
+Statistics result_statistics(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
+  Statistics statistics;
+  statistics.add("nodes", nodes);
+  statistics.add("steps", result.iterations);
   if (options.time == EulerOptions::Time::accurate || result.unsteady)
-    figures.add("time", result.time, "{:.6g}");
-  figures.add("residual", result.residual, "{:.3e}");
-  figures.add("cl", result.cl, "{:.6f}");
-  figures.add("cd", result.cd, "{:.6f}");
+    statistics.add("time", result.time, "{:.6g}");
+  statistics.add("residual", result.residual, "{:.3e}");
+  statistics.add("cl", result.cl, "{:.6f}");
+  statistics.add("cd", result.cd, "{:.6f}");
   if (options.viscosity > 0) {
-    figures.add("cd pressure", result.cd - result.cd_friction, "{:.6f}");
-    figures.add("cd friction", result.cd_friction, "{:.6f}");
-    figures.add("cl friction", result.cl_friction, "{:.6f}");
+    statistics.add("cd pressure", result.cd - result.cd_friction, "{:.6f}");
+    statistics.add("cd friction", result.cd_friction, "{:.6f}");
+    statistics.add("cl friction", result.cl_friction, "{:.6f}");
   }
   std::string lines;
   for (const GoalValue& goal : result.goals) lines += "  " + line_of(goal) + "\n";
@@ -173,12 +173,12 @@ Figures result_figures(std::int64_t nodes, const EulerResult& result, const Eule
   }
   if (result.unsteady) {
     lines += "  " + line_of(*result.unsteady) + "\n";
-    figures.add_member("unsteady", record_of(*result.unsteady).text());
+    statistics.add_member("unsteady", record_of(*result.unsteady).text());
   }
-  if (!result.goals.empty()) figures.add_member("goals", record_of(result.goals).text());
-  figures.add_member("forces", record_of(result.forces).text());
-  figures.add_lines(lines);
-  return figures;
+  if (!result.goals.empty()) statistics.add_member("goals", record_of(result.goals).text());
+  statistics.add_member("forces", record_of(result.forces).text());
+  statistics.add_lines(lines);
+  return statistics;
 }
 
 void run_solve(const CommandContext& context, const SolveArguments& arguments) {
@@ -196,14 +196,14 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
   context.warn(shortfalls(result, problem.settings.solver.euler));
-  const Figures figures = result_figures(nodes, result, problem.settings.solver.euler);
-  context.record.figures = figures.record();
-  context.record.figures.add("converged", result.converged);
-  context.record.figures.add("seconds", record_of(stages));
+  const Statistics statistics = result_statistics(nodes, result, problem.settings.solver.euler);
+  context.record.statistics = statistics.record();
+  context.record.statistics.add("converged", result.converged);
+  context.record.statistics.add("seconds", record_of(stages));
   const TableFiles tables = tables_beside(arguments.output);
   context.record.files = with_files_beside({arguments.output, tables.walls, tables.history});
   if (context.shows_table())
-    std::cout << figures.table() << stage_table(stages)
+    std::cout << statistics.table() << stage_table(stages)
               << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 

@@ -10,10 +10,10 @@
 #include <new>
 #include <string_view>
 
-#include "app/closing.hpp"
+#include "app/collective_exit.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
-#include "app/lone_process.hpp"
+#include "app/mpi_singleton.hpp"
 #include "io/files/interruption.hpp"
 #include "io/files/reading/input_file.hpp"
 #include "io/gis/gis_formats.hpp"
@@ -42,7 +42,7 @@ void throw_mpi_error(MPI_Comm* /*unused*/, int* code, ...) {
 class MpiGuard {
  public:
   MpiGuard(int& argc, char**& argv) {
-    const LoneProcess settings;
+    const MpiSingleton settings;
     MPI_Init(&argc, &argv);
     MPI_Errhandler handler = MPI_ERRHANDLER_NULL;
     MPI_Comm_create_errhandler(throw_mpi_error, &handler);

@@ -53,15 +53,15 @@ std::string table_of(const std::string& input, const char* suffix) {
 }
 
 Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cycles) {
-  std::vector<CycleFigures> figures;
+  std::vector<CycleStatistics> statistics;
   for (const auto& [number, paths] : cycles) {
     if (!fs::exists(paths.record())) continue;
     const std::string json = read_input(paths.record());
-    figures.push_back({static_cast<double>(number), recorded_number(json, "residual"),
-                       recorded_number(json, "cl"), recorded_number(json, "cd")});
+    statistics.push_back({static_cast<double>(number), recorded_number(json, "residual"),
+                          recorded_number(json, "cl"), recorded_number(json, "cd")});
   }
   try {
-    return cycles_chart(figures);
+    return cycles_chart(statistics);
   } catch (const InputError& error) {
     throw InputError(run + ": " + error.what() + cure);
   }

@@ -37,11 +37,11 @@ void adapt(const quadloop::Communicator& comm, const std::string& case_file, con
   quadloop::SolvedMesh now = std::move(made.solved);
   now.solution = solve(now.mesh);
   for (int cycle = 0; cycle < ring.cycles(); ++cycle) {
-    const quadloop::Marks marks = quadloop::sense(comm, ring, now);
-    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(marks.refined()));
-    show(comm, marks.warnings());
-    if (!marks.changes_mesh()) break;
-    made = quadloop::remesh(comm, ring, marks, now);  // with the old solution on the new mesh
+    const quadloop::RefinementFlags flags = quadloop::sense(comm, ring, now);
+    if (comm.is_root()) std::printf("%lld leaves to be split\n", static_cast<long long>(flags.refined()));
+    show(comm, flags.warnings());
+    if (!flags.changes_mesh()) break;
+    made = quadloop::remesh(comm, ring, flags, now);  // with the old solution on the new mesh
     show(comm, made.warnings);
     now = std::move(made.solved);
     now.solution = solve(now.mesh);

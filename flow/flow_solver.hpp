@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "flow/quantities/flow_figures.hpp"
-#include "flow/quantities/free_stream.hpp"
-#include "flow/quantities/history.hpp"
+#include "flow/postprocess/flow_statistics.hpp"
+#include "flow/postprocess/free_stream.hpp"
+#include "flow/postprocess/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -15,7 +15,7 @@
 namespace quadloop {
 
 /// The solution of a flow solver, with its report.
-struct SolvedFlow : FlowFigures {
+struct SolvedFlow : FlowStatistics {
   Field solution;                            ///< nodal values at owned nodes, or cell values, or both
   std::vector<std::string> notes, warnings;  ///< for the cycle's log; for the user too
   std::optional<FreeStream> stream;          ///< if the solver provides it

@@ -15,7 +15,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
-#include "mesher/cut/lattice_rank.hpp"
+#include "mesher/cut/grid_rank.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "mesher/mesh/check/require_sound.hpp"
@@ -31,8 +31,8 @@ bool keeps_parallelograms(const MeshOptions& mesh) {
 }
 
 std::function<TieRank(Point)> order_of_nodes(const MeshInput& input, int finest_level) {
-  return [lattice = input.lattice(), finest_level, mirror = input.mesh.mirror](Point p) {
-    return tie_rank(lattice, finest_level, p, mirror);
+  return [grid = input.grid(), finest_level, mirror = input.mesh.mirror](Point p) {
+    return tie_rank(grid, finest_level, p, mirror);
   };
 }
 
@@ -141,7 +141,7 @@ class OutsideMesh {
         demanded_{demanded},
         splits_{demanded},
         front_{front},
-        lattice_{input.lattice()},
+        grid_{input.grid()},
         outer_{outside(input, front)} {}
 
   GeneratedMesh made(const MeshChange& wanted) {
@@ -165,7 +165,7 @@ class OutsideMesh {
   void cut() {
     mesh_ = build(comm_, outer_, splits_);
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
-      if (!refine_front(comm_, lattice_, mesh_.result, front_, splits_)) return;
+      if (!refine_front(comm_, grid_, mesh_.result, front_, splits_)) return;
       discard();
       outer_ = outside(input_, front_);
       mesh_ = build(comm_, outer_, splits_);
@@ -187,7 +187,7 @@ class OutsideMesh {
   const DemandedSplits& demanded_;
   DemandedSplits splits_;
   LayerFront& front_;
-  Lattice lattice_;
+  TreeGrid grid_;
   MeshInput outer_;
   GeneratedMesh mesh_;
   std::vector<GlobalNodeId> pinned_;

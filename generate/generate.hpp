@@ -24,12 +24,12 @@ struct MeshInput {
   SmoothOptions smooth;      ///< without the geometry
   std::uint64_t digest = 0;  ///< case_digest() of the case's own mesh options and lines
   std::vector<LayerLine> lines = {};
-  /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/targets); empty: no
+  /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/r_adaptation); empty: no
   /// r-adaptation.
   std::optional<double> stretch = {};
 
-  /// Returns the background lattice of the whole domain, which is also that of the mesh outside layers.
-  Lattice lattice() const { return choose_root(geometry, mesh.size.root); }
+  /// Returns the background grid of the whole domain, which is also that of the mesh outside layers.
+  TreeGrid grid() const { return choose_root(geometry, mesh.size.root); }
 };
 
 /// A smoothed mesh and its tree record, without the attributes that are set on writing.

@@ -66,9 +66,9 @@ MeshInput outside(const MeshInput& input, const LayerFront& front) {
   MeshInput outer = input;
   outer.geometry = front.outer;
   outer.smooth.front_heights = front.last_heights;
-  const Lattice lattice = input.lattice();
-  outer.mesh.size.root = RootOptions{lattice.box().low, lattice.tree_edge(), lattice.trees_x(),
-                                     lattice.trees_y(), lattice.box().high};
+  const TreeGrid grid = input.grid();
+  outer.mesh.size.root =
+      RootOptions{grid.box().low, grid.tree_edge(), grid.trees_x(), grid.trees_y(), grid.box().high};
   return outer;
 }
 

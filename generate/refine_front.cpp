@@ -14,9 +14,9 @@ namespace {
 constexpr int most_levels = 2;
 
 /// Returns the split of the quadtree cell of level `level` at the point.
-SplitDemand split_at(const Lattice& lattice, Point p, int level) {
+SplitDemand split_at(const TreeGrid& grid, Point p, int level) {
   const std::int64_t size = Quadrant{0, 0, level}.size();
-  const std::int64_t column = lattice.column_at(p.x), row = lattice.row_at(p.y);
+  const std::int64_t column = grid.column_at(p.x), row = grid.row_at(p.y);
   return {{column - column % size, row - row % size, level}, 1U << level};
 }
 
@@ -33,7 +33,7 @@ int levels_for(const LayerFront& front, std::int32_t station, double edge) {
 
 }  // namespace
 
-bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshResult& outside,
+bool refine_front(const Communicator& comm, const TreeGrid& grid, const MeshResult& outside,
                   LayerFront& front, DemandedSplits& splits) {
   const std::vector<UnsoundStrip> strips = unsound_strips(comm, front, outside.mesh, outside.edge_leaves);
   const std::int64_t count = comm.sum(std::ssize(strips));
@@ -45,11 +45,11 @@ bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshRe
   for (const UnsoundStrip& strip : strips) {
     const int level = outside.tree.leaves[strip.leaf].level;
     const Point middle = 0.5 * (outside.mesh.point(strip.edge[0]) + outside.mesh.point(strip.edge[1]));
-    if (strip.stations.empty()) demands.push_back(split_at(lattice, middle, level));
+    if (strip.stations.empty()) demands.push_back(split_at(grid, middle, level));
     for (const std::int32_t station : strip.stations) {
-      const int levels = levels_for(front, station, lattice.edge(level));
+      const int levels = levels_for(front, station, grid.edge(level));
       for (int deeper = 0; deeper < levels; ++deeper)
-        demands.push_back(split_at(lattice, front.points[station], level + deeper));
+        demands.push_back(split_at(grid, front.points[station], level + deeper));
       kept.push_back(station);
     }
   }

@@ -2,7 +2,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 #include "mesher/layers/front/layer_front.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 
@@ -12,7 +12,7 @@ namespace quadloop {
 /// stations that a chord skips become nodes, and quadtree cells there are split until they separate the
 /// stations, below spacing.min if necessary, by a factor of four at most. Returns whether there is such a
 /// location. *Collective.*
-bool refine_front(const Communicator& comm, const Lattice& lattice, const MeshResult& outside,
+bool refine_front(const Communicator& comm, const TreeGrid& grid, const MeshResult& outside,
                   LayerFront& front, DemandedSplits& splits);
 
 /// Returns the nodes of all such locations. *Collective.*

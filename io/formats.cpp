@@ -54,7 +54,7 @@ template <MshVersion version>
 FileFormat msh_row(const std::string& name) {
   return {.name = name,
           .program = "Gmsh",
-          .places = {Content::mesh, Content::blocks, Content::block_names, Content::solid},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::mesh3d},
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
@@ -70,7 +70,7 @@ template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
-          .places = {Content::conditions, Content::solid},
+          .places = {Content::conditions, Content::mesh3d},
           .read = read_ugrid<order>,
           .write = write_ugrid<order>,
           .boundary_names = mapbc_names,
@@ -113,7 +113,7 @@ std::vector<FileFormat> native_rows() {
 FileFormat cgns_row() {
   using enum Content;
   return {.name = "cgns",
-          .places = {mesh, solution, conditions, layers, solid},
+          .places = {mesh, solution, conditions, layers, mesh3d},
           .by_default = true,
           .read = read_cgns,
           .write = write_cgns,
@@ -125,13 +125,13 @@ FileFormat cgns_row() {
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
-           .places = {mesh, solution, blocks, block_names, layers, solid},
+           .places = {mesh, solution, blocks, block_names, layers, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
            .write = write_vtu},
           {.name = "pvtu",
            .program = "VTK",
-           .places = {mesh, solution, blocks, block_names, layers, solid},
+           .places = {mesh, solution, blocks, block_names, layers, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
            .write = write_pvtu,
@@ -140,7 +140,7 @@ std::vector<FileFormat> vtk_rows() {
 
 FileFormat su2_row() {
   return {.name = "su2",
-          .places = {Content::mesh, Content::solid},
+          .places = {Content::mesh, Content::mesh3d},
           .read = read_su2,
           .write = write_su2,
           .boundary_names = su2_marker_names};
@@ -150,7 +150,7 @@ FileFormat fluent_row() {
   using enum Content;
   return {.name = "fluent.msh",
           .program = "Fluent",
-          .places = {mesh, blocks, block_names, conditions, solid},
+          .places = {mesh, blocks, block_names, conditions, mesh3d},
           .read = read_fluent,
           .write = write_fluent,
           .boundary_names = fluent_zone_names,
@@ -175,7 +175,7 @@ FileFormat foam_row() {
   using enum Content;
   return {.name = "polyMesh",
           .program = "OpenFOAM",
-          .places = {mesh, blocks, block_names, conditions, solid},
+          .places = {mesh, blocks, block_names, conditions, mesh3d},
           .read = read_foam,
           .write = write_foam,
           .boundary_names = foam_patch_names,

@@ -20,7 +20,7 @@ enum class Content {
   block_names,
   conditions,  ///< of boundaries
   layers,      ///< number of layers on boundaries
-  solid        ///< a 3D mesh
+  mesh3d       ///< a 3D mesh
 };
 
 /// An entry of the table of formats: a file contains a 2D or 3D mesh (some formats support both), often with

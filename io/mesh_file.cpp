@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "io/formats.hpp"
-#include "io/model/orient_solid.hpp"
+#include "io/model/orient_mesh3d.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
@@ -33,14 +33,14 @@ const FileFormat* mesh_format(const std::string& path, const std::string& name =
 }
 
 /// Returns the named format, else that of the suffix; null if it does not support 3D meshes.
-const FileFormat* solid_format(const std::string& path, const std::string& name = {}) {
+const FileFormat* mesh3d_format(const std::string& path, const std::string& name = {}) {
   const FileFormat* format = name.empty() ? format_of(path) : format_named(name);
-  return format != nullptr && format->holds(Content::solid) ? format : nullptr;
+  return format != nullptr && format->holds(Content::mesh3d) ? format : nullptr;
 }
 
-void write_solid(OutputSet& outputs, const MeshStream& mesh, const std::string& path,
-                 const std::string& format) {
-  const FileFormat* row = solid_format(path, format);
+void write_mesh3d(OutputSet& outputs, const MeshStream& mesh, const std::string& path,
+                  const std::string& format) {
+  const FileFormat* row = mesh3d_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a 3D mesh is written in a format that holds none");
   row->write(outputs, mesh, path);
 }
@@ -65,7 +65,7 @@ void finish_reading(FileMesh& mesh, const std::string& path) {
   for (FileBoundary& boundary : mesh.boundaries) names.push_back(&boundary.name);
   for (std::string& block : mesh.block_names) names.push_back(&block);
   clean_up_names(std::move(names), mesh.solution, path, mesh.warnings);
-  if (const std::int64_t turned = orient_solid(mesh); turned > 0)
+  if (const std::int64_t turned = orient_mesh3d(mesh); turned > 0)
     mesh.warnings.push_back(fmt::format("{}: {} inside out and reversed", path,
                                         turned == 1 ? "1 cell was" : fmt::format("{} cells were", turned)));
 }
@@ -222,7 +222,7 @@ void require_readable_suffix(const std::string& path) {
   std::error_code no_such_file;
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
-  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
+  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::mesh3d))
     throw InputError(path + ": contains a 3D mesh, but a 2D mesh is required; give a " +
                      suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
@@ -242,7 +242,7 @@ LoadedMesh read_mesh(const std::string& path) { return plane_of(read_mesh_file(p
 
 void require_writable_suffix(const std::string& path) {
   if (mesh_format(path) != nullptr) return;
-  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::solid))
+  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::mesh3d))
     throw InputError(path + ": has a format of 3D meshes, which `quadloop extrude` writes; use a " +
                      suffixes_for({Content::mesh}) + " file");
   throw InputError(path + ": no mesh is written in the format '" + suffix_of(path) + "'; name a " +
@@ -301,7 +301,7 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
 }
 
 std::vector<std::string> losses_in(const FileMesh& mesh, const std::string& path, const std::string& format) {
-  const FileFormat* row = solid_format(path, format);
+  const FileFormat* row = mesh3d_format(path, format);
   if (row == nullptr) return {};
   MeshContent content = content_of(mesh.boundaries);
   content.blocks = mesh.has_blocks() ? std::ssize(mesh.block_names) : 1;
@@ -311,7 +311,7 @@ std::vector<std::string> losses_in(const FileMesh& mesh, const std::string& path
 }
 
 std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path) {
-  const FileFormat* row = solid_format(path);
+  const FileFormat* row = mesh3d_format(path);
   if (row == nullptr) return {};
   std::vector<std::string> losses;
   for (const auto& [name, wanted] : {std::pair{&mesh.back, "back"}, std::pair{&mesh.front, "front"}}) {
@@ -333,20 +333,20 @@ std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, cons
   return losses_of(content, *row, path);
 }
 
-void require_solid_suffix(const std::string& path) {
-  if (solid_format(path) != nullptr) return;
-  throw InputError(path + ": this format cannot store a 3D mesh; use a " + suffixes_for({Content::solid}) +
+void require_mesh3d_suffix(const std::string& path) {
+  if (mesh3d_format(path) != nullptr) return;
+  throw InputError(path + ": this format cannot store a 3D mesh; use a " + suffixes_for({Content::mesh3d}) +
                    " (a folder)");
 }
 
 void write_mesh(OutputSet& outputs, const ExtrudedMesh& mesh, const std::string& path,
                 const std::string& format) {
-  write_solid(outputs, MeshStream(outputs.communicator(), mesh), path, format);
+  write_mesh3d(outputs, MeshStream(outputs.communicator(), mesh), path, format);
 }
 
 void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& path,
                 const std::string& format) {
-  write_solid(outputs, MeshStream(outputs.communicator(), mesh), path, format);
+  write_mesh3d(outputs, MeshStream(outputs.communicator(), mesh), path, format);
 }
 
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {
@@ -357,7 +357,7 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
     dropped += std::erase_if(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  const FileFormat* format = solid_format(path);
+  const FileFormat* format = mesh3d_format(path);
   const bool holds_blocks = format != nullptr && format->holds(Content::blocks);
   std::string loss = holds_blocks ? "" : "the blocks are written as one";
   if (dropped > 0)

@@ -37,7 +37,7 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path,
                 const Field* solution = nullptr, double gamma = 1.4);
 
 /// Throws InputError unless the suffix is that of a format for writing 3D meshes.
-void require_solid_suffix(const std::string& path);
+void require_mesh3d_suffix(const std::string& path);
 
 /// Write a 3D mesh, extruded, or whole on the set's only rank, in the named format, or else that of the
 /// suffix, which must support 3D meshes. *Collective.*

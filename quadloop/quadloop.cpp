@@ -85,8 +85,8 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
   const MeshInput& input = mesh_input(of);
-  const Lattice lattice = input.lattice();
-  SmoothOptions options = smooth_options_for(input, lattice.finest_level(input.mesh.size.min));
+  const TreeGrid grid = input.grid();
+  SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
   if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
   keep_layers(comm, mesh, options);
   smooth_mesh(comm, mesh, options);
@@ -105,34 +105,35 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   return euler_solver(options, estimate_goals(options));
 }
 
-Marks::Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
+RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
     : case_digest_{of.tree.attributes.case_digest},
       coordinate_digest_{of.tree.attributes.coordinate_digest},
       plan_{std::move(plan)} {}
 
-std::int64_t Marks::refined() const { return plan_->refined; }
-std::int64_t Marks::coarsened() const { return plan_->coarsened; }
-bool Marks::changes_mesh() const { return plan_->changes_mesh(); }
-const std::vector<std::string>& Marks::warnings() const { return plan_->warnings; }
+std::int64_t RefinementFlags::refined() const { return plan_->refined; }
+std::int64_t RefinementFlags::coarsened() const { return plan_->coarsened; }
+bool RefinementFlags::changes_mesh() const { return plan_->changes_mesh(); }
+const std::vector<std::string>& RefinementFlags::warnings() const { return plan_->warnings; }
 
-Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
+RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
   const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
   auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
   return {solved, std::move(plan)};
 }
 
-NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before) {
+NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
+               const SolvedMesh& before) {
   require_rows(comm, before.mesh, before.solution);
   const TreeAttributes& tree = before.tree.attributes;
   comm.together([&] {
-    if (marks.case_digest_ != tree.case_digest || marks.coordinate_digest_ != tree.coordinate_digest)
+    if (flags.case_digest_ != tree.case_digest || flags.coordinate_digest_ != tree.coordinate_digest)
       throw InputError("the flags belong to another mesh than the one to be changed; call sense() again");
   });
-  CarriedMesh carried = carry_over(comm, mesh_input(of), *marks.plan_, before);
-  MeshResult& made = carried.generated.result;
-  return {{std::move(made.mesh), std::move(made.tree), std::move(carried.start), {}},
-          std::move(carried.report),
+  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh_input(of), *flags.plan_, before);
+  MeshResult& made = remeshed.generated.result;
+  return {{std::move(made.mesh), std::move(made.tree), std::move(remeshed.start), {}},
+          std::move(remeshed.report),
           std::move(made.report.warnings)};
 }
 

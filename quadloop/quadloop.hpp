@@ -49,7 +49,7 @@ namespace quadloop {
 struct CaseParts;
 struct AdaptationPlan;
 
-/// A case file with its geometry: sizes, smoothing, adaptation, solver. Copies share the data.
+/// A case file with its geometry: sizes, smoothing, adaptation, solver. Ghosts share the data.
 class Case {
  public:
   /// Reads the file on every rank. `assignments` override keys of the file, e.g. "spacing.min=0.01". Throws
@@ -69,8 +69,8 @@ class Case {
 
 /// A generated mesh with its solution.
 struct NewMesh {
-  SolvedMesh solved;       ///< transferred solution; empty for the initial mesh
-  TransferReport carried;  ///< conservation error of the transfer for each variable
+  SolvedMesh solved;           ///< transferred solution; empty for the initial mesh
+  TransferReport transferred;  ///< conservation error of the transfer for each variable
   std::vector<std::string> warnings;
 };
 
@@ -94,8 +94,8 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 /// unphysical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
-/// Refinement decisions computed by sense(), valid for that mesh only. Copies share the data.
-class Marks {
+/// Refinement decisions computed by sense(), valid for that mesh only. Ghosts share the data.
+class RefinementFlags {
  public:
   std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
@@ -105,9 +105,9 @@ class Marks {
   bool changes_mesh() const;
 
  private:
-  Marks(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan);
-  friend Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
-  friend NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks,
+  RefinementFlags(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan);
+  friend RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
+  friend NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
                         const SolvedMesh& before);
 
   std::uint64_t case_digest_, coordinate_digest_;  ///< digests of the mesh's tree
@@ -117,12 +117,13 @@ class Marks {
 /// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` is a mesh of
 /// make_mesh() or remesh() for this case, with a solution. Throws InputError if the case has no such table,
 /// or if the solution lacks the variable, lacks a row for an owned node, or has a value that is not finite.
-Marks sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
+RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
 
 /// Returns the next mesh, smoothed, with all variables transferred from the previous mesh (transfer()).
 /// `marks` must be those of sense() for `before`; the nodes of `before` may have moved since. Throws
 /// InputError as make_mesh() and sense() do, and for marks of another mesh.
-NewMesh remesh(const Communicator& comm, const Case& of, const Marks& marks, const SolvedMesh& before);
+NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
+               const SolvedMesh& before);
 
 /// Returns one line per error, with its location; empty for a valid mesh. The lines are the same on every
 /// rank. Gathers the mesh on one rank.

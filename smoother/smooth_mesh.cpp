@@ -12,7 +12,7 @@
 #include "smoother/binary_unit.hpp"
 #include "smoother/even_widths.hpp"
 #include "smoother/fit_to_layers.hpp"
-#include "smoother/level_lines/level_lines.hpp"
+#include "smoother/level_transitions/level_transitions.hpp"
 #include "smoother/objective/cost_limit.hpp"
 #include "smoother/smooth_mirrored.hpp"
 #include "smoother/sweeps/rings.hpp"
@@ -181,7 +181,7 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
   return over_ranks(comm, worst);
 }
 
-/// Copies the present node positions to `to`; flags the nodes that have moved.
+/// Ghosts the present node positions to `to`; flags the nodes that have moved.
 NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
   NodeFlags moved(to.points.size(), 0);
   for (const NodeId node : moved.ids()) {
@@ -312,7 +312,7 @@ Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& opti
   BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
   BadCells bad = find_bad_cells(comm, halo, targets, options.threshold);
   NodeFlags doubtful;
-  if (options.level_lines && options.sweeps > 0 && !any_targets)
+  if (options.level_transitions && options.sweeps > 0 && !any_targets)
     doubtful = move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
   take_positions(halo, mesh);
   sweep_in_rounds(comm, halo, slide, targets, survey(halo, bad, any_targets), options, report);
@@ -388,7 +388,7 @@ SmoothReport smooth_ordinary(const Communicator& comm, Mesh& mesh, const SmoothO
 
 SmoothOptions sparing_parallelograms(SmoothOptions options) {
   constexpr double cost_at_hanging_nodes = 0.0945;  // Eq. 3.2, rounded up
-  options.level_lines = false;
+  options.level_transitions = false;
   options.bad = cost_at_hanging_nodes;
   return options;
 }

@@ -24,7 +24,7 @@ struct SmoothOptions {
   /// only within three rings of the cells that are above it at the start.
   double threshold = 0.05;
   /// First moves lines where squares of two sizes meet, which raises angles of 26.6 degrees to 29.7.
-  bool level_lines = true;
+  bool level_transitions = true;
   double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more (an angle below 28
                        ///< degrees) is near
   /// Boundary nodes slide along it; without it along straight parts of the mesh boundary.

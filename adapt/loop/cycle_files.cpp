@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "adapt/solvers/cycle_paths.hpp"
-#include "flow/quantities/flow_quantities.hpp"
-#include "flow/quantities/wall_table.hpp"
+#include "flow/postprocess/flow_quantities.hpp"
+#include "flow/postprocess/wall_table.hpp"
 #include "io/mesh_file.hpp"
 #include "io/parts/part_output.hpp"
 #include "io/text/text_output.hpp"
@@ -59,7 +59,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
 
 }  // namespace
 
-CycleFiles::CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Told told)
+CycleFiles::CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Report told)
     : comm_{comm}, folders_{folders}, options_{std::move(options)}, told_{std::move(told)} {}
 
 void CycleFiles::begin(int cycle) {

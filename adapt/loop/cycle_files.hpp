@@ -28,10 +28,10 @@ struct CycleFileOptions {
 /// with the initial state, and its partitions if requested; these receive the solution at the end.
 class CycleFiles final : public CycleObserver {
  public:
-  using Told = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
+  using Report = std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)>;
 
   /// `told` is called for each cycle once its folder is in place.
-  CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Told told);
+  CycleFiles(const Communicator& comm, CycleFolders& folders, CycleFileOptions options, Report told);
 
   void begin(int cycle) override;
   void meshed(const MeshResult& mesh, const Field& start) override;
@@ -49,7 +49,7 @@ class CycleFiles final : public CycleObserver {
   CycleFolders& folders_;
   CycleFileOptions options_;
   CycleRecord of_case_;  ///< of the current cycle
-  Told told_;
+  Report told_;
   int cycle_ = 0;
   bool starts_afresh_ = true;
   CellParts cell_parts_;  ///< of the current mesh

@@ -7,8 +7,8 @@
 #include "generate/digests.hpp"
 #include "mesher/base/progress.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/mesh/check/face_figures.hpp"
-#include "mesher/mesh/check/layer_figures.hpp"
+#include "mesher/mesh/check/face_statistics.hpp"
+#include "mesher/mesh/check/layer_statistics.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
@@ -38,12 +38,12 @@ class Loop {
     observer_.begin(cycle);
     progress::set_prefix(fmt::format("cycle {} of {}", cycle, adapt_.cycles));
     times.begin(before == nullptr && adapt_.passes > 0 ? "passes" : "mesh");
-    CarriedMesh carried = next_mesh(before);
-    MeshResult& result = carried.generated.result;
+    RemeshedSolution remeshed = next_mesh(before);
+    MeshResult& result = remeshed.generated.result;
     times.begin("write");
-    observer_.meshed(result, carried.start);
+    observer_.meshed(result, remeshed.start);
     times.begin("solve");
-    SolvedFlow flow = solver_(comm_, result.mesh, carried.start, cycle);
+    SolvedFlow flow = solver_(comm_, result.mesh, remeshed.start, cycle);
     times.begin("write");
     std::vector<std::string> warnings = result.report.warnings;
     append(warnings, observer_.solved(result.mesh, flow));
@@ -57,7 +57,7 @@ class Loop {
     times.end();
     append(warnings, flow.warnings);
     append(warnings, end.plan.warnings);
-    CycleRecord record = record_of(cycle, carried, flow, end, times);
+    CycleRecord record = record_of(cycle, remeshed, flow, end, times);
     settle(before, record, end);
     observer_.finished(std::move(record), flow.notes, warnings);
     progress::set_prefix("");
@@ -65,10 +65,10 @@ class Loop {
   }
 
  private:
-  CarriedMesh next_mesh(const CycleEnd* before) const {
-    if (before != nullptr) return carry_over(comm_, mesh_, before->plan, before->solved);
+  RemeshedSolution next_mesh(const CycleEnd* before) const {
+    if (before != nullptr) return remesh_and_transfer(comm_, mesh_, before->plan, before->solved);
     if (start_) return start_();
-    CarriedMesh first{generate_mesh(comm_, mesh_), {}, {}, {}};
+    RemeshedSolution first{generate_mesh(comm_, mesh_), {}, {}, {}};
     require_room_for_metric(comm_, mesh_, adapt_, first.generated.result);
     return first;
   }
@@ -77,7 +77,7 @@ class Loop {
   void settle(const CycleEnd* before, CycleRecord& record, CycleEnd& end) const {
     const AdaptOptions::Until& until = adapt_.until;
     end.values = values_of(record);
-    require_told(until, end.values);
+    require_reported(until, end.values);
     if (before != nullptr) {
       record.order = observed_order(before->values, end.values);
       end.settled = have_settled(until, before->values, end.values);
@@ -88,13 +88,13 @@ class Loop {
   static std::optional<LayerQuality> layer_quality(const Communicator& comm, const Mesh& mesh) {
     if (!has_layers(mesh)) return {};
     const LayerPlaces places = layer_places(comm, mesh);
-    const FaceFigures faces = face_figures(comm, mesh, places).layers;
+    const FaceStatistics faces = face_statistics(comm, mesh, places).layers;
     return LayerQuality{quality_by_layers(comm, mesh, places).others.smallest_degrees, faces.aspect_ratio,
                         faces.non_orthogonality, faces.skewness};
   }
 
-  CycleRecord record_of(int cycle, const CarriedMesh& carried, const SolvedFlow& flow, const CycleEnd& end,
-                        const StageTimes& times) const {
+  CycleRecord record_of(int cycle, const RemeshedSolution& remeshed, const SolvedFlow& flow,
+                        const CycleEnd& end, const StageTimes& times) const {
     const QualitySummary quality = summarise_quality(comm_, end.solved.mesh);
     CycleRecord record;
     record.cycle = cycle;
@@ -102,7 +102,7 @@ class Loop {
     record.nodes = quality.counts.nodes;
     record.triangles = quality.counts.triangles;
     record.quads = quality.counts.quads;
-    record.leaves = carried.generated.result.report.leaves;
+    record.leaves = remeshed.generated.result.report.leaves;
     record.worst_angle = quality.smallest_degrees;
     record.layered = layer_quality(comm_, end.solved.mesh);
     record.mean = end.plan.mean;
@@ -110,16 +110,16 @@ class Loop {
     record.refined = end.plan.refined;
     record.coarsened = end.plan.coarsened;
     record.estimate = end.plan.estimate;
-    if (cycle == 0 && start_ && adapt_.passes == 0) record.morphed = carried.morphed;
-    record.passes = carried.passes;
-    record.outside = carried.report.outside;
-    record.drift = carried.drifts();
-    static_cast<FlowFigures&>(record) = flow;
-    for (const BoundaryLayerReport& row : carried.generated.layers) {
+    if (cycle == 0 && start_ && adapt_.passes == 0) record.morphed = remeshed.morphed;
+    record.passes = remeshed.passes;
+    record.outside = remeshed.report.outside;
+    record.drift = remeshed.drifts();
+    static_cast<FlowStatistics&>(record) = flow;
+    for (const BoundaryLayerReport& row : remeshed.generated.layers) {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});
     }
-    record.metric = carried.stretched;
+    record.metric = remeshed.stretched;
     record.seconds = seconds_of(comm_, times);
     return record;
   }

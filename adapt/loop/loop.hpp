@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "adapt/loop/convergence.hpp"
 #include "adapt/loop/record.hpp"
-#include "adapt/loop/settling.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/flow_solver.hpp"
 
@@ -44,7 +44,7 @@ class CycleObserver {
 };
 
 /// Generates the mesh and the initial state of cycle 0. *Collective.*
-using FirstMesh = std::function<CarriedMesh()>;
+using FirstMesh = std::function<RemeshedSolution()>;
 
 /// Cycles that were run, and the result of the last one.
 struct LoopEnd {

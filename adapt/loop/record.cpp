@@ -60,7 +60,7 @@ CaseSettings settings_in(const Json& json) {
 
 }  // namespace
 
-JsonObject figures_of(const CycleRecord& record) {
+JsonObject statistics_of(const CycleRecord& record) {
   JsonObject json;
   json.add("cycle", record.cycle);
   json.add("case_digest", fmt::format("{:016x}", record.case_digest));
@@ -167,7 +167,7 @@ std::string quality_text(const CycleRecord& record) {
 JsonObject seconds_of(const CycleRecord& record) { return object(record.seconds); }
 
 std::string json_text(const CycleRecord& record) {
-  JsonObject settings, json = figures_of(record);
+  JsonObject settings, json = statistics_of(record);
   for (const auto& [key, value] : record.settings) settings.add_raw(key, value);
   json.add_raw("case", settings.lines("  "));
   json.add("seconds", seconds_of(record));

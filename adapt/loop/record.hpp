@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
-#include "adapt/metric/metric_figures.hpp"
+#include "adapt/metric/metric_statistics.hpp"
 #include "adapt/remesh/remesh.hpp"
-#include "flow/quantities/flow_figures.hpp"
+#include "flow/postprocess/flow_statistics.hpp"
 #include "mesher/base/json.hpp"
 
 namespace quadloop {
@@ -23,12 +23,12 @@ struct FirstHeights {
 /// Quality of the layers and of the cells outside them.
 struct LayerQuality {
   double outer_angle = 0;   ///< smallest angle outside layers, degrees
-  double aspect_ratio = 0;  ///< this and the next two in layers: FaceFigures
+  double aspect_ratio = 0;  ///< this and the next two in layers: FaceStatistics
   double non_orthogonality = 0, skewness = 0;
 };
 
 /// Contents of record.json for a cycle.
-struct CycleRecord : FlowFigures {
+struct CycleRecord : FlowStatistics {
   int cycle = 0;
   std::uint64_t case_digest = 0;      ///< digest of all that the run depends on
   std::uint64_t geometry_digest = 0;  ///< digest of the geometry alone
@@ -50,12 +50,12 @@ struct CycleRecord : FlowFigures {
   std::vector<std::pair<std::string, double>> drift;
   /// Smallest and largest target first height, for boundaries that specify a y+.
   std::vector<FirstHeights> first_heights;
-  std::optional<MetricFigures> metric;  ///< that the mesh follows, if any
+  std::optional<MetricStatistics> metric;  ///< that the mesh follows, if any
   std::vector<std::pair<std::string, double>> seconds;
 };
 
 /// Returns the results of a cycle, without its case and its timings.
-JsonObject figures_of(const CycleRecord& record);
+JsonObject statistics_of(const CycleRecord& record);
 JsonObject seconds_of(const CycleRecord& record);
 /// Returns the smallest angle and, with layers, their face quality, for the log.
 std::string quality_text(const CycleRecord& record);

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "adapt/loop/convergence.hpp"
 #include "adapt/loop/record.hpp"
-#include "adapt/loop/settling.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 
 namespace quadloop {

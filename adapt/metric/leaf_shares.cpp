@@ -21,8 +21,8 @@ struct SquareKey {
 class LeafIndex {
  public:
   /// *Collective.*
-  LeafIndex(const Communicator& comm, const Lattice& lattice, const std::vector<LeafRecord>& leaves)
-      : lattice_{lattice} {
+  LeafIndex(const Communicator& comm, const TreeGrid& grid, const std::vector<LeafRecord>& leaves)
+      : grid_{grid} {
     list_trees(comm, leaves);
     for (const LeafRecord& leaf : leaves) {
       keys_.push_back({number_of(leaf.tree_x, leaf.tree_y),
@@ -36,7 +36,7 @@ class LeafIndex {
 
   SquareKey key_of(Point p) const {
     constexpr std::int64_t within = (std::int64_t{1} << Quadrant::unit_level) - 1;
-    const std::int64_t x = lattice_.column_at(p.x), y = lattice_.row_at(p.y);
+    const std::int64_t x = grid_.column_at(p.x), y = grid_.row_at(p.y);
     return {number_of(x >> Quadrant::unit_level, y >> Quadrant::unit_level),
             morton_key(static_cast<std::uint32_t>(x & within), static_cast<std::uint32_t>(y & within))};
   }
@@ -65,7 +65,7 @@ class LeafIndex {
     return std::ranges::find(trees_, Tree{column, row}) - trees_.begin();
   }
 
-  const Lattice& lattice_;
+  const TreeGrid& grid_;
   std::vector<Tree> trees_;
   std::vector<SquareKey> keys_, begins_;
 };
@@ -105,10 +105,10 @@ std::vector<PlacedTriangle> placed(const Communicator& comm, const LeafIndex& in
 
 }  // namespace
 
-void share_among_leaves(const Communicator& comm, const Lattice& lattice, const Mesh& mesh,
+void share_among_leaves(const Communicator& comm, const TreeGrid& grid, const Mesh& mesh,
                         MeshResult& result) {
   std::vector<LeafRecord>& leaves = result.tree.leaves;
-  const LeafIndex index(comm, lattice, leaves);
+  const LeafIndex index(comm, grid, leaves);
   const std::vector<PlacedTriangle> all = placed(comm, index, mesh);
   for (LeafRecord& leaf : leaves) leaf.triangles = leaf.quads = 0;
   result.edge_leaves.assign(mesh.boundaries.size(), {});

@@ -4,7 +4,7 @@
 
 #include "adapt/metric/loose_triangles.hpp"
 #include "mesher/build/build_mesh.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 
@@ -12,7 +12,6 @@ namespace quadloop {
 /// rank that has the leaf. Replaces the result's mesh, its leaves' counts and its boundary edges' leaves by
 /// those of `mesh`. Triangles are ordered by leaf along the curve, within a leaf by their node numbers in
 /// `mesh`. *Collective.*
-void share_among_leaves(const Communicator& comm, const Lattice& lattice, const Mesh& mesh,
-                        MeshResult& result);
+void share_among_leaves(const Communicator& comm, const TreeGrid& grid, const Mesh& mesh, MeshResult& result);
 
 }  // namespace quadloop

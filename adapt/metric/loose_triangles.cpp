@@ -86,7 +86,7 @@ class Numbering {
         if ((owners_[i] == rank_) != owned) continue;
         local_[i] = NodeId{size32(mesh.points)};
         mesh.points.push_back(nodes_[i].point);
-        if (!owned) mesh.copies.push_back(GlobalNodeId{numbers_[i]});
+        if (!owned) mesh.ghosts.push_back(GlobalNodeId{numbers_[i]});
       }
       if (owned) mesh.owned_nodes = size32(mesh.points);
     }

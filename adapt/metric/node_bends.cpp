@@ -67,7 +67,7 @@ void average_shapes(const Communicator& comm, const Mesh& mesh, std::vector<Symm
 
 std::vector<Symmetric> variable_bends(const Communicator& comm, const Mesh& mesh, const Field& field) {
   check_field(comm, mesh, field, FieldSign::any);
-  const Field shared = with_copies(comm, mesh, field);
+  const Field shared = with_ghosts(comm, mesh, field);
   std::vector<Symmetric> joint;
   for (std::size_t v = 0; v < shared.width(); ++v) {
     const ScaledField scaled = scaled_by_range(comm, shared.column(v));

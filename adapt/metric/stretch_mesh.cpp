@@ -9,8 +9,8 @@
 #include "adapt/metric/crossing_walls.hpp"
 #include "adapt/metric/leaf_shares.hpp"
 #include "adapt/metric/node_bends.hpp"
+#include "adapt/metric/target_metric.hpp"
 #include "adapt/metric/unit_mesh.hpp"
-#include "adapt/metric/wanted_metric.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
@@ -51,25 +51,26 @@ Field leaf_sizes(const Communicator& comm, const MeshResult& result) {
 /// At owned nodes and ghost copies of the solved mesh. *Collective.*
 std::vector<double> largest_sizes(const Communicator& comm, const MeshResult& result, const Mesh& solved) {
   const Field sizes = transfer(comm, result.mesh, leaf_sizes(comm, result), solved).field;
-  std::vector<double> largest = with_copies(comm, solved, sizes).values;
+  std::vector<double> largest = with_ghosts(comm, solved, sizes).values;
   for (double& size : largest) size = std::exp(size);
   return largest;
 }
 
 /// Metrics of the solved mesh transferred to other meshes.
-class CarriedMetric {
+class TransferredMetric {
  public:
-  CarriedMetric(const Communicator& comm, const Mesh& solved, const std::vector<LogMetric>& metrics)
+  TransferredMetric(const Communicator& comm, const Mesh& solved, const std::vector<LogMetric>& metrics)
       : comm_{comm}, solved_{solved}, field_{{"xx", "xy", "yy"}, {}, {}} {
     for (std::int32_t n = 0; n < solved.owned_nodes; ++n)
       field_.values.insert(field_.values.end(), {metrics[n].xx, metrics[n].xy, metrics[n].yy});
   }
   /// *Collective.*
   std::vector<LogMetric> at(const Mesh& mesh) const {
-    const Field carried = with_copies(comm_, mesh, transfer(comm_, solved_, field_, mesh).field);
+    const Field transferred = with_ghosts(comm_, mesh, transfer(comm_, solved_, field_, mesh).field);
     std::vector<LogMetric> metrics;
-    for (std::size_t i = 0; i < carried.values.size(); i += 3)
-      metrics.emplace_back(Symmetric{carried.values[i], carried.values[i + 1], carried.values[i + 2]});
+    for (std::size_t i = 0; i < transferred.values.size(); i += 3)
+      metrics.emplace_back(
+          Symmetric{transferred.values[i], transferred.values[i + 1], transferred.values[i + 2]});
     return metrics;
   }
 
@@ -165,7 +166,7 @@ class Stretching {
   /// A mesh with at most the target number of nodes.
   struct Fitting {
     Mesh mesh;
-    MetricFigures figures;
+    MetricStatistics statistics;
   };
 
   std::int64_t nodes_of(const Mesh& mesh) const { return comm_.sum(std::int64_t{mesh.owned_nodes}); }
@@ -174,8 +175,8 @@ class Stretching {
   /// *Collective.*
   std::optional<Fitting> unstretched(const Mesh& start, double complexity) {
     if (nodes_of(start) > wanted_) return std::nullopt;
-    const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
-    return Fitting{start, metric_figures(comm_, start, carried.at(start))};
+    const TransferredMetric transferred(comm_, solved_, metric_.of_complexity(complexity));
+    return Fitting{start, metric_statistics(comm_, start, transferred.at(start))};
   }
 
   /// Exceeds the target number of nodes only if the mesh of the tree does. *Collective.*
@@ -196,7 +197,7 @@ class Stretching {
       now.nodes = adapt(mesh, now.complexity, attempt == 0 ? 12 : 5, round);
       if (now.nodes <= wanted && now.nodes >= enough * wanted) return mesh;
       if (attempt + 1 >= attempts && (now.nodes <= wanted || is_floor(last, now))) break;
-      if (now.nodes <= wanted) fitting = {mesh, report.figures};
+      if (now.nodes <= wanted) fitting = {mesh, report.statistics};
       last = now;
       now.complexity *= aim * wanted / now.nodes;
     }
@@ -205,7 +206,7 @@ class Stretching {
     if (!fitting) fitting = unstretched(start, now.complexity);
     if (fitting) {
       mesh = std::move(fitting->mesh);
-      report.figures = fitting->figures;
+      report.statistics = fitting->statistics;
     }
     report.warnings.back() += fmt::format("; the mesh has {} nodes", all_nodes(nodes_of(mesh)));
     return mesh;
@@ -213,11 +214,11 @@ class Stretching {
 
   /// Returns the number of nodes after adaptation. *Collective.*
   double adapt(Mesh& mesh, double complexity, int rounds, int& round) {
-    const CarriedMetric carried(comm_, solved_, metric_.of_complexity(complexity));
-    const auto metric_at = [&](const Mesh& m) { return carried.at(m); };
+    const TransferredMetric transferred(comm_, solved_, metric_.of_complexity(complexity));
+    const auto metric_at = [&](const Mesh& m) { return transferred.at(m); };
     adapt_to_metric(comm_, mesh, metric_at, walls_, {demand_.tile_size, rounds, round});
     round += rounds;
-    report.figures = metric_figures(comm_, mesh, carried.at(mesh));
+    report.statistics = metric_statistics(comm_, mesh, transferred.at(mesh));
     return static_cast<double>(nodes_of(mesh));
   }
 
@@ -257,7 +258,7 @@ class Stretching {
   const MetricDemand& demand_;
   OutlinePath outline_;
   Walls walls_;
-  WantedMetric metric_;
+  TargetMetric metric_;
   std::int64_t wanted_;
 };
 
@@ -280,7 +281,7 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
   Stretching stretching(comm, input, solved, solution, demand, result);
   const Mesh mesh = stretching.sound(result.mesh);
   const TreeAttributes& a = result.tree.attributes;
-  share_among_leaves(comm, Lattice(root_box(a), a.trees_x, a.trees_y), mesh, result);
+  share_among_leaves(comm, TreeGrid(root_box(a), a.trees_x, a.trees_y), mesh, result);
   return std::move(stretching.report);
 }
 

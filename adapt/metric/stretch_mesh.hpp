@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adapt/metric/metric_figures.hpp"
+#include "adapt/metric/metric_statistics.hpp"
 #include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
@@ -24,7 +24,7 @@ struct MetricDemand {
 
 /// How the adapted mesh conforms to the metric, and warnings for the user.
 struct StretchReport {
-  MetricFigures figures;
+  MetricStatistics statistics;
   std::vector<std::string> warnings;
 };
 

@@ -48,7 +48,7 @@ class Morph {
       else
         to = motion_.is_boundary(node) ? part_of(foot).to : part_of(foot).moved(p);
     }
-    const NodeExchange exchange(comm_, NodeOwners(comm_, mesh.first_node), mesh.owned_nodes, mesh.copies);
+    const NodeExchange exchange(comm_, NodeOwners(comm_, mesh.first_node), mesh.owned_nodes, mesh.ghosts);
     exchange.update(mesh.points);
   }
 
@@ -123,7 +123,7 @@ void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, con
   for (const NodeId node : near.ids()) {
     if (near[node] == 0) options.pinned[node] = 1;
   }
-  options.level_lines = false;
+  options.level_transitions = false;
   keep_layers(comm, mesh, options);
   smooth_mesh(comm, mesh, options);
 }

@@ -244,7 +244,7 @@ std::optional<OutlineMap::LoopMap> OutlineMap::point_by_point(std::int32_t loop,
   return map;
 }
 
-std::vector<OutlineMap::Anchor> OutlineMap::standing_vertices(std::int32_t loop, std::int32_t image) const {
+std::vector<OutlineMap::Anchor> OutlineMap::fixed_vertices(std::int32_t loop, std::int32_t image) const {
   std::vector<Anchor> standing;
   for_each_vertex(from_, loop, [&](std::int32_t v) {
     const OutlinePlace place = new_path_.locate(from_.point(v), name_of_segment(from_, v));
@@ -253,8 +253,8 @@ std::vector<OutlineMap::Anchor> OutlineMap::standing_vertices(std::int32_t loop,
   return standing;
 }
 
-OutlineMap::LoopMap OutlineMap::with_standing(std::int32_t loop, const LoopMap& map,
-                                              std::vector<Anchor> standing) const {
+OutlineMap::LoopMap OutlineMap::with_fixed(std::int32_t loop, const LoopMap& map,
+                                           std::vector<Anchor> standing) const {
   const double old_length = old_path_.loop_length(loop), new_length = new_path_.loop_length(map.image);
   for (Anchor& anchor : standing) {
     if (anchor.from < map.from.front()) anchor.from += old_length;
@@ -296,8 +296,7 @@ std::optional<OutlineMap::LoopMap> OutlineMap::unchanged(std::int32_t loop, std:
                                                          const std::vector<Anchor>& standing) const {
   const std::size_t vertices = from_.loop_start(loop + 1) - from_.loop_start(loop);
   if (standing.size() != vertices) return {};
-  const LoopMap map =
-      with_standing(loop, {image, {standing.front().from}, {standing.front().to}, {}}, standing);
+  const LoopMap map = with_fixed(loop, {image, {standing.front().from}, {standing.front().to}, {}}, standing);
   if (map.from.size() != vertices) return {};
   std::vector<double> arcs;
   for (const Anchor& anchor : standing) arcs.push_back(anchor.to);
@@ -315,7 +314,7 @@ std::optional<OutlineMap::LoopMap> OutlineMap::unchanged(std::int32_t loop, std:
 }
 
 OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image, const Names& names) const {
-  const std::vector<Anchor> standing = standing_vertices(loop, image);
+  const std::vector<Anchor> standing = fixed_vertices(loop, image);
   if (auto map = unchanged(loop, image, standing)) return *map;
   const Vertices counterparts = kept_vertices(to_, image);
   const Vertices corners = sharpest_vertices(from_, loop, counterparts.size());
@@ -323,7 +322,7 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
   if (counterparts.empty()) {
     if (!standing.empty()) {
       const Anchor& first = standing.front();
-      const LoopMap map = with_standing(loop, {image, {first.from}, {first.to}, {}}, standing);
+      const LoopMap map = with_fixed(loop, {image, {first.from}, {first.to}, {}}, standing);
       if (map.from.size() > 1) return map;
     }
     const Point first = from_.point(from_.loop_start(loop));
@@ -333,7 +332,7 @@ OutlineMap::LoopMap OutlineMap::by_corners(std::int32_t loop, std::int32_t image
   std::iota(turns.begin(), turns.end(), std::size_t{0});
   std::optional<std::size_t> turn;
   if (corners.size() == counterparts.size()) turn = turn_of(from_, corners, to_, counterparts, shift, turns);
-  if (turn) return with_standing(loop, anchored(image, corners, counterparts, *turn), standing);
+  if (turn) return with_fixed(loop, anchored(image, corners, counterparts, *turn), standing);
   const Point centre = centre_of(to_, image);
   throw InputError(
       fmt::format("{}: the loop of {} round ({:g}, {:g}) has {} feature points and that of {} has {}, or "

@@ -74,9 +74,9 @@ class OutlineMap {
   std::optional<LoopMap> point_by_point(std::int32_t loop, std::int32_t image) const;
   LoopMap by_corners(std::int32_t loop, std::int32_t image, const Names& names) const;
   /// Returns the old vertices that lie on the new loop, ascending.
-  std::vector<Anchor> standing_vertices(std::int32_t loop, std::int32_t image) const;
+  std::vector<Anchor> fixed_vertices(std::int32_t loop, std::int32_t image) const;
   /// Returns the map with those of them that may stay as further anchors.
-  LoopMap with_standing(std::int32_t loop, const LoopMap& map, std::vector<Anchor> standing) const;
+  LoopMap with_fixed(std::int32_t loop, const LoopMap& map, std::vector<Anchor> standing) const;
   static bool may_stay(Anchor begin, std::span<const Anchor> between, Anchor end);
   /// Empty if a vertex of the old loop does not lie on the new one, or a corner of that is farther from the
   /// old one's edge than half of the edge, so that the edge is not the trace of a corner lost by the mesh.

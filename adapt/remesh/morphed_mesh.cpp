@@ -48,19 +48,19 @@ MeshReport report_of(const Communicator& comm, const TreeRecord& tree) {
 
 /// Returns the solved mesh with moved nodes, as if it had been generated on the input's geometry. The tree is
 /// the old one, adjusted to these nodes. *Collective.*
-CarriedMesh with_nodes_of(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
-                          Mesh mesh) {
-  CarriedMesh carried;
-  MeshResult& result = carried.generated.result;
+RemeshedSolution with_nodes_of(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                               Mesh mesh) {
+  RemeshedSolution remeshed;
+  MeshResult& result = remeshed.generated.result;
   result.tree = old.tree;
   result.tree.attributes.geometry_digest = input.geometry.digest();
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, mesh);
   result.report = report_of(comm, old.tree);
   result.mesh = std::move(mesh);
-  carried.start = old.solution;
-  carried.report = TransferReport::without_drift(old.solution);
-  carried.morphed = true;
-  return carried;
+  remeshed.start = old.solution;
+  remeshed.report = TransferReport::without_drift(old.solution);
+  remeshed.morphed = true;
+  return remeshed;
 }
 
 bool has_outline_of(const SolvedMesh& old, const MeshInput& input) {
@@ -77,8 +77,8 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
   Mesh mesh = old.mesh;
   MorphReport report;
   try {
-    MeshReport told_already;
-    const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, told_already);
+    MeshReport reported_already;
+    const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, reported_already);
     report = morph_mesh(comm, mesh, {to, wish.file, wish.from, wish.from_file});
   } catch (const InputError& error) {
     return {{}, error.what()};
@@ -92,7 +92,7 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
   if (const std::string fault = first_fault(comm, mesh); !fault.empty()) return {{}, fault};
   times.end();
   MorphedMesh morphed{with_nodes_of(comm, input, old, std::move(mesh)), {}};
-  morphed.carried->times = std::move(times);
+  morphed.remeshed->times = std::move(times);
   return morphed;
 }
 
@@ -118,8 +118,8 @@ std::vector<Point> sorted_points(const Geometry& outline) {
 bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const MorphWish& wish) {
   if (old.tree.attributes.case_digest != input.digest || !wish.changed.empty()) return true;
   if (wish.from == nullptr) return false;
-  MeshReport told_already;
-  const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, told_already);
+  MeshReport reported_already;
+  const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, reported_already);
   return sorted_points(*wish.from) == sorted_points(to);
 }
 
@@ -143,29 +143,29 @@ std::string without_stretched_cells(const SolvedMesh& old, const char* setting) 
 
 }  // namespace
 
-CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
-                           const std::optional<MorphWish>& wish, TransferKind transfer) {
+RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                                const std::optional<MorphWish>& wish, TransferKind transfer) {
   if (has_outline_of(old, input) && old.tree.attributes.case_digest == input.digest)
     return with_nodes_of(comm, input, old, old.mesh);
   MorphedMesh morphed;
   if (wish) morphed = morph_solved(comm, input, old, *wish);
-  if (morphed.carried) {
+  if (morphed.remeshed) {
     if (has_other_settings(input, old, *wish))
-      morphed.carried->generated.result.report.warnings.push_back(fmt::format(
+      morphed.remeshed->generated.result.report.warnings.push_back(fmt::format(
           "{}: {} are not those that it was made with{}; its cells are kept, and the new settings "
           "take effect at the next remeshing",
           old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
-    return std::move(*morphed.carried);
+    return std::move(*morphed.remeshed);
   }
-  AdaptationPlan plan = standing_plan(old.tree, input);
+  AdaptationPlan plan = unchanged_plan(old.tree, input);
   plan.transfer = transfer;
-  CarriedMesh carried = carry_over(comm, input, plan, old);
-  std::vector<std::string>& warnings = carried.generated.result.report.warnings;
+  RemeshedSolution remeshed = remesh_and_transfer(comm, input, plan, old);
+  std::vector<std::string>& warnings = remeshed.generated.result.report.warnings;
   warnings.push_back(morphed.refusal.empty() ? why_not_kept(input, old, wish.has_value())
                                              : why_anew(*wish, morphed.refusal));
   if (const char* setting = setting_that_follows(input))
     warnings.push_back(without_stretched_cells(old, setting));
-  return carried;
+  return remeshed;
 }
 
 }  // namespace quadloop

@@ -10,8 +10,9 @@ namespace quadloop {
 
 /// Result of morphing a mesh to a changed geometry.
 struct MorphedMesh {
-  std::optional<CarriedMesh> carried;  ///< old cells on the input's geometry, values moved with their nodes
-  std::string refusal;                 ///< reason for failure; empty if the geometry has not changed
+  std::optional<RemeshedSolution>
+      remeshed;         ///< old cells on the input's geometry, values moved with their nodes
+  std::string refusal;  ///< reason for failure; empty if the geometry has not changed
 };
 
 /// Request to keep the cells of a mesh on a changed geometry.
@@ -38,7 +39,7 @@ std::string why_anew(const MorphWish& wish, const std::string& refusal);
 /// geometry and case are unchanged; morphed, if requested and possible; else generated from the tree, with
 /// the solution transferred. The mesh report gains a warning that says why the mesh was generated again, or
 /// that cells of other settings are kept. *Collective.*
-CarriedMesh continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
-                           const std::optional<MorphWish>& wish, TransferKind transfer);
+RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
+                                const std::optional<MorphWish>& wish, TransferKind transfer);
 
 }  // namespace quadloop

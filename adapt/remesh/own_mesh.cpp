@@ -34,7 +34,7 @@ std::vector<double> centres(const Mesh& mesh, const LayerPlaces& places, double 
   return values;
 }
 
-Lattice lattice_of(const TreeAttributes& a) { return {root_box(a), a.trees_x, a.trees_y}; }
+TreeGrid grid_of(const TreeAttributes& a) { return {root_box(a), a.trees_x, a.trees_y}; }
 
 bool is_untouched(const Communicator& comm, const SolvedMesh& solved) {
   return coordinate_digest(comm, solved.mesh) == solved.tree.attributes.coordinate_digest;
@@ -76,13 +76,13 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
              right = cells.largest(comm, of_all(&Point::x, -none)),
              bottom = cells.smallest(comm, of_all(&Point::y, none)),
              top = cells.largest(comm, of_all(&Point::y, -none));
-  const Lattice lattice = lattice_of(solved.tree.attributes);
+  const TreeGrid grid = grid_of(solved.tree.attributes);
   comm.together([&] {
     for (std::size_t i = 0; i < solved.tree.leaves.size(); ++i) {
       if (!has_cells(solved.tree.leaves[i])) continue;
       const Quadrant q = quadrant_of(solved.tree.leaves[i]);
-      const Box box = lattice.box_of(q);
-      const double far = reach * lattice.edge(q.level);
+      const Box box = grid.box_of(q);
+      const double far = reach * grid.edge(q.level);
       const bool near = left[i] > box.low.x - far && right[i] < box.high.x + far &&
                         bottom[i] > box.low.y - far && top[i] < box.high.y + far;
       if (near) continue;

@@ -13,8 +13,8 @@
 #include "adapt/remesh/demands/mark_family.hpp"
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
+#include "adapt/remesh/demands/target_levels.hpp"
 #include "adapt/remesh/demands/trial_count.hpp"
-#include "adapt/remesh/demands/wanted_levels.hpp"
 #include "adapt/remesh/followed_walls.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
@@ -31,7 +31,7 @@ class NodeSearch {
       : comm_{comm}, count_{count}, solved_{solved}, family_{family}, finest_{finest}, mirror_{mirror} {}
 
   ChangedSplits changes_at(double at) const {
-    ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.marks(at), finest_);
+    ChangedSplits changes = changed_splits(comm_, solved_.tree, family_.flags(at), finest_);
     if (mirror_)  // the last mesh may lack mirror symmetry
       changes.demands = with_images(*mirror_, solved_.tree.attributes, std::move(changes.demands));
     return changes;
@@ -67,9 +67,8 @@ class NodeSearch {
 };
 
 int finest_level(const MeshInput& input, const AdaptOptions& options) {
-  const Lattice lattice = input.lattice();
-  return options.min ? lattice.finest_level(*options.min, "adapt.min")
-                     : lattice.finest_level(input.mesh.size.min);
+  const TreeGrid grid = input.grid();
+  return options.min ? grid.finest_level(*options.min, "adapt.min") : grid.finest_level(input.mesh.size.min);
 }
 
 std::vector<std::int8_t> finest_of_leaves(const MeshInput& input, const AdaptOptions& options,
@@ -79,13 +78,14 @@ std::vector<std::int8_t> finest_of_leaves(const MeshInput& input, const AdaptOpt
 
 /// Counts cells that the rule flags but that the facets of the geometry keep unchanged. *Collective.*
 std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
-                            const std::vector<Mark>& marks, std::span<const std::int8_t> finest) {
+                            const std::vector<RefinementFlag>& flags, std::span<const std::int8_t> finest) {
   std::int8_t deepest = 0;
   for (const std::int8_t level : finest) deepest = std::max(deepest, level);
   deepest = static_cast<std::int8_t>(comm.maximum(std::int64_t{deepest}));
   std::int64_t held = 0;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (marks[i] == Mark::refine && finest[i] < deepest && solved.tree.leaves[i].level >= finest[i]) ++held;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (flags[i] == RefinementFlag::refine && finest[i] < deepest && solved.tree.leaves[i].level >= finest[i])
+      ++held;
   }
   return comm.sum(held);
 }
@@ -97,9 +97,9 @@ constexpr const char* text_of_facets =
 
 /// Returns the reason why a plan changes no cell, for the user. `all`: the changes flagged by the rule alone.
 /// *Collective.*
-std::string reason_for_standing(const Communicator& comm, const AdaptOptions& options,
-                                const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
-                                bool held) {
+std::string reason_for_rejection(const Communicator& comm, const AdaptOptions& options,
+                                 const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
+                                 bool held) {
   if (family.flat())
     return fmt::format("{} is constant",
                        options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
@@ -109,8 +109,8 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
         options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
                           : "--max-cells or free memory",
         options.max_nodes ? "; increase it, or set adapt.norm, which redistributes the nodes" : "");
-  const std::vector<Mark> marks = family.marks(1);
-  const std::int64_t wanted = count_of(comm, marks, Mark::refine);
+  const std::vector<RefinementFlag> flags = family.flags(1);
+  const std::int64_t wanted = count_of(comm, flags, RefinementFlag::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)
     return "no cell is larger than its size in " + options.variables.front();
   if (wanted == 0)
@@ -120,8 +120,8 @@ std::string reason_for_standing(const Communicator& comm, const AdaptOptions& op
                             : options.min ? fmt::format("adapt.min = {}", *options.min)
                                           : "spacing.min, as adapt.min is not set,";
   std::int8_t coarsest = Quadrant::unit_level;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    if (marks[i] == Mark::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (flags[i] == RefinementFlag::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
   }
   const double edge = solved.tree.attributes.tree_edge /
                       static_cast<double>(std::int64_t{1} << comm.minimum(std::int64_t{coarsest}));
@@ -159,7 +159,7 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
                   least < nodes ? "up to " : "", nodes, cap));
 }
 
-void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
+void plan_by_flags(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                    const TrialCount& count, std::span<const std::int8_t> finest,
                    std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
   const auto family = made_from<MarkFamily>(comm, options, solved, mirror);
@@ -168,7 +168,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
   ChangedSplits changes = all;
   const bool bounded = !count.allowed(all);
   if (bounded) plan.warnings.emplace_back(text_of_bound);
-  const bool held = held_by_facets(comm, solved, family.marks(1), finest) > 0;
+  const bool held = held_by_facets(comm, solved, family.flags(1), finest) > 0;
   if (held) plan.warnings.emplace_back(text_of_facets);
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
@@ -177,7 +177,7 @@ void plan_by_marks(const Communicator& comm, const AdaptOptions& options, const 
   plan.mean = family.mean();
   plan.deviation = family.deviation();
   if (!plan.changes_mesh())
-    plan.reason_for_standing = reason_for_standing(comm, options, solved, family, all, held);
+    plan.reason_for_rejection = reason_for_rejection(comm, options, solved, family, all, held);
 }
 
 /// Returns the number of nodes requested by the options.
@@ -192,7 +192,7 @@ std::int64_t bounded_nodes(const AdaptOptions& options, const SolvedMesh& solved
 void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
                    const TrialCount& count, const std::vector<std::int8_t>& finest,
                    std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
-  const auto wanted = made_from<WantedLevels>(comm, options, solved, finest, mirror);
+  const auto wanted = made_from<TargetLevels>(comm, options, solved, finest, mirror);
   const std::int64_t nodes = bounded_nodes(options, solved);
   plan.estimate = wanted.error();
   plan.flat = wanted.flat();
@@ -209,7 +209,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   plan.estimates_of_cells = wanted.of_cells(complexity);
   if (plan.changes_mesh()) return;
   const bool by_error = options.source == AdaptOptions::Source::error;
-  plan.reason_for_standing =
+  plan.reason_for_rejection =
       wanted.flat() ? by_error ? "the error is 0 everywhere" : "no variable has a second derivative"
                     : "all cells have their target sizes";
 }
@@ -272,12 +272,12 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
                     const SolvedMesh& solved, AdaptationPlan& plan) {
   require_norm(options);
   const auto wanted =
-      made_from<WantedLevels>(comm, options, solved, finest_of_leaves(input, options, solved));
+      made_from<TargetLevels>(comm, options, solved, finest_of_leaves(input, options, solved));
   require_at_nodes(options, solved, "mesh.type = \"metric\"");
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
   if (wanted.flat()) {
-    plan.reason_for_standing = "no variable has a second derivative";
+    plan.reason_for_rejection = "no variable has a second derivative";
     return;
   }
   const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
@@ -304,10 +304,10 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   else if (options.norm)
     plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
-    plan_by_marks(comm, options, solved, count, finest, input.mesh.mirror, plan);
+    plan_by_flags(comm, options, solved, count, finest, input.mesh.mirror, plan);
   if (input.stretch && !plan.flat) plan.anisotropy = target_demand(input, options, solved);
   if (!plan.changes_mesh())
-    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_standing);
+    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_rejection);
   return plan;
 }
 

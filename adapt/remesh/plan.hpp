@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "adapt/metric/stretch_mesh.hpp"
+#include "adapt/r_adaptation/move_nodes_to_shocks.hpp"
 #include "adapt/remesh/demands/adapt_options.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/sensor/mark.hpp"
-#include "adapt/targets/gather_at_fronts.hpp"
 #include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
@@ -23,7 +23,7 @@ struct AdaptationPlan {
   std::int64_t refined = 0, coarsened = 0;
   /// If the options have a norm: that of the interpolation error on the solved mesh.
   std::optional<double> estimate;
-  /// If there is an estimate: `interpolation_error` and `wanted_size` of the cells.
+  /// If there is an estimate: `interpolation_error` and `target_size` of the cells.
   CellValues estimates_of_cells;
   MeasuredWall measured_wall;  ///< for the first heights of layers; the same on every rank
   bool new_heights = false;    ///< whether these differ from those of the last mesh
@@ -32,8 +32,8 @@ struct AdaptationPlan {
   std::variant<std::monostate, MetricDemand, TargetDemand> anisotropy;
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
-  bool flat = false;                ///< whether the solution gives no reason to refine anywhere
-  std::string reason_for_standing;  ///< why no cell is flagged
+  bool flat = false;                 ///< whether the solution gives no reason to refine anywhere
+  std::string reason_for_rejection;  ///< why no cell is flagged
 
   /// Without an effective flag, new heights or anisotropy the next mesh would be the same.
   bool changes_mesh() const {

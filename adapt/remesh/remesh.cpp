@@ -19,7 +19,7 @@ SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Fiel
   return solved;
 }
 
-std::vector<std::pair<std::string, double>> CarriedMesh::drifts() const {
+std::vector<std::pair<std::string, double>> RemeshedSolution::drifts() const {
   std::vector<std::pair<std::string, double>> named;
   for (std::size_t i = 0; i < start.width(); ++i) named.emplace_back(start.names[i], report.drift[i]);
   for (std::size_t i = 0; i < start.cells.width(); ++i)
@@ -36,8 +36,8 @@ constexpr double kept_to = 1e-10;
 
 }  // namespace
 
-std::vector<std::string> drift_warnings(const CarriedMesh& carried) {
-  const TransferReport& report = carried.report;
+std::vector<std::string> drift_warnings(const RemeshedSolution& remeshed) {
+  const TransferReport& report = remeshed.report;
   const double allowed = std::max(kept_to, 10 * std::abs(report.area_change));
   const auto size = [&](std::size_t k) { return std::abs(report.relative_drift[k]); };
   std::size_t worst = report.conserved_from, count = 0;
@@ -46,46 +46,46 @@ std::vector<std::string> drift_warnings(const CarriedMesh& carried) {
     if (size(k) > size(worst)) worst = k;
   }
   if (count == 0) return {};
-  return {
-      fmt::format("the solution transfer changed the integral of {} by {:.2g} of its magnitude{}; it should conserve "
-                  "integrals to {:g}, except where layers move (docs/explanation/adaptation.md)",
-                  carried.drifts()[worst].first, report.relative_drift[worst],
-                  count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
+  return {fmt::format(
+      "the solution transfer changed the integral of {} by {:.2g} of its magnitude{}; it should conserve "
+      "integrals to {:g}, except where layers move (docs/explanation/adaptation.md)",
+      remeshed.drifts()[worst].first, report.relative_drift[worst],
+      count > 1 ? fmt::format(", and those of {} more", count - 1) : "", kept_to)};
 }
 
-CarriedMesh carry_over(const Communicator& comm, const MeshInput& input, const AdaptationPlan& plan,
-                       const SolvedMesh& old) {
-  CarriedMesh carried;
+RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& input,
+                                     const AdaptationPlan& plan, const SolvedMesh& old) {
+  RemeshedSolution remeshed;
   MeshChange stretch;
   if (const auto* targets = std::get_if<TargetDemand>(&plan.anisotropy)) {
     stretch = [&, targets](const MeshInput& outer, MeshResult& result) {
-      gather_at_fronts(comm, outer, old.mesh, old.solution, *targets, result);
+      move_nodes_to_shocks(comm, outer, old.mesh, old.solution, *targets, result);
     };
   } else if (const auto* metric = std::get_if<MetricDemand>(&plan.anisotropy)) {
     stretch = [&, metric](const MeshInput& outer, MeshResult& result) {
       StretchReport report = stretch_mesh(comm, outer, old.mesh, old.solution, *metric, result);
       result.report.warnings.insert(result.report.warnings.end(), report.warnings.begin(),
                                     report.warnings.end());
-      carried.stretched = report.figures;
+      remeshed.stretched = report.statistics;
     };
   }
-  carried.generated =
+  remeshed.generated =
       generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall, stretch);
-  carried.times.append(carried.generated.times);
-  carried.times.begin("transfer");
+  remeshed.times.append(remeshed.generated.times);
+  remeshed.times.begin("transfer");
   Transferred transferred =
-      transfer(comm, old.mesh, old.solution, carried.generated.result.mesh, plan.transfer);
-  carried.start = std::move(transferred.field);
-  carried.report = std::move(transferred.report);
-  for (std::string& warning : drift_warnings(carried))
-    carried.generated.result.report.warnings.push_back(std::move(warning));
-  carried.times.end();
-  return carried;
+      transfer(comm, old.mesh, old.solution, remeshed.generated.result.mesh, plan.transfer);
+  remeshed.start = std::move(transferred.field);
+  remeshed.report = std::move(transferred.report);
+  for (std::string& warning : drift_warnings(remeshed))
+    remeshed.generated.result.report.warnings.push_back(std::move(warning));
+  remeshed.times.end();
+  return remeshed;
 }
 
-AdaptationPlan standing_plan(const TreeRecord& tree, const MeshInput& input) {
+AdaptationPlan unchanged_plan(const TreeRecord& tree, const MeshInput& input) {
   AdaptationPlan plan;
-  plan.demands = standing_splits(tree, input);
+  plan.demands = unchanged_splits(tree, input);
   if (input.mesh.mirror)
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
   plan.measured_wall = tree.measured_wall;

@@ -68,7 +68,7 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   std::vector<double> of_cells(mesh.cell_count(), 0);
   check_field(comm, mesh, field, FieldSign::any);
-  const Field shared = with_copies(comm, mesh, field);
+  const Field shared = with_ghosts(comm, mesh, field);
   const TellingEdges edges(comm, mesh);
   for (std::size_t variable = 0; variable < shared.width(); ++variable) {
     const ScaledField scaled = scaled_by_range(comm, shared.column(variable));
@@ -89,7 +89,7 @@ std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
   const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
   check_field(comm, mesh, error, FieldSign::not_negative);
   if (error.cells.width() > 0) return cells_of_leaves.largest(comm, error.cells.column(0));
-  const std::vector<double> values = with_copies(comm, mesh, error).column(0);
+  const std::vector<double> values = with_ghosts(comm, mesh, error).column(0);
   std::vector<double> of_cells(mesh.cell_count(), 0);
   for_each_cell_edge(mesh, [&](NodeId from, NodeId, std::int32_t cell) {
     double& value = of_cells[cell];

@@ -36,7 +36,7 @@ InterpolationError interpolation_error(const Communicator& comm, const Mesh& mes
   for (const CellShape& shape : cell_shapes(mesh)) error.areas.push_back(shape.area);
   error.mean.resize(error.areas.size(), 0);
   error.bends.resize(error.areas.size(), 0);
-  const Field shared = with_copies(comm, mesh, field);
+  const Field shared = with_ghosts(comm, mesh, field);
   for (std::size_t i = 0; i < shared.width(); ++i)
     raise_by_variable(comm, mesh, shared.column(i), ValuesAt::nodes, error);
   for (std::size_t i = 0; i < field.cells.width(); ++i)

@@ -6,7 +6,7 @@
 namespace quadloop {
 
 /// Refinement flag of a leaf.
-enum class Mark : std::int8_t { coarsen = -1, keep = 0, refine = 1 };
+enum class RefinementFlag : std::int8_t { coarsen = -1, keep = 0, refine = 1 };
 
 /// A leaf is refined if its indicator is above `refine`, else coarsened if it is below `coarsen`. The
 /// defaults mark nothing.

@@ -46,15 +46,15 @@ std::optional<std::size_t> y_plus_among(const std::vector<std::string>& names) {
 }
 
 /// Wall edges of all ranks, in the order of their nodes. *Collective.*
-std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, const Field& with_copies,
+std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, const Field& with_ghosts,
                                  std::span<const std::string> walls, std::optional<std::size_t> variable) {
-  const auto density = only_one(variables_like(with_copies.names, "density"));
+  const auto density = only_one(variables_like(with_ghosts.names, "density"));
   std::vector<WallEdge> own;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     if (std::ranges::find(walls, boundary.name) == walls.end()) continue;
     for (const auto& [from, to] : boundary.edges) {
       const auto of = [&](const std::optional<std::size_t>& v, NodeId node) {
-        return v ? with_copies.row(node)[*v] : 0;
+        return v ? with_ghosts.row(node)[*v] : 0;
       };
       own.push_back({{mesh.global(from), mesh.global(to)},
                      {mesh.point(from), mesh.point(to)},
@@ -212,7 +212,7 @@ MeasuredWall measured_friction(const Communicator& comm, const Mesh& mesh, const
     const std::vector<WallEdge> edges = wall_edges(comm, mesh, {}, walls, std::nullopt);
     return friction_of_cells(comm, mesh, solution.cells, edges, flow, where);
   }
-  const Field values = with_copies(comm, mesh, solution);
+  const Field values = with_ghosts(comm, mesh, solution);
   const std::vector<WallEdge> edges = wall_edges(comm, mesh, values, walls, shear ? *shear : *y_plus);
   const auto heights = y_plus ? heights_above(comm, mesh, edges) : std::map<GlobalNodeId, double>{};
   MeasuredWall measured;

@@ -64,24 +64,24 @@ Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values,
   return statistics.flat ? Thresholds{} : std::visit(ByRule{values, statistics}, rule);
 }
 
-std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values,
-                              const Thresholds& thresholds) {
+std::vector<RefinementFlag> flags_above(std::span<const LeafRecord> leaves, std::span<const double> values,
+                                        const Thresholds& thresholds) {
   QUADLOOP_REQUIRE(leaves.size() == values.size(), "there must be one indicator for each leaf", leaves.size(),
                    values.size());
-  std::vector<Mark> marks(leaves.size(), Mark::keep);
+  std::vector<RefinementFlag> flags(leaves.size(), RefinementFlag::keep);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (!has_cells(leaves[i])) continue;
     if (values[i] > thresholds.refine) {
-      marks[i] = Mark::refine;
+      flags[i] = RefinementFlag::refine;
     } else if (values[i] < thresholds.coarsen) {
-      marks[i] = Mark::coarsen;
+      flags[i] = RefinementFlag::coarsen;
     }
   }
-  return marks;
+  return flags;
 }
 
-std::int64_t count_of(const Communicator& comm, std::span<const Mark> marks, Mark mark) {
-  return comm.sum(std::int64_t{std::count(marks.begin(), marks.end(), mark)});
+std::int64_t count_of(const Communicator& comm, std::span<const RefinementFlag> flags, RefinementFlag mark) {
+  return comm.sum(std::int64_t{std::count(flags.begin(), flags.end(), mark)});
 }
 
 }  // namespace quadloop

@@ -25,7 +25,7 @@ struct FractionRule {
 };
 
 /// For a target number of nodes: refines nothing, coarsens like DeviationRule. The caller, who can count
-/// nodes, finds the refinement threshold with OrderedValues::refine_threshold and marks_above.
+/// nodes, finds the refinement threshold with OrderedValues::refine_threshold and flags_above.
 struct NodesRule {
   double coarsen = 0.5;
 };
@@ -48,10 +48,10 @@ Thresholds thresholds_by(const ThresholdRule& rule, const OrderedValues& values,
                          const IndicatorStatistics& statistics);
 
 /// The marks by given thresholds, one per local leaf; leaves without cells are kept. Local.
-std::vector<Mark> marks_above(std::span<const LeafRecord> leaves, std::span<const double> values,
-                              const Thresholds& thresholds);
+std::vector<RefinementFlag> flags_above(std::span<const LeafRecord> leaves, std::span<const double> values,
+                                        const Thresholds& thresholds);
 
 /// The number of leaves with the mark, over all ranks. *Collective.*
-std::int64_t count_of(const Communicator& comm, std::span<const Mark> marks, Mark mark);
+std::int64_t count_of(const Communicator& comm, std::span<const RefinementFlag> flags, RefinementFlag mark);
 
 }  // namespace quadloop

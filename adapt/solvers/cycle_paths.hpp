@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "flow/quantities/history.hpp"
-#include "flow/quantities/wall_table.hpp"
+#include "flow/postprocess/history.hpp"
+#include "flow/postprocess/wall_table.hpp"
 #include "io/formats.hpp"
 #include "io/tree/tree_file.hpp"
 

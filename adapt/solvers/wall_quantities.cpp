@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "flow/quantities/boundary_forces.hpp"
-#include "flow/quantities/wall_flow.hpp"
+#include "flow/postprocess/boundary_forces.hpp"
+#include "flow/postprocess/wall_flow.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -133,8 +133,9 @@ void set_column(const Communicator& comm, const HaloMesh& halo, const std::vecto
 
 }  // namespace
 
-CarriedCells carry_cells(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
-                         const CellValues& cells, const TransferSide& new_side) {
+TransferredCells transfer_cells(const Communicator& comm, const CurvePartition& shares,
+                                const TransferSide& old_side, const CellValues& cells,
+                                const TransferSide& new_side) {
   const BrokenField old_field = broken_cells(comm, old_side.mesh, cells, old_side.triangles);
   const std::vector<Corners> corners = corners_of(new_side);
   const OverlapIntegrals integrals = integrate_overlaps(comm, shares, old_field, corners);
@@ -156,21 +157,21 @@ CarriedCells carry_cells(const Communicator& comm, const CurveShares& shares, co
     }
     covered[cell] += integrals.areas[i];
   }
-  CarriedCells carried{std::vector<double>(count * width, 0), {}};
+  TransferredCells result{std::vector<double>(count * width, 0), {}};
   for (std::size_t cell = 0; cell < count; ++cell) {
     if (!(covered[cell] > touching * areas[cell])) {
-      carried.outside.push_back(static_cast<std::int64_t>(cell));
+      result.outside.push_back(static_cast<std::int64_t>(cell));
       continue;
     }
     for (std::size_t k = 0; k < width; ++k) {
       const CoveredValue& sum = sums[cell * width + k];
-      carried.values[cell * width + k] = bounded(sum.integral / covered[cell], sum);
+      result.values[cell * width + k] = bounded(sum.integral / covered[cell], sum);
     }
   }
-  return carried;
+  return result;
 }
 
-void conserve_at_nodes(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
+void conserve_at_nodes(const Communicator& comm, const CurvePartition& shares, const TransferSide& old_side,
                        const Field& old_field, const TransferSide& new_side, const Mesh& areas_of,
                        std::vector<double>& values) {
   const OverlapIntegrals integrals = integrate_overlaps(

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
 namespace quadloop {
@@ -19,12 +19,13 @@ struct TransferSide {
 /// conserved to rounding; elsewhere the mean is that of the covered part. No value exceeds the range of the
 /// old cells around those that contribute. Cells not covered by the old mesh are listed in `outside` by local
 /// index and have no value. The same bits on any number of ranks. *Collective.*
-struct CarriedCells {
+struct TransferredCells {
   std::vector<double> values;  ///< a row for each local cell
   std::vector<std::int64_t> outside;
 };
-CarriedCells carry_cells(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
-                         const CellValues& cells, const TransferSide& new_side);
+TransferredCells transfer_cells(const Communicator& comm, const CurvePartition& shares,
+                                const TransferSide& old_side, const CellValues& cells,
+                                const TransferSide& new_side);
 
 /// Changes the values at owned nodes of a new mesh so that the integral over the part within the old mesh is
 /// conserved to rounding. In each new triangle it uses the linear function with the old field's mean and mean
@@ -34,7 +35,7 @@ CarriedCells carry_cells(const Communicator& comm, const CurveShares& shares, co
 /// triangular meshes", Int. J. Numer. Meth. Engng 84 (2010). Triangles not covered by the old mesh do not
 /// count; nodes without other triangles keep their values. `areas_of` is the new mesh with unshifted nodes,
 /// for the areas. `old_field` has rows for ghost copies. The same bits on any number of ranks. *Collective.*
-void conserve_at_nodes(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
+void conserve_at_nodes(const Communicator& comm, const CurvePartition& shares, const TransferSide& old_side,
                        const Field& old_field, const TransferSide& new_side, const Mesh& areas_of,
                        std::vector<double>& values);
 

@@ -6,12 +6,12 @@
 #include "adapt/transfer/conservative.hpp"
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
-#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/nearest_boundary.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
-#include "adapt/transfer/locate/standing_nodes.hpp"
 #include "adapt/transfer/locate/triangle_piece.hpp"
+#include "adapt/transfer/locate/unchanged_nodes.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/point_table.hpp"
@@ -29,7 +29,7 @@ struct OldMesh {
   const Mesh& mesh;
   const Field& field;
   Point centre;  ///< determines how its quadrilaterals are split
-  const CurveShares& shares;
+  const CurvePartition& shares;
   const NodeFlags is_inner;
 };
 
@@ -44,7 +44,7 @@ std::span<const Point> owned_points(const Mesh& mesh) {
 }
 
 /// Exchange from this rank's points to the ranks whose parts of the plane contain them.
-Exchange to_shares(const Communicator& comm, const CurveShares& shares, std::span<const Point> points) {
+Exchange to_partition(const Communicator& comm, const CurvePartition& shares, std::span<const Point> points) {
   std::vector<int> ranks;
   for (const Point p : points) ranks.push_back(shares.rank_of(p));
   return {comm, ranks};
@@ -62,7 +62,7 @@ NodeShare gather_boundary_nodes(const Communicator& comm, const OldMesh& old, co
     const auto row = old.field.row(node);
     values.insert(values.end(), row.begin(), row.end());
   }
-  const Exchange exchange = to_shares(comm, old.shares, points);
+  const Exchange exchange = to_partition(comm, old.shares, points);
   return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
 }
 
@@ -129,7 +129,7 @@ struct Answers {
 
 /// Queries the ranks whose parts of the plane contain the places. *Collective.*
 Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
-  const Exchange questions = to_shares(comm, old.shares, places);
+  const Exchange questions = to_partition(comm, old.shares, places);
   const std::vector<Point> points = questions.deliver(places);
   Found found(comm, old, points);
   const auto width = old.field.width();
@@ -142,7 +142,7 @@ Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point>
 
 /// Values of the old mesh at the positions of a new mesh's owned nodes. *Collective.*
 NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
-  const std::vector<std::int32_t> standing = standing_nodes(old.mesh, old.is_inner, places);
+  const std::vector<std::int32_t> standing = unchanged_nodes(old.mesh, old.is_inner, places);
   const std::size_t width = old.field.width();
   NewRows rows{std::vector<double>(places.size() * width), {}};
   std::vector<std::int32_t> others;
@@ -193,18 +193,18 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
 Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Point>& places) {
   Mesh moved = mesh;
   std::ranges::copy(places, moved.points.begin());
-  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies).update(moved.points);
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts).update(moved.points);
   return moved;
 }
 
 /// Cells outside the old mesh get the values of the cell at the nearest boundary edge. *Collective.*
 void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, const CellValues& old_cells,
-                              const Mesh& new_mesh, CarriedCells& carried) {
+                              const Mesh& new_mesh, TransferredCells& result) {
   const NearestBoundary boundary(comm, old_mesh);
   const std::vector<CellShape> shapes = cell_shapes(new_mesh);
   std::vector<std::int32_t> edges;
   std::vector<int> ranks;
-  for (const std::int64_t cell : carried.outside) {
+  for (const std::int64_t cell : result.outside) {
     const BoundaryPlace place = boundary.nearest(shapes[cell].centroid);
     edges.push_back(place.edge);
     ranks.push_back(place.rank);
@@ -218,17 +218,18 @@ void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, co
   const std::vector<double> rows = rows_of_cells(
       comm, CellOwners(comm, old_mesh), std::span<const std::int64_t>(cells), old_cells.values, width);
   for (std::size_t i = 0; i < cells.size(); ++i)
-    std::copy_n(rows.begin() + i * width, width, carried.values.begin() + carried.outside[i] * width);
+    std::copy_n(rows.begin() + i * width, width, result.values.begin() + result.outside[i] * width);
 }
 
 /// *Collective.*
-CellValues carried_cells(const Communicator& comm, const CurveShares& shares, const TransferSide& old_side,
-                         const CellValues& old_cells, const TransferSide& new_side, TransferReport& report) {
-  CarriedCells carried = carry_cells(comm, shares, old_side, old_cells, new_side);
-  report.cells_outside = comm.sum(std::ssize(carried.outside));
+CellValues transferred_cells(const Communicator& comm, const CurvePartition& shares,
+                             const TransferSide& old_side, const CellValues& old_cells,
+                             const TransferSide& new_side, TransferReport& report) {
+  TransferredCells result = transfer_cells(comm, shares, old_side, old_cells, new_side);
+  report.cells_outside = comm.sum(std::ssize(result.outside));
   if (report.cells_outside > 0)
-    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, carried);
-  return {old_cells.names, std::move(carried.values)};
+    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, result);
+  return {old_cells.names, std::move(result.values)};
 }
 
 /// Integrals of each variable over the old mesh, nodal ones first, then those of cells.
@@ -244,7 +245,7 @@ NodalIntegrals integrals_of(const Communicator& comm, const Mesh& mesh, Point ce
 void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& field,
                   const NodalIntegrals& before, TransferReport& report) {
   std::vector<double> after =
-      integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh), with_copies(comm, new_mesh, field));
+      integrate(comm, new_mesh, centre_of_nodes(comm, new_mesh), with_ghosts(comm, new_mesh, field));
   if (field.cells.width() > 0) {
     const CellIntegrals of_cells = integrate_cells(comm, new_mesh, field.cells);
     after.insert(after.end(), of_cells.values.begin(), of_cells.values.end());
@@ -259,9 +260,9 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& f
 
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind) {
-  const Field old = with_copies(comm, old_mesh, old_field);
+  const Field old = with_ghosts(comm, old_mesh, old_field);
   const Point centre = centre_of_nodes(comm, old_mesh);
-  const CurveShares shares(comm, owned_points(old_mesh), owned_points(new_mesh));
+  const CurvePartition shares(comm, owned_points(old_mesh), owned_points(new_mesh));
   const std::vector<Point> at = column_places(comm, old_mesh, new_mesh);
   Transferred transferred;
   TransferReport& report = transferred.report;
@@ -278,7 +279,7 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
     if (conserves)
       conserve_at_nodes(comm, shares, old_side, old, new_side, new_mesh, transferred.field.values);
     if (old.cells.width() > 0)
-      transferred.field.cells = carried_cells(comm, shares, old_side, old.cells, new_side, report);
+      transferred.field.cells = transferred_cells(comm, shares, old_side, old.cells, new_side, report);
   }
   report_drift(comm, new_mesh, transferred.field, integrals_of(comm, old_mesh, centre, old), report);
   report.conserved_from = conserves ? 0 : old.width();

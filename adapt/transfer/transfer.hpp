@@ -51,8 +51,8 @@ struct Transferred {
 ///
 /// Conservative: the same, corrected such that integrals are kept (conserve_at_nodes()).
 ///
-/// Cell values are transferred by carry_cells(); a cell outside the old mesh gets the value of the old cell
-/// at the nearest boundary edge.
+/// Cell values are transferred by transfer_cells(); a cell outside the old mesh gets the value of the old
+/// cell at the nearest boundary edge.
 ///
 /// `old_field` must have finite values for each owned node and each cell. Each rank processes the old
 /// triangles and new nodes in a part of the plane; the old boundary edges are gathered on all ranks if some

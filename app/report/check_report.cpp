@@ -6,25 +6,25 @@
 #include <limits>
 #include <map>
 
-#include "app/report/figures.hpp"
 #include "app/report/layer_table.hpp"
+#include "app/report/statistics.hpp"
 
 namespace quadloop {
 
 namespace {
 
-void add_count(Figures& figures, const char* name, std::int64_t count, const char* key) {
-  figures.add_raw(name, std::to_string(count), json_of(count), key);
+void add_count(Statistics& statistics, const char* name, std::int64_t count, const char* key) {
+  statistics.add_raw(name, std::to_string(count), json_of(count), key);
 }
 
-void add_fit(Figures& figures, const GeometryFit& fit) {
-  figures.add("boundaries dropped", fit.boundaries_dropped);
-  figures.add("loops dropped", fit.loops_dropped);
-  figures.add("sharp corners", fit.sharp_corners);
-  figures.add("sharp corners lost", fit.sharp_corners_lost);
-  figures.add("boundary node distance", fit.boundary_node_distance, number_pattern);
-  figures.add("geometry distance", fit.geometry_distance, number_pattern);
-  figures.add("geometry area error", fit.area_error, number_pattern);
+void add_fit(Statistics& statistics, const GeometryFit& fit) {
+  statistics.add("boundaries dropped", fit.boundaries_dropped);
+  statistics.add("loops dropped", fit.loops_dropped);
+  statistics.add("sharp corners", fit.sharp_corners);
+  statistics.add("sharp corners lost", fit.sharp_corners_lost);
+  statistics.add("boundary node distance", fit.boundary_node_distance, number_pattern);
+  statistics.add("geometry distance", fit.geometry_distance, number_pattern);
+  statistics.add("geometry area error", fit.area_error, number_pattern);
 }
 
 std::string places_json(const std::vector<SharpPlace>& places) {
@@ -67,38 +67,39 @@ std::string places_text(const std::vector<SharpPlace>& places) {
 }
 
 /// These are meaningful only if the geometry is known.
-void add_outline_corners(Figures& figures, const ShapeStatistics& shape, bool with_geometry, bool verbose) {
+void add_outline_corners(Statistics& statistics, const ShapeStatistics& shape, bool with_geometry,
+                         bool verbose) {
   if (!with_geometry) {
-    figures.add_member("corners_of_outline", json_of(shape.corners_of_outline));
-    figures.add_member("corners_in_passages", json_of(shape.corners_in_passages));
+    statistics.add_member("corners_of_outline", json_of(shape.corners_of_outline));
+    statistics.add_member("corners_in_passages", json_of(shape.corners_in_passages));
     return;
   }
-  add_count(figures, "corners of geometry", shape.corners_of_outline, "corners_of_outline");
-  if (verbose) figures.add_lines(places_text(shape.sharp_places));
-  figures.add("corners in passages", shape.corners_in_passages);
-  if (verbose) figures.add_lines(places_text(shape.passages));
+  add_count(statistics, "corners of geometry", shape.corners_of_outline, "corners_of_outline");
+  if (verbose) statistics.add_lines(places_text(shape.sharp_places));
+  statistics.add("corners in passages", shape.corners_in_passages);
+  if (verbose) statistics.add_lines(places_text(shape.passages));
 }
 
-void add_shape(Figures& figures, const CheckReport& report, bool verbose) {
+void add_shape(Statistics& statistics, const CheckReport& report, bool verbose) {
   const ShapeStatistics& shape = report.shape;
-  const ShapeFigures& shares = report.figures;
-  figures.add_member("corners", json_of(shape.corners));
-  add_count(figures, "corners below 15 degrees", shape.corners_below_15, "corners_below_15");
-  figures.add_member("corners_below_25", json_of(shape.corners_below_25));
-  figures.add("corners below 26", shape.corners_below_26);
-  figures.add("corners above 150", shape.corners_above_150);
-  add_outline_corners(figures, shape, report.fit.has_value(), verbose);
-  figures.add_member("min_angle_made", json_of(shape.smallest_degrees));
-  figures.add_member("max_angle_made", json_of(shape.largest_degrees));
-  figures.add("largest area ratio", shape.area_ratio_max, number_pattern, "area_ratio_max");
-  if (shape.area_ratio_max > 0) figures.add_place(report.worst.largest_area_ratio, "area_ratio_max_at");
-  figures.add("area ratio, 99 %", shape.area_ratio_p99, number_pattern, "area_ratio_p99");
-  figures.add("share of quads", shape.quad_share, number_pattern, "quad_share");
-  figures.add("parallelograms", shares.parallelogram_share(), number_pattern, "parallelogram_share");
-  figures.add("inexact nodes", shares.inexact_share(), number_pattern, "inexact_node_share");
-  figures.add("passage cells", shares.passage_cells);
-  figures.add_member("sharp_places", places_json(shape.sharp_places));
-  figures.add_member("passages", places_json(shape.passages));
+  const SolverStatistics& shares = report.statistics;
+  statistics.add_member("corners", json_of(shape.corners));
+  add_count(statistics, "corners below 15 degrees", shape.corners_below_15, "corners_below_15");
+  statistics.add_member("corners_below_25", json_of(shape.corners_below_25));
+  statistics.add("corners below 26", shape.corners_below_26);
+  statistics.add("corners above 150", shape.corners_above_150);
+  add_outline_corners(statistics, shape, report.fit.has_value(), verbose);
+  statistics.add_member("min_angle_made", json_of(shape.smallest_degrees));
+  statistics.add_member("max_angle_made", json_of(shape.largest_degrees));
+  statistics.add("largest area ratio", shape.area_ratio_max, number_pattern, "area_ratio_max");
+  if (shape.area_ratio_max > 0) statistics.add_place(report.worst.largest_area_ratio, "area_ratio_max_at");
+  statistics.add("area ratio, 99 %", shape.area_ratio_p99, number_pattern, "area_ratio_p99");
+  statistics.add("share of quads", shape.quad_share, number_pattern, "quad_share");
+  statistics.add("parallelograms", shares.parallelogram_share(), number_pattern, "parallelogram_share");
+  statistics.add("inexact nodes", shares.inexact_share(), number_pattern, "inexact_node_share");
+  statistics.add("passage cells", shares.passage_cells);
+  statistics.add_member("sharp_places", places_json(shape.sharp_places));
+  statistics.add_member("passages", places_json(shape.passages));
 }
 
 std::string boundaries_json(const CheckReport& report) {
@@ -108,25 +109,25 @@ std::string boundaries_json(const CheckReport& report) {
 }
 
 /// All but the errors.
-Figures figures_of(const CheckReport& report, bool verbose, std::size_t most) {
+Statistics statistics_of(const CheckReport& report, bool verbose, std::size_t most) {
   const QualitySummary& quality = report.quality;
-  Figures figures;
-  figures.add("nodes", quality.counts.nodes);
-  figures.add("triangles", quality.counts.triangles);
-  figures.add("quads", quality.counts.quads);
-  figures.add("blocks", report.blocks);
-  figures.add("regions", report.regions.count);
-  figures.add("boundary edges", quality.counts.boundary_edges);
-  figures.add_member("boundaries", boundaries_json(report));
-  figures.add_lines(boundaries_text(report.boundaries, most));
-  figures.add("area", report.area, number_pattern);
-  add_quality(figures, quality, report.by_layers, report.faces, &report.worst);
-  add_shape(figures, report, verbose);
-  figures.add("pinched nodes", report.pinched_nodes);
-  add_objections(figures, report.faces, report.figures);
-  add_layers(figures, report.layers, most);
-  if (report.fit) add_fit(figures, *report.fit);
-  return figures;
+  Statistics statistics;
+  statistics.add("nodes", quality.counts.nodes);
+  statistics.add("triangles", quality.counts.triangles);
+  statistics.add("quads", quality.counts.quads);
+  statistics.add("blocks", report.blocks);
+  statistics.add("regions", report.regions.count);
+  statistics.add("boundary edges", quality.counts.boundary_edges);
+  statistics.add_member("boundaries", boundaries_json(report));
+  statistics.add_lines(boundaries_text(report.boundaries, most));
+  statistics.add("area", report.area, number_pattern);
+  add_quality(statistics, quality, report.by_layers, report.faces, &report.worst);
+  add_shape(statistics, report, verbose);
+  statistics.add("pinched nodes", report.pinched_nodes);
+  add_objections(statistics, report.faces, report.statistics);
+  add_layers(statistics, report.layers, most);
+  if (report.fit) add_fit(statistics, *report.fit);
+  return statistics;
 }
 
 std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) {
@@ -149,7 +150,7 @@ std::string faults_text(const std::vector<MeshFault>& faults, std::size_t most) 
 
 std::string report_text(const CheckReport& report, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
-  return figures_of(report, verbose, most).table(24, 16) + faults_text(report.faults, most) +
+  return statistics_of(report, verbose, most).table(24, 16) + faults_text(report.faults, most) +
          (report.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
@@ -158,7 +159,7 @@ JsonObject report_record(const CheckReport& report) {
   json.add("valid", report.faults.empty());
   json.add("file", report.file);
   json.add("faults", faults_json(report.faults));
-  json.append(figures_of(report, false, most_listed).record());
+  json.append(statistics_of(report, false, most_listed).record());
   return json;
 }
 

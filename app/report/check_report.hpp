@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
-#include "mesher/mesh/check/face_figures.hpp"
-#include "mesher/mesh/check/layer_figures.hpp"
+#include "mesher/mesh/check/face_statistics.hpp"
+#include "mesher/mesh/check/layer_statistics.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/check/shape_figures.hpp"
 #include "mesher/mesh/check/shape_statistics.hpp"
+#include "mesher/mesh/check/solver_statistics.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/check/worst_places.hpp"
 
@@ -22,10 +22,10 @@ struct CheckReport {
   std::vector<std::pair<std::string, std::int64_t>> boundaries;  ///< name and number of edges
   QualitySummary quality;
   ShapeStatistics shape;
-  ShapeFigures figures;
-  std::vector<LayerFigures> layers;
+  SolverStatistics statistics;
+  std::vector<LayerStatistics> layers;
   QualityByLayers by_layers;  ///< if there are layers
-  FaceFiguresByLayers faces;
+  FaceStatisticsByLayers faces;
   WorstPlaces worst;  ///< of the cells outside layers, except for the area ratio
   double area = 0;
   std::int64_t pinched_nodes = 0;

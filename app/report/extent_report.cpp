@@ -39,11 +39,11 @@ std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents) {
   return lines;
 }
 
-void add_extents(Figures& figures, const std::vector<FileExtent>& extents) {
+void add_extents(Statistics& statistics, const std::vector<FileExtent>& extents) {
   std::vector<JsonObject> json;
   for (const FileExtent& extent : extents) json.push_back(json_of_extent(extent));
-  for (const std::string& line : extent_lines(extents)) figures.add_lines("  " + line + "\n");
-  figures.add_member("geometry", json_of(json));
+  for (const std::string& line : extent_lines(extents)) statistics.add_lines("  " + line + "\n");
+  statistics.add_member("geometry", json_of(json));
 }
 
 }  // namespace quadloop

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/report/figures.hpp"
+#include "app/report/statistics.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
@@ -14,6 +14,6 @@ std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents);
 
 /// Adds these lines to the table, and the member "geometry" to the record: for each file its path, bounding
 /// box, declared unit (null: none) and metres per unit (null: no conversion).
-void add_extents(Figures& figures, const std::vector<FileExtent>& extents);
+void add_extents(Statistics& statistics, const std::vector<FileExtent>& extents);
 
 }  // namespace quadloop

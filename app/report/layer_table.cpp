@@ -26,7 +26,7 @@ std::string line_of(const BoundaryLayerReport& row) {
          fmt::format("  ({:.5g}, {:.5g})\n", row.least.x, row.least.y);
 }
 
-std::string line_of(const LayerFigures& row) {
+std::string line_of(const LayerStatistics& row) {
   const double asked = row.asked > 0 ? row.thickness.least / row.asked : 0;
   return name_cell(row.boundary) + cell(std::int64_t{row.count}) + cell(row.columns) + cell(row.first.least) +
          cell(row.first.median) + cell(row.first.largest) + cell(row.growth.least) +
@@ -56,7 +56,7 @@ JsonObject json_of_row(const BoundaryLayerReport& row) {
 
 std::vector<double> listed(const Spread& spread) { return {spread.least, spread.median, spread.largest}; }
 
-JsonObject json_of_row(const LayerFigures& row) {
+JsonObject json_of_row(const LayerStatistics& row) {
   JsonObject json;
   json.add("boundary", row.boundary);
   json.add("count", row.count);
@@ -70,7 +70,7 @@ JsonObject json_of_row(const LayerFigures& row) {
 }
 
 template <class Row>
-void add_rows(Figures& figures, const std::vector<Row>& rows, const std::vector<const char*>& columns,
+void add_rows(Statistics& statistics, const std::vector<Row>& rows, const std::vector<const char*>& columns,
               std::size_t most) {
   if (rows.empty()) return;
   std::string text = heading(columns);
@@ -81,91 +81,93 @@ void add_rows(Figures& figures, const std::vector<Row>& rows, const std::vector<
   }
   if (rows.size() > most)
     text += fmt::format("    {} more; --verbose or --json shows them\n", rows.size() - most);
-  figures.add_lines(text);
-  figures.add_member("layers", json_of(json));
+  statistics.add_lines(text);
+  statistics.add_member("layers", json_of(json));
 }
 
-void add_count(Figures& figures, const char* name, const MeshCounts& counts, const char* key) {
+void add_count(Statistics& statistics, const char* name, const MeshCounts& counts, const char* key) {
   const std::int64_t cells = counts.triangles + counts.quads;
-  figures.add_raw(name, std::to_string(cells), json_of(cells), key);
+  statistics.add_raw(name, std::to_string(cells), json_of(cells), key);
 }
 
-void add_shapes(Figures& figures, const QualitySummary& quality, const std::string& indent,
+void add_shapes(Statistics& statistics, const QualitySummary& quality, const std::string& indent,
                 const std::string& key, const WorstPlaces* worst) {
   if (quality.counts.triangles + quality.counts.quads == 0) worst = nullptr;
-  figures.add(indent + "worst quality", quality.worst, "{:.3f}", key + "worst_quality");
-  if (worst != nullptr) figures.add_place(worst->worst_quality, key + "worst_quality_at");
-  figures.add(indent + "mean quality", quality.mean, "{:.3f}", key + "mean_quality");
-  figures.add(indent + "smallest angle", quality.smallest_degrees, "{:.2f} degrees", key + "min_angle");
-  if (worst != nullptr) figures.add_place(worst->smallest_angle, key + "min_angle_at");
-  figures.add(indent + "largest angle", quality.largest_degrees, "{:.2f} degrees", key + "max_angle");
-  if (worst != nullptr) figures.add_place(worst->largest_angle, key + "max_angle_at");
+  statistics.add(indent + "worst quality", quality.worst, "{:.3f}", key + "worst_quality");
+  if (worst != nullptr) statistics.add_place(worst->worst_quality, key + "worst_quality_at");
+  statistics.add(indent + "mean quality", quality.mean, "{:.3f}", key + "mean_quality");
+  statistics.add(indent + "smallest angle", quality.smallest_degrees, "{:.2f} degrees", key + "min_angle");
+  if (worst != nullptr) statistics.add_place(worst->smallest_angle, key + "min_angle_at");
+  statistics.add(indent + "largest angle", quality.largest_degrees, "{:.2f} degrees", key + "max_angle");
+  if (worst != nullptr) statistics.add_place(worst->largest_angle, key + "max_angle_at");
 }
 
 }  // namespace
 
-void add_layers(Figures& figures, const LayerReport& report, std::size_t most) {
-  add_rows(figures, report, {"count", "first", "median", "of thick.", "full wall", "growth", "least at"},
+void add_layers(Statistics& statistics, const LayerReport& report, std::size_t most) {
+  add_rows(statistics, report, {"count", "first", "median", "of thick.", "full wall", "growth", "least at"},
            most);
 }
 
-void add_layers(Figures& figures, const std::vector<LayerFigures>& layers, std::size_t most) {
+void add_layers(Statistics& statistics, const std::vector<LayerStatistics>& layers, std::size_t most) {
   std::vector<const char*> columns{"count",  "columns", "first", "median", "largest",
                                    "growth", "to",      "thick", "to"};
-  if (std::ranges::any_of(layers, [](const LayerFigures& row) { return row.asked > 0; }))
+  if (std::ranges::any_of(layers, [](const LayerStatistics& row) { return row.asked > 0; }))
     columns.push_back("of asked");
-  add_rows(figures, layers, columns, most);
+  add_rows(statistics, layers, columns, most);
 }
 
-void add_quality(Figures& figures, const QualitySummary& all, const QualityByLayers& by_layers,
-                 const FaceFiguresByLayers& faces, const WorstPlaces* worst) {
+void add_quality(Statistics& statistics, const QualitySummary& all, const QualityByLayers& by_layers,
+                 const FaceStatisticsByLayers& faces, const WorstPlaces* worst) {
   const MeshCounts& counts = by_layers.layers.counts;
   const bool has_layers = counts.triangles + counts.quads > 0;
-  if (!has_layers) return add_shapes(figures, all, "", "", worst);
-  figures.add_member("worst_quality", json_of(all.worst));
-  figures.add_member("mean_quality", json_of(all.mean));
-  figures.add_member("min_angle", json_of(all.smallest_degrees));
-  figures.add_member("max_angle", json_of(all.largest_degrees));
-  add_count(figures, "cells in layers", counts, "layer_cells");
-  figures.add("  aspect ratio", faces.layers.aspect_ratio, "{:.4g}", "layer_aspect_ratio");
-  figures.add("  non-orthog.", faces.layers.non_orthogonality, "{:.2f} degrees", "layer_non_orthogonality");
-  figures.add("  skewness", faces.layers.skewness, "{:.3f}", "layer_skewness");
-  figures.add_member("layer_min_angle", json_of(by_layers.layers.smallest_degrees));
-  figures.add_member("layer_max_angle", json_of(by_layers.layers.largest_degrees));
-  figures.add_member("layer_worst_quality", json_of(by_layers.layers.worst));
-  add_count(figures, "outside layers", by_layers.others.counts, "outer_cells");
-  add_shapes(figures, by_layers.others, "  ", "outer_", worst);
+  if (!has_layers) return add_shapes(statistics, all, "", "", worst);
+  statistics.add_member("worst_quality", json_of(all.worst));
+  statistics.add_member("mean_quality", json_of(all.mean));
+  statistics.add_member("min_angle", json_of(all.smallest_degrees));
+  statistics.add_member("max_angle", json_of(all.largest_degrees));
+  add_count(statistics, "cells in layers", counts, "layer_cells");
+  statistics.add("  aspect ratio", faces.layers.aspect_ratio, "{:.4g}", "layer_aspect_ratio");
+  statistics.add("  non-orthog.", faces.layers.non_orthogonality, "{:.2f} degrees",
+                 "layer_non_orthogonality");
+  statistics.add("  skewness", faces.layers.skewness, "{:.3f}", "layer_skewness");
+  statistics.add_member("layer_min_angle", json_of(by_layers.layers.smallest_degrees));
+  statistics.add_member("layer_max_angle", json_of(by_layers.layers.largest_degrees));
+  statistics.add_member("layer_worst_quality", json_of(by_layers.layers.worst));
+  add_count(statistics, "outside layers", by_layers.others.counts, "outer_cells");
+  add_shapes(statistics, by_layers.others, "  ", "outer_", worst);
 }
 
-void add_objections(Figures& figures, const FaceFiguresByLayers& faces, const ShapeFigures& shape) {
+void add_objections(Statistics& statistics, const FaceStatisticsByLayers& faces,
+                    const SolverStatistics& shape) {
   const auto& [layers, others] = faces;
   const double angle = std::max(layers.non_orthogonality, others.non_orthogonality),
                skewness = std::max(layers.skewness, others.skewness);
   const std::int64_t non_orthogonal = layers.non_orthogonal + others.non_orthogonal,
                      skew = layers.skew + others.skew, flat = layers.flat + others.flat;
-  figures.add_member("non_orthogonality", json_of(angle));
-  figures.add_member("skewness", json_of(skewness));
-  figures.add_member("aspect_ratio", json_of(std::max(layers.aspect_ratio, others.aspect_ratio)));
-  figures.add_member("non_orthogonal_edges", json_of(non_orthogonal));
-  figures.add_member("skew_edges", json_of(skew));
-  figures.add_member("flat_cells", json_of(flat));
+  statistics.add_member("non_orthogonality", json_of(angle));
+  statistics.add_member("skewness", json_of(skewness));
+  statistics.add_member("aspect_ratio", json_of(std::max(layers.aspect_ratio, others.aspect_ratio)));
+  statistics.add_member("non_orthogonal_edges", json_of(non_orthogonal));
+  statistics.add_member("skew_edges", json_of(skew));
+  statistics.add_member("flat_cells", json_of(flat));
   std::vector<std::string> objections;
   if (non_orthogonal > 0)
     objections.push_back(fmt::format("{} faces of non-orthogonality above {} degrees", non_orthogonal,
-                                     FaceFigures::severe_degrees));
+                                     FaceStatistics::severe_degrees));
   if (skew > 0)
-    objections.push_back(fmt::format("{} faces of skewness above {}", skew, FaceFigures::severe_skewness));
+    objections.push_back(fmt::format("{} faces of skewness above {}", skew, FaceStatistics::severe_skewness));
   if (flat > 0)
     objections.push_back(
-        fmt::format("{} cells of aspect ratio above {}", flat, FaceFigures::severe_aspect_ratio));
+        fmt::format("{} cells of aspect ratio above {}", flat, FaceStatistics::severe_aspect_ratio));
   if (objections.empty())
-    objections.push_back(
-        fmt::format("all criteria satisfied (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
+    objections.push_back(fmt::format(
+        "all criteria satisfied (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
   const std::string su2 = shape.inexact_nodes == 0
                               ? "exact at all interior nodes"
                               : fmt::format("{:.2g} % of the quads are not parallelograms",
                                             100 * (1 - shape.parallelogram_share()));
-  figures.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));
+  statistics.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));
 }
 
 }  // namespace quadloop

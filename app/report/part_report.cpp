@@ -4,19 +4,19 @@
 
 namespace quadloop {
 
-void add_parts(Figures& figures, const PartFigures& parts) {
-  figures.add("parts", parts.parts);
-  figures.add("edge cut", parts.edge_cut);
-  figures.add("part balance", parts.balance, "{:.4f}");
-  figures.add_raw("cells of a part", fmt::format("{} to {}", parts.fewest_cells, parts.most_cells),
-                  json_list({json_of(parts.fewest_cells), json_of(parts.most_cells)}), "part_cells");
-  figures.add("shared nodes", parts.shared_nodes);
-  figures.add_raw("part neighbours", fmt::format("up to {}", parts.most_neighbours),
-                  json_of(parts.most_neighbours));
+void add_parts(Statistics& statistics, const PartStatistics& parts) {
+  statistics.add("parts", parts.parts);
+  statistics.add("edge cut", parts.edge_cut);
+  statistics.add("part balance", parts.balance, "{:.4f}");
+  statistics.add_raw("cells of a part", fmt::format("{} to {}", parts.fewest_cells, parts.most_cells),
+                     json_list({json_of(parts.fewest_cells), json_of(parts.most_cells)}), "part_cells");
+  statistics.add("shared nodes", parts.shared_nodes);
+  statistics.add_raw("part neighbours", fmt::format("up to {}", parts.most_neighbours),
+                     json_of(parts.most_neighbours));
 }
 
-void add_parts(MeshSummary& summary, const PartFigures& parts, const std::vector<std::string>& files) {
-  add_parts(summary.figures, parts);
+void add_parts(MeshSummary& summary, const PartStatistics& parts, const std::vector<std::string>& files) {
+  add_parts(summary.statistics, parts);
   summary.files.push_back(files.front() + fmt::format(" and {} files of parts", files.size() - 1));
 }
 

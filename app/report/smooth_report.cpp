@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mesher/mesh/check/layer_figures.hpp"
+#include "mesher/mesh/check/layer_statistics.hpp"
 
 namespace quadloop {
 

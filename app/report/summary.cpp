@@ -8,9 +8,9 @@
 
 #include "app/report/layer_table.hpp"
 #include "mesher/build/mesh_estimate.hpp"
-#include "mesher/mesh/check/layer_figures.hpp"
+#include "mesher/mesh/check/layer_statistics.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/check/shape_figures.hpp"
+#include "mesher/mesh/check/solver_statistics.hpp"
 
 namespace quadloop {
 
@@ -59,34 +59,34 @@ std::string stage_table(const std::vector<StageRow>& stages) {
 
 namespace {
 
-void add_sizes(Figures& figures, const MeshResult& result) {
+void add_sizes(Statistics& statistics, const MeshResult& result) {
   const TreeAttributes& counts = result.tree.attributes;
   const MeshReport& report = result.report;
-  figures.add("nodes", counts.nodes);
-  figures.add("triangles", counts.triangles);
-  figures.add("quads", counts.quads);
-  figures.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
-                  json_of(std::round(report.estimate.cells)), "cells_estimated");
-  figures.add("regions", report.regions);
-  figures.add("leaves", report.leaves);
-  figures.add("cut leaves", report.cut_leaves);
-  figures.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
-                  json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
+  statistics.add("nodes", counts.nodes);
+  statistics.add("triangles", counts.triangles);
+  statistics.add("quads", counts.quads);
+  statistics.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
+                     json_of(std::round(report.estimate.cells)), "cells_estimated");
+  statistics.add("regions", report.regions);
+  statistics.add("leaves", report.leaves);
+  statistics.add("cut leaves", report.cut_leaves);
+  statistics.add_raw("levels", fmt::format("{} to {}", report.coarsest_level, report.finest_level),
+                     json_list({json_of(report.coarsest_level), json_of(report.finest_level)}));
 }
 
-void add_shapes(Figures& figures, const ShapeFigures& shape) {
-  figures.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
-  figures.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
-  figures.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
-  figures.add("passage cells", shape.passage_cells);
+void add_shapes(Statistics& statistics, const SolverStatistics& shape) {
+  statistics.add("parallelograms", shape.parallelogram_share(), "{:.4f}", "parallelogram_share");
+  statistics.add("inexact nodes", shape.inexact_share(), "{:.4f}", "inexact_node_share");
+  statistics.add("area ratio", shape.area_ratio_max, "{:.3g}", "area_ratio_max");
+  statistics.add("passage cells", shape.passage_cells);
 }
 
 /// `peak` in MiB; the estimate, in bytes, is for one of `ranks` ranks.
-void add_memory(Figures& figures, double peak, const MeshEstimate& estimate, int ranks) {
-  figures.add("peak memory", peak, "{:.0f} MiB", "peak_memory_mib");
+void add_memory(Statistics& statistics, double peak, const MeshEstimate& estimate, int ranks) {
+  statistics.add("peak memory", peak, "{:.0f} MiB", "peak_memory_mib");
   const double estimated = estimate.bytes / ranks + estimate.bytes_of_rank;
-  figures.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
-                  "estimated_memory_mib");
+  statistics.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
+                     "estimated_memory_mib");
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, 
                       const std::vector<std::string>& files) {
   const MeshResult& result = generated.result;
   MeshSummary summary{{},
-                      shape_figures(comm, result.mesh),
+                      solver_statistics(comm, result.mesh),
                       stage_rows(comm, seconds),
                       files,
                       result.report.boundaries_vanished};
@@ -106,28 +106,28 @@ MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, 
     places = layer_places(comm, result.mesh);
     by_layers = quality_by_layers(comm, result.mesh, places);
   }
-  const FaceFiguresByLayers faces = face_figures(comm, result.mesh, places);
+  const FaceStatisticsByLayers faces = face_statistics(comm, result.mesh, places);
   const double memory = comm.maximum(peak_memory_mib());
   if (!comm.is_root()) return summary;
-  Figures& figures = summary.figures;
-  add_sizes(figures, result);
-  add_quality(figures, quality, by_layers, faces);
-  add_shapes(figures, summary.shape);
-  add_objections(figures, faces, summary.shape);
-  add_memory(figures, memory, result.report.estimate, comm.size());
-  figures.add("imbalance", result.report.imbalance, "{:.3f}");
-  add_layers(figures, generated.layers);
+  Statistics& statistics = summary.statistics;
+  add_sizes(statistics, result);
+  add_quality(statistics, quality, by_layers, faces);
+  add_shapes(statistics, summary.shape);
+  add_objections(statistics, faces, summary.shape);
+  add_memory(statistics, memory, result.report.estimate, comm.size());
+  statistics.add("imbalance", result.report.imbalance, "{:.3f}");
+  add_layers(statistics, generated.layers);
   return summary;
 }
 
 std::string table_of(const MeshSummary& summary) {
-  std::string text = summary.figures.table() + stage_table(summary.stages);
+  std::string text = summary.statistics.table() + stage_table(summary.stages);
   for (const std::string& file : summary.files) text += fmt::format("  wrote {}\n", file);
   return text + vanished_text(summary.boundaries_vanished);
 }
 
 JsonObject record_of(const MeshSummary& summary) {
-  JsonObject json = summary.figures.record();
+  JsonObject json = summary.statistics.record();
   json.add("seconds", record_of(summary.stages));
   json.add("boundaries_vanished", summary.boundaries_vanished);
   return json;

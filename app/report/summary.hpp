@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "app/report/figures.hpp"
+#include "app/report/statistics.hpp"
 #include "generate/generate.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/mesh/check/shape_figures.hpp"
+#include "mesher/mesh/check/solver_statistics.hpp"
 
 namespace quadloop {
 
@@ -26,8 +26,8 @@ std::string stage_table(const std::vector<StageRow>& stages);
 
 /// Final report of `mesh` and `remesh`.
 struct MeshSummary {
-  Figures figures;  ///< counts, quality, memory, imbalance; add further results of the mesh here
-  ShapeFigures shape;
+  Statistics statistics;  ///< counts, quality, memory, imbalance; add further results of the mesh here
+  SolverStatistics shape;
   std::vector<StageRow> stages;
   std::vector<std::string> files;
   std::vector<std::string> boundaries_vanished;

@@ -119,7 +119,7 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
                             Dual::variable(edge.size * edge.normal.y, 1)},
       half{Dual::variable(edge.half.x, 2), Dual::variable(edge.half.y, 3)};
   const bool reconstructed = states_at_middle(edge, run_.states, gradients).reconstructed;
-  const auto carried = [&](std::int32_t node, double way) {
+  const auto transferred = [&](std::int32_t node, double way) {
     StateOf<Dual> state = constant<Dual>(run_.states[node]);
     for (std::size_t k = 0; reconstructed && k < 4; ++k)
       state[k] = state[k] + way * (gradients[node].x[k] * half.x + gradients[node].y[k] * half.y);
@@ -127,8 +127,8 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   };
   const Dual size = length_of(face);
   const VectorOf<Dual> normal{face.x / size, face.y / size};
-  const FluxOf<Dual> flux = roe_flux(run_.model.gas, carried(edge.low, 1), carried(edge.high, -1), normal,
-                                     run_.residual.shock_share(edge.low, edge.high));
+  const FluxOf<Dual> flux = roe_flux(run_.model.gas, transferred(edge.low, 1), transferred(edge.high, -1),
+                                     normal, run_.residual.shock_share(edge.low, edge.high));
   const Dual term = size * weighted_sum(fall(edge), flux);
   weights.normal = {term.slopes[0], term.slopes[1]};
   add_half(edge, {term.slopes[2], term.slopes[3]});

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "flow/euler/shortfall.hpp"
-#include "flow/quantities/run_constants.hpp"
+#include "flow/postprocess/run_constants.hpp"
 
 namespace quadloop {
 

@@ -4,7 +4,7 @@
 
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
-#include "flow/quantities/boundary_forces.hpp"
+#include "flow/postprocess/boundary_forces.hpp"
 
 namespace quadloop::euler {
 

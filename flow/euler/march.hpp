@@ -52,7 +52,7 @@ void require_few_steps(FlowRun& run);
 /// Continues a steady computation without steady state, or from a start that was itself continued, in time as
 /// the options request, unless it becomes steady. If this fails, states and result are unchanged, except for
 /// EulerResult::failed_in_time. *Collective.*
-void carry_on(FlowRun& run, EulerResult& result, TimeAverage& average);
+void continue_in_time(FlowRun& run, EulerResult& result, TimeAverage& average);
 
 /// Returns the free stream at every node, at rest at no-slip walls.
 std::vector<State> undisturbed(const FlowRun& run);

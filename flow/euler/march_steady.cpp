@@ -11,7 +11,7 @@
 #include "flow/euler/mirrored_states.hpp"
 #include "flow/euler/newton_step.hpp"
 #include "flow/euler/steady_control.hpp"
-#include "flow/euler/step_shares.hpp"
+#include "flow/euler/step_fractions.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
@@ -24,7 +24,7 @@ class SteadyMarch {
  public:
   explicit SteadyMarch(FlowRun& run)
       : run_{run},
-        control_(run.is_carried, run.options.unsteady == EulerOptions::Unsteady::carry_on),
+        control_(run.is_transferred, run.options.unsteady == EulerOptions::Unsteady::continue_in_time),
         system_(run.comm, run.mesh, run.model),
         change_(run.mesh.nodes()),
         shares_(run.mesh.owned_nodes()),
@@ -193,7 +193,7 @@ class SteadyMarch {
   SteadyControl control_;
   ImplicitSystem system_;
   std::vector<Change> change_;
-  StepShares shares_;
+  StepFractions shares_;
   FarField far_field_;
   EulerResult result_;
   std::optional<NewtonStep> newton_;

@@ -128,7 +128,7 @@ EulerResult march(FlowRun& run, const Field& start, TimeAverage& average) {
   const bool goes_on = goes_on_in_time(options, start);
   EulerResult result;
   if (!goes_on) result = march_as_steady(run);
-  if (!result.converged) carry_on(run, result, average);
+  if (!result.converged) continue_in_time(run, result, average);
   if (!goes_on || result.failed_in_time.empty()) return result;
   take_start(run.mesh, start, flow_names(), run.states);  // there is no steady flow yet
   run.residual.no_slip().hold(run.states);

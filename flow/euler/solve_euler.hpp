@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "flow/euler/model/euler_options.hpp"
-#include "flow/quantities/flow_figures.hpp"
-#include "flow/quantities/history.hpp"
+#include "flow/postprocess/flow_statistics.hpp"
+#include "flow/postprocess/history.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"

@@ -32,7 +32,7 @@ struct SteadyParameters {
     Slow when_developed{30, 0.5}, when_near{10, 0.7}, when_settled{10, 0.4};
   } freezing;
 
-  /// If a node's changes oscillate, its share of the CFL number is reduced (StepShares): after `turns`
+  /// If a node's changes oscillate, its share of the CFL number is reduced (StepFractions): after `turns`
   /// reversals in a row, or after `more_turns` if it is already `small`. A reversal takes back at least this
   /// fraction of the previous change. By trial.
   struct Shares {

@@ -5,7 +5,7 @@
 
 #include "io/cgns/cgns_file.hpp"
 #include "io/files/reading/separate_reader.hpp"
-#include "io/model/pass_mesh.hpp"
+#include "io/model/serialize_mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop {

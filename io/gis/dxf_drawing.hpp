@@ -36,9 +36,9 @@ class DxfDrawing {
 
   /// Returns the entity with this handle; null if there is none.
   const DxfEntity* find(const std::string& handle) const;
-  /// The drawing as GDAL is to read it; empty where that is the file itself. GDAL compares names of layers and
-  /// blocks with their case: here each has the case of its definition, else of its first use. It has nothing
-  /// but the entities where the file begins with a section that GDAL does not expect there.
+  /// The drawing as GDAL is to read it; empty where that is the file itself. GDAL compares names of layers
+  /// and blocks with their case: here each has the case of its definition, else of its first use. It has
+  /// nothing but the entities where the file begins with a section that GDAL does not expect there.
   const std::string& corrected() const { return corrected_; }
   /// The layers that are defined.
   const std::vector<std::string>& layers() const { return layers_; }

@@ -127,7 +127,6 @@ class Collector {
   const std::set<std::string>& known_layers() const { return known_layers_; }
 
  private:
-
   void add_feature(OGRFeatureH feature, OGRLayerH layer, const std::string& path) {
     const std::string layer_name = drawing_ ? text_of(feature, "Layer") : gdal().OGR_L_GetName(layer);
     known_layers_.insert(layer_name);

@@ -18,8 +18,8 @@ bool matches_layer(const std::string& pattern, const std::string& layer);
 
 /// What a file declares: the unit of length of its coordinates, and its layers.
 struct FileUnit {
-  std::string name;   ///< empty where it declares none
-  double metres = 0;  ///< in one of it; 0: not known
+  std::string name;                 ///< empty where it declares none
+  double metres = 0;                ///< in one of it; 0: not known
   std::vector<std::string> layers;  ///< of a drawing or map; ascending
 };
 

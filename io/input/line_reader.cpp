@@ -49,8 +49,8 @@ ByteOrder utf16_order(std::string_view text) {
   return are_high(zeros[0], zeros[1]) ? ByteOrder::high_first : ByteOrder::none;
 }
 
-/// A byte order mark stays one in UTF-8. Characters beyond the first plane become '?': coordinates and names have
-/// none.
+/// A byte order mark stays one in UTF-8. Characters beyond the first plane become '?': coordinates and names
+/// have none.
 std::string utf8_of_utf16(std::string_view text, ByteOrder order) {
   const std::size_t low = order == ByteOrder::low_first ? 0 : 1;
   std::string out;

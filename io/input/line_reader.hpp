@@ -11,8 +11,8 @@
 namespace quadloop {
 
 /// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed
-/// over; LF, CRLF and CR are line ends; UTF-16 is read, with a byte order mark or without. Every refusal is an
-/// InputError "file:line: what, what to do".
+/// over; LF, CRLF and CR are line ends; UTF-16 is read, with a byte order mark or without. Every refusal is
+/// an InputError "file:line: what, what to do".
 class LineReader {
  public:
   /// Opens the file, which is never stored completely; InputError if it cannot be read.

@@ -110,8 +110,8 @@ std::string point_table(const Geometry& outline, const std::string& path, std::s
                         const std::string& names) {
   std::map<Coordinates, std::int32_t> left = vertices_by_place(outline);
   std::string text = "boundary,x,y," + names + "\n";
-  std::vector<std::string> told_already;
-  for (const Chain& chain : read_geometry(path, told_already)) {
+  std::vector<std::string> reported_already;
+  for (const Chain& chain : read_geometry(path, reported_already)) {
     for (const Point& p : chain.points) {
       const auto found = left.find({p.x, p.y});
       if (found == left.end()) continue;

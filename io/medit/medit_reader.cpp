@@ -105,8 +105,8 @@ class MeditReader {
   }
 
   void pass_over(const std::string& section) {
-    for (const char* solid : {"Tetrahedra", "Pyramids", "Prisms", "Hexahedra"}) {
-      if (section == solid && scan_.count("3D cells", 4) > 0)
+    for (const char* mesh3d : {"Tetrahedra", "Pyramids", "Prisms", "Hexahedra"}) {
+      if (section == mesh3d && scan_.count("3D cells", 4) > 0)
         scan_.refuse("a mesh of three dimensions; of Medit's only plane ones can be read");
     }
     for (const char* curved : {"EdgesP2", "TrianglesP2", "QuadrilateralsQ2"}) {

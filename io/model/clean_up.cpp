@@ -11,8 +11,8 @@
 
 #include "io/model/mesh_of_file.hpp"
 #include "io/model/orient_cells.hpp"
-#include "io/model/pass_mesh.hpp"
 #include "io/model/repeated_rows.hpp"
+#include "io/model/serialize_mesh.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 

@@ -17,7 +17,7 @@ FileMesh file_mesh_of(const LoadedMesh& loaded);
 /// Inverse conversion, without corrections (see plane_mesh()).
 LoadedMesh loaded_mesh_of(FileMesh file);
 
-/// Returns the plane mesh, also from a 3D mesh that is one cell thick (plane_of_solid()). Throws InputError,
+/// Returns the plane mesh, also from a 3D mesh that is one cell thick (plane_of_mesh3d()). Throws InputError,
 /// with `path`, for any other 3D mesh.
 LoadedMesh plane_of(MeshOfFile mesh, const std::string& path);
 

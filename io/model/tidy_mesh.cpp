@@ -41,7 +41,7 @@ void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLa
 }
 
 /// Inner curves consist of cell edges, but a periodic node may have lost its cells.
-void renumber_marks(const IdVector<NodeId, NodeId>& new_id, LoadedMesh& loaded) {
+void renumber_flags(const IdVector<NodeId, NodeId>& new_id, LoadedMesh& loaded) {
   for (BoundaryEdges& curve : loaded.inner_curves) {
     for (auto& edge : curve.edges) edge = {new_id[edge[0]], new_id[edge[1]]};
   }
@@ -65,7 +65,7 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   if (dropped == 0) return 0;
   for_each_named_node(mesh, [&](NodeId& node) { node = new_id[node]; });
   renumber_strips(new_id, mesh.strips);
-  renumber_marks(new_id, loaded);
+  renumber_flags(new_id, loaded);
   mesh.points.resize(kept);
   mesh.owned_nodes = kept;
   if (loaded.solution) loaded.solution->values.resize(kept * loaded.solution->names.size());

@@ -26,7 +26,7 @@ std::string msh_group_name(std::string boundary);
 /// the one with the fewest members); without a physical group the block is "domain" and the boundary
 /// "boundary_<tag of the curve or surface>"; a group without a name is "physical_<tag>". A plane mesh is
 /// cleaned up by plane_mesh(). Throws InputError "file:line: ..." on anything else; geometric errors,
-/// including inverted cells, are left to validate() and check_solid().
+/// including inverted cells, are left to validate() and check_mesh3d().
 MeshOfFile read_msh(const std::string& path);
 
 }  // namespace quadloop

@@ -8,20 +8,20 @@
 
 namespace quadloop {
 
-PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
-                        const PartRequest& request) {
+PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
+                           const PartRequest& request) {
   return write_parts(files, comm, mesh, partition(comm, mesh, request.parts), data, request);
 }
 
-PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const CellParts& cells,
-                        const PartData& data, const PartRequest& request) {
+PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh,
+                           const CellParts& cells, const PartData& data, const PartRequest& request) {
   const std::vector<MeshPart> parts = make_parts(comm, mesh, cells, data);
   files.write(request.prefix, part_index(comm, mesh, request.parts, request.formats, request.blocks), parts);
-  return part_figures(comm, parts);
+  return part_statistics(comm, parts);
 }
 
-PartFigures write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
-                                PartRequest request) {
+PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
+                                   PartRequest request) {
   const MeshOrder order = own_order(whole.mesh);
   const Mesh mesh = scatter_mesh(comm, whole.mesh, order);
   std::optional<Field> field;

@@ -20,16 +20,16 @@ struct PartRequest {
 
 /// Partitions a distributed mesh and writes its parts under temporary names; `files` must be committed
 /// afterwards. Throws InputError or OutputError on all ranks. *Collective.*
-PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
-                        const PartRequest& request);
+PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
+                           const PartRequest& request);
 
 /// The same for an existing partition.
-PartFigures write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const CellParts& cells,
-                        const PartData& data, const PartRequest& request);
+PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh,
+                           const CellParts& cells, const PartData& data, const PartRequest& request);
 
 /// The same for a mesh that is whole on the root rank; prefix, number and formats are used on every rank.
 /// *Collective.*
-PartFigures write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
-                                PartRequest request);
+PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
+                                   PartRequest request);
 
 }  // namespace quadloop

@@ -14,7 +14,7 @@ void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const Field& fi
   if (std::ranges::any_of(index.boundaries, [](const BoundaryEdges& b) { return b.layers.count > 0; })) {
     for (const char* name : {vtu_layer_height_asked, vtu_layer_height}) list.point_data.emplace_back(name);
   }
-  if (index.blocks.size() > 1) list.cell_marks.emplace_back("block");
+  if (index.blocks.size() > 1) list.cell_flags.emplace_back("block");
   const std::string beside = std::filesystem::path(prefix).filename();
   for (std::int32_t part = 0; part < index.parts; ++part)
     list.sources.push_back(part_path(beside, part, "vtu"));

@@ -14,7 +14,7 @@
 
 #include "io/cgns/cgns_input.hpp"
 #include "io/files/reading/separate_reader.hpp"
-#include "io/model/pass_mesh.hpp"
+#include "io/model/serialize_mesh.hpp"
 #include "io/tree/tree_share.hpp"
 #include "mesher/base/error.hpp"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "io/model/cell_faces.hpp"
-#include "io/model/solid_faces.hpp"
+#include "io/model/mesh3d_faces.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "io/model/cell_faces.hpp"
-#include "io/model/solid_faces.hpp"
+#include "io/model/mesh3d_faces.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"

@@ -24,7 +24,7 @@ std::vector<std::string> su2_marker_names(const std::vector<std::string>& bounda
 /// those of the same name are merged; a plane file without markers gets the boundary "boundary". Zones become
 /// blocks "zone_1", "zone_2" ..., each with its own nodes and markers. A plane mesh is cleaned up by
 /// plane_mesh(). Throws InputError "file:line: ..." on anything else; geometric errors, including inverted
-/// cells, are left to validate() and check_solid().
+/// cells, are left to validate() and check_mesh3d().
 MeshOfFile read_su2(const std::string& path);
 
 }  // namespace quadloop

@@ -20,7 +20,7 @@ std::string text_of(const LeafRecord& leaf) {
                      leaf.y, leaf.level);
 }
 
-std::int64_t edge_of(const LeafRecord& leaf) { return std::int64_t{tree_lattice_edge} >> leaf.level; }
+std::int64_t edge_of(const LeafRecord& leaf) { return std::int64_t{tree_grid_edge} >> leaf.level; }
 
 /// Returns an error of a single leaf, as a format string; null if there is none.
 const char* fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
@@ -28,10 +28,10 @@ const char* fault_of(const LeafRecord& leaf, const TreeAttributes& attributes) {
   if (!within(leaf.tree_x, 0, attributes.trees_x - 1) || !within(leaf.tree_y, 0, attributes.trees_y - 1))
     return "is in none of the trees";
   if (!within(leaf.level, 0, deepest_tree_level)) return "has an impossible level";
-  const auto on_lattice = [&](std::int32_t at) {
-    return within(at, 0, tree_lattice_edge - 1) && (at & (edge_of(leaf) - 1)) == 0;
+  const auto on_grid = [&](std::int32_t at) {
+    return within(at, 0, tree_grid_edge - 1) && (at & (edge_of(leaf) - 1)) == 0;
   };
-  if (!on_lattice(leaf.x) || !on_lattice(leaf.y)) return "is not on the grid of its level";
+  if (!on_grid(leaf.x) || !on_grid(leaf.y)) return "is not on the grid of its level";
   if (!within(leaf.wanted, 0, leaf.level)) return "is coarser than its target level {wanted}";
   if ((std::uint64_t{leaf.adapted} >> leaf.level) != 0)
     return "has splits below itself ('adapted' is {adapted:#x})";
@@ -55,7 +55,7 @@ std::int64_t curve_key(const LeafRecord& leaf) {
 
 std::int64_t end_on_curve(const LeafRecord& leaf) { return curve_key(leaf) + edge_of(leaf) * edge_of(leaf); }
 
-constexpr std::int64_t end_of_tree = std::int64_t{tree_lattice_edge} * tree_lattice_edge;
+constexpr std::int64_t end_of_tree = std::int64_t{tree_grid_edge} * tree_grid_edge;
 
 bool follows(const std::optional<LeafRecord>& before, const LeafRecord& leaf) {
   if (!before) return curve_key(leaf) == 0;

@@ -11,7 +11,7 @@ namespace quadloop {
 inline constexpr const char* tree_format_name = "quadloop tree";
 inline constexpr std::int32_t tree_format_version = 1;
 /// Edge of a tree in integer coordinates, and the corresponding deepest level.
-inline constexpr std::int32_t tree_lattice_edge = std::int32_t{1} << 30;
+inline constexpr std::int32_t tree_grid_edge = std::int32_t{1} << 30;
 inline constexpr int deepest_tree_level = 30;
 
 /// Calls `visit(name, member reference)` for each numeric attribute, in file order.

@@ -19,7 +19,7 @@ std::string pvtu_text(const PvtuList& list) {
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PUnstructuredGrid GhostLevel=\"0\">\n"
       "<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
       "<PPointData>\n" +
-      arrays("Float64", list.point_data) + "</PPointData>\n<PCellData>\n" + arrays("Int32", list.cell_marks) +
+      arrays("Float64", list.point_data) + "</PPointData>\n<PCellData>\n" + arrays("Int32", list.cell_flags) +
       arrays("Float64", list.cell_data) + "</PCellData>\n";
   for (const std::string& source : list.sources) text += "<Piece Source=\"" + xml_escaped(source) + "\"/>\n";
   return text + "</PUnstructuredGrid>\n</VTKFile>\n";

@@ -8,7 +8,7 @@ namespace quadloop {
 /// Contents of a parallel VTK file: arrays of each piece, and the pieces' files.
 struct PvtuList {
   std::vector<std::string> point_data;                 ///< reals
-  std::vector<std::string> cell_marks = {"boundary"};  ///< integers
+  std::vector<std::string> cell_flags = {"boundary"};  ///< integers
   std::vector<std::string> cell_data;                  ///< reals
   std::vector<std::string> sources;
 };

@@ -18,7 +18,7 @@ void write_pvtu(OutputSet& outputs, const MeshStream& mesh, const std::string& p
   if (mesh.is_plane() && has_layers(mesh.extruded()->plane)) {
     for (const char* name : {vtu_layer_height_asked, vtu_layer_height}) list.point_data.emplace_back(name);
   }
-  if (StreamBlocks(mesh).are_named()) list.cell_marks.emplace_back("block");
+  if (StreamBlocks(mesh).are_named()) list.cell_flags.emplace_back("block");
   list.sources = {std::filesystem::path(pvtu_piece_path(path)).filename()};
   TextOutput file(outputs, path);
   file.write(pvtu_text(list));

@@ -60,7 +60,7 @@ class VtuWriter {
     add_cells();
     if (stream_.is_plane()) add_node_values();
     if (layered_ != nullptr) add_layer_heights();
-    add_marks();
+    add_flags();
     for (std::size_t k = 0; k < cells_.names().size(); ++k)
       file_.add<double>("CellData", cells_.names()[k], 1, elements_, [this, k] { put_cell_variable(k); });
     if (!stream_.is_plane()) add_node_values();
@@ -137,7 +137,7 @@ class VtuWriter {
   }
 
   /// Adds boundary and block numbers.
-  void add_marks() {
+  void add_flags() {
     file_.add<std::int32_t>("CellData", "boundary", 1, elements_,
                             [this] { put_of_runs<std::int32_t>([](const Run& run) { return run.patch; }); });
     if (blocks_.are_named())

@@ -120,7 +120,7 @@ void reserve_cells(const CutForest& cut, std::size_t nodes, bool triangles_alone
 
 void assemble_mesh(const Communicator& comm, const Geometry& geometry, const SizeTree& sizes,
                    const LeafGraph& graph, const CutForest& cut, bool triangles_alone, MeshResult& result) {
-  NodeNumbering numbers(comm, sizes.lattice(), graph, cut);
+  NodeNumbering numbers(comm, sizes.grid(), graph, cut);
   Mesh& mesh = result.mesh;
   reserve_cells(cut, numbers.size(), triangles_alone, mesh);
   Assembler assembler(geometry, graph, cut, numbers, triangles_alone, result);
@@ -132,7 +132,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
   for (const LeafId leaf : graph.local()) {
     stage.advance(graph.local_index(leaf));
     assembler.add(leaf);
-    LeafRecord record = record_of(graph.leaf(leaf), cut.wanted_levels[graph.local_index(leaf)]);
+    LeafRecord record = record_of(graph.leaf(leaf), cut.target_levels[graph.local_index(leaf)]);
     record.triangles = size32(mesh.triangles) - triangles;
     record.quads = size32(mesh.quads) - quads;
     triangles += record.triangles;

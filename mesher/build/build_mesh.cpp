@@ -13,7 +13,7 @@
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
-#include "mesher/cut/lattice_rank.hpp"
+#include "mesher/cut/grid_rank.hpp"
 #include "mesher/forest/refine_forest.hpp"
 
 namespace quadloop {
@@ -37,15 +37,15 @@ void report_tree(const Communicator& comm, const LeafGraph& graph, const CutFore
       static_cast<double>(comm.maximum(work)) * comm.size() / static_cast<double>(comm.sum(work));
 }
 
-void describe_tree(const Communicator& comm, const Geometry& geometry, const Lattice& lattice,
+void describe_tree(const Communicator& comm, const Geometry& geometry, const TreeGrid& grid,
                    const MeshOptions& options, MeshResult& result) {
   TreeAttributes& a = result.tree.attributes;
-  a.root_x = lattice.box().low.x;
-  a.root_y = lattice.box().low.y;
-  a.tree_edge = lattice.tree_edge();
-  a.trees_x = lattice.trees_x();
-  a.trees_y = lattice.trees_y();
-  if (root_box(a).high != lattice.box().high) a.root_far = lattice.box().high;
+  a.root_x = grid.box().low.x;
+  a.root_y = grid.box().low.y;
+  a.tree_edge = grid.tree_edge();
+  a.trees_x = grid.trees_x();
+  a.trees_y = grid.trees_y();
+  if (root_box(a).high != grid.box().high) a.root_far = grid.box().high;
   a.gradation = options.size.gradation;
   a.geometry_digest = geometry.digest();
   count_entries(comm, result);
@@ -112,12 +112,12 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
 
   const auto rank_of = [&](Point p) {
-    return tie_rank(domain.lattice, sizes.finest_level(), p, options.mirror);
+    return tie_rank(domain.grid, sizes.finest_level(), p, options.mirror);
   };
   if (has_triangles_alone(options.type)) {
     times.begin("delaunay");
     const progress::Stage stage("delaunay");
-    make_delaunay(comm, domain.lattice, rank_of, graph, cut, result.mesh, result.tree.leaves);
+    make_delaunay(comm, domain.grid, rank_of, graph, cut, result.mesh, result.tree.leaves);
   }
   if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
     split_skew_quads(result.mesh, result.tree.leaves, rank_of);
@@ -125,7 +125,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   times.end();
 
   report_tree(comm, graph, cut, result.report);
-  describe_tree(comm, geometry, domain.lattice, options, result);
+  describe_tree(comm, geometry, domain.grid, options, result);
   return result;
 }
 

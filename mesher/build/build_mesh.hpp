@@ -10,7 +10,7 @@
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
-#include "mesher/lattice/size_options.hpp"
+#include "mesher/grid/size_options.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"

@@ -19,7 +19,7 @@ std::int64_t count_nodes(const Communicator& comm, const Geometry& given, const 
   const LeafGraph graph = refine_forest(comm, domain.sizes, leaves);
   const CutForest cut =
       cut_forest(comm, graph, domain.sizes, domain.outline, domain.inside, options.snap, options.mirror);
-  return comm.sum(NodeNumbering(comm, domain.lattice, graph, cut).owned());
+  return comm.sum(NodeNumbering(comm, domain.grid, graph, cut).owned());
 }
 
 }  // namespace quadloop

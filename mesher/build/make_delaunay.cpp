@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/delaunay/flipper.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
-#include "mesher/forest/ghost_exchange.hpp"
+#include "mesher/forest/leaf_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
 
 namespace quadloop {
@@ -41,7 +41,7 @@ std::vector<IrregularLeaf> irregular_leaves(const Communicator& comm, const Leaf
   for (std::int32_t i = 0; i < std::ssize(cut.entry_of); ++i) {
     is_cut[graph.from_local(i).value()] = cut.entry_of[i] >= 0 ? 1 : 0;
   }
-  GhostExchange(comm, graph).update(is_cut);
+  LeafExchange(comm, graph).update(is_cut);
   const std::vector<char> is_irregular = flag_irregular(graph, is_cut);
   std::vector<IrregularLeaf> irregular;
   std::int32_t triangle = 0;
@@ -109,8 +109,8 @@ struct PlacedTriangle {
 /// there.
 class LeafTriangles {
  public:
-  LeafTriangles(const Lattice& lattice, const LeafGraph& graph, Mesh& mesh)
-      : lattice_{lattice}, graph_{graph}, finder_{graph}, mesh_{mesh} {}
+  LeafTriangles(const TreeGrid& grid, const LeafGraph& graph, Mesh& mesh)
+      : grid_{grid}, graph_{graph}, finder_{graph}, mesh_{mesh} {}
 
   /// *Collective.*
   void share_out(const Communicator& comm, const std::vector<IrregularLeaf>& irregular) {
@@ -118,7 +118,7 @@ class LeafTriangles {
     NodeTable table(mesh_);
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const Point p = centroid(t.points);
-      const LeafId leaf = finder_.leaf_at(lattice_.column_at(p.x), lattice_.row_at(p.y));
+      const LeafId leaf = finder_.leaf_at(grid_.column_at(p.x), grid_.row_at(p.y));
       PlacedTriangle placed{graph_.local_index(leaf), t.nodes, {}};
       for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = table.local(t.nodes[k], t.points[k]);
       arrived_.push_back(placed);
@@ -164,14 +164,14 @@ class LeafTriangles {
   /// Sends a leaf's triangles, one range of the mesh, whose centroids lie in other leaves.
   void send_strangers(const IrregularLeaf& from) {
     const LeafId leaf = graph_.from_local(from.index);
-    const Box box = lattice_.box_of(graph_.leaf(leaf));
+    const Box box = grid_.box_of(graph_.leaf(leaf));
     for (std::int32_t t = from.triangle; t < from.end(); ++t) {
       const std::array<NodeId, 3>& nodes = mesh_.triangles[t];
       const std::array<Point, 3> points{mesh_.point(nodes[0]), mesh_.point(nodes[1]), mesh_.point(nodes[2])};
       if (is_surely_in(box, points)) continue;
       const Point p = centroid(points);
       if (box.low.x <= p.x && p.x < box.high.x && box.low.y <= p.y && p.y < box.high.y) continue;
-      const std::int64_t column = lattice_.column_at(p.x), row = lattice_.row_at(p.y);
+      const std::int64_t column = grid_.column_at(p.x), row = grid_.row_at(p.y);
       const LeafId home = finder_.leaf_at(column, row);
       if (home == leaf) continue;
       strangers_.push_back(t);
@@ -194,7 +194,7 @@ class LeafTriangles {
 
   /// Whether the centroid is inside a leaf with a margin larger than any rounding error.
   static bool is_surely_in(const Box& leaf, const std::array<Point, 3>& p) {
-    // Relative to the leaf's edge: ten times the rounding error of the sum (Lattice::finest_level).
+    // Relative to the leaf's edge: ten times the rounding error of the sum (TreeGrid::finest_level).
     constexpr double rim = 0.125;
     const double margin = rim * leaf.width(), x = (p[0].x + p[1].x + p[2].x) / 3,
                  y = (p[0].y + p[1].y + p[2].y) / 3;
@@ -208,7 +208,7 @@ class LeafTriangles {
     return {(p[0].x + p[1].x + p[2].x) / 3, (p[0].y + p[1].y + p[2].y) / 3};
   }
 
-  const Lattice& lattice_;
+  const TreeGrid& grid_;
   const LeafGraph& graph_;
   LeafFinder finder_;
   Mesh& mesh_;
@@ -219,12 +219,12 @@ class LeafTriangles {
 
 }  // namespace
 
-void make_delaunay(const Communicator& comm, const Lattice& lattice,
+void make_delaunay(const Communicator& comm, const TreeGrid& grid,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves) {
   const std::vector<IrregularLeaf> irregular = irregular_leaves(comm, graph, cut, leaves);
   restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, mesh), rank_of);
-  LeafTriangles triangles(lattice, graph, mesh);
+  LeafTriangles triangles(grid, graph, mesh);
   triangles.share_out(comm, irregular);
   triangles.put_back(irregular, leaves);
 }

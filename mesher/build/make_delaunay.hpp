@@ -17,7 +17,7 @@ namespace quadloop {
 /// the diagonals that assemble_mesh uses for squares: no circumcircle extends beyond the adjacent leaves.
 /// Among the other triangles, non-Delaunay edges are flipped until there are none; as the result is unique,
 /// the ranks need not agree on the order of flips.
-void make_delaunay(const Communicator& comm, const Lattice& lattice,
+void make_delaunay(const Communicator& comm, const TreeGrid& grid,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves);
 

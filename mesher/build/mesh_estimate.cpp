@@ -39,15 +39,15 @@ double stations_of(const Geometry& geometry) {
 /// Returns the number of cells in layers: a column on each edge of the outer edge, of the length of the
 /// leaves there.
 double cells_of_layers(const Geometry& geometry, SizedDomain& domain) {
-  const Lattice& lattice = domain.lattice;
+  const TreeGrid& grid = domain.grid;
   SizeCursor leaves(domain.sizes);
   double cells = 0;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     const auto& layers = geometry.boundary(geometry.boundary_of(s)).layers;
     if (!layers) continue;
     const Point from = geometry.point(s), to = geometry.point(geometry.next(s)), middle = 0.5 * (from + to);
-    const Quadrant place{lattice.column_at(middle.x), lattice.row_at(middle.y), Quadrant::unit_level};
-    cells += layers->count * length(to - from) / lattice.edge(leaves.wanted_level(place));
+    const Quadrant place{grid.column_at(middle.x), grid.row_at(middle.y), Quadrant::unit_level};
+    cells += layers->count * length(to - from) / grid.edge(leaves.target_level(place));
   }
   return cells;
 }

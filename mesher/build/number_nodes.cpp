@@ -20,7 +20,7 @@ constexpr std::array owned_sites{Site::south_west, Site::south_east,   Site::nor
                                  Site::north_east, Site::right_middle, Site::top_middle};
 
 constexpr std::uint8_t bit_of(Site site) {
-  constexpr std::array<std::uint8_t, lattice_sites.size()> bits{1, 2, 8, 4, 0, 16, 32, 0};
+  constexpr std::array<std::uint8_t, grid_sites.size()> bits{1, 2, 8, 4, 0, 16, 32, 0};
   return bits[index_of(site)];
 }
 static_assert(bit_of(Site::north_west) == 1 << 2 && bit_of(Site::top_middle) == 1 << 5);
@@ -38,9 +38,9 @@ bool has_many(const CutForest::Entry& entry) { return entry.end.nodes - entry.be
 
 }  // namespace
 
-NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
+NodeNumbering::NodeNumbering(const Communicator& comm, const TreeGrid& grid, const LeafGraph& graph,
                              const CutForest& cut)
-    : lattice_{&lattice},
+    : grid_{&grid},
       graph_{&graph},
       cut_{&cut},
       used_sites_(cut.states.size(), 0),
@@ -54,10 +54,10 @@ NodeNumbering::NodeNumbering(const Communicator& comm, const Lattice& lattice, c
   number_owned();
   place_moved();
   first_node_ = comm.exclusive_sum(owned_);
-  fetch_copies(exchange, asked);
+  fetch_ghosts(exchange, asked);
 }
 
-NodeNumbering::Home NodeNumbering::corner_home(LeafId owner, LatticePoint p) const {
+NodeNumbering::Home NodeNumbering::corner_home(LeafId owner, GridPoint p) const {
   const Quadrant& o = graph_->leaf(owner);
   const bool at_right = o.x + o.size() == p.x, at_top = o.y + o.size() == p.y;
   return {owner, at_right && at_top ? Site::north_east : at_top ? Site::top_middle : Site::right_middle};
@@ -88,17 +88,17 @@ NodeNumbering::Home NodeNumbering::home_of_site(LeafId leaf, Site site) const {
 }
 
 NodeNumbering::Home NodeNumbering::home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const {
-  if (is_on_lattice(node.site)) return home_of_site(leaf, node.site);
+  if (is_on_grid(node.site)) return home_of_site(leaf, node.site);
   const LeafGraph::Around& around = graph_->around(leaf);
   const Quadrant& q = graph_->leaf(leaf);
   LeafId owner = leaf;
   if (node.site == Site::on_bottom) {
     const bool left_half =
-        around.south_half != LeafGraph::none && node.position.x < lattice_->x(q.x + q.size() / 2);
+        around.south_half != LeafGraph::none && node.position.x < grid_->x(q.x + q.size() / 2);
     owner = left_half ? around.south_half : around.south;
   } else if (node.site == Site::on_left) {
     const bool lower_half =
-        around.west_half != LeafGraph::none && node.position.y < lattice_->y(q.y + q.size() / 2);
+        around.west_half != LeafGraph::none && node.position.y < grid_->y(q.y + q.size() / 2);
     owner = lower_half ? around.west_half : around.west;
   }
   return {owner != LeafGraph::none ? owner : leaf, Site::inside};
@@ -149,7 +149,7 @@ void NodeNumbering::use_local(Home home, Point position) {
   }
 }
 
-/// Marks a leaf's node of CutForest::nodes as used.
+/// RefinementFlags a leaf's node of CutForest::nodes as used.
 void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
   if (listed_[node] == used) return;
   const Home home = home_of_cut_node(leaf, cut_->nodes[node]);
@@ -219,7 +219,7 @@ void NodeNumbering::number_owned() {
     const Quadrant& q = graph_->leaf(leaf);
     first_[local] = size32(points_);
     for (unsigned sites = used_sites_[local]; sites != 0; sites &= sites - 1)
-      points_.push_back(lattice_->corner(q.at(owned_sites[std::countr_zero(sites)])));
+      points_.push_back(grid_->corner(q.at(owned_sites[std::countr_zero(sites)])));
     const std::int32_t entry = cut_->entry_of[local];
     if (entry < 0) continue;
     const CutForest::Entry& e = cut_->entries[entry];
@@ -232,7 +232,7 @@ void NodeNumbering::number_owned() {
   owned_ = size32(points_);
 }
 
-/// Moves the snapped corners from their lattice positions.
+/// Moves the snapped corners from their grid positions.
 void NodeNumbering::place_moved() {
   LeafFinder finder(*graph_);
   for (const auto& [corner, position] : cut_->moved) {
@@ -249,7 +249,7 @@ void NodeNumbering::place_moved() {
   }
 }
 
-void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Request>& asked) {
+void NodeNumbering::fetch_ghosts(const Exchange& exchange, const std::vector<Request>& asked) {
   struct Answer {
     std::int64_t number;
     Point position;
@@ -260,7 +260,7 @@ void NodeNumbering::fetch_copies(const Exchange& exchange, const std::vector<Req
     answers.push_back({first_node_ + node, points_[node]});
   }
   for (const Answer& answer : exchange.answer(answers)) {
-    copies_.push_back(GlobalNodeId{answer.number});
+    ghosts_.push_back(GlobalNodeId{answer.number});
     points_.push_back(answer.position);
   }
 }
@@ -319,7 +319,7 @@ void NodeNumbering::fill(Mesh& mesh) && {
   mesh.points = std::move(points_);
   mesh.first_node = first_node_;
   mesh.owned_nodes = owned_;
-  mesh.copies = std::move(copies_);
+  mesh.ghosts = std::move(ghosts_);
 }
 
 }  // namespace quadloop

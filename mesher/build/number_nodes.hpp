@@ -16,16 +16,15 @@ namespace quadloop {
 class NodeNumbering {
  public:
   /// *Collective.*
-  NodeNumbering(const Communicator& comm, const Lattice& lattice, const LeafGraph& graph,
-                const CutForest& cut);
+  NodeNumbering(const Communicator& comm, const TreeGrid& grid, const LeafGraph& graph, const CutForest& cut);
 
   /// Number of nodes that this rank owns.
   std::int32_t owned() const { return owned_; }
   /// Number of nodes of this rank's cells, including ghosts.
   std::size_t size() const { return points_.size(); }
-  /// Returns the nodes at the lattice sites of an inner leaf; invalid at the middle of a side without a
+  /// Returns the nodes at the grid sites of an inner leaf; invalid at the middle of a side without a
   /// hanging node.
-  using SiteNodes = std::array<NodeId, lattice_sites.size()>;
+  using SiteNodes = std::array<NodeId, grid_sites.size()>;
   SiteNodes of_leaf(LeafId leaf) const;
   /// Returns a node of a cut leaf from its number in CutForest::nodes.
   NodeId of_cut(LeafId leaf, std::int32_t node) const;
@@ -51,7 +50,7 @@ class NodeNumbering {
 
   Home home_of_site(LeafId leaf, Site site) const;
   Home home_of_cut_node(LeafId leaf, const CutLeaf::Node& node) const;
-  Home corner_home(LeafId owner, LatticePoint p) const;
+  Home corner_home(LeafId owner, GridPoint p) const;
   Home home_of(const Request& asked) const { return {graph_->from_local(asked.leaf), asked.site}; }
   void sort_listed();
   std::int32_t listed_node(LeafId leaf, Point position) const;
@@ -72,13 +71,13 @@ class NodeNumbering {
   std::vector<int> ranks_wanted();
   void number_owned();
   void place_moved();
-  void fetch_copies(const Exchange& exchange, const std::vector<Request>& asked);
+  void fetch_ghosts(const Exchange& exchange, const std::vector<Request>& asked);
   Request request_of(Home home, Point position) const {
     const LeafGraph::Owner owner = graph_->owner_of(home.leaf);
     return {owner.rank, owner.index, home.site, home.site == Site::inside ? position : Point{}};
   }
 
-  const Lattice* lattice_;
+  const TreeGrid* grid_;
   const LeafGraph* graph_;
   const CutForest* cut_;
   /// For each local leaf a bit per node that it owns, except listed ones.
@@ -90,7 +89,7 @@ class NodeNumbering {
   std::vector<Point> points_;
   std::int64_t first_node_ = 0;
   std::int32_t owned_ = 0;
-  std::vector<GlobalNodeId> copies_;
+  std::vector<GlobalNodeId> ghosts_;
 };
 
 }  // namespace quadloop

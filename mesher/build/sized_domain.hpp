@@ -6,15 +6,15 @@
 
 namespace quadloop {
 
-/// A geometry on its background lattice, with its size tree. Geometry, options and demands must outlive the
+/// A geometry on its background grid, with its size tree. Geometry, options and demands must outlive the
 /// object; it cannot be moved.
 struct SizedDomain {
   SizedDomain(const Geometry& geometry, const SizeOptions& options, const DemandedSplits& demanded)
-      : lattice{choose_root(geometry, options.root)},
+      : grid{choose_root(geometry, options.root)},
         outline{geometry},
         inside{outline},
-        resolution{lattice, outline, inside},
-        sizes{outline, lattice, options,
+        resolution{grid, outline, inside},
+        sizes{outline, grid, options,
               [this](const Quadrant& q, std::span<const std::int32_t> segments) {
                 return resolution.unresolved(q, segments);
               },
@@ -22,7 +22,7 @@ struct SizedDomain {
   SizedDomain(const SizedDomain&) = delete;
   SizedDomain& operator=(const SizedDomain&) = delete;
 
-  Lattice lattice;
+  TreeGrid grid;
   ShiftedOutline outline;
   Interior inside;
   ResolutionTest resolution;

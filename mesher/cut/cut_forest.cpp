@@ -15,8 +15,8 @@ namespace quadloop {
 
 namespace {
 
-Point centre_of(const Lattice& lattice, const Quadrant& q) {
-  return lattice.corner(q.x + q.size() / 2, q.y + q.size() / 2);
+Point centre_of(const TreeGrid& grid, const Quadrant& q) {
+  return grid.corner(q.x + q.size() / 2, q.y + q.size() / 2);
 }
 
 /// A smaller angle in a cell is due to rounding: another way to cut the leaf is tried first.
@@ -24,25 +24,25 @@ constexpr double thinnest_sine = 1e-11;
 
 /// Traces the outline and finds the levels of the wanted tree in one traversal.
 TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline,
-                          std::vector<std::int8_t>& wanted_levels) {
+                          std::vector<std::int8_t>& target_levels) {
   TracedForest traced(graph.size());
   SizeCursor cursor(sizes);
-  wanted_levels.reserve(graph.local_size());
+  target_levels.reserve(graph.local_size());
   for (const LeafId leaf : graph.all()) {
     if (graph.is_local(leaf))
-      wanted_levels.push_back(static_cast<std::int8_t>(cursor.wanted_level(graph.leaf(leaf))));
+      target_levels.push_back(static_cast<std::int8_t>(cursor.target_level(graph.leaf(leaf))));
     const auto segments = cursor.segments_in(graph.leaf(leaf));
-    if (!segments.empty()) traced.add(leaf, outline, sizes.lattice().box_of(graph.leaf(leaf)), segments);
+    if (!segments.empty()) traced.add(leaf, outline, sizes.grid().box_of(graph.leaf(leaf)), segments);
   }
   return traced;
 }
 
 class ForestCutter {
  public:
-  ForestCutter(const LeafGraph& graph, const Lattice& lattice, const ShiftedOutline& outline,
+  ForestCutter(const LeafGraph& graph, const TreeGrid& grid, const ShiftedOutline& outline,
                const Interior& inside, const TracedForest& traced)
       : graph_{graph},
-        lattice_{lattice},
+        grid_{grid},
         outline_{outline},
         inside_{inside},
         traced_{traced},
@@ -70,10 +70,10 @@ class ForestCutter {
   }
 
   /// Cuts the leaves around the corners whose snaps were revoked again.
-  void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<LatticePoint>& vetoes) {
+  void cut_again(const std::vector<LeafSnap>& snaps, const std::vector<GridPoint>& vetoes) {
     std::vector<LeafId> leaves;
     LeafFinder finder(graph_);
-    for (const LatticePoint corner : vetoes) {
+    for (const GridPoint corner : vetoes) {
       const auto round = finder.leaves_round(corner);
       leaves.insert(leaves.end(), round.begin(), round.end());
     }
@@ -104,7 +104,7 @@ class ForestCutter {
     }
   }
 
-  std::vector<LatticePoint> take_vetoes() { return std::exchange(vetoes_, {}); }
+  std::vector<GridPoint> take_vetoes() { return std::exchange(vetoes_, {}); }
   CutForest take_result() { return std::move(result_); }
 
  private:
@@ -125,8 +125,8 @@ class ForestCutter {
 
   void cut(LeafId leaf, std::span<const LeafSnap> snaps) {
     const Quadrant& q = graph_.leaf(leaf);
-    const Box box = lattice_.box_of(q);
-    LeafCutter::Input input{{box, {}, {}, {}}, centre_of(lattice_, q), graph_.around(leaf).finer, snaps, {}};
+    const Box box = grid_.box_of(q);
+    LeafCutter::Input input{{box, {}, {}, {}}, centre_of(grid_, q), graph_.around(leaf).finer, snaps, {}};
     if (trace_of(leaf) >= 0) {
       input.trace = traced_.traces[trace_of(leaf)];
     } else {
@@ -182,7 +182,7 @@ class ForestCutter {
       const Quadrant& south = graph_.leaf(around.south);
       return side_inside(around.south, Side::top, south.level < q.level && q.x == south.x);
     }
-    return inside_.contains(centre_of(lattice_, q));
+    return inside_.contains(centre_of(grid_, q));
   }
 
   /// Whether a half of a side, counter-clockwise, of a processed leaf lies in the domain.
@@ -206,7 +206,7 @@ class ForestCutter {
   }
 
   const LeafGraph& graph_;
-  const Lattice& lattice_;
+  const TreeGrid& grid_;
   const ShiftedOutline& outline_;
   const Interior& inside_;
   const TracedForest& traced_;
@@ -214,7 +214,7 @@ class ForestCutter {
   LeafCellMaker maker_;
   LeafCells cells_;
   CutForest result_;
-  std::vector<LatticePoint> vetoes_;
+  std::vector<GridPoint> vetoes_;
 };
 
 }  // namespace
@@ -222,20 +222,19 @@ class ForestCutter {
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
                      std::optional<MirrorAxis> mirror) {
-  std::vector<std::int8_t> wanted_levels;
-  const TracedForest traced = trace_forest(graph, sizes, outline, wanted_levels);
-  const std::vector<Snap> snaps =
-      choose_snaps(graph, sizes.lattice(), outline.geometry(), traced, snap, mirror);
+  std::vector<std::int8_t> target_levels;
+  const TracedForest traced = trace_forest(graph, sizes, outline, target_levels);
+  const std::vector<Snap> snaps = choose_snaps(graph, sizes.grid(), outline.geometry(), traced, snap, mirror);
   std::vector<const Snap*> standing;  // snaps that have not been revoked
   standing.reserve(snaps.size());
   for (const Snap& s : snaps) standing.push_back(&s);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
-  ForestCutter cutter(graph, sizes.lattice(), outline, inside, traced);
+  ForestCutter cutter(graph, sizes.grid(), outline, inside, traced);
   comm.together([&] { cutter.cut_all(leaf_snaps); });
   while (true) {
     cutter.veto_opposed_chords(comm, standing);
-    const std::vector<LatticePoint> own = cutter.take_vetoes();
-    std::vector<LatticePoint> vetoes = comm.all_gather_values(std::span<const LatticePoint>(own));
+    const std::vector<GridPoint> own = cutter.take_vetoes();
+    std::vector<GridPoint> vetoes = comm.all_gather_values(std::span<const GridPoint>(own));
     if (vetoes.empty()) break;
     std::sort(vetoes.begin(), vetoes.end());
     vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
@@ -248,7 +247,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   }
   CutForest result = cutter.take_result();
   result.moved.reserve(standing.size());
-  result.wanted_levels = std::move(wanted_levels);
+  result.target_levels = std::move(target_levels);
   for (const Snap* s : standing) {
     if (!s->on_edge) result.moved.push_back({s->corner, s->position});
   }
@@ -257,8 +256,8 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
 
 bool ResolutionTest::unresolved(const Quadrant& q, std::span<const std::int32_t> segments) {
   traces_.clear();
-  const LeafTrace trace = traces_[traces_.add(*outline_, lattice_->box_of(q), segments)];
-  const bool sound = cutter_.cut({trace, centre_of(*lattice_, q), {}, {}, {}}, Detail::merged);
+  const LeafTrace trace = traces_[traces_.add(*outline_, grid_->box_of(q), segments)];
+  const bool sound = cutter_.cut({trace, centre_of(*grid_, q), {}, {}, {}}, Detail::merged);
   return !sound || cutter_.result().refined;
 }
 

@@ -25,16 +25,16 @@ struct CutForest {
   };
 
   std::vector<State> states;               ///< of each local leaf
-  std::vector<std::int8_t> wanted_levels;  ///< SizeCursor::wanted_level() of each local leaf
+  std::vector<std::int8_t> target_levels;  ///< SizeCursor::target_level() of each local leaf
   std::vector<std::int32_t> entry_of;      ///< for each local leaf; -1 if it is not cut
   std::vector<Entry> entries;              ///< of the cut leaves, and of uncut ones with a snapped corner
   std::vector<CutLeaf::Node> nodes;
   std::vector<LocalTriangle> triangles;  ///< numbers are relative to the leaf's first node
   std::vector<LocalQuad> quads;
   std::vector<CutLeaf::Edge> outline;
-  /// Lattice corners that have been moved; all of those at local leaves, and some others.
+  /// TreeGrid corners that have been moved; all of those at local leaves, and some others.
   struct Moved {
-    LatticePoint corner;
+    GridPoint corner;
     Point position;
   };
   std::vector<Moved> moved;
@@ -46,7 +46,7 @@ struct CutForest {
   }
   /// Frees what is not needed after the mesh is assembled: levels and the vectors of nodes, cells and edges.
   void drop_lists() {
-    std::exchange(wanted_levels, {});
+    std::exchange(target_levels, {});
     std::exchange(nodes, {});
     std::exchange(triangles, {});
     std::exchange(quads, {});
@@ -57,7 +57,7 @@ struct CutForest {
 
 /// Cuts the local leaves and determines inside and outside. No rank waits for another: an uncut leaf takes
 /// its state from a local neighbour, or from an exact count of crossings. A snap that makes a leaf invalid is
-/// revoked. `snap` is the snap tolerance: maximum distance of a crossing from a lattice corner that moves
+/// revoked. `snap` is the snap tolerance: maximum distance of a crossing from a grid vertex that moves
 /// onto it, relative to the local edge. With a mirror axis corners on it stay on it. Throws InputError on all
 /// ranks if boundaries are closer to each other than double precision can resolve. *Collective.*
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
@@ -68,12 +68,12 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
 /// cross each other or deviate too far from the boundary.
 class ResolutionTest {
  public:
-  ResolutionTest(const Lattice& lattice, const ShiftedOutline& outline, const Interior& inside)
-      : lattice_{&lattice}, outline_{&outline}, cutter_{outline, inside} {}
+  ResolutionTest(const TreeGrid& grid, const ShiftedOutline& outline, const Interior& inside)
+      : grid_{&grid}, outline_{&outline}, cutter_{outline, inside} {}
   bool unresolved(const Quadrant& q, std::span<const std::int32_t> segments);
 
  private:
-  const Lattice* lattice_;
+  const TreeGrid* grid_;
   const ShiftedOutline* outline_;
   LeafTraces traces_;
   LeafCutter cutter_;

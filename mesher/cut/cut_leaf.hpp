@@ -16,7 +16,7 @@ namespace quadloop {
 struct CutLeaf {
   struct Node {
     Point position;
-    Site site = Site::inside;  ///< lattice site before any snap
+    Site site = Site::inside;  ///< grid site before any snap
   };
   /// A directed edge with the domain to its left.
   struct Edge {

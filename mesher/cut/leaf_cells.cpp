@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesher/base/error.hpp"
-#include "mesher/cut/lattice_rank.hpp"
+#include "mesher/cut/grid_rank.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -68,11 +68,11 @@ void LeafCellMaker::set_ranks() {
   const Box& box = *leaf_.box;
   const std::array<Point, 4> corner{box.low, Point{box.high.x, box.low.y}, box.high,
                                     Point{box.low.x, box.high.y}};
-  std::array<TieRank, 8> lattice;
-  for (const Site site : lattice_sites) lattice[index_of(site)] = line_rank(q.at(site).x, q.at(site).y);
-  const auto origin = corner[std::max_element(lattice.begin(), lattice.begin() + 4) - lattice.begin()];
+  std::array<TieRank, 8> grid;
+  for (const Site site : grid_sites) grid[index_of(site)] = line_rank(q.at(site).x, q.at(site).y);
+  const auto origin = corner[std::max_element(grid.begin(), grid.begin() + 4) - grid.begin()];
   for (const CutLeaf::Node& node : leaf_.cut->nodes) {
-    TieRank rank = is_on_lattice(node.site) ? lattice[index_of(node.site)] : TieRank{};
+    TieRank rank = is_on_grid(node.site) ? grid[index_of(node.site)] : TieRank{};
     const auto [near, far] = std::minmax(
         {std::abs(node.position.x - origin.x), std::abs(node.position.y - origin.y)});  // from a list: values
     rank.farther = far;

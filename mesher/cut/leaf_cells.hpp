@@ -2,7 +2,7 @@
 
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/cut/triangulate.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 

@@ -78,7 +78,7 @@ struct Stop {
 void add_stop(const Box& box, Stop stop, std::pmr::vector<Stop>& stops) {
   if (stop.position == corners_of(box)[index_of(start_of(next(stop.side)))]) stop.side = next(stop.side);
   stop.along = along(stop.side, stop.position);
-  if (!is_on_lattice(stop.site)) stop.site = elsewhere_on(stop.side);
+  if (!is_on_grid(stop.site)) stop.site = elsewhere_on(stop.side);
   stops.push_back(stop);
 }
 
@@ -104,7 +104,7 @@ std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource
   }
   for (std::int32_t s = 0; s < std::ssize(input.snaps); ++s) {
     const Site site = input.snaps[s].site;
-    if (is_on_lattice(site)) continue;
+    if (is_on_grid(site)) continue;
     const Side side = side_of(site);
     const Point p = input.snaps[s].snap->position, from = corner[index_of(start_of(side))];
     add(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
@@ -139,12 +139,12 @@ std::int32_t absorbing_snap(std::span<const LeafSnap> snaps, const Crossing& cro
 }
 
 /// Adds a node for each position with a stop that no snap absorbs. Returns the node that each snap moves:
-/// that of its lattice site, or of its stop on a side.
+/// that of its grid site, or of its stop on a side.
 std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
                                               std::span<const NamedCrossing> crossings,
                                               std::pmr::vector<Stop>& stops,
                                               std::vector<CutLeaf::Node>& nodes) {
-  std::array<std::int32_t, lattice_sites.size()> site_nodes{};
+  std::array<std::int32_t, grid_sites.size()> site_nodes{};
   std::pmr::vector<std::int32_t> snap_nodes(snaps.size(), -1, stops.get_allocator());
   for (std::size_t i = 0; i < stops.size(); ++i) {
     Stop& stop = stops[i];
@@ -152,11 +152,11 @@ std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
     const bool at_last = i > 0 && stops[i - 1].position == stop.position && stops[i - 1].node >= 0;
     if (!at_last) nodes.push_back({stop.position, stop.site});
     stop.node = size32(nodes) - 1;
-    if (is_on_lattice(stop.site)) site_nodes[index_of(stop.site)] = stop.node;
+    if (is_on_grid(stop.site)) site_nodes[index_of(stop.site)] = stop.node;
     if (stop.snap >= 0) snap_nodes[stop.snap] = stop.node;
   }
   for (std::size_t s = 0; s < snaps.size(); ++s) {
-    if (is_on_lattice(snaps[s].site)) snap_nodes[s] = site_nodes[index_of(snaps[s].site)];
+    if (is_on_grid(snaps[s].site)) snap_nodes[s] = site_nodes[index_of(snaps[s].site)];
   }
   return snap_nodes;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/morton.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 

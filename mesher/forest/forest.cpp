@@ -213,17 +213,17 @@ void Forest::Impl::give_leaves_of(p4est_topidx_t t) const {
   whole.quadrants = all;
 }
 
-Forest::Forest(const Communicator& comm, const Lattice& lattice) : impl_{std::make_unique<Impl>()} {
+Forest::Forest(const Communicator& comm, const TreeGrid& grid) : impl_{std::make_unique<Impl>()} {
   set_up_p4est();
-  impl_->trees_x = lattice.trees_x();
-  impl_->connectivity.reset(p4est_connectivity_new_brick(lattice.trees_x(), lattice.trees_y(), 0, 0));
+  impl_->trees_x = grid.trees_x();
+  impl_->connectivity.reset(p4est_connectivity_new_brick(grid.trees_x(), grid.trees_y(), 0, 0));
   p4est_connectivity_t& trees = *impl_->connectivity;
   impl_->tree_numbers.resize(trees.num_trees);
   for (p4est_topidx_t t = 0; t < trees.num_trees; ++t) {
     const double* corner = trees.vertices + 3 * trees.tree_to_vertex[P4EST_CHILDREN * t];
     const std::int64_t column = std::llround(corner[0]), row = std::llround(corner[1]);
     impl_->tree_corners.push_back({column << Quadrant::unit_level, row << Quadrant::unit_level, 0});
-    impl_->tree_numbers[row * lattice.trees_x() + column] = t;
+    impl_->tree_numbers[row * grid.trees_x() + column] = t;
   }
   impl_->forest.reset(p4est_new_ext(comm.raw(), impl_->connectivity.get(), 0, 1, 1, 0, nullptr, nullptr));
   impl_->take_quadrants();

@@ -15,7 +15,7 @@ namespace quadloop {
 class Forest {
  public:
   /// A uniform forest of level 1.
-  Forest(const Communicator& comm, const Lattice& lattice);
+  Forest(const Communicator& comm, const TreeGrid& grid);
   ~Forest();
   Forest(Forest&&) noexcept;
   Forest& operator=(Forest&&) = delete;

@@ -16,8 +16,8 @@ struct Stretch {
 /// Finds the leaves of this rank that others need, from the partition of the curve.
 class GhostFinder {
  public:
-  GhostFinder(int rank, const Lattice& lattice, const CurveOwners& owners)
-      : rank_{rank}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()}, owners_{owners} {}
+  GhostFinder(int rank, const TreeGrid& grid, const CurveOwners& owners)
+      : rank_{rank}, trees_x_{grid.trees_x()}, trees_y_{grid.trees_y()}, owners_{owners} {}
 
   /// Visits the leaves of this rank below a quadrant, where a neighbour may be on another rank.
   void search(const Quadrant& quadrant, std::span<const Quadrant> leaves, std::int32_t first) {
@@ -106,10 +106,10 @@ class GhostFinder {
 
 }  // namespace
 
-std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const CurveOwners& owners,
+std::vector<Ghost> ghost_layer(const Communicator& comm, const TreeGrid& grid, const CurveOwners& owners,
                                std::span<const Quadrant> leaves) {
   if (comm.size() == 1) return {};
-  GhostFinder finder(comm.rank(), lattice, owners);
+  GhostFinder finder(comm.rank(), grid, owners);
   const auto tree_of = [](const Quadrant& q) {
     return Quadrant{q.x >> Quadrant::unit_level, q.y >> Quadrant::unit_level, 0};
   };

@@ -19,7 +19,7 @@ struct Ghost {
 /// All ghost leaves, in the order of the curve. `leaves` are this rank's. Visits only quadrants at the border
 /// of this rank's part, so that the work grows with the border and not with the number of leaves.
 /// *Collective.*
-std::vector<Ghost> ghost_layer(const Communicator& comm, const Lattice& lattice, const CurveOwners& owners,
+std::vector<Ghost> ghost_layer(const Communicator& comm, const TreeGrid& grid, const CurveOwners& owners,
                                std::span<const Quadrant> leaves);
 
 }  // namespace quadloop

@@ -19,7 +19,7 @@ class LeafFinder {
   LeafId leaf_at(std::int64_t x, std::int64_t y);
   /// The leaves around a grid vertex, in the order of Corner; a leaf with the vertex on one of its sides
   /// occurs twice.
-  std::array<LeafId, 4> leaves_round(LatticePoint p) {
+  std::array<LeafId, 4> leaves_round(GridPoint p) {
     return {leaf_at(p.x - 1, p.y - 1), leaf_at(p.x, p.y - 1), leaf_at(p.x, p.y), leaf_at(p.x - 1, p.y)};
   }
 

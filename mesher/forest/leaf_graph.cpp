@@ -18,10 +18,10 @@ std::size_t room_for_ghosts(std::int32_t leaves) {
 
 }  // namespace
 
-LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest)
-    : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{lattice.trees_x()}, trees_y_{lattice.trees_y()} {
+LeafGraph::LeafGraph(const Communicator& comm, const TreeGrid& grid, const Forest& forest)
+    : owners_{forest.owners()}, rank_{comm.rank()}, trees_x_{grid.trees_x()}, trees_y_{grid.trees_y()} {
   std::vector<Quadrant> local = forest.leaves(comm.size() == 1 ? 0 : room_for_ghosts(forest.local_leaves()));
-  const std::vector<Ghost> ghosts = ghost_layer(comm, lattice, owners_, local);
+  const std::vector<Ghost> ghosts = ghost_layer(comm, grid, owners_, local);
   for (const auto& ghost : ghosts) local_begin_ += ghost.owner < rank_ ? 1 : 0;
   local_count_ = size32(local);
   std::vector<Quadrant> before, after;
@@ -32,9 +32,9 @@ LeafGraph::LeafGraph(const Communicator& comm, const Lattice& lattice, const For
   leaves_ = std::move(local);
   leaves_.insert(leaves_.begin(), before.begin(), before.end());
   leaves_.insert(leaves_.end(), after.begin(), after.end());
-  build_trees(lattice);
+  build_trees(grid);
   around_.resize(leaves_.size());
-  const int nx = lattice.trees_x(), ny = lattice.trees_y();
+  const int nx = grid.trees_x(), ny = grid.trees_y();
   const auto root = [&](int x, int y) {
     return x < 0 || y < 0 || x >= nx || y >= ny ? no_ref : roots_[y * nx + x];
   };
@@ -63,16 +63,15 @@ LeafGraph::Ref LeafGraph::new_inner() {
 }
 
 /// Adds each leaf to its tree, starting from the path to the previous leaf instead of the root.
-void LeafGraph::build_trees(const Lattice& lattice) {
-  roots_.assign(lattice.trees_x() * lattice.trees_y(), no_ref);
+void LeafGraph::build_trees(const TreeGrid& grid) {
+  roots_.assign(grid.trees_x() * grid.trees_y(), no_ref);
   inner_.reserve(leaves_.size() / 3 + leaves_.size() / 16 + 64);
   std::array<Ref, Quadrant::unit_level + 1> path{};
   std::int64_t last_tree = -1;
   Quadrant last;
   for (std::int32_t i = 0; i < size(); ++i) {
     const Quadrant& q = leaves_[i];
-    const std::int64_t tree =
-        (q.y >> Quadrant::unit_level) * lattice.trees_x() + (q.x >> Quadrant::unit_level);
+    const std::int64_t tree = (q.y >> Quadrant::unit_level) * grid.trees_x() + (q.x >> Quadrant::unit_level);
     int common = 0;  // level of the deepest inner node on both paths
     if (tree == last_tree) {
       const std::uint64_t differing = (q.x ^ last.x) | (q.y ^ last.y);

@@ -18,7 +18,7 @@ class LeafGraph {
   static constexpr LeafId none{};
 
   /// *Collective.*
-  LeafGraph(const Communicator& comm, const Lattice& lattice, const Forest& forest);
+  LeafGraph(const Communicator& comm, const TreeGrid& grid, const Forest& forest);
 
   std::int32_t size() const { return size32(leaves_); }
   /// Number of ghost leaves before the local ones.
@@ -78,7 +78,7 @@ class LeafGraph {
     return roots_[(y >> Quadrant::unit_level) * trees_x_ + (x >> Quadrant::unit_level)];
   }
   Ref new_inner();
-  void build_trees(const Lattice& lattice);
+  void build_trees(const TreeGrid& grid);
   void visit(Ref ref, const Neighbours& n);
   void visit_leaf(LeafId leaf, const Neighbours& n);
 

@@ -12,9 +12,9 @@ namespace quadloop {
 
 namespace {
 
-bool is_in_root(const Lattice& lattice, const Quadrant& q) {
-  const std::int64_t width = std::int64_t{lattice.trees_x()} << Quadrant::unit_level,
-                     height = std::int64_t{lattice.trees_y()} << Quadrant::unit_level;
+bool is_in_root(const TreeGrid& grid, const Quadrant& q) {
+  const std::int64_t width = std::int64_t{grid.trees_x()} << Quadrant::unit_level,
+                     height = std::int64_t{grid.trees_y()} << Quadrant::unit_level;
   return q.x >= 0 && q.y >= 0 && q.x < width && q.y < height;
 }
 
@@ -61,7 +61,7 @@ void OutsideSplits::add_parents_round(const Quadrant& q, std::vector<Quadrant>& 
   for (const std::int64_t y : {parent.y, parent.y + to_y}) {
     for (const std::int64_t x : {parent.x, parent.x + to_x}) {
       const Quadrant round{x, y, parent.level};
-      if (is_in_root(sizes_.lattice(), round) && is_new(round) && cursor_.segments_in(round).empty())
+      if (is_in_root(sizes_.grid(), round) && is_new(round) && cursor_.segments_in(round).empty())
         above.push_back(round);
     }
   }

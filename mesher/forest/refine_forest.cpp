@@ -160,7 +160,7 @@ void share_out_leaves(SizeTree& sizes, Forest& forest) {
 LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, const LeafEstimate& expected) {
   sizes.expect_cut_leaves(expected.cut / comm.size());
   SizedSplits splits(sizes);
-  Forest forest(comm, sizes.lattice());
+  Forest forest(comm, sizes.grid());
   progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
   if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, splits, forest);
   double looked_at = 0;
@@ -186,7 +186,7 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, const LeafEst
   splits.split_outside(comm, forest);
   if (comm.size() > 1 && !weighed.are_shared_evenly(comm)) share_out_leaves(sizes, forest);
   while (true) {
-    LeafGraph graph(comm, sizes.lattice(), forest);
+    LeafGraph graph(comm, sizes.grid(), forest);
     const SqueezedLeaves squeezed(graph);
     if (!comm.any(squeezed.any())) return graph;
     forest.split_marked(squeezed.marked());

@@ -134,9 +134,9 @@ class Sweep {
       leave(before);
       leave(after);
     } else if (first_ends) {
-      carry_on(before, after);
+      continue_in_time(before, after);
     } else if (second_ends) {
-      carry_on(after, before);
+      continue_in_time(after, before);
     } else {
       enter(before);
       enter(after);
@@ -147,7 +147,7 @@ class Sweep {
 
   /// The neighbours were tested against `ended`, so the segment that continues from its end lies between them
   /// too.
-  void carry_on(std::int32_t ended, std::int32_t s) {
+  void continue_in_time(std::int32_t ended, std::int32_t s) {
     const auto at = status_at_[ended];
     at->segment = s;
     place(s, at);

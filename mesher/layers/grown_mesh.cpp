@@ -26,11 +26,11 @@ GrownMesh::GrownMesh(const Communicator& comm, const std::vector<std::int32_t>& 
     after_[node] = GlobalNodeId{next};
     next += 1 + added[node.value()];
   }
-  NodeExchange(comm_, NodeOwners(comm_, mesh_.first_node), mesh_.owned_nodes, mesh_.copies).update(after_);
+  NodeExchange(comm_, NodeOwners(comm_, mesh_.first_node), mesh_.owned_nodes, mesh_.ghosts).update(after_);
 }
 
 void GrownMesh::use(const GrownNode& node) {
-  if (!owns(node.id)) copies_.emplace(node.id, node.point);
+  if (!owns(node.id)) ghosts_.emplace(node.id, node.point);
 }
 
 void GrownMesh::add_triangle(std::int32_t leaf, const GrownNode& a, const GrownNode& b, const GrownNode& c) {
@@ -105,11 +105,11 @@ void GrownMesh::place_nodes(const std::function<void(NodeId, std::vector<Point>&
   QUADLOOP_REQUIRE(size32(points) == owned_nodes_, "as many nodes as are numbered", points.size(),
                    owned_nodes_);
   for (std::size_t i = mesh_.owned_nodes; i < mesh_.points.size(); ++i)
-    copies_.emplace(after_[NodeId{static_cast<std::int32_t>(i)}], mesh_.points[i]);
-  mesh_.copies.clear();
-  for (const auto& [id, point] : copies_) {
+    ghosts_.emplace(after_[NodeId{static_cast<std::int32_t>(i)}], mesh_.points[i]);
+  mesh_.ghosts.clear();
+  for (const auto& [id, point] : ghosts_) {
     local_copy_.emplace(id, NodeId{size32(points)});
-    mesh_.copies.push_back(id);
+    mesh_.ghosts.push_back(id);
     points.push_back(point);
   }
   mesh_.points = std::move(points);

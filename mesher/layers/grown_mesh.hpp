@@ -82,7 +82,7 @@ class GrownMesh {
   IdVector<NodeId, GlobalNodeId> after_;  ///< new numbers of the existing nodes
   std::int64_t first_node_ = 0;
   std::int32_t owned_nodes_ = 0;
-  std::map<GlobalNodeId, Point> copies_;
+  std::map<GlobalNodeId, Point> ghosts_;
   std::map<GlobalNodeId, NodeId> local_copy_;
   std::vector<OfLeaf<3>> triangles_;
   std::vector<OfLeaf<4>> quads_;

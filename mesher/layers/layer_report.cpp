@@ -84,7 +84,7 @@ double median_first(std::span<const Column> columns) {
 }
 
 /// Statistics of the stations of one boundary.
-struct WallFigures {
+struct WallStatistics {
   /// Length of wall between stations with the requested thickness; total length.
   double full_length = 0, length = 0;
   double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< requested first heights
@@ -92,13 +92,13 @@ struct WallFigures {
   double share_full() const { return length > 0 ? full_length / length : 1; }
 };
 
-using FiguresOfWalls = IdVector<BoundaryId, WallFigures>;
+using StatisticsOfWalls = IdVector<BoundaryId, WallStatistics>;
 
 /// Statistics of all boundaries, in one pass over the stations.
-FiguresOfWalls figures_of_walls(const LayerFront& front) {
-  FiguresOfWalls walls(front.line.geometry().boundaries().size());
+StatisticsOfWalls statistics_of_walls(const LayerFront& front) {
+  StatisticsOfWalls walls(front.line.geometry().boundaries().size());
   for (std::int32_t i = 0; i < front.line.size(); ++i) {
-    WallFigures& wall = walls[front.line[i].layers];
+    WallStatistics& wall = walls[front.line[i].layers];
     wall.first_least = std::min(wall.first_least, front.line.spec(i).first);
     wall.first_most = std::max(wall.first_most, front.line.spec(i).first);
     if (!front.line.goes_on(i)) continue;
@@ -109,7 +109,7 @@ FiguresOfWalls figures_of_walls(const LayerFront& front) {
   return walls;
 }
 
-BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const WallFigures& wall,
+BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const WallStatistics& wall,
                               std::span<const Column> columns) {
   const Boundary& boundary = front.line.geometry().boundary(id);
   const LayerSpec& spec = *boundary.layers;
@@ -185,7 +185,7 @@ BoundaryLayerReport report_strip(const LayerStrip& strip) {
 
 LayerReport report_layers(const Communicator& comm, const LayerFront& front, const Mesh& outer) {
   const std::vector<Column> columns = all_columns(comm, front, outer);
-  const FiguresOfWalls walls = figures_of_walls(front);
+  const StatisticsOfWalls walls = statistics_of_walls(front);
   LayerReport report;
   for (auto begin = columns.begin(); begin != columns.end();) {
     const BoundaryId boundary = begin->boundary;
@@ -224,7 +224,7 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
 namespace {
 
 /// The smallest leaf size that a boundary's layers need.
-struct WantedLeaf {
+struct TargetLeaf {
   double size = std::numeric_limits<double>::infinity();
   Point at;
 };
@@ -232,12 +232,12 @@ struct WantedLeaf {
 void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std::string>& warnings) {
   constexpr std::size_t most_named = 5;
   const Geometry& outer = front.outer;
-  IdVector<BoundaryId, WantedLeaf> wanted(outer.boundaries().size(), {});
+  IdVector<BoundaryId, TargetLeaf> wanted(outer.boundaries().size(), {});
   for (std::int32_t s = 0; s < outer.size(); ++s) {
     const std::int32_t station = front.station_of[s];
     if (station == WallLine::none || share_at(front, station) < thin_share) continue;
     const double size = leaf_over_last_layer * front.last_heights[s];
-    WantedLeaf& least = wanted[outer.boundary_of(s)];
+    TargetLeaf& least = wanted[outer.boundary_of(s)];
     if (size < std::min(min, least.size)) least = {size, outer.point(s)};
   }
   std::vector<BoundaryId> limited;
@@ -291,7 +291,8 @@ void add_warning_of_turn(const LayerStrip& strip, std::vector<std::string>& warn
   if (strip.turn_degrees <= too_sharp) return;
   const Point at = strip.columns[0][strip.columns[0].size() / 2];
   warnings.push_back(fmt::format(
-      "{}{} turns by {:.0f} degrees from the direction of the trailing edge near ({:.6g}, {:.6g}): the layers "
+      "{}{} turns by {:.0f} degrees from the direction of the trailing edge near ({:.6g}, {:.6g}): the "
+      "layers "
       "there are thin or their cells skewed; begin its path in the direction of the edge and bend it "
       "gradually, in steps of at most {} degrees",
       strip.place, strip.name, strip.turn_degrees, at.x, at.y, too_sharp));

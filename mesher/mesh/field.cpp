@@ -75,12 +75,12 @@ void append_columns(Field& field, std::span<const std::string> names, std::span<
   field.values = std::move(all);
 }
 
-Field with_copies(const Communicator& comm, const Mesh& mesh, Field field) {
+Field with_ghosts(const Communicator& comm, const Mesh& mesh, Field field) {
   const std::size_t width = field.width();
   QUADLOOP_REQUIRE(field.values.size() >= mesh.owned_nodes * width,
                    "a field must have a row for each owned node");
   field.values.resize(mesh.points.size() * width);
-  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies)
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts)
       .update_rows(field.values, width);
   return field;
 }

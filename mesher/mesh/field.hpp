@@ -21,7 +21,7 @@ struct CellValues {
 };
 
 /// Nodal values, and optionally cell averages, of named variables: for each owned node, in the mesh's order,
-/// a row of width() values, optionally followed by ghost rows (with_copies()). Names and constants are the
+/// a row of width() values, optionally followed by ghost rows (with_ghosts()). Names and constants are the
 /// same on all ranks.
 struct Field {
   std::vector<std::string> names;  ///< found by variable(), variable_names.hpp
@@ -50,6 +50,6 @@ void append_columns(Field& field, std::span<const std::string> names, std::span<
 
 /// Returns the rows of owned nodes followed by those of the mesh's ghosts, fetched from their owners;
 /// existing ghost rows are ignored. *Collective.*
-Field with_copies(const Communicator& comm, const Mesh& mesh, Field field);
+Field with_ghosts(const Communicator& comm, const Mesh& mesh, Field field);
 
 }  // namespace quadloop

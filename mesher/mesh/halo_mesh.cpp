@@ -21,7 +21,7 @@ struct TravellingEdge {
 
 /// Calls `visit(i)` for the cells with a ghost node, which are few; searches blockwise at memory speed.
 template <std::size_t width, class Visit>
-void for_cells_at_copies(const std::vector<std::array<NodeId, width>>& cells, std::int32_t owned_nodes,
+void for_cells_at_ghosts(const std::vector<std::array<NodeId, width>>& cells, std::int32_t owned_nodes,
                          const Visit& visit) {
   constexpr std::size_t block = 256;
   const auto largest_in = [&](std::size_t begin, std::size_t end) {
@@ -55,15 +55,15 @@ std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const 
 }  // namespace
 
 HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh)
-    : mesh_{&mesh}, points_{mesh.points}, copies_{mesh.copies}, exchange_{gather(comm)} {}
+    : mesh_{&mesh}, points_{mesh.points}, ghosts_{mesh.ghosts}, exchange_{gather(comm)} {}
 
 NodeExchange HaloMesh::gather(const Communicator& comm) {
   const NodeOwners owners(comm, mesh_->first_node);
-  NodeTable nodes(mesh_->first_node, owned_nodes(), points_, copies_);
+  NodeTable nodes(mesh_->first_node, owned_nodes(), points_, ghosts_);
   receive_cells(comm, owners, mesh_->triangles, nodes, triangles_before_, triangles_after_, triangles_sent_);
   receive_cells(comm, owners, mesh_->quads, nodes, quads_before_, quads_after_, quads_sent_);
   receive_edges(comm, owners, nodes);
-  return {comm, owners, owned_nodes(), copies_};
+  return {comm, owners, owned_nodes(), ghosts_};
 }
 
 template <std::size_t width>
@@ -78,8 +78,8 @@ void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners,
       sent.ranks.push_back(rank);
     }
   };
-  const bool any_shared = !mesh_->copies.empty();  // otherwise no cell touches a node of another rank
-  if (any_shared) for_cells_at_copies(own, owned_nodes(), send);
+  const bool any_shared = !mesh_->ghosts.empty();  // otherwise no cell touches a node of another rank
+  if (any_shared) for_cells_at_ghosts(own, owned_nodes(), send);
   const Exchange exchange(comm, sent.ranks);
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());
   for (const TravellingCell<width>& cell : exchange.deliver(out)) {

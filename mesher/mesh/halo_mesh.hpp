@@ -32,7 +32,7 @@ class HaloMesh {
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
   bool owns(NodeId node) const { return mesh_->owns(node); }
   GlobalNodeId global(NodeId node) const {
-    return owns(node) ? mesh_->global(node) : copies_[node.value() - owned_nodes()];
+    return owns(node) ? mesh_->global(node) : ghosts_[node.value() - owned_nodes()];
   }
   const NodeExchange& exchange() const { return exchange_; }
 
@@ -83,7 +83,7 @@ class HaloMesh {
 
   const Mesh* mesh_;
   std::vector<Point> points_;
-  std::vector<GlobalNodeId> copies_;
+  std::vector<GlobalNodeId> ghosts_;
   Cells<3> triangles_before_, triangles_after_;  ///< of lower and of higher ranks
   Cells<4> quads_before_, quads_after_;
   std::vector<HaloEdge> edges_;

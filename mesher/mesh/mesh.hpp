@@ -96,7 +96,7 @@ struct Mesh {
   std::vector<Point> points;    ///< owned nodes, then ghosts
   std::int64_t first_node = 0;  ///< global number of points[0]
   std::int32_t owned_nodes = 0;
-  std::vector<GlobalNodeId> copies;  ///< global numbers of the ghosts, points[owned_nodes ...]
+  std::vector<GlobalNodeId> ghosts;  ///< global numbers of the ghosts, points[owned_nodes ...]
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
@@ -105,7 +105,7 @@ struct Mesh {
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }
   GlobalNodeId global(NodeId node) const {
-    return owns(node) ? GlobalNodeId{first_node + node.value()} : copies[node.value() - owned_nodes];
+    return owns(node) ? GlobalNodeId{first_node + node.value()} : ghosts[node.value() - owned_nodes];
   }
   std::size_t cell_count() const { return triangles.size() + quads.size(); }
 

@@ -89,7 +89,7 @@ NodeImages find_node_images(const Communicator& comm, const Mesh& mesh, MirrorAx
   }
   refuse_lacking(comm, axis, "node", lacking);
   images.resize(mesh.points.size());
-  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.copies).update(images);
+  NodeExchange(comm, NodeOwners(comm, mesh.first_node), mesh.owned_nodes, mesh.ghosts).update(images);
   return images;
 }
 

@@ -4,10 +4,10 @@ namespace quadloop {
 
 namespace {
 
-std::vector<CopyExchange::Copy> listed(const NodeOwners& owners, std::int32_t owned_nodes,
-                                       std::span<const GlobalNodeId> copies) {
-  std::vector<CopyExchange::Copy> list;
-  for (const GlobalNodeId node : copies)
+std::vector<GhostExchange::Copy> listed(const NodeOwners& owners, std::int32_t owned_nodes,
+                                        std::span<const GlobalNodeId> ghosts) {
+  std::vector<GhostExchange::Copy> list;
+  for (const GlobalNodeId node : ghosts)
     list.push_back({owned_nodes++, owners.rank_of(node), owners.local(node).value()});
   return list;
 }
@@ -22,7 +22,7 @@ void flag_at_owners(const Communicator& comm, const NodeOwners& owners, std::spa
 }
 
 NodeExchange::NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
-                           std::span<const GlobalNodeId> copies)
-    : CopyExchange(comm, listed(owners, owned_nodes, copies)) {}
+                           std::span<const GlobalNodeId> ghosts)
+    : GhostExchange(comm, listed(owners, owned_nodes, ghosts)) {}
 
 }  // namespace quadloop

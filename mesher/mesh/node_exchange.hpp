@@ -30,11 +30,11 @@ void flag_at_owners(const Communicator& comm, const NodeOwners& owners, std::spa
                     IdVector<NodeId, char>& flags);
 
 /// Updates ghost values from their owners: arrays have one row for each owned node and each ghost.
-class NodeExchange : public CopyExchange {
+class NodeExchange : public GhostExchange {
  public:
   /// `copies` are the global numbers of the ghosts, in this rank's order. *Collective.*
   NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
-               std::span<const GlobalNodeId> copies);
+               std::span<const GlobalNodeId> ghosts);
 };
 
 }  // namespace quadloop

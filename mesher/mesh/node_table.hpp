@@ -14,11 +14,11 @@ class NodeTable {
   /// The vectors must outlive the table, and must not be changed by others meanwhile. `points` are those of
   /// all nodes.
   NodeTable(std::int64_t first_node, std::int32_t owned_nodes, std::vector<Point>& points,
-            std::vector<GlobalNodeId>& copies)
-      : first_{first_node}, owned_{owned_nodes}, points_{points}, copies_{copies} {
-    for (const GlobalNodeId node : copies) local_of_.emplace(node, owned_nodes++);
+            std::vector<GlobalNodeId>& ghosts)
+      : first_{first_node}, owned_{owned_nodes}, points_{points}, ghosts_{ghosts} {
+    for (const GlobalNodeId node : ghosts) local_of_.emplace(node, owned_nodes++);
   }
-  explicit NodeTable(Mesh& mesh) : NodeTable(mesh.first_node, mesh.owned_nodes, mesh.points, mesh.copies) {}
+  explicit NodeTable(Mesh& mesh) : NodeTable(mesh.first_node, mesh.owned_nodes, mesh.points, mesh.ghosts) {}
 
   /// Returns the local number; invalid if the node is not on this rank.
   NodeId find(GlobalNodeId node) const {
@@ -35,7 +35,7 @@ class NodeTable {
     const NodeId added{size32(points_)};
     local_of_.emplace(node, added);
     points_.push_back(point);
-    copies_.push_back(node);
+    ghosts_.push_back(node);
     return added;
   }
 
@@ -43,7 +43,7 @@ class NodeTable {
   std::int64_t first_;
   std::int32_t owned_;
   std::vector<Point>& points_;
-  std::vector<GlobalNodeId>& copies_;
+  std::vector<GlobalNodeId>& ghosts_;
   std::unordered_map<GlobalNodeId, NodeId> local_of_;
 };
 

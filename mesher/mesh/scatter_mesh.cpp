@@ -216,7 +216,7 @@ class PartBuilder {
   /// Fetches the positions of the ghosts. *Collective.*
   Mesh finish(const Communicator& comm) {
     const NodeOwners owners(comm, part_.first_node);
-    NodeExchange(comm, owners, part_.owned_nodes, part_.copies).update(part_.points);
+    NodeExchange(comm, owners, part_.owned_nodes, part_.ghosts).update(part_.points);
     return std::move(part_);
   }
 

@@ -274,8 +274,8 @@ std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, con
   return PartMaker(comm, mesh, cells, data).make();
 }
 
-PartFigures part_figures(const Communicator& comm, std::span<const MeshPart> parts) {
-  PartFigures figures;
+PartStatistics part_statistics(const Communicator& comm, std::span<const MeshPart> parts) {
+  PartStatistics statistics;
   std::int64_t cut = 0, weight = 0, heaviest = 0, shared = 0, neighbours = 0, most = 0;
   std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
   for (const MeshPart& part : parts) {
@@ -295,15 +295,15 @@ PartFigures part_figures(const Communicator& comm, std::span<const MeshPart> par
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       shared += is_shared[i] != 0 && part.owners[i] == part.number ? 1 : 0;
   }
-  figures.parts = comm.sum(std::ssize(parts));
-  figures.edge_cut = comm.sum(cut) / 2;
-  figures.balance = static_cast<double>(comm.maximum(heaviest)) * static_cast<double>(figures.parts) /
-                    static_cast<double>(comm.sum(weight));
-  figures.fewest_cells = comm.minimum(fewest);
-  figures.most_cells = comm.maximum(most);
-  figures.shared_nodes = comm.sum(shared);
-  figures.most_neighbours = comm.maximum(neighbours);
-  return figures;
+  statistics.parts = comm.sum(std::ssize(parts));
+  statistics.edge_cut = comm.sum(cut) / 2;
+  statistics.balance = static_cast<double>(comm.maximum(heaviest)) * static_cast<double>(statistics.parts) /
+                       static_cast<double>(comm.sum(weight));
+  statistics.fewest_cells = comm.minimum(fewest);
+  statistics.most_cells = comm.maximum(most);
+  statistics.shared_nodes = comm.sum(shared);
+  statistics.most_neighbours = comm.maximum(neighbours);
+  return statistics;
 }
 
 }  // namespace quadloop

@@ -54,7 +54,7 @@ std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, con
                                  const PartData& data = {});
 
 /// Quality of a partition.
-struct PartFigures {
+struct PartStatistics {
   std::int64_t parts = 0;
   std::int64_t edge_cut = 0;  ///< number of inner edges between two parts
   /// Largest weight of a part over the mean; the weight of a cell is its number of edges.
@@ -65,6 +65,6 @@ struct PartFigures {
 };
 
 /// *Collective.*
-PartFigures part_figures(const Communicator& comm, std::span<const MeshPart> parts);
+PartStatistics part_statistics(const Communicator& comm, std::span<const MeshPart> parts);
 
 }  // namespace quadloop

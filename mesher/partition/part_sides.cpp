@@ -71,7 +71,7 @@ class SideFinder {
     }
     NodeFlags flags(mesh_.points.size(), 0);
     flag_at_owners(comm_, owners_, nodes, flags);
-    NodeExchange(comm_, owners_, mesh_.owned_nodes, mesh_.copies).update(flags);
+    NodeExchange(comm_, owners_, mesh_.owned_nodes, mesh_.ghosts).update(flags);
     return flags;
   }
 

@@ -32,8 +32,8 @@ class LeafCount {
 
   LeafEstimate count() {
     std::vector<Sampled> level;
-    for (std::int64_t ty = 0; ty < sizes_.lattice().trees_y(); ++ty) {
-      for (std::int64_t tx = 0; tx < sizes_.lattice().trees_x(); ++tx) {
+    for (std::int64_t ty = 0; ty < sizes_.grid().trees_y(); ++ty) {
+      for (std::int64_t tx = 0; tx < sizes_.grid().trees_x(); ++tx) {
         level.push_back({{tx << Quadrant::unit_level, ty << Quadrant::unit_level, 0}});
       }
     }

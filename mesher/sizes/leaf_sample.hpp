@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 

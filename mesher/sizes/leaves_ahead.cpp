@@ -51,7 +51,7 @@ double LeavesAhead::below(const Quadrant& q) {
 
 double LeavesAhead::source_leaves(const Quadrant& q) const {
   const SizeRules& rules = tree_.rules();
-  const Box box = rules.lattice().box_of(q);
+  const Box box = rules.grid().box_of(q);
   double leaves = 0;
   for (const SizeSource& source : rules.sources()) {
     const int deeper = rules.level_for(source.spacing) - q.level;
@@ -69,7 +69,7 @@ int LeavesAhead::level_ahead(std::int32_t node) {
   const SizeTree::Node& n = tree_.node(node);
   int level = std::max(n.quadrant.level + 1, rules.level_of_outline(n.quadrant, tree_.segments_of(n)));
   if (n.demanded != DemandedSplits::none) level = std::max(level, rules.demanded().finest_level());
-  const Box box = rules.lattice().box_of(n.quadrant);
+  const Box box = rules.grid().box_of(n.quadrant);
   for (const SizeSource& source : rules.sources()) {
     if (level < rules.level_for(source.spacing) && meets(source, box))
       level = rules.level_for(source.spacing);

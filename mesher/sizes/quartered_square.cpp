@@ -17,12 +17,11 @@ bool miss(const std::array<bool, 3>& a, const std::array<bool, 3>& b, int stretc
 
 }  // namespace
 
-QuarteredSquare::QuarteredSquare(const ShiftedOutline& outline, const Lattice& lattice,
-                                 const Quadrant& square)
+QuarteredSquare::QuarteredSquare(const ShiftedOutline& outline, const TreeGrid& grid, const Quadrant& square)
     : outline_{&outline} {
   for (const int line : {0, 1, 2}) {
-    x_[line] = lattice.x(square.x + line * square.size() / 2);
-    y_[line] = lattice.y(square.y + line * square.size() / 2);
+    x_[line] = grid.x(square.x + line * square.size() / 2);
+    y_[line] = grid.y(square.y + line * square.size() / 2);
   }
 }
 

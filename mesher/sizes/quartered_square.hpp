@@ -4,16 +4,16 @@
 #include <cstdint>
 
 #include "mesher/geometry/shifted_outline.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 
-/// A square of the lattice with its quarters: finds for a segment the quarters that it crosses, for all four
+/// A square of the grid with its quarters: finds for a segment the quarters that it crosses, for all four
 /// at once.
 class QuarteredSquare {
  public:
   /// The outline must outlive the object.
-  QuarteredSquare(const ShiftedOutline& outline, const Lattice& lattice, const Quadrant& square);
+  QuarteredSquare(const ShiftedOutline& outline, const TreeGrid& grid, const Quadrant& square);
 
   Box box() const { return {{x_[0], y_[0]}, {x_[2], y_[2]}}; }
   Box box_of(Corner quarter) const {

@@ -35,7 +35,7 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
   const std::span<const std::int32_t> inside = tree_.segments_of(node);
   if (inside.empty() || node.quadrant == q) return inside;
   found_.clear();
-  const Box box = tree_.lattice().box_of(q);
+  const Box box = tree_.grid().box_of(q);
   for (const std::int32_t s : inside) {
     if (tree_.rules().outline().meets(s, box)) found_.push_back(s);
   }
@@ -46,18 +46,18 @@ std::span<const std::int32_t> SizeCursor::segments_in(const Quadrant& q) {
 bool SizeCursor::is_inside(const Quadrant& q, Corner corner) {
   const SizeTree::Node& node = tree_.node(deepest_with_geometry(q));
   const ShiftedOutline& outline = tree_.rules().outline();
-  const LatticePoint place = q.at(site_of(corner));
-  const Lattice& lattice = tree_.lattice();
+  const GridPoint place = q.at(site_of(corner));
+  const TreeGrid& grid = tree_.grid();
   int winding = node.winding;
   for (const std::int32_t s : tree_.segments_of(node)) {
-    const Point from = lattice.corner(node.quadrant.x, node.quadrant.y), to = lattice.corner(place),
+    const Point from = grid.corner(node.quadrant.x, node.quadrant.y), to = grid.corner(place),
                 turn{to.x, from.y};
     winding += outline.winding_between(s, from, turn) + outline.winding_between(s, turn, to);
   }
   return winding > 0;
 }
 
-int SizeCursor::wanted_level(const Quadrant& leaf) {
+int SizeCursor::target_level(const Quadrant& leaf) {
   const auto always = [](const SizeTree::Node&) { return true; };
   return std::min(leaf.level,
                   std::max(tree_.node(deepest_node_at(leaf, always)).quadrant.level, tree_.coarsest_level()));

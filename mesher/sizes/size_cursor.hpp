@@ -22,7 +22,7 @@ class SizeCursor {
   /// Whether a corner of the quadrant lies in the domain.
   bool is_inside(const Quadrant& q, Corner corner);
   /// Returns the level of this leaf's place in the wanted tree, i.e. without gradation.
-  int wanted_level(const Quadrant& leaf);
+  int target_level(const Quadrant& leaf);
 
  private:
   template <class Enter>

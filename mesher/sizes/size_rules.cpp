@@ -12,25 +12,25 @@ constexpr double turning_unit = 0x1p-20;  // degrees; integers, so that sums do 
 
 }  // namespace
 
-SizeRules::SizeRules(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+SizeRules::SizeRules(const ShiftedOutline& outline, const TreeGrid& grid, const SizeOptions& options,
                      Unresolved unresolved, const DemandedSplits& demanded)
     : outline_{&outline},
-      lattice_{&lattice},
+      grid_{&grid},
       options_{options},
       demanded_{&demanded},
       unresolved_{std::move(unresolved)},
-      finest_of_case_{lattice.finest_level(options.min)},
+      finest_of_case_{grid.finest_level(options.min)},
       finest_{std::max(finest_of_case_, demanded.finest_level())},
       coarsest_{1},
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
-  while (coarsest_ < finest_of_case_ && lattice.edge(coarsest_) > options.max) ++coarsest_;
+  while (coarsest_ < finest_of_case_ && grid.edge(coarsest_) > options.max) ++coarsest_;
   const Geometry& g = outline.geometry();
   const auto line_after = [](std::int64_t line, double at, double coordinate) {
     return at < coordinate ? line + 1 : line;
   };
-  const std::int64_t right = lattice.column_at(g.box().high.x), top = lattice.row_at(g.box().high.y);
-  domain_ = {lattice.column_at(g.box().low.x), line_after(right, lattice.x(right), g.box().high.x),
-             lattice.row_at(g.box().low.y), line_after(top, lattice.y(top), g.box().high.y)};
+  const std::int64_t right = grid.column_at(g.box().high.x), top = grid.row_at(g.box().high.y);
+  domain_ = {grid.column_at(g.box().low.x), line_after(right, grid.x(right), g.box().high.x),
+             grid.row_at(g.box().low.y), line_after(top, grid.y(top), g.box().high.y)};
   if (options.gap) proximity_.emplace(g);
   level_of_segment_.reserve(g.size());
   const bool any_corner =
@@ -79,14 +79,14 @@ std::int64_t SizeRules::gap_to_domain(const Quadrant& q) const {
 
 int SizeRules::level_for(double spacing) const {
   int level = coarsest_;
-  while (level < finest_of_case_ && lattice_->edge(level) > spacing) ++level;
+  while (level < finest_of_case_ && grid_->edge(level) > spacing) ++level;
   return level;
 }
 
 int SizeRules::level_within(double spacing, int from) const {
   int level = from;
-  while (level > 0 && lattice_->edge(level - 1) <= spacing) --level;
-  while (level < finest_of_case_ && lattice_->edge(level) > spacing) ++level;
+  while (level > 0 && grid_->edge(level - 1) <= spacing) --level;
+  while (level < finest_of_case_ && grid_->edge(level) > spacing) ++level;
   return level;
 }
 
@@ -99,7 +99,7 @@ int SizeRules::level_of_outline(const Quadrant& q, std::span<const std::int32_t>
   }
   if (options_.curvature && turning > 0) {
     const double turns = static_cast<double>(turning) * turning_unit / *options_.curvature;
-    level = std::max(level, level_for(lattice_->edge(q.level) / turns));
+    level = std::max(level, level_for(grid_->edge(q.level) / turns));
   }
   return level;
 }
@@ -110,7 +110,7 @@ bool SizeRules::wants_split(const SizedQuadrant& sized) const {
   if (q.level >= finest_of_case_) return false;
   const Box& box = sized.box;
   if (q.level < coarsest_ && in_domains_box(q)) return true;
-  const double size = lattice_->edge(q.level);
+  const double size = grid_->edge(q.level);
   for (const SizeSource& source : options_.sources) {
     if (size > source.spacing && meets(source, box)) return true;
   }

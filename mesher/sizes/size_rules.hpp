@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "mesher/geometry/shifted_outline.hpp"
-#include "mesher/lattice/lattice.hpp"
-#include "mesher/lattice/size_options.hpp"
+#include "mesher/grid/size_options.hpp"
+#include "mesher/grid/tree_grid.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 #include "mesher/sizes/proximity.hpp"
 
@@ -33,11 +33,11 @@ class SizeRules {
   using Unresolved = std::function<bool(const Quadrant&, std::span<const std::int32_t>)>;
 
   /// All arguments except the options must outlive the object.
-  SizeRules(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+  SizeRules(const ShiftedOutline& outline, const TreeGrid& grid, const SizeOptions& options,
             Unresolved unresolved, const DemandedSplits& demanded);
 
   const ShiftedOutline& outline() const { return *outline_; }
-  const Lattice& lattice() const { return *lattice_; }
+  const TreeGrid& grid() const { return *grid_; }
   const DemandedSplits& demanded() const { return *demanded_; }
   std::span<const SizeSource> sources() const { return options_.sources; }
   int finest_level() const { return finest_; }      ///< by case and demands
@@ -77,7 +77,7 @@ class SizeRules {
   bool turns_too_far(std::span<const std::int32_t> segments, const Box& box) const;
 
   const ShiftedOutline* outline_;
-  const Lattice* lattice_;
+  const TreeGrid* grid_;
   SizeOptions options_;
   const DemandedSplits* demanded_;
   Unresolved unresolved_;
@@ -90,7 +90,7 @@ class SizeRules {
   int finest_of_case_;
   int finest_;
   int coarsest_;
-  /// Lattice lines around the domain's bounding box: left, right, bottom, top.
+  /// TreeGrid lines around the domain's bounding box: left, right, bottom, top.
   std::array<std::int64_t, 4> domain_{};
   std::int64_t slope_;
 };

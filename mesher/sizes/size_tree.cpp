@@ -8,21 +8,21 @@
 
 namespace quadloop {
 
-SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+SizeTree::SizeTree(const ShiftedOutline& outline, const TreeGrid& grid, const SizeOptions& options,
                    SizeRules::Unresolved unresolved, const DemandedSplits& demanded)
-    : rules_{outline, lattice, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
+    : rules_{outline, grid, options, std::move(unresolved), demanded}, corners_{rules_.sized_corners()} {
   const std::int32_t all = outline.geometry().size();
   // with all segments on each; reserved memory that is not filled costs nothing
   constexpr std::size_t levels = 6;
   segments_.reserve(levels * all);
   Node whole;
   whole.corners_end = size32(corners_);
-  for (int ty = 0; ty < lattice.trees_y(); ++ty) {
-    for (int tx = 0; tx < lattice.trees_x(); ++tx) {
+  for (int ty = 0; ty < grid.trees_y(); ++ty) {
+    for (int tx = 0; tx < grid.trees_x(); ++tx) {
       Node root;
       root.quadrant = {std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0};
       root.demanded = demanded.root(tx, ty);
-      const Box box = lattice.box_of(root.quadrant);
+      const Box box = grid.box_of(root.quadrant);
       root.segments_begin = size32(segments_);
       for (std::int32_t s = 0; s < all; ++s) {
         root.winding = static_cast<std::int16_t>(root.winding + outline.winding_at(s, box.low));
@@ -37,7 +37,7 @@ SizeTree::SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const 
 
 std::int32_t SizeTree::root_of(const Quadrant& q) const {
   const auto tx = q.x >> Quadrant::unit_level, ty = q.y >> Quadrant::unit_level;
-  return roots_[ty * lattice().trees_x() + tx];
+  return roots_[ty * grid().trees_x() + tx];
 }
 
 void SizeTree::expect_cut_leaves(double leaves) {
@@ -64,7 +64,7 @@ bool SizeTree::is_split(std::int32_t n) {
 
 void SizeTree::grow(std::int32_t n) {
   const Node parent = node(n);
-  const QuarteredSquare square(rules_.outline(), lattice(), parent.quadrant);
+  const QuarteredSquare square(rules_.outline(), grid(), parent.quadrant);
   if (!rules_.wants_split(sized(parent, square.box()))) {
     nodes_[n].children = Node::leaf;
     return;
@@ -96,7 +96,7 @@ void SizeTree::grow(std::int32_t n) {
     nodes_[above].deepest_split = parent.quadrant.level;
 }
 
-/// Adds the corners of its parent that the node contains; for a root, of all. A corner on a lattice line
+/// Adds the corners of its parent that the node contains; for a root, of all. A corner on a grid line
 /// touches the leaves on both sides, so that mirror images agree.
 void SizeTree::add(Node node, const Box& box, const Node& parent) {
   node.corners_begin = size32(corners_);

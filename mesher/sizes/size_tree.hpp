@@ -32,11 +32,11 @@ class SizeTree {
 
   /// Arguments as for SizeRules. `demanded` quadrants are split in addition to those required by case and
   /// geometry, even below the case's `min`.
-  SizeTree(const ShiftedOutline& outline, const Lattice& lattice, const SizeOptions& options,
+  SizeTree(const ShiftedOutline& outline, const TreeGrid& grid, const SizeOptions& options,
            SizeRules::Unresolved unresolved, const DemandedSplits& demanded);
 
   const SizeRules& rules() const { return rules_; }
-  const Lattice& lattice() const { return rules_.lattice(); }
+  const TreeGrid& grid() const { return rules_.grid(); }
   const DemandedSplits& demanded() const { return rules_.demanded(); }
   int finest_level() const { return rules_.finest_level(); }
   int coarsest_level() const { return rules_.coarsest_level(); }

@@ -25,16 +25,16 @@ constexpr double crossing_reach = 0.4;
 /// Finds what one kept point captures.
 class PointCapture {
  public:
-  PointCapture(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry, double snap)
+  PointCapture(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry, double snap)
       : graph_{graph},
         finder_{graph},
-        lattice_{lattice},
+        grid_{grid},
         geometry_{geometry},
         share_{std::min(1.0, snap / usual_snap)} {}
 
   /// Whether a point lies on a side of the leaf; crossings there already have its position.
-  bool on_lattice(LeafId leaf, Point p) const {
-    const Box box = lattice_.box_of(graph_.leaf(leaf));
+  bool on_grid(LeafId leaf, Point p) const {
+    const Box box = grid_.box_of(graph_.leaf(leaf));
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
   }
 
@@ -42,12 +42,11 @@ class PointCapture {
   std::optional<CornerCapture> corner_near(LeafId leaf, Point p) {
     std::optional<CornerCapture> nearest;
     bool contested = false;
-    for (const Site site : lattice_sites) {
+    for (const Site site : grid_sites) {
       if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
-      const LatticePoint corner = graph_.leaf(leaf).at(site);
-      const double distance = length(lattice_.corner(corner) - p);
-      if (distance >=
-              share_ * corner_reach * shortest_edge_of(graph_, lattice_, finder_.leaves_round(corner)) ||
+      const GridPoint corner = graph_.leaf(leaf).at(site);
+      const double distance = length(grid_.corner(corner) - p);
+      if (distance >= share_ * corner_reach * shortest_edge_of(graph_, grid_, finder_.leaves_round(corner)) ||
           (nearest && distance > nearest->distance))
         continue;
       contested = nearest && distance == nearest->distance;
@@ -63,8 +62,8 @@ class PointCapture {
     bool contested = false;
     double least = share_ * edge_reach;
     for (const Side side : all_sides) {
-      const LeafEdge edge = leaf_edge_near(graph_, lattice_, leaf, side, p);
-      const double distance = std::abs(edge.across(p) - line_of(edge)) / edge.length(lattice_);
+      const LeafEdge edge = leaf_edge_near(graph_, grid_, leaf, side, p);
+      const double distance = std::abs(edge.across(p) - line_of(edge)) / edge.length(grid_);
       if (distance > least) continue;
       contested = distance == least;
       nearest = edge;
@@ -74,7 +73,7 @@ class PointCapture {
     Snap snap;
     snap.corner = nearest.point((nearest.from + nearest.to) / 2);
     snap.position = snap.centre = p;
-    snap.radius = share_ * edge_reach * nearest.length(lattice_);
+    snap.radius = share_ * edge_reach * nearest.length(grid_);
     snap.on_edge = true;
     snap.vertical = nearest.vertical();
     if (!take_crossings(nearest, vertex, view, piece, snap)) return std::nullopt;
@@ -83,7 +82,7 @@ class PointCapture {
 
  private:
   double line_of(const LeafEdge& edge) const {
-    return edge.vertical() ? lattice_.x(edge.line) : lattice_.y(edge.line);
+    return edge.vertical() ? grid_.x(edge.line) : grid_.y(edge.line);
   }
 
   LeafId across(const LeafEdge& edge) {
@@ -94,7 +93,7 @@ class PointCapture {
 
   bool on_edge(const LeafEdge& edge, const Crossing& c) const {
     const double at = edge.along(c.position);
-    return c.side == edge.side && edge.at(lattice_, edge.from) <= at && at <= edge.at(lattice_, edge.to);
+    return c.side == edge.side && edge.at(grid_, edge.from) <= at && at <= edge.at(grid_, edge.to);
   }
 
   /// Number of crossings on the edge's side of the leaf between two places along it, both included. The
@@ -117,7 +116,7 @@ class PointCapture {
   bool take_crossings(const LeafEdge& edge, std::int32_t vertex, const LeafTrace& view, const Piece& piece,
                       Snap& snap) {
     const Point p = geometry_.point(vertex);
-    const double size = edge.length(lattice_);
+    const double size = edge.length(grid_);
     double low = edge.along(p), high = low;
     for (const std::int32_t c : {piece.entry, piece.exit}) {
       const Crossing& crossing = view.crossing(c);
@@ -129,8 +128,8 @@ class PointCapture {
       high = std::max(high, edge.along(crossing.position));
     }
     std::sort(snap.absorbed.begin(), snap.absorbed.end());
-    low = std::max(low, edge.at(lattice_, edge.from));
-    high = std::min(high, edge.at(lattice_, edge.to));
+    low = std::max(low, edge.at(grid_, edge.from));
+    high = std::min(high, edge.at(grid_, edge.to));
     if (crossings_between(view, edge, low, high) > std::ssize(snap.absorbed)) return false;
     const auto vertices = view.vertices_of(piece);
     return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
@@ -153,7 +152,7 @@ class PointCapture {
 
   const LeafGraph& graph_;
   LeafFinder finder_;
-  const Lattice& lattice_;
+  const TreeGrid& grid_;
   const Geometry& geometry_;
   double share_;
   const Crossing* sorted_ = nullptr;           ///< first crossing of the leaf that `places_` belongs to
@@ -176,9 +175,9 @@ std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
 
 /// Moves one hanging node to the nearest point of the boundary in its leaf, if that is within reach and of no
 /// other node.
-std::optional<Snap> hanging_snap(const Lattice& lattice, const Geometry& geometry, const LeafTrace& view,
-                                 LatticePoint corner, double reach) {
-  const Point node = lattice.corner(corner);
+std::optional<Snap> hanging_snap(const TreeGrid& grid, const Geometry& geometry, const LeafTrace& view,
+                                 GridPoint corner, double reach) {
+  const Point node = grid.corner(corner);
   Snap snap;
   snap.corner = corner;
   snap.centre = node;
@@ -216,9 +215,9 @@ std::vector<Snap> settle_edges(std::vector<Snap> claims) {
 
 }  // namespace
 
-Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+Captures capture_points(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                         const TracedForest& traced, double snap) {
-  PointCapture capture(graph, lattice, geometry, snap);
+  PointCapture capture(graph, grid, geometry, snap);
   std::vector<CornerCapture> corners;
   std::vector<Snap> edges;
   for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
@@ -228,7 +227,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
         if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
-        if (capture.on_lattice(leaf, geometry.point(v))) continue;
+        if (capture.on_grid(leaf, geometry.point(v))) continue;
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;
           corner->trace = trace;
@@ -244,7 +243,7 @@ Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Ge
   return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
 }
 
-std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+std::vector<Snap> hanging_snaps(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                                 const TracedForest& traced, double share) {
   std::vector<Snap> snaps;
   for (std::int32_t trace = 0; trace < size32(traced.leaves); ++trace) {
@@ -252,8 +251,8 @@ std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, 
     const Quadrant& q = graph.leaf(leaf);
     for (const Side side : all_sides) {
       if (!graph.has_hanging(leaf, side)) continue;
-      auto snap = hanging_snap(lattice, geometry, traced.traces[trace], q.at(middle_of(side)),
-                               share * lattice.edge(q.level + 1));
+      auto snap = hanging_snap(grid, geometry, traced.traces[trace], q.at(middle_of(side)),
+                               share * grid.edge(q.level + 1));
       if (snap) snaps.push_back(std::move(*snap));
     }
   }

@@ -14,7 +14,7 @@ inline constexpr double corner_reach = 0.45;
 
 /// A kept point of the geometry that captures a nearby grid vertex.
 struct CornerCapture {
-  LatticePoint corner;
+  GridPoint corner;
   double distance = 0;
   std::int32_t vertex = -1;
   std::int32_t trace = -1, piece = -1;  ///< trace and piece that contain the geometry vertex
@@ -30,12 +30,12 @@ struct Captures {
 
 /// Computed from the traces of local and ghost leaves, for each point separately, so that all ranks that see
 /// a grid vertex or edge agree. `snap` as in choose_snaps; below its default 0.4 fewer are captured.
-Captures capture_points(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+Captures capture_points(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                         const TracedForest& traced, double snap);
 
 /// Snaps hanging nodes that are near the boundary in the leaf with the hanging node, if no adjacent edge is
 /// crossed: they move to the nearest point of the boundary. In the order of the leaves.
-std::vector<Snap> hanging_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+std::vector<Snap> hanging_snaps(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                                 const TracedForest& traced, double share);
 
 }  // namespace quadloop

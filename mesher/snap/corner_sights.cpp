@@ -12,7 +12,7 @@ namespace {
 /// Sorts small keys, then moves each sight once. Merge sort, as the vertices are nearly in curve order.
 std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
   struct Key {
-    LatticePoint corner;
+    GridPoint corner;
     std::uint32_t index;
   };
   std::vector<Key> keys;
@@ -28,7 +28,7 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 
 }  // namespace
 
-std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
+std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
   const std::size_t crossings = traced.traces.crossings();
@@ -41,8 +41,8 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& latti
       if (piece.entry < 0) continue;
       for (const std::int32_t c : {piece.entry, piece.exit}) {
         const Crossing& crossing = view.crossing(c);
-        const LeafEdge edge = leaf_edge_near(graph, lattice, leaf, crossing.side, crossing.position);
-        const double from = edge.at(lattice, edge.from), to = edge.at(lattice, edge.to), length = to - from;
+        const LeafEdge edge = leaf_edge_near(graph, grid, leaf, crossing.side, crossing.position);
+        const double from = edge.at(grid, edge.from), to = edge.at(grid, edge.to), length = to - from;
         const double at = edge.along(crossing.position);
         const auto see = [&](std::int64_t end, double distance, Direction direction) {
           if (distance > sight_reach * length) return;

@@ -16,7 +16,7 @@ inline constexpr double sight_reach = 0.52;
 /// A crossing as seen from a grid vertex at an end of its leaf edge, through one of the two leaves at that
 /// edge.
 struct Sight {
-  LatticePoint corner;
+  GridPoint corner;
   double distance = 0;  ///< along the edge
   double edge = 0;      ///< length of the edge
   std::int32_t segment = -1;
@@ -27,7 +27,6 @@ struct Sight {
 
 /// The crossings within reach of all grid vertices of local and ghost leaves, by vertices in the order of
 /// comes_earlier; for one vertex in the order of leaves and pieces along the curve.
-std::vector<Sight> sights_by_corner(const LeafGraph& graph, const Lattice& lattice,
-                                    const TracedForest& traced);
+std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid, const TracedForest& traced);
 
 }  // namespace quadloop

@@ -14,24 +14,24 @@ struct LeafEdge {
 
   bool vertical() const { return is_vertical(side); }
   /// The grid vertex at the position along the edge.
-  LatticePoint point(std::int64_t along) const {
-    return vertical() ? LatticePoint{line, along} : LatticePoint{along, line};
+  GridPoint point(std::int64_t along) const {
+    return vertical() ? GridPoint{line, along} : GridPoint{along, line};
   }
   /// The coordinate of the grid line at the position along the edge.
-  double at(const Lattice& lattice, std::int64_t along) const {
-    return vertical() ? lattice.y(along) : lattice.x(along);
+  double at(const TreeGrid& grid, std::int64_t along) const {
+    return vertical() ? grid.y(along) : grid.x(along);
   }
-  double length(const Lattice& lattice) const { return at(lattice, to) - at(lattice, from); }
+  double length(const TreeGrid& grid) const { return at(grid, to) - at(grid, from); }
   /// The coordinates of a point along the edge and across it.
   double along(Point p) const { return vertical() ? p.y : p.x; }
   double across(Point p) const { return vertical() ? p.x : p.y; }
 };
 
 /// The edge of a leaf's side next to a point; with a hanging node, the half that contains it.
-LeafEdge leaf_edge_near(const LeafGraph& graph, const Lattice& lattice, LeafId leaf, Side side, Point p);
+LeafEdge leaf_edge_near(const LeafGraph& graph, const TreeGrid& grid, LeafId leaf, Side side, Point p);
 
 /// The edge length of the smallest leaf around a grid vertex; `leaves_round` as from LeafFinder.
-double shortest_edge_of(const LeafGraph& graph, const Lattice& lattice,
+double shortest_edge_of(const LeafGraph& graph, const TreeGrid& grid,
                         const std::array<LeafId, 4>& leaves_round);
 
 }  // namespace quadloop

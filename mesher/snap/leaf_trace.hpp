@@ -7,7 +7,7 @@
 
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/shifted_outline.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 

@@ -12,7 +12,7 @@ namespace quadloop {
 /// A grid vertex that moves onto the boundary, where it replaces the crossings near it by one node; or a grid
 /// edge that bends through a kept point, which becomes a node of the edge.
 struct Snap {
-  LatticePoint corner;  ///< for an edge: its middle
+  GridPoint corner;  ///< for an edge: its middle
   Point position;  ///< new position: the nearest point of the boundary's run past the vertex, or a kept point
   Point centre;    ///< vertices next to an absorbed crossing and within `radius` of this point vanish
   double radius = 0;

@@ -11,7 +11,7 @@ namespace quadloop {
 
 /// A grid vertex with the crossings that it sees.
 struct SightedCorner {
-  LatticePoint corner;
+  GridPoint corner;
   Point position;   ///< position on the grid
   double edge = 0;  ///< shortest leaf edge there
   std::span<const Sight> sights;

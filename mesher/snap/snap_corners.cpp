@@ -38,7 +38,7 @@ bool may_claim(std::span<const Sight> sights, double share) {
 /// are those of edges, which have no hanging node in the middle.
 void add_hanging(std::vector<Snap> hanging, std::size_t edges, std::vector<Snap>& snaps) {
   const std::size_t count = snaps.size();
-  std::set<LatticePoint> added;
+  std::set<GridPoint> added;
   for (Snap& s : hanging) {
     const auto corners = std::span(snaps).first(count).subspan(edges);
     const bool free = !std::ranges::binary_search(corners, s.corner, comes_earlier, &Snap::corner);
@@ -48,10 +48,10 @@ void add_hanging(std::vector<Snap> hanging, std::size_t edges, std::vector<Snap>
 
 }  // namespace
 
-std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, const Geometry& geometry,
+std::vector<Snap> choose_snaps(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                                const TracedForest& traced, double share, std::optional<MirrorAxis> mirror) {
-  std::vector<Sight> sights = sights_by_corner(graph, lattice, traced);
-  Captures captures = capture_points(graph, lattice, geometry, traced, share);
+  std::vector<Sight> sights = sights_by_corner(graph, grid, traced);
+  Captures captures = capture_points(graph, grid, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);
   snaps.reserve(snaps.size() + traced.leaves.size());
@@ -64,12 +64,12 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     const bool is_captured =
         captured != captures.corners.end() &&
         (begin == sights.size() || !comes_earlier(sights[begin].corner, captured->corner));
-    const LatticePoint corner = is_captured ? captured->corner : sights[begin].corner;
+    const GridPoint corner = is_captured ? captured->corner : sights[begin].corner;
     while (end < sights.size() && sights[end].corner == corner) ++end;
     const auto seen = std::span<const Sight>(sights).subspan(begin, end - begin);
     if (!is_captured && !may_claim(seen, share)) continue;
     const std::array<LeafId, 4> round = finder.leaves_round(corner);
-    const SightedCorner sighted{corner, lattice.corner(corner), shortest_edge_of(graph, lattice, round), seen,
+    const SightedCorner sighted{corner, grid.corner(corner), shortest_edge_of(graph, grid, round), seen,
                                 mirror};
     auto snap = is_captured ? snap_captured(geometry, traced.traces, sighted, share, *captured++)
                             : snap_corner(geometry, traced.traces, sighted, share);
@@ -77,7 +77,7 @@ std::vector<Snap> choose_snaps(const LeafGraph& graph, const Lattice& lattice, c
     snap->leaves_round = round;
     snaps.push_back(std::move(*snap));
   }
-  std::vector<Snap> hanging = hanging_snaps(graph, lattice, geometry, traced, share);
+  std::vector<Snap> hanging = hanging_snaps(graph, grid, geometry, traced, share);
   find_leaves_round(graph, hanging);
   add_hanging(std::move(hanging), edges, snaps);
   return snaps;

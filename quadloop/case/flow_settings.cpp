@@ -16,7 +16,8 @@ const KeyTable<FlowSettings>& flow_keys() {
       "flow",
       {key<&FlowSettings::reynolds>(
            "reynolds", number(Range::positive()),
-           "Reynolds number based on `reference_length`, at least 1000. With `pressure` any number above 0 is "
+           "Reynolds number based on `reference_length`, at least 1000. With `pressure` any number above 0 "
+           "is "
            "allowed; without `reynolds` the walls then have no friction.",
            {.example = "5000",
             .required = {{"speed times reference length over kinematic viscosity", "no pressure"}}}),

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "flow/quantities/free_stream.hpp"
+#include "flow/postprocess/free_stream.hpp"
 #include "quadloop/case/key_table.hpp"
 
 namespace quadloop {

@@ -204,10 +204,9 @@ const KeyTable<Settings>& mesh_keys() {
            "Make the mesh exactly symmetric about this axis ([symmetric "
            "meshes](../how-to/symmetric-meshes.md)).",
            {.fallback = "none",
-            .needs =
-                {{"half",
-                  "a mesh of type = \"metric\" is not symmetric; mesh one half: add half = \"axis\"",
-                  "type = \"metric\""}}}),
+            .needs = {{"half",
+                       "a mesh of type = \"metric\" is not symmetric; mesh one half: add half = \"axis\"",
+                       "type = \"metric\""}}}),
        key<&Settings::half>("half", half_domain(),
                             "Mesh only the half above the x axis (right of the y axis); the value names the "
                             "boundary along the axis.",

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "flow/quantities/flow_quantities.hpp"
+#include "flow/postprocess/flow_quantities.hpp"
 #include "io/formats.hpp"
 #include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "flow/euler/solve_euler.hpp"
-#include "flow/quantities/goal_value.hpp"
+#include "flow/postprocess/goal_value.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "quadloop/case/goal_settings.hpp"
@@ -87,9 +87,10 @@ std::vector<Key<EulerOptions>> march_keys() {
           "Start of averaging: the stored flow and forces are means from then on ([unsteady "
           "flows](../how-to/unsteady-flows.md)).",
           {.fallback = "none",
-           .needs = {{"time = \"accurate\"", "a steady flow that continues in time is averaged over its second half"}}}),
+           .needs = {{"time = \"accurate\"",
+                      "a steady flow that continues in time is averaged over its second half"}}}),
       key<&EulerOptions::unsteady>(
-          "unsteady", choice<EulerOptions::Unsteady>({{"stop", stop}, {"carry_on", carry_on}}),
+          "unsteady", choice<EulerOptions::Unsteady>({{"stop", stop}, {"carry_on", continue_in_time}}),
           "What happens if a steady flow does not converge: keep the best state, or continue in time "
           "and average over the second half.",
           {.needs = {{"time = \"steady\"", "a time-accurate flow always continues in time", carries_on},

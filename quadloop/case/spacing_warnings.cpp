@@ -7,7 +7,7 @@
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/facets.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 #include "mesher/sizes/proximity.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -171,8 +171,8 @@ void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warn
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
-  const Lattice lattice = choose_root(geometry, options.size.root);
-  const double min = options.size.min, finest = lattice.edge(lattice.finest_level(min));
+  const TreeGrid grid = choose_root(geometry, options.size.root);
+  const double min = options.size.min, finest = grid.edge(grid.finest_level(min));
   if (finest > options.size.max) {
     warnings.push_back(fmt::format(
         "the cells are {} wide, larger than spacing.max = {}: sizes are the root's edge divided by "
@@ -183,7 +183,7 @@ Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) 
   warn_of_curvature(options, geometry, finest, warnings);
   warn_of_gaps(options, geometry, finest, warnings);
   warn_of_facets(options, geometry, warnings);
-  warn_of_sources(options, lattice.box(), warnings);
+  warn_of_sources(options, grid.box(), warnings);
   return warnings;
 }
 

@@ -23,7 +23,7 @@ install(TARGETS quadloop_options EXPORT quadloop)
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 24)
 
 # Targets in which meshing spends its time: each source is compiled by itself, as GCC inlines less in large units.
-set(QUADLOOP_HOT_MODULES geometry lattice delaunay sizes forest snap cut build smoother)
+set(QUADLOOP_HOT_MODULES geometry grid delaunay sizes forest snap cut build smoother)
 
 # quadloop_compile_alone(source ...): sources that are compiled by themselves, as they include a library that takes the compiler long.
 function(quadloop_compile_alone)

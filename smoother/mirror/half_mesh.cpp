@@ -40,9 +40,9 @@ void HalfMesh::take_nodes() {
     owned_in_whole_.push_back(node);
   }
   half_.owned_nodes = size32(owned_in_whole_);
-  NodeExchange(comm_, NodeOwners(comm_, whole_.first_node), whole_.owned_nodes, whole_.copies).update(number);
+  NodeExchange(comm_, NodeOwners(comm_, whole_.first_node), whole_.owned_nodes, whole_.ghosts).update(number);
   for (const NodeId copy : ids_between(NodeId{whole_.owned_nodes}, NodeId{size32(number)})) {
-    if (number[copy].valid()) half_.copies.push_back(number[copy]);
+    if (number[copy].valid()) half_.ghosts.push_back(number[copy]);
   }
 }
 
@@ -139,7 +139,7 @@ void HalfMesh::reflect_positions(Mesh& whole) const {
   points = exchange.answer(points);
   for (std::size_t i = 0; i < points.size(); ++i)
     whole.points[on_other_side[i].value()] = image_of(axis_, points[i]);
-  NodeExchange(comm_, owners, whole.owned_nodes, whole.copies).update(whole.points);
+  NodeExchange(comm_, owners, whole.owned_nodes, whole.ghosts).update(whole.points);
 }
 
 HalfMesh::NodesOfHalf HalfMesh::nodes_of_half() const {
@@ -150,7 +150,7 @@ HalfMesh::NodesOfHalf HalfMesh::nodes_of_half() const {
     nodes.own[node] = whole_.global(in_whole);
     nodes.image[node] = images_[in_whole];
   }
-  const NodeExchange exchange(comm_, NodeOwners(comm_, half_.first_node), half_.owned_nodes, half_.copies);
+  const NodeExchange exchange(comm_, NodeOwners(comm_, half_.first_node), half_.owned_nodes, half_.ghosts);
   exchange.update(nodes.own);
   exchange.update(nodes.image);
   return nodes;

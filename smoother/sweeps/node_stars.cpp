@@ -52,7 +52,7 @@ NodeStars::NodeStars(const HaloMesh& mesh, std::vector<NodeId> free_nodes,
       add_cell(cell, targets.empty() ? CellTarget{} : targets[cell_number]);
   });
   starts_.pop_back();
-  list_stars_round_copies(touched.near_copies);
+  list_stars_round_ghosts(touched.near_ghosts);
 }
 
 std::vector<std::int32_t> NodeStars::all() const {
@@ -86,31 +86,31 @@ NodeStars::Touched NodeStars::find_starts() {
     touched.cells.push_back(any ? 1 : 0);
     if (!any || !any_copy) return;
     for (const NodeId node : cell) {
-      if (star_of_[node] >= 0) touched.near_copies.push_back(star_of_[node]);
+      if (star_of_[node] >= 0) touched.near_ghosts.push_back(star_of_[node]);
     }
   });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
-  std::vector<std::int32_t>& near = touched.near_copies;
+  std::vector<std::int32_t>& near = touched.near_ghosts;
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   return touched;
 }
 
 /// Ghost nodes are few and lie at partition borders.
-void NodeStars::list_stars_round_copies(const std::vector<std::int32_t>& near_copies) {
-  copy_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
+void NodeStars::list_stars_round_ghosts(const std::vector<std::int32_t>& near_ghosts) {
+  ghost_starts_.assign(mesh_.points().size() - mesh_.owned_nodes() + 1, 0);
   const auto for_each_pair = [&](const auto& visit) {
-    for (const std::int32_t star : near_copies) {
+    for (const std::int32_t star : near_ghosts) {
       for_each_neighbour(star, [&](NodeId other) {
         if (!mesh_.owns(other)) visit(other.value() - mesh_.owned_nodes(), star);
       });
     }
   };
-  for_each_pair([&](std::int32_t copy, std::int32_t) { ++copy_starts_[copy + 1]; });
-  std::partial_sum(copy_starts_.begin(), copy_starts_.end(), copy_starts_.begin());
-  copy_stars_.resize(copy_starts_.back());
-  std::vector<std::size_t> ends(copy_starts_.begin(), copy_starts_.end() - 1);
-  for_each_pair([&](std::int32_t copy, std::int32_t star) { copy_stars_[ends[copy]++] = star; });
+  for_each_pair([&](std::int32_t copy, std::int32_t) { ++ghost_starts_[copy + 1]; });
+  std::partial_sum(ghost_starts_.begin(), ghost_starts_.end(), ghost_starts_.begin());
+  ghost_stars_.resize(ghost_starts_.back());
+  std::vector<std::size_t> ends(ghost_starts_.begin(), ghost_starts_.end() - 1);
+  for_each_pair([&](std::int32_t copy, std::int32_t star) { ghost_stars_[ends[copy]++] = star; });
 }
 
 template <std::size_t width>

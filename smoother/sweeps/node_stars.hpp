@@ -65,7 +65,7 @@ class NodeStars {
   void number_stars();
   struct Touched {
     std::vector<char> cells;                ///< flags the cells that have a free node
-    std::vector<std::int32_t> near_copies;  ///< stars that share a cell with a ghost node, ascending
+    std::vector<std::int32_t> near_ghosts;  ///< stars that share a cell with a ghost node, ascending
   };
   Touched find_starts();
   template <std::size_t width>
@@ -74,7 +74,7 @@ class NodeStars {
   std::int32_t first_seen(const CellTarget& target);
   template <std::size_t width>
   static std::vector<SeenTarget> seen_targets(const std::array<CornerTarget, width>& of_corners);
-  void list_stars_round_copies(const std::vector<std::int32_t>& near_copies);
+  void list_stars_round_ghosts(const std::vector<std::int32_t>& near_ghosts);
 
   const HaloMesh& mesh_;
   std::vector<NodeId> nodes_;
@@ -82,15 +82,15 @@ class NodeStars {
   std::vector<std::size_t> starts_;
   std::vector<Corner> corners_;
   std::vector<SeenTarget> seen_;
-  std::vector<std::int32_t> seen_of_;     ///< index in seen_ for each corner; empty if all are the first
-  std::vector<std::size_t> copy_starts_;  ///< start in copy_stars_ for each ghost node
-  std::vector<std::int32_t> copy_stars_;  ///< stars that have the ghost node among their neighbours
+  std::vector<std::int32_t> seen_of_;      ///< index in seen_ for each corner; empty if all are the first
+  std::vector<std::size_t> ghost_starts_;  ///< start in ghost_stars_ for each ghost node
+  std::vector<std::int32_t> ghost_stars_;  ///< stars that have the ghost node among their neighbours
 };
 
 template <class Visit>
 void NodeStars::for_each_star_round(NodeId copy, const Visit& visit) const {
   const std::size_t slot = copy.value() - mesh_.owned_nodes();
-  for (std::size_t k = copy_starts_[slot]; k < copy_starts_[slot + 1]; ++k) visit(copy_stars_[k]);
+  for (std::size_t k = ghost_starts_[slot]; k < ghost_starts_[slot + 1]; ++k) visit(ghost_stars_[k]);
 }
 
 }  // namespace quadloop

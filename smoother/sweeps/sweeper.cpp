@@ -40,7 +40,7 @@ std::int64_t Sweeper::sweep() {
 /// are stale and near a bad node: those that have changed, and those whose node has become bad.
 std::vector<std::int32_t> Sweeper::update_bad() {
   const std::vector<std::int32_t> changed = sweeps_.take_changed(), doubtful = doubtful_among(changed);
-  const std::vector<char> copies_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
+  const std::vector<char> ghosts_before(bad_.begin() + mesh_.owned_nodes(), bad_.end());
   std::vector<NodeId> turned_bad;
   for (std::size_t k = 0; k < doubtful.size(); ++k) {
     stars_.fetch_corners_ahead(doubtful, k);
@@ -52,7 +52,7 @@ std::vector<std::int32_t> Sweeper::update_bad() {
   }
   mesh_.exchange().update(bad_);
   for (const NodeId copy : ids_between(NodeId{mesh_.owned_nodes()}, NodeId{size32(bad_)})) {
-    if (bad_[copy] != 0 && copies_before[copy.value() - mesh_.owned_nodes()] == 0) turned_bad.push_back(copy);
+    if (bad_[copy] != 0 && ghosts_before[copy.value() - mesh_.owned_nodes()] == 0) turned_bad.push_back(copy);
   }
   std::vector<std::int32_t> waiting;
   std::ranges::set_union(changed, stars_near(turned_bad), std::back_inserter(waiting));

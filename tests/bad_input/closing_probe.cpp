@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/closing.hpp"
+#include "app/collective_exit.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
 int main(int argc, char** argv) {

@@ -48,7 +48,7 @@ struct Numbered {
         domain{geometry, options, demanded},
         graph{refine_forest(test::world(), domain.sizes)},
         cut{cut_forest(test::world(), graph, domain.sizes, domain.outline, domain.inside, 0.4)},
-        numbers{test::world(), domain.lattice, graph, cut} {}
+        numbers{test::world(), domain.grid, graph, cut} {}
 
   Mesh mesh() {
     Mesh mesh;
@@ -75,7 +75,7 @@ std::vector<Node> all_nodes(const Mesh& mesh) {
   std::vector<Node> own;
   for (std::int32_t n = 0; n < size32(mesh.points); ++n) {
     const std::int64_t number =
-        n < mesh.owned_nodes ? mesh.first_node + n : mesh.copies[n - mesh.owned_nodes].value();
+        n < mesh.owned_nodes ? mesh.first_node + n : mesh.ghosts[n - mesh.owned_nodes].value();
     own.push_back({number, mesh.points[n]});
   }
   std::vector<Node> all = test::world().all_gather_values(std::span<const Node>(own));
@@ -108,7 +108,7 @@ TEST(NodeNumbering, NumbersAndPositionsGoTogether) {
 TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
   Numbered numbered(square_with_disc(), sizes_from(0.125, 1));
   const LeafGraph& graph = numbered.graph;
-  std::map<LatticePoint, Point> moved;
+  std::map<GridPoint, Point> moved;
   for (const CutForest::Moved& m : numbered.cut.moved) moved[m.corner] = m.position;
   EXPECT_GT(moved.size(), 0U);
   struct Expected {
@@ -121,13 +121,13 @@ TEST(NodeNumbering, LeavesHaveTheirNodesAtTheirCornersAndMiddles) {
     if (numbered.cut.states[graph.local_index(leaf)] != CutForest::State::inside) continue;
     const Quadrant& q = graph.leaf(leaf);
     const NodeNumbering::SiteNodes nodes = numbered.numbers.of_leaf(leaf);
-    for (const Site site : lattice_sites) {
+    for (const Site site : grid_sites) {
       EXPECT_EQ(nodes[index_of(site)].valid(), is_corner(site) || graph.has_hanging(leaf, side_of(site)));
       if (!nodes[index_of(site)].valid()) continue;
       hanging += is_middle(site) ? 1 : 0;
       const auto at = moved.find(q.at(site));
-      expected.push_back({nodes[index_of(site)],
-                          at != moved.end() ? at->second : numbered.domain.lattice.corner(q.at(site))});
+      expected.push_back(
+          {nodes[index_of(site)], at != moved.end() ? at->second : numbered.domain.grid.corner(q.at(site))});
     }
   }
   EXPECT_GT(test::world().sum(hanging), 0);

@@ -31,8 +31,8 @@ double twice_area(const std::vector<Point>& points) {
   return twice;
 }
 
-/// Counter-clockwise simple polygons over places of a small lattice, so that many of their nodes are in line.
-std::vector<std::vector<Point>> lattice_polygons(std::size_t count) {
+/// Counter-clockwise simple polygons over places of a small grid, so that many of their nodes are in line.
+std::vector<std::vector<Point>> grid_polygons(std::size_t count) {
   std::mt19937 random(7);
   std::vector<Point> places;
   for (int i = 0; i < 16; ++i) places.push_back({i % 4 * 1.0, i / 4 * 1.0});
@@ -67,7 +67,7 @@ void expect_tiles(const std::vector<Point>& points, const std::vector<LocalTrian
 }
 
 TEST(ClipEars, EverySmallPolygonIsTiledWhereverItsRingBegins) {
-  for (const auto& points : lattice_polygons(400)) {
+  for (const auto& points : grid_polygons(400)) {
     Ring ring(points.size());
     for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::int32_t>(i);
     std::vector<TieRank> ranks(points.size());

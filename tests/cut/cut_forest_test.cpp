@@ -50,9 +50,9 @@ double area_of(const std::vector<Points>& loops) {
 struct CutSquare {
   CutSquare(const std::vector<Points>& loops, double finest, double snap, double scale = 1,
             const std::vector<SizeSource>& sources = {})
-      : lattice{{{0, 0}, {8 * scale, 8 * scale}}, 1, 1},
+      : grid{{{0, 0}, {8 * scale, 8 * scale}}, 1, 1},
         geometry{geometry_of(scaled(loops, scale), (sources.empty() ? finest : 1) * scale)},
-        sizes{outline, lattice, sizes_from(finest * scale, scale, sources),
+        sizes{outline, grid, sizes_from(finest * scale, scale, sources),
               [](const Quadrant&, std::span<const std::int32_t>) { return false; }, demanded},
         graph{refine_forest(test::world(), sizes)},
         cut{cut_forest(test::world(), graph, sizes, outline, inside, snap)} {}
@@ -61,7 +61,7 @@ struct CutSquare {
   void for_leaves(const Visit& visit) const {
     for (const LeafId leaf : graph.local()) {
       const std::size_t local = graph.local_index(leaf);
-      visit(lattice.box_of(graph.leaf(leaf)), cut.states[local], cut.entry_of[local]);
+      visit(grid.box_of(graph.leaf(leaf)), cut.states[local], cut.entry_of[local]);
     }
   }
 
@@ -108,7 +108,7 @@ struct CutSquare {
     return loops;
   }
 
-  const Lattice lattice;
+  const TreeGrid grid;
   Geometry geometry;
   ShiftedOutline outline{geometry};
   Interior inside{outline};
@@ -137,11 +137,11 @@ TEST(CutForest, CoversTheDomainAndNothingElse) {
 
 TEST(CutForest, KnowsTheLevelsThatAreWanted) {
   CutSquare square({{{1, 1}, {7, 1}, {7, 7}, {1, 7}}}, 0.125, 0);
-  ASSERT_EQ(std::ssize(square.cut.wanted_levels), square.graph.local_size());
+  ASSERT_EQ(std::ssize(square.cut.target_levels), square.graph.local_size());
   SizeCursor cursor(square.sizes);
   for (const LeafId leaf : square.graph.local())
-    EXPECT_EQ(square.cut.wanted_levels[square.graph.local_index(leaf)],
-              cursor.wanted_level(square.graph.leaf(leaf)));
+    EXPECT_EQ(square.cut.target_levels[square.graph.local_index(leaf)],
+              cursor.target_level(square.graph.leaf(leaf)));
 }
 
 TEST(CutForest, TakesStatesFromCoarserAndFinerNeighbours) {
@@ -220,12 +220,12 @@ TEST(ResolutionTest, LoopsInALeafAndStrayingChordsAskForFinerLeaves) {
     const Geometry geometry = geometry_of(loops, 1);
     const ShiftedOutline outline(geometry);
     const Interior inside(outline);
-    const Lattice lattice{{{0, 0}, {8, 8}}, 1, 1};
+    const TreeGrid grid{{{0, 0}, {8, 8}}, 1, 1};
     std::vector<std::int32_t> segments;
     for (std::int32_t s = 0; s < geometry.size(); ++s) {
-      if (outline.meets(s, lattice.box_of(q))) segments.push_back(s);
+      if (outline.meets(s, grid.box_of(q))) segments.push_back(s);
     }
-    return ResolutionTest(lattice, outline, inside).unresolved(q, segments);
+    return ResolutionTest(grid, outline, inside).unresolved(q, segments);
   };
   const Quadrant root{0, 0, 0}, corner{0, 0, 2};
   const Points wide{{-9, 1}, {9, 1}, {9, 9}, {-9, 9}};

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "mesher/base/error.hpp"
-#include "mesher/cut/lattice_rank.hpp"
+#include "mesher/cut/grid_rank.hpp"
 #include "tests/cut/unit_box.hpp"
 
 namespace quadloop {
@@ -133,10 +133,10 @@ TEST(LineRank, TheCoarserTheLinesTheHigher) {
 }
 
 TEST(TieRank, OnlyNodesOnLinesOfTheTreeHaveThoseOfTheLattice) {
-  const Lattice lattice({{0, 0}, {4, 4}}, 1, 1);
+  const TreeGrid grid({{0, 0}, {4, 4}}, 1, 1);
   const int shift = Quadrant::unit_level - 3;  // lines of the third level, half a unit of length apart
   const auto lines = [&](Point p) {
-    const TieRank rank = tie_rank(lattice, 3, p);
+    const TieRank rank = tie_rank(grid, 3, p);
     EXPECT_EQ(rank.farther, std::max(std::abs(p.x - 2), std::abs(p.y - 2)));
     EXPECT_EQ(rank.x, p.x);
     return std::pair<int, int>(rank.coarser, rank.finer);

@@ -22,7 +22,7 @@ struct Leaves {
   static constexpr std::int64_t unit = std::int64_t{1} << (Quadrant::unit_level - 2);
 
   Forest forest() const {
-    Forest forest(test::world(), lattice);
+    Forest forest(test::world(), grid);
     forest.refine([](const Quadrant& q) { return q.level < 2 || (q.x >= 2 * unit && q.y >= 2 * unit); }, 3);
     forest.partition();
     return forest;
@@ -42,8 +42,8 @@ struct Leaves {
         }
         const std::int32_t first = size32(cut.nodes) - cut.entries.back().begin.nodes;
         for (const Site site : {chord.from, chord.to}) {
-          const LatticePoint at = q.at(site);
-          cut.nodes.push_back({lattice.corner(at.x, at.y), site});
+          const GridPoint at = q.at(site);
+          cut.nodes.push_back({grid.corner(at.x, at.y), site});
         }
         cut.outline.push_back({first, first + 1, 0});
         cut.entries.back().end = {size32(cut.nodes), 0, 0, size32(cut.outline)};
@@ -56,8 +56,8 @@ struct Leaves {
     return graph.rank_at(column * unit, row * unit) == test::world().rank();
   }
 
-  const Lattice lattice{{{0, 0}, {4, 4}}, 1, 1};
-  LeafGraph graph{test::world(), lattice, forest()};
+  const TreeGrid grid{{{0, 0}, {4, 4}}, 1, 1};
+  LeafGraph graph{test::world(), grid, forest()};
 };
 
 Site end_site(Side side) { return start_of(next(side)); }

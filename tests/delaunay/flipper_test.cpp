@@ -159,7 +159,7 @@ TEST(Flipper, DiagonalsOfNodesThatHaveStayedGiveWayToNoTie) {
   }
 }
 
-/// Under other ranks all diagonals of a lattice are ties that flip, but where nodes have stayed.
+/// Under other ranks all diagonals of a grid are ties that flip, but where nodes have stayed.
 TEST(Flipper, FarFromMovedNodesNothingFlips) {
   Grid grid(12, 0);
   Triangles before = grid.split(1);

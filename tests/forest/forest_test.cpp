@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "mesher/forest/curve_owners.hpp"
-#include "mesher/forest/ghost_exchange.hpp"
+#include "mesher/forest/leaf_exchange.hpp"
 #include "tests/forest/brick.hpp"
 #include "tests/support/world.hpp"
 
@@ -132,7 +132,7 @@ TEST(CurveOwners, ARankWithoutLeavesOwnsNothing) {
   EXPECT_TRUE(owners.owns(2, {0, 8}));
 }
 
-TEST(GhostExchange, BringsWhatTheOwnersKnow) {
+TEST(LeafExchange, BringsWhatTheOwnersKnow) {
   const Forest forest = graded_brick();
   const LeafGraph graph(test::world(), brick, forest);
   const auto truth = [](const Quadrant& q) { return q.x + 3 * q.y + q.level; };
@@ -141,7 +141,7 @@ TEST(GhostExchange, BringsWhatTheOwnersKnow) {
     rows.push_back(graph.is_local(leaf) ? truth(graph.leaf(leaf)) : -1);
     rows.push_back(graph.is_local(leaf) ? graph.leaf(leaf).level : -1);
   }
-  GhostExchange(test::world(), graph).update_rows(rows, 2);
+  LeafExchange(test::world(), graph).update_rows(rows, 2);
   for (const LeafId leaf : graph.all()) {
     EXPECT_EQ(rows[2 * leaf.value()], truth(graph.leaf(leaf)));
     EXPECT_EQ(rows[2 * leaf.value() + 1], graph.leaf(leaf).level);

@@ -26,8 +26,8 @@ std::vector<Place> all_places(const Forest& forest) {
   return test::world().all_gather_values(std::span<const Place>(own));
 }
 
-void expect_ghosts(const Lattice& lattice, const Forest& forest) {
-  const LeafGraph graph(test::world(), lattice, forest);
+void expect_ghosts(const TreeGrid& grid, const Forest& forest) {
+  const LeafGraph graph(test::world(), grid, forest);
   const auto own = forest.leaves();
   std::vector<Place> known, expected;
   for (const LeafId leaf : graph.all()) {
@@ -81,7 +81,7 @@ TEST(LeafGraph, NamesTheFinerLeavesAcrossTheNearerHalvesOfSides) {
 }
 
 TEST(GhostLeaves, OfOneLeafEach) {
-  const Lattice square({{0, 0}, {1, 1}}, 1, 1);
+  const TreeGrid square({{0, 0}, {1, 1}}, 1, 1);
   Forest forest(test::world(), square);
   forest.refine([](const Quadrant& q) { return q.level < 1; }, 1);
   forest.partition();

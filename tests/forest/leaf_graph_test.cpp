@@ -13,8 +13,8 @@ namespace {
 using test::brick;
 
 /// A brick of 3 by 2 trees, refined towards one point.
-Forest refined_brick(const Lattice& lattice) {
-  Forest forest(test::world(), lattice);
+Forest refined_brick(const TreeGrid& grid) {
+  Forest forest(test::world(), grid);
   forest.refine(
       [](const Quadrant& q) {
         return q.level < 2 ||

@@ -30,9 +30,9 @@ Geometry circle_in_square(double spacing, double second_spacing = 0) {
 struct Tree {
   Tree(const Geometry& geometry, const SizeOptions& options, const std::vector<SplitDemand>& demands = {})
       : outline{geometry},
-        lattice{choose_root(geometry, options.root)},
+        grid{choose_root(geometry, options.root)},
         demanded{test::world(), demands},
-        sizes{outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+        sizes{outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
               demanded},
         graph{refine_forest(test::world(), sizes)} {
     std::vector<Quadrant> local;
@@ -42,11 +42,11 @@ struct Tree {
   /// Whether no part of it is in the domain.
   bool is_outside(const Quadrant& q) {
     SizeCursor cursor(sizes);
-    return cursor.segments_in(q).empty() && !inside.contains(lattice.box_of(q).centre());
+    return cursor.segments_in(q).empty() && !inside.contains(grid.box_of(q).centre());
   }
   ShiftedOutline outline;
   Interior inside{outline};
-  Lattice lattice;
+  TreeGrid grid;
   DemandedSplits demanded;
   SizeTree sizes;
   LeafGraph graph;
@@ -94,7 +94,7 @@ TEST(TreeRules, SpacingIsKeptWhereTheGeometryIs) {
   Tree tree(geometry, options_with(0.001, 0.25, 1.5));
   SizeCursor cursor(tree.sizes);
   for (const Quadrant& q : tree.leaves) {
-    const double size = tree.lattice.edge(q.level);
+    const double size = tree.grid.edge(q.level);
     EXPECT_LE(size, 0.25);
     EXPECT_GE(size, 0.001);
     const auto segments = cursor.segments_in(q);
@@ -112,18 +112,18 @@ TEST_P(TreeRulesAt, NoLeafIsTooLargeForAWantedOne) {
   const Geometry geometry = circle_in_square(0.02);
   Tree tree(geometry, options_with(0.01, 0.5, GetParam()));
   const double slope = (GetParam() - 1) / 2;
-  int wanted_leaves = 0;
+  int target_leaves = 0;
   SizeCursor cursor(tree.sizes);
   for (const Quadrant& w : tree.leaves) {
-    if (cursor.wanted_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
-    ++wanted_leaves;
+    if (cursor.target_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
+    ++target_leaves;
     for (const Quadrant& q : tree.leaves) {
       if (tree.is_outside(q)) continue;
       EXPECT_LE(static_cast<double>(q.size()),
                 static_cast<double>(w.size()) + slope * static_cast<double>(chebyshev_gap(q, w)) + 1);
     }
   }
-  EXPECT_GT(wanted_leaves, 10);
+  EXPECT_GT(target_leaves, 10);
 }
 
 TEST_P(TreeRulesAt, TouchingLeavesDifferByOneLevelAtMost) {
@@ -204,8 +204,8 @@ Places sorted_places(const std::vector<Quadrant>& leaves) {
 std::vector<Quadrant> smallest_tree(Tree& tree) {
   std::vector<Quadrant> leaves;
   Gradation gradation(tree.sizes);
-  for (int ty = 0; ty < tree.lattice.trees_y(); ++ty) {
-    for (int tx = 0; tx < tree.lattice.trees_x(); ++tx)
+  for (int ty = 0; ty < tree.grid.trees_y(); ++ty) {
+    for (int tx = 0; tx < tree.grid.trees_x(); ++tx)
       split_by_size({std::int64_t{tx} << Quadrant::unit_level, std::int64_t{ty} << Quadrant::unit_level, 0},
                     tree, gradation, leaves);
   }
@@ -215,11 +215,11 @@ std::vector<Quadrant> smallest_tree(Tree& tree) {
 }
 
 /// The leaves of the wanted tree, of which those of the tree are parts.
-std::vector<Quadrant> wanted_leaves(Tree& tree) {
+std::vector<Quadrant> target_leaves(Tree& tree) {
   SizeCursor cursor(tree.sizes);
   std::vector<Quadrant> wanted;
   for (const Quadrant& q : tree.leaves) {
-    const int level = cursor.wanted_level(q);
+    const int level = cursor.target_level(q);
     const std::int64_t mask = ~((std::int64_t{1} << (Quadrant::unit_level - level)) - 1);
     wanted.push_back({q.x & mask, q.y & mask, level});
   }
@@ -243,7 +243,7 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
   for (const Geometry* geometry : {&even, &uneven}) {
     Tree tree(*geometry, options_with(0.01, 0.5, GetParam()));
     EXPECT_EQ(sorted_places(tree.leaves), sorted_places(smallest_tree(tree)));
-    const std::vector<Quadrant> wanted = wanted_leaves(tree);
+    const std::vector<Quadrant> wanted = target_leaves(tree);
     Gradation gradation(tree.sizes);
     for (const Quadrant& q : tree.leaves) {
       const Quadrant parent{q.x & ~(q.size() * 2 - 1), q.y & ~(q.size() * 2 - 1), q.level - 1};
@@ -260,7 +260,7 @@ TEST_P(TreeRulesAt, TheTreeIsTheSmallest) {
   EXPECT_EQ(squeezed, GetParam() == 1.25 ? 0 : GetParam() == 1.5 ? 9 : 1);
 }
 
-/// Sides on lattice lines, and others through lattice corners, with a corner of the outline on some.
+/// Sides on grid lines, and others through grid vertices, with a corner of the outline on some.
 TEST_P(TreeRulesAt, TheTreeIsTheSmallestWhereTheOutlineRunsAlongLatticeLines) {
   const test::Diamond diamond{{0, 0}, 0.5};
   const Geometry geometry =
@@ -320,7 +320,7 @@ TEST(TreeRules, SourcesRefineWithoutGeometry) {
   Tree tree(geometry, options);
   const auto size_at = [&](Point p) {
     for (const Quadrant& q : tree.leaves) {
-      if (tree.lattice.box_of(q).contains(p)) return tree.lattice.edge(q.level);
+      if (tree.grid.box_of(q).contains(p)) return tree.grid.edge(q.level);
     }
     return 0.0;
   };
@@ -341,7 +341,7 @@ TEST(TreeRules, DemandsRefineBelowTheCasesSmallestLeaf) {
       coarsest->child(north_east).child(south_west).child(north_east).child(north_east).child(south_west);
   const std::vector<SplitDemand> demands{{deep, 1U << deep.level}};
   Tree after(geometry, options, test::world().is_root() ? demands : std::vector<SplitDemand>{});
-  EXPECT_LT(after.lattice.edge(deep.level + 1), 0.05);
+  EXPECT_LT(after.grid.edge(deep.level + 1), 0.05);
   int split = 0;
   for (const Quadrant& q : after.leaves) {
     EXPECT_FALSE(q.contains(deep));
@@ -377,16 +377,16 @@ TEST(TreeRules, GapsAreResolvedButCornersAreNot) {
   for (const Quadrant& q : coarse.leaves) finest_coarse = std::max(finest_coarse, q.level);
   for (const Quadrant& q : fine.leaves) {
     finest_fine = std::max(finest_fine, q.level);
-    if (fine.lattice.box_of(q).contains({-1, -1})) at_frame_corner = q.level;
+    if (fine.grid.box_of(q).contains({-1, -1})) at_frame_corner = q.level;
   }
-  EXPECT_GT(fine.lattice.edge(finest_coarse), 0.05);
-  EXPECT_LE(fine.lattice.edge(finest_fine), 0.01);
-  EXPECT_GT(fine.lattice.edge(finest_fine), 0.004);
-  EXPECT_GE(fine.lattice.edge(at_frame_corner), 0.1)
+  EXPECT_GT(fine.grid.edge(finest_coarse), 0.05);
+  EXPECT_LE(fine.grid.edge(finest_fine), 0.01);
+  EXPECT_GT(fine.grid.edge(finest_fine), 0.004);
+  EXPECT_GE(fine.grid.edge(at_frame_corner), 0.1)
       << "the two sides of a corner are no gap; gradation from the bars allows 0.125 there";
 }
 
-/// A kite whose tip at the origin, on lattice lines, turns by 150 degrees or so; its two boundaries merely
+/// A kite whose tip at the origin, on grid lines, turns by 150 degrees or so; its two boundaries merely
 /// meet in the bend at its widest point below.
 Geometry kite_in_square(double corner_degrees) {
   const std::vector<Point> points{{-1, -1},      {1, -1},        {1, 1},        {-1, 1},     {0, 0},
@@ -405,9 +405,8 @@ Geometry kite_in_square(double corner_degrees) {
 std::pair<double, double> edges_at(const Tree& tree, Point p) {
   std::pair<double, double> edges{0, 10};
   for (const Quadrant& q : tree.leaves) {
-    if (!tree.lattice.box_of(q).contains(p)) continue;
-    edges = {std::max(edges.first, tree.lattice.edge(q.level)),
-             std::min(edges.second, tree.lattice.edge(q.level))};
+    if (!tree.grid.box_of(q).contains(p)) continue;
+    edges = {std::max(edges.first, tree.grid.edge(q.level)), std::min(edges.second, tree.grid.edge(q.level))};
   }
   return edges;
 }

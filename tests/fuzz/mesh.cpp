@@ -43,7 +43,7 @@ MeshOptions mesh_options_from(Bytes& bytes) {
   return options;
 }
 
-/// Moved by tenths, so that rounding parts corners from the lattice lines that they lie on.
+/// Moved by tenths, so that rounding parts corners from the grid lines that they lie on.
 std::vector<Chain> moved_loops_from(Bytes& bytes) {
   std::vector<Chain> chains = loops_from(bytes);
   const double x = bytes.below(8) / 10.0, y = bytes.below(8) / 10.0;
@@ -58,7 +58,7 @@ MeshInput input_from(Bytes& bytes) {
   SmoothOptions smooth;
   smooth.sweeps = bytes.below(4);
   smooth.objective = bytes.below(2) == 0 ? Objective::power : Objective::thesis;
-  smooth.level_lines = bytes.below(2) == 0;
+  smooth.level_transitions = bytes.below(2) == 0;
   AssembleOptions outline;
   outline.domain_is_known = true;
   std::vector<LayerLine> lines;

@@ -8,7 +8,7 @@
 #include "io/input/case_file.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/check_solid.hpp"
+#include "io/model/check_mesh3d.hpp"
 #include "io/model/tidy_mesh.hpp"
 #include "io/solution_file.hpp"
 #include "io/tree/tree_file.hpp"
@@ -29,7 +29,7 @@ void read_and_look(const std::string& path) {
     validate(loaded->mesh, {loaded->blocks, loaded->triangle_to_block, loaded->quad_to_block});
     tidy_mesh(*loaded, path);
   } else {
-    check_solid(std::get<FileMesh>(mesh));
+    check_mesh3d(std::get<FileMesh>(mesh));
   }
 }
 

@@ -74,12 +74,12 @@ TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
 TEST(Generate, WhatSmoothingKeepsFollowsFromTheCase) {
   MeshInput input = disc_in_box();
   EXPECT_EQ(smooth_options_for(input, 6).geometry, &input.geometry);
-  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_TRUE(smooth_options_for(input, 6).level_transitions);
   EXPECT_FALSE(smooth_options_for(input, 6).delaunay);
   input.mesh.quads = QuadChoice::parallel;
-  EXPECT_FALSE(smooth_options_for(input, 6).level_lines);
+  EXPECT_FALSE(smooth_options_for(input, 6).level_transitions);
   input.mesh.type = MeshType::delaunay;  // it has no quads to spare
-  EXPECT_TRUE(smooth_options_for(input, 6).level_lines);
+  EXPECT_TRUE(smooth_options_for(input, 6).level_transitions);
   EXPECT_TRUE(smooth_options_for(input, 6).delaunay);
 }
 

@@ -19,7 +19,7 @@ Geometry loop_of(std::vector<Point> points) {
 
 Box box_at(double x, double y, double edge) { return {{x, y}, {x + edge, y + edge}}; }
 
-/// A star-shaped outline on whole numbers, so that vertices and segments lie on lattice lines and corners.
+/// A star-shaped outline on whole numbers, so that vertices and segments lie on grid lines and corners.
 std::vector<Point> whole_star(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> coordinate(-4, 4);

@@ -215,7 +215,7 @@ TEST(Validate, AgreesWithTryingAllPairsOfLongLoops) {
     std::vector<Point> points;
     for (int i = 0; i < size; ++i) {
       const double angle = 2 * std::numbers::pi * (i + (trial % 2 == 0 ? 2.5 : 0.9) * share(random)) / size;
-      const double radius = std::round(64 * (0.3 + share(random)));  // on a lattice some points coincide
+      const double radius = std::round(64 * (0.3 + share(random)));  // on a grid some points coincide
       points.push_back({std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle))});
     }
     std::vector<Chain> chains{closed("one", points)};

@@ -19,8 +19,8 @@ TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({}),
             (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "b8.ugrid",
                    "lb8.ugrid", "ugrid", "medit", "polyMesh", "csv", "dat"}));
-  EXPECT_EQ(formats_for({Content::solid}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                                  "b8.ugrid", "lb8.ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh3d}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
+                                                   "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh",
                                                  "msh", "msh41", "ugrid", "medit", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
@@ -160,7 +160,7 @@ TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
 
 TEST(Formats, OfMeshesAreReadAndWritten) {
   for (const FileFormat& format : file_formats()) {
-    const bool is_of_meshes = format.holds(Content::mesh) || format.holds(Content::solid);
+    const bool is_of_meshes = format.holds(Content::mesh) || format.holds(Content::mesh3d);
     EXPECT_EQ(format.write != nullptr, is_of_meshes) << format.name;
     EXPECT_EQ(format.read != nullptr, is_of_meshes) << format.name;
   }

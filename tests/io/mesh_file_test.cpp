@@ -90,7 +90,8 @@ void convert_and_compare(LoadedMesh loaded, const std::string& first, const std:
   const LoadedMesh between = through_file(loaded, folder.file("a." + first));
   const LoadedMesh back = through_file(between, folder.file("b." + second));
   expect_same_cells(back.mesh, loaded.mesh, keeps_first_nodes(first) && keeps_first_nodes(second));
-  const bool carried = loaded.solution && holds_solution(first), kept = carried && holds_solution(second);
+  const bool transferred = loaded.solution && holds_solution(first),
+             kept = transferred && holds_solution(second);
   ASSERT_EQ(back.solution.has_value(), kept);
   if (kept) {
     EXPECT_EQ(back.solution->names, loaded.solution->names);
@@ -106,7 +107,7 @@ void convert_and_compare(LoadedMesh loaded, const std::string& first, const std:
   const bool knows_conditions = format_named(first)->holds(Content::conditions);
   EXPECT_EQ(back.mesh.boundaries[0].condition, condition);
   const std::size_t losses =
-      (knows_conditions && condition != carried_condition ? 1U : 0U) + (carried && !kept ? 1U : 0U) +
+      (knows_conditions && condition != carried_condition ? 1U : 0U) + (transferred && !kept ? 1U : 0U) +
       (kept && keeps_constants(first) && !keeps_constants(second) ? 1U : 0U) +
       (layers_carried && !layers_kept ? 1U : 0U) +
       (!knows_conditions && format_named(second)->unknown_boundary != nullptr ? 1U : 0U);

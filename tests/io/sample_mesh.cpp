@@ -29,10 +29,10 @@ class Localiser {
   NodeId operator()(NodeId node) {
     const auto local = node.value() - static_cast<std::int32_t>(part_.first_node);
     if (local >= 0 && local < part_.owned_nodes) return NodeId{local};
-    const auto [found, added] = copies_.emplace(node.value(), size32(part_.points));
+    const auto [found, added] = ghosts_.emplace(node.value(), size32(part_.points));
     if (added) {
       part_.points.push_back(whole_.point(node));
-      part_.copies.push_back(GlobalNodeId{node.value()});
+      part_.ghosts.push_back(GlobalNodeId{node.value()});
     }
     return NodeId{found->second};
   }
@@ -51,7 +51,7 @@ class Localiser {
  private:
   const Mesh& whole_;
   Mesh& part_;
-  std::map<std::int32_t, std::int32_t> copies_;
+  std::map<std::int32_t, std::int32_t> ghosts_;
 };
 
 }  // namespace

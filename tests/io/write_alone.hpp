@@ -26,7 +26,7 @@ inline void write_alone(const Communicator& comm, const Mesh& mesh, const std::s
 }
 
 /// The 3D mesh of a file; none where it holds a plane one.
-inline std::optional<FileMesh> read_solid(const std::string& path) {
+inline std::optional<FileMesh> read_mesh3d(const std::string& path) {
   MeshOfFile mesh = read_mesh_file(path);
   if (std::holds_alternative<LoadedMesh>(mesh)) return {};
   return std::get<FileMesh>(std::move(mesh));

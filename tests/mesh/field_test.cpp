@@ -60,14 +60,14 @@ TEST(Field, SelectedVariablesAreFoundByUsualNames) {
   EXPECT_THROW(selected({}, unknown, "here"), InputError);
 }
 
-TEST(Field, CopiesGetTheirOwnersRows) {
+TEST(Field, GhostsGetTheirOwnersRows) {
   const test::Grid grid{7};
   const Mesh whole = grid.mesh(), mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 5));
   const Field expected = field_at(mesh, mesh.points.size());
   Field owned = field_at(mesh, static_cast<std::size_t>(mesh.owned_nodes));
-  EXPECT_EQ(with_copies(world(), mesh, owned).values, expected.values);
+  EXPECT_EQ(with_ghosts(world(), mesh, owned).values, expected.values);
   owned.values.resize(expected.values.size(), std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(with_copies(world(), mesh, owned).values, expected.values);
+  EXPECT_EQ(with_ghosts(world(), mesh, owned).values, expected.values);
 }
 
 TEST(Field, IsScatteredWithItsMeshAndGathered) {
@@ -124,7 +124,7 @@ TEST(Field, WithoutVariablesThereIsNothingToScatter) {
   const Field field = scatter_field(world(), {}, part, own_order(whole));
   EXPECT_TRUE(field.names.empty());
   EXPECT_TRUE(field.values.empty());
-  EXPECT_TRUE(with_copies(world(), part, field).values.empty());
+  EXPECT_TRUE(with_ghosts(world(), part, field).values.empty());
 }
 
 }  // namespace

@@ -113,7 +113,7 @@ TEST(ScatterMesh, PartsNameTheNodesOfTheWhole) {
   const Mesh whole = jittered(7);
   const MeshOrder order = test::shuffled_order(whole, 9);
   const Mesh part = scatter_mesh(world(), on_root(whole), on_root(order));
-  ASSERT_EQ(part.points.size(), static_cast<std::size_t>(part.owned_nodes) + part.copies.size());
+  ASSERT_EQ(part.points.size(), static_cast<std::size_t>(part.owned_nodes) + part.ghosts.size());
   std::set<std::int64_t> numbers;
   for (std::int32_t i = 0; i < size32(part.points); ++i) {
     const std::int64_t number = part.global(NodeId{i}).value();
@@ -177,12 +177,12 @@ TEST(BoxOverRanks, HoldsAllRanksPoints) {
   EXPECT_EQ(box.high, (Point{last, 2}));
 }
 
-TEST(NodeTable, KnowsOwnedNodesAndLearnsCopies) {
+TEST(NodeTable, KnowsOwnedNodesAndLearnsGhosts) {
   Mesh part;
   part.first_node = 10;
   part.owned_nodes = 2;
   part.points = {{0, 0}, {1, 0}, {2, 0}};
-  part.copies = {GlobalNodeId{3}};
+  part.ghosts = {GlobalNodeId{3}};
   NodeTable nodes(part);
   EXPECT_EQ(nodes.find(GlobalNodeId{11}), NodeId{1});
   EXPECT_EQ(nodes.find(GlobalNodeId{3}), NodeId{2});
@@ -191,7 +191,7 @@ TEST(NodeTable, KnowsOwnedNodesAndLearnsCopies) {
   EXPECT_EQ(nodes.local(GlobalNodeId{12}, {5, 5}), NodeId{3});
   EXPECT_EQ(nodes.find(GlobalNodeId{12}), NodeId{3});
   EXPECT_EQ(nodes.local(GlobalNodeId{12}, {6, 6}), NodeId{3});
-  EXPECT_EQ(part.copies.back(), GlobalNodeId{12});
+  EXPECT_EQ(part.ghosts.back(), GlobalNodeId{12});
   EXPECT_EQ(part.points.back(), (Point{5, 5}));
 }
 

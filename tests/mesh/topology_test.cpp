@@ -70,19 +70,19 @@ TEST(NodeOwners, PassOverRanksWithoutNodes) {
   }
 }
 
-TEST(NodeExchange, CopiesGetWhatTheirOwnersHave) {
+TEST(NodeExchange, GhostsGetWhatTheirOwnersHave) {
   const std::int32_t own = 3;
   const NodeOwners owners(world(), own * world().rank());
-  std::vector<GlobalNodeId> copies;  // every other rank's nodes, backwards
+  std::vector<GlobalNodeId> ghosts;  // every other rank's nodes, backwards
   for (std::int64_t number = own * world().size() - 1; number >= 0; --number) {
-    if (number / own != world().rank()) copies.push_back(GlobalNodeId{number});
+    if (number / own != world().rank()) ghosts.push_back(GlobalNodeId{number});
   }
-  const NodeExchange exchange(world(), owners, own, copies);
+  const NodeExchange exchange(world(), owners, own, ghosts);
   std::vector<std::int64_t> values;
   for (std::int32_t i = 0; i < own; ++i) values.push_back(own * world().rank() + i);
-  values.resize(own + copies.size(), -1);
+  values.resize(own + ghosts.size(), -1);
   exchange.update(values);
-  for (std::size_t i = 0; i < copies.size(); ++i) EXPECT_EQ(values[own + i], copies[i].value());
+  for (std::size_t i = 0; i < ghosts.size(); ++i) EXPECT_EQ(values[own + i], ghosts[i].value());
 }
 
 }  // namespace

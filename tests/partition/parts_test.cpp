@@ -138,11 +138,12 @@ TEST(Parts, AreTheSameOnAnyNumberOfRanks) {
     EXPECT_EQ(world().sum(std::ssize(made)), parts);
     for (const MeshPart& part : made) expect_equal(part, expected.at(part.number));
     const Communicator alone(MPI_COMM_SELF);
-    const PartFigures figures = part_figures(world(), made), of_all = part_figures(alone, expected);
-    EXPECT_EQ(figures.edge_cut, of_all.edge_cut);
-    EXPECT_EQ(figures.balance, of_all.balance);
-    EXPECT_EQ(figures.shared_nodes, of_all.shared_nodes);
-    EXPECT_EQ(figures.most_neighbours, of_all.most_neighbours);
+    const PartStatistics statistics = part_statistics(world(), made),
+                         of_all = part_statistics(alone, expected);
+    EXPECT_EQ(statistics.edge_cut, of_all.edge_cut);
+    EXPECT_EQ(statistics.balance, of_all.balance);
+    EXPECT_EQ(statistics.shared_nodes, of_all.shared_nodes);
+    EXPECT_EQ(statistics.most_neighbours, of_all.most_neighbours);
   }
 }
 
@@ -196,13 +197,13 @@ TEST(Parts, AgreeWithTheirNeighbours) {
 TEST(Parts, WeighTheSameAndAreCompact) {
   const Mesh whole = test::Grid{.n = 64}.mesh();
   const Communicator alone(MPI_COMM_SELF);
-  const PartFigures figures = part_figures(alone, all_parts(whole, 16));
-  EXPECT_EQ(figures.parts, 16);
-  EXPECT_LE(figures.balance, 1.03);
+  const PartStatistics statistics = part_statistics(alone, all_parts(whole, 16));
+  EXPECT_EQ(statistics.parts, 16);
+  EXPECT_LE(statistics.balance, 1.03);
   // Squares of 16 x 16 would cut 6 lines of 64 edges; parts that may differ a little have a few less.
-  EXPECT_GE(figures.edge_cut, 0.97 * 6 * 64);
-  EXPECT_LE(figures.edge_cut, 1.15 * 6 * 64);
-  EXPECT_LE(figures.most_neighbours, 10);
+  EXPECT_GE(statistics.edge_cut, 0.97 * 6 * 64);
+  EXPECT_LE(statistics.edge_cut, 1.15 * 6 * 64);
+  EXPECT_LE(statistics.most_neighbours, 10);
 }
 
 TEST(Parts, StayWithinThreePercentOfTheMean) {

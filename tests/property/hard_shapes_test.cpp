@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/build/outline_losses.hpp"
-#include "mesher/cut/lattice_rank.hpp"
+#include "mesher/cut/grid_rank.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -99,9 +99,9 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
                             double area_dropped) {
   SmoothOptions how;
   how.geometry = &geometry;
-  const Lattice lattice = choose_root(geometry, options.size.root);
+  const TreeGrid grid = choose_root(geometry, options.size.root);
   if (options.type == MeshType::delaunay) {
-    how.delaunay = [&](Point p) { return tie_rank(lattice, lattice.finest_level(options.size.min), p); };
+    how.delaunay = [&](Point p) { return tie_rank(grid, grid.finest_level(options.size.min), p); };
   }
   const QualitySummary before = summarise_quality(test::world(), mesh);
   const SmoothReport report = smooth_mesh(test::world(), mesh, how);

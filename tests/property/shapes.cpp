@@ -33,9 +33,9 @@ Points star(Random& random, Point centre, double inner, double outer, int corner
   return points;
 }
 
-/// Points of a lattice of so many cells over [-1, 1], walked round the centre: runs along lattice lines and
+/// Points of a grid of so many cells over [-1, 1], walked round the centre: runs along grid lines and
 /// through corners.
-Points lattice_star(Random& random, int cells) {
+Points grid_star(Random& random, int cells) {
   Points points;
   for (const Point p : star(random, {0, 0}, 0.2, 0.95, pick(random, 4, 14))) {
     const Point q{std::round(p.x * cells) / cells, std::round(p.y * cells) / cells};
@@ -169,10 +169,10 @@ Shape random_shape(Random& random) {
   switch (pick(random, 0, 11)) {
     case 0: return {"star", {loop("body", star(random, by, 0.1, 0.9, pick(random, 3, 40)))}};
     case 1: return inside_frame("star hole", star(random, {0, 0}, 0.05, 0.8, pick(random, 3, 60)));
-    case 2: return {"lattice polygon", {loop("body", lattice_star(random, 1 << pick(random, 1, 5)))}};
+    case 2: return {"lattice polygon", {loop("body", grid_star(random, 1 << pick(random, 1, 5)))}};
     case 3:
       return {"lattice hole",
-              {square(1), loop("body", shifted(lattice_star(random, 1 << pick(random, 2, 5)), {0, 0}))}};
+              {square(1), loop("body", shifted(grid_star(random, 1 << pick(random, 2, 5)), {0, 0}))}};
     case 4: return inside_frame("staircase", staircase(random, pick(random, 2, 32)));
     case 5: return inside_frame("koch", koch(random, pick(random, 1, 4)));
     case 6: return inside_frame("spikes", spikes(random));

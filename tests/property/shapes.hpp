@@ -16,7 +16,7 @@ struct Shape {
   std::vector<Chain> chains;
 };
 
-/// One of the families below, at random: star polygons, polygons on lattice points, staircases, spikes, Koch
+/// One of the families below, at random: star polygons, polygons on grid points, staircases, spikes, Koch
 /// curves, nearly touching loops, islands with lakes, combs, thin walls, loops of several boundaries.
 /// Coordinates within about [-1, 1].
 Shape random_shape(Random& random);

@@ -42,7 +42,7 @@ Field front(const Mesh& mesh) {
 
 std::int64_t nodes(const Mesh& mesh) { return world().sum(mesh.owned_nodes); }
 
-static_assert(!std::is_default_constructible_v<Marks>, "marks come from sense() alone");
+static_assert(!std::is_default_constructible_v<RefinementFlags>, "marks come from sense() alone");
 
 TEST_F(Door, MeshesAdaptsAndChecks) {
   const Case square(world(), case_path(), {"adapt.min=0.005"});
@@ -52,15 +52,15 @@ TEST_F(Door, MeshesAdaptsAndChecks) {
   EXPECT_TRUE(check(world(), made.solved.mesh).empty());
   EXPECT_EQ(made.solved.solution.width(), 0U);
   made.solved.solution = front(made.solved.mesh);
-  const Marks marks = sense(world(), square, made.solved);
-  ASSERT_TRUE(marks.changes_mesh());
-  const NewMesh next = remesh(world(), square, marks, made.solved);
-  EXPECT_THROW(remesh(world(), square, marks, next.solved), InputError);  // they are for the one before
+  const RefinementFlags flags = sense(world(), square, made.solved);
+  ASSERT_TRUE(flags.changes_mesh());
+  const NewMesh next = remesh(world(), square, flags, made.solved);
+  EXPECT_THROW(remesh(world(), square, flags, next.solved), InputError);  // they are for the one before
   EXPECT_GT(nodes(next.solved.mesh), nodes(made.solved.mesh));
   EXPECT_TRUE(check(world(), next.solved.mesh).empty());
   EXPECT_EQ(next.solved.solution.names, made.solved.solution.names);
-  ASSERT_EQ(next.carried.relative_drift.size(), 1U);
-  EXPECT_LT(std::abs(next.carried.relative_drift[0]), 0.05);
+  ASSERT_EQ(next.transferred.relative_drift.size(), 1U);
+  EXPECT_LT(std::abs(next.transferred.relative_drift[0]), 0.05);
 }
 
 /// Neither a metric nor targets of nodes refine or coarsen a leaf, but the next mesh differs.
@@ -72,10 +72,10 @@ TEST_F(Door, TheLoopGoesOnForAMetricAndForTargets) {
     const Case square(world(), case_path(), settings);
     NewMesh made = make_mesh(world(), square);
     made.solved.solution = front(made.solved.mesh);
-    const Marks marks = sense(world(), square, made.solved);
-    EXPECT_EQ(marks.refined() + marks.coarsened(), 0) << settings.front();
-    ASSERT_TRUE(marks.changes_mesh()) << settings.front();
-    const NewMesh next = remesh(world(), square, marks, made.solved);
+    const RefinementFlags flags = sense(world(), square, made.solved);
+    EXPECT_EQ(flags.refined() + flags.coarsened(), 0) << settings.front();
+    ASSERT_TRUE(flags.changes_mesh()) << settings.front();
+    const NewMesh next = remesh(world(), square, flags, made.solved);
     EXPECT_NE(next.solved.mesh.points, made.solved.mesh.points) << settings.front();
     EXPECT_TRUE(check(world(), next.solved.mesh).empty()) << settings.front();
   }

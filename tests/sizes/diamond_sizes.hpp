@@ -38,16 +38,16 @@ struct DiamondSizes {
   Geometry geometry;
   ShiftedOutline outline{geometry};
   Interior inside{outline};
-  Lattice lattice{Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1};
+  TreeGrid grid{Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1};
   DemandedSplits demanded;
   SizeOptions options;
 
   SizeTree tree() const {
-    return {outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+    return {outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
             demanded};
   }
   SizedQuadrant at(const Quadrant& q, std::span<const std::int32_t> segments = {}) const {
-    return {q, lattice.box_of(q), segments, {}, false, false};
+    return {q, grid.box_of(q), segments, {}, false, false};
   }
 };
 

@@ -21,7 +21,7 @@ LeafEstimate counted(const LargeDiamondSizes& sizes) {
     if (!cursor.segments_in(q).empty())
       ++all.cut;
     else
-      ++(sizes.inside.contains(sizes.lattice.box_of(q).centre()) ? all.inside : all.outside);
+      ++(sizes.inside.contains(sizes.grid.box_of(q).centre()) ? all.inside : all.outside);
   }
   return all;
 }

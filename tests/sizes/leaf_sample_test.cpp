@@ -60,7 +60,7 @@ TEST(LeafSample, OfFewLeavesIsTheirNumberWhereAllIsInside) {
   SizeCursor cursor(tree);
   int inside = 0;
   for (const Quadrant& q : quadrants_of(3)) {
-    if (!cursor.segments_in(q).empty() || !sizes.inside.contains(sizes.lattice.box_of(q).centre())) continue;
+    if (!cursor.segments_in(q).empty() || !sizes.inside.contains(sizes.grid.box_of(q).centre())) continue;
     EXPECT_EQ(sample.leaves_in(q), counted(q, leaves));
     ++inside;
   }

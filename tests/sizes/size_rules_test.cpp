@@ -40,7 +40,7 @@ Geometry random_geometry(Random& random) {
   const auto corner_spacing = [&] { return random.toss() ? random.between(0.02, 0.6) : 0; };
   const double at_frame = corner_spacing(), at_diamond = corner_spacing();
   constexpr double reach = 0.125;
-  const auto middle = [&] {  // of a diamond that touches a lattice line from either side, or of none
+  const auto middle = [&] {  // of a diamond that touches a grid line from either side, or of none
     return random.toss() ? random.between(-0.8, 0.8) : random.toss() ? reach : -reach;
   };
   return test::diamond_in_square({{middle(), middle()}, reach},
@@ -66,7 +66,7 @@ struct Descent {
 
   void into(const Quadrant& q) {
     constexpr int deepest = 6;
-    const Box box = rules.lattice().box_of(q);
+    const Box box = rules.grid().box_of(q);
     std::vector<std::int32_t> segments, corners;
     for (std::int32_t s = 0; s < rules.outline().geometry().size(); ++s) {
       if (rules.outline().meets(s, box)) segments.push_back(s);
@@ -97,11 +97,11 @@ TEST(SizeRules, JudgeNeverPromisesLessThanIsSplit) {
     Random random(seed);
     const Geometry geometry = random_geometry(random);
     const ShiftedOutline outline(geometry);
-    const Lattice lattice(Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1);
+    const TreeGrid grid(Box{{-1.5, -1.5}, {1.5, 1.5}}, 1, 1);
     const DemandedSplits demanded;
     const bool all_unresolved = random.toss();
     const SizeRules rules(
-        outline, lattice, random_options(random),
+        outline, grid, random_options(random),
         [=](const Quadrant&, std::span<const std::int32_t>) { return all_unresolved; }, demanded);
     Descent descent{rules, {}};
     descent.into({});

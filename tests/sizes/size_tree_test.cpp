@@ -103,7 +103,7 @@ TEST(SizeTree, NodesHoldWhatMeetsThem) {
     const auto found = tree.segments_of(node);
     std::vector<std::int32_t> wanted;
     for (std::int32_t s = 0; s < sizes.geometry.size(); ++s) {
-      if (sizes.outline.meets(s, sizes.lattice.box_of(node.quadrant))) wanted.push_back(s);
+      if (sizes.outline.meets(s, sizes.grid.box_of(node.quadrant))) wanted.push_back(s);
     }
     EXPECT_EQ(std::vector<std::int32_t>(found.begin(), found.end()), wanted);
     if (node.parent >= 0) {
@@ -133,11 +133,11 @@ TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
     SizeCursor own_cursor(own);
     Gradation own_gradation(own);
     EXPECT_EQ(gradation.must_split(q), own_gradation.must_split(q));
-    EXPECT_EQ(cursor.wanted_level(q), own_cursor.wanted_level(q));
+    EXPECT_EQ(cursor.target_level(q), own_cursor.target_level(q));
     const auto found = cursor.segments_in(q), alone = own_cursor.segments_in(q);
     EXPECT_TRUE(std::ranges::equal(found, alone));
     for (std::int32_t s = 0; s < sizes.geometry.size(); ++s)
-      EXPECT_EQ(std::ranges::count(found, s), sizes.outline.meets(s, sizes.lattice.box_of(q)) ? 1 : 0);
+      EXPECT_EQ(std::ranges::count(found, s), sizes.outline.meets(s, sizes.grid.box_of(q)) ? 1 : 0);
     EXPECT_EQ(ahead.below(q), LeavesAhead(own, own_gradation).below(q));
     split += gradation.must_split(q) ? 1 : 0;
     holding += found.empty() ? 0 : 1;
@@ -153,7 +153,7 @@ TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
     SizeCursor cursor(tree);
     std::vector<std::pair<int, std::size_t>> found;
     for (const Quadrant& q : all_of_level(7))
-      found.emplace_back(cursor.wanted_level(q), cursor.segments_in(q).size());
+      found.emplace_back(cursor.target_level(q), cursor.segments_in(q).size());
     return found;
   };
   const auto before = answers();
@@ -190,9 +190,9 @@ TEST(LeavesAhead, IsMostWhereMostLeavesAre) {
   EXPECT_LE(guess, truth * 5);
 }
 
-/// Round the middle of a square of edge 8, whose lattice lines all its vertices lie on; a void, or the
+/// Round the middle of a square of edge 8, whose grid lines all its vertices lie on; a void, or the
 /// domain.
-Geometry star_on_lattice(std::mt19937& random, bool is_void) {
+Geometry star_on_grid(std::mt19937& random, bool is_void) {
   constexpr double middle = 4;
   std::uniform_int_distribution<int> place(-7, 7);
   const auto angle = [](Point p) { return std::atan2(p.y - middle, p.x - middle); };
@@ -217,7 +217,7 @@ Geometry star_on_lattice(std::mt19937& random, bool is_void) {
 /// Below a node, against what outline and interior say of each quadrant alone.
 void expect_outline_at(SizeTree& tree, const Interior& inside, std::int32_t n) {
   const SizeTree::Node node = tree.node(n);
-  const Box box = tree.lattice().box_of(node.quadrant);
+  const Box box = tree.grid().box_of(node.quadrant);
   std::vector<std::int32_t> expected;
   for (std::int32_t s = 0; s < tree.rules().outline().geometry().size(); ++s) {
     if (tree.rules().outline().meets(s, box)) expected.push_back(s);
@@ -228,7 +228,7 @@ void expect_outline_at(SizeTree& tree, const Interior& inside, std::int32_t n) {
   SizeCursor cursor(tree);
   for (const Corner corner : corners_along_curve) {
     for (const Quadrant& q : {node.quadrant, node.quadrant.child(corner)}) {
-      const Point at = tree.lattice().corner(q.at(site_of(corner)));
+      const Point at = tree.grid().corner(q.at(site_of(corner)));
       EXPECT_EQ(cursor.is_inside(q, corner), inside.contains(at));
     }
   }
@@ -239,16 +239,16 @@ void expect_outline_at(SizeTree& tree, const Interior& inside, std::int32_t n) {
 TEST(SizeTree, KnowsSegmentsAndSidesAlsoWhereVerticesLieOnTheLattice) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 40; ++trial) {
-    const Geometry geometry = star_on_lattice(random, trial % 2 == 0);
+    const Geometry geometry = star_on_grid(random, trial % 2 == 0);
     const ShiftedOutline outline(geometry);
     const Interior inside(outline);
-    const Lattice lattice(Box{{0, 0}, {8, 8}}, 1, 1);
+    const TreeGrid grid(Box{{0, 0}, {8, 8}}, 1, 1);
     const DemandedSplits demanded;
     SizeOptions options;
     options.min = 0.2;
     options.max = 2;
     SizeTree tree(
-        outline, lattice, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
+        outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
         demanded);
     expect_outline_at(tree, inside, tree.roots().front());
   }

@@ -1,4 +1,4 @@
-// Edges of leaves, what lattice corners see along them, and which leaves see a snap.
+// Edges of leaves, what grid vertices see along them, and which leaves see a snap.
 #include "mesher/snap/corner_sights.hpp"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@ using test::TracedLeaves;
 /// The domain above a height, in leaves of edge 1.
 Geometry above(double y = 1.125) { return test::loops_of({{{-1, y}, {5, y}, {5, 9}, {-1, 9}}}); }
 
-LatticePoint at(std::int64_t x, std::int64_t y) { return {x * TracedLeaves::unit, y * TracedLeaves::unit}; }
+GridPoint at(std::int64_t x, std::int64_t y) { return {x * TracedLeaves::unit, y * TracedLeaves::unit}; }
 
-std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corner) {
+std::vector<Sight> seen_from(const std::vector<Sight>& sights, GridPoint corner) {
   std::vector<Sight> own;
   std::copy_if(sights.begin(), sights.end(), std::back_inserter(own),
                [&](const Sight& s) { return s.corner == corner; });
@@ -28,7 +28,7 @@ std::vector<Sight> seen_from(const std::vector<Sight>& sights, LatticePoint corn
 
 TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
   const TracedLeaves leaves(above());
-  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
   EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
     return comes_earlier(a.corner, b.corner);
   }));
@@ -51,7 +51,7 @@ TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
 
 TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
   const TracedLeaves leaves(above(1.5));
-  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
   int corners = 0;
   for (std::int64_t x = 0; x <= 4; ++x) {
     for (const std::int64_t y : {1, 2}) {
@@ -70,7 +70,7 @@ TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
 
 TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
   const TracedLeaves leaves(above());
-  const auto sights = sights_by_corner(leaves.graph, leaves.lattice, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
   int corners = 0;
   for (std::int64_t x = 1; x <= 3; ++x) {
     if (!leaves.at_local_leaf(at(x, 1))) continue;
@@ -89,16 +89,16 @@ TEST(LeafEdge, ASideWithAHangingNodeIsTwoEdges) {
   for (const LeafId leaf : leaves.graph.local()) {
     const Quadrant& q = leaves.graph.leaf(leaf);
     for (const Side side : all_sides) {
-      const Box box = leaves.lattice.box_of(q);
+      const Box box = leaves.grid.box_of(q);
       const bool hangs = leaves.graph.has_hanging(leaf, side);
       for (const double share : {0.25, 0.75}) {
         const Point p = box.low + Point{share * box.width(), share * box.height()};
-        const LeafEdge edge = leaf_edge_near(leaves.graph, leaves.lattice, leaf, side, p);
+        const LeafEdge edge = leaf_edge_near(leaves.graph, leaves.grid, leaf, side, p);
         EXPECT_EQ(edge.line, q.line(side));
         EXPECT_EQ(edge.to - edge.from, hangs ? q.size() / 2 : q.size());
-        EXPECT_LE(edge.at(leaves.lattice, edge.from), edge.along(p));
-        EXPECT_GE(edge.at(leaves.lattice, edge.to), edge.along(p));
-        EXPECT_EQ(edge.length(leaves.lattice), hangs ? 1 : leaves.lattice.edge(q.level));
+        EXPECT_LE(edge.at(leaves.grid, edge.from), edge.along(p));
+        EXPECT_GE(edge.at(leaves.grid, edge.to), edge.along(p));
+        EXPECT_EQ(edge.length(leaves.grid), hangs ? 1 : leaves.grid.edge(q.level));
         EXPECT_EQ(edge.vertical() ? edge.point(edge.from).x : edge.point(edge.from).y, edge.line);
       }
     }
@@ -109,7 +109,7 @@ TEST(LeafEdge, TheSmallestLeafAtACornerCounts) {
   const TracedLeaves leaves(above(), {{0, 0}, {2, 4}});
   LeafFinder finder(leaves.graph);
   const auto shortest = [&](std::int64_t x, std::int64_t y) {
-    return shortest_edge_of(leaves.graph, leaves.lattice, finder.leaves_round(at(x, y)));
+    return shortest_edge_of(leaves.graph, leaves.grid, finder.leaves_round(at(x, y)));
   };
   if (leaves.at_local_leaf(at(2, 2))) {
     EXPECT_EQ(shortest(2, 2), 1);

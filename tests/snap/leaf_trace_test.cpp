@@ -88,7 +88,7 @@ TEST(LeafTraces, ClearForgetsAll) {
   EXPECT_TRUE(traced.trace().vertices.empty());
 }
 
-/// A wavy closed curve through many leaves, some of its vertices on lattice corners.
+/// A wavy closed curve through many leaves, some of its vertices on grid vertices.
 std::vector<Point> wave() {
   std::vector<Point> points;
   for (int i = 0; i < 90; ++i) {

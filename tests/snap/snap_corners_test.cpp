@@ -1,4 +1,4 @@
-// Which lattice corners move onto the outline and where to, by hand: on the square from 0 to 4 in leaves of
+// Which grid vertices move onto the outline and where to, by hand: on the square from 0 to 4 in leaves of
 // edge 1.
 #include "mesher/snap/snap_corners.hpp"
 
@@ -41,7 +41,7 @@ std::vector<Moved> agreed(const TracedLeaves& leaves, const std::vector<Snap>& s
   for (const Snap& s : snaps) {
     if (leaves.at_local_leaf(s.corner))
       own.push_back(
-          {leaves.lattice.corner(s.corner), s.position, static_cast<int>(s.absorbed.size()), s.on_edge});
+          {leaves.grid.corner(s.corner), s.position, static_cast<int>(s.absorbed.size()), s.on_edge});
   }
   std::vector<Moved> all = test::world().all_gather_values(std::span<const Moved>(own));
   std::sort(all.begin(), all.end());
@@ -53,7 +53,7 @@ std::vector<Moved> snapped(const Geometry& geometry, const Box& fine = {{0, 0}, 
                            std::optional<MirrorAxis> mirror = {}) {
   const TracedLeaves leaves(geometry, fine);
   const std::vector<Snap> snaps =
-      choose_snaps(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share, mirror);
+      choose_snaps(leaves.graph, leaves.grid, leaves.geometry, leaves.traced, share, mirror);
   for (const Snap& s : snaps) EXPECT_EQ(s.leaves_round, LeafFinder(leaves.graph).leaves_round(s.corner));
   return agreed(leaves, snaps);
 }
@@ -164,11 +164,10 @@ Geometry wedges(const Points& tips) {
 TEST(CapturePoints, TheNearerOfTwoPointsHasTheCorner) {
   const auto captured = [](const Points& tips) {
     const TracedLeaves leaves(wedges(tips));
-    const Captures found =
-        capture_points(leaves.graph, leaves.lattice, leaves.geometry, leaves.traced, share);
+    const Captures found = capture_points(leaves.graph, leaves.grid, leaves.geometry, leaves.traced, share);
     Points own;
     for (const CornerCapture& c : found.corners) {
-      if (leaves.lattice.corner(c.corner) != Point{2, 2} || !leaves.at_local_leaf(c.corner)) continue;
+      if (leaves.grid.corner(c.corner) != Point{2, 2} || !leaves.at_local_leaf(c.corner)) continue;
       EXPECT_EQ(c.distance, length(leaves.geometry.point(c.vertex) - Point{2, 2}));
       own.push_back(leaves.geometry.point(c.vertex));
     }
@@ -224,7 +223,7 @@ TEST(SnapCorners, LeavesKnowTheirSnapsByTheirSites) {
   }
   for (const LeafSnap& s : snaps_of_leaves(leaves.graph, snaps)) {
     const Quadrant& q = leaves.graph.leaf(s.leaf);
-    seen.emplace_back(leaves.lattice.corner(q.x, q.y), s.site, s.snap - snaps.data());
+    seen.emplace_back(leaves.grid.corner(q.x, q.y), s.site, s.snap - snaps.data());
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen, expected);

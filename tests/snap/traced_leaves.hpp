@@ -31,10 +31,10 @@ class TracedLeaves {
   explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
       : geometry{std::move(given)},
         outline{geometry},
-        graph{world(), lattice, refined(fine)},
+        graph{world(), grid, refined(fine)},
         traced{graph.size()} {
     for (const LeafId leaf : graph.all()) {
-      const Box box = lattice.box_of(graph.leaf(leaf));
+      const Box box = grid.box_of(graph.leaf(leaf));
       std::vector<std::int32_t> segments;
       for (std::int32_t s = 0; s < geometry.size(); ++s) {
         if (outline.meets(s, box)) segments.push_back(s);
@@ -43,13 +43,13 @@ class TracedLeaves {
     }
   }
 
-  /// Whether a leaf of this rank touches the lattice corner, or holds it on a side.
-  bool at_local_leaf(LatticePoint corner) const {
+  /// Whether a leaf of this rank touches the grid vertex, or holds it on a side.
+  bool at_local_leaf(GridPoint corner) const {
     const auto round = LeafFinder(graph).leaves_round(corner);
     return std::any_of(round.begin(), round.end(), [&](LeafId leaf) { return graph.is_local(leaf); });
   }
 
-  const Lattice lattice{{{0, 0}, {4, 4}}, 1, 1};
+  const TreeGrid grid{{{0, 0}, {4, 4}}, 1, 1};
   Geometry geometry;
   ShiftedOutline outline;
   LeafGraph graph;
@@ -57,9 +57,9 @@ class TracedLeaves {
 
  private:
   Forest refined(const Box& fine) const {
-    Forest forest(world(), lattice);
+    Forest forest(world(), grid);
     const auto splits = [&](const Quadrant& q) {
-      const Point centre = lattice.box_of(q).centre();
+      const Point centre = grid.box_of(q).centre();
       return q.level < 1 || fine.contains(centre);
     };
     forest.refine(splits, 2);

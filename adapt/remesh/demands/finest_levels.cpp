@@ -2,15 +2,15 @@
 
 #include "adapt/remesh/demands/restart.hpp"
 #include "mesher/geometry/facets.hpp"
-#include "mesher/lattice/lattice.hpp"
+#include "mesher/grid/tree_grid.hpp"
 
 namespace quadloop {
 
 namespace {
 
-int finest_of_size(const Lattice& lattice, double least, int finest) {
+int finest_of_size(const TreeGrid& grid, double least, int finest) {
   int level = 0;
-  while (level < finest && lattice.edge(level + 1) >= least) ++level;
+  while (level < finest && grid.edge(level + 1) >= least) ++level;
   return level;
 }
 
@@ -23,10 +23,10 @@ std::vector<std::int8_t> finest_levels(const Geometry& geometry, const TreeRecor
   const FacetZones facets(geometry);
   if (facets.empty()) return levels;
   const TreeAttributes& a = tree.attributes;
-  const Lattice lattice(root_box(a), a.trees_x, a.trees_y);
+  const TreeGrid grid(root_box(a), a.trees_x, a.trees_y);
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double least = facets.least_size(lattice.box_of(quadrant_of(tree.leaves[i])));
-    levels[i] = static_cast<std::int8_t>(finest_of_size(lattice, least, finest));
+    const double least = facets.least_size(grid.box_of(quadrant_of(tree.leaves[i])));
+    levels[i] = static_cast<std::int8_t>(finest_of_size(grid, least, finest));
   }
   return levels;
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
-#include "adapt/sensor/wanted_size.hpp"
+#include "adapt/sensor/target_size.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -48,24 +48,26 @@ MarkFamily::MarkFamily(const Communicator& comm, const AdaptOptions& options, co
   order_.emplace(comm, solved.tree.leaves, values_);
   statistics_ = statistics_of(comm, *order_);
   rule_ = thresholds_by(rule_of(options), *order_, statistics_);
-  const std::vector<Mark> marks = marks_above(solved.tree.leaves, values_, rule_);
+  const std::vector<RefinementFlag> flags = flags_above(solved.tree.leaves, values_, rule_);
   const auto all = static_cast<double>(std::max<std::int64_t>(order_->count(), 1));
-  const auto share_of = [&](Mark mark) { return static_cast<double>(count_of(comm, marks, mark)) / all; };
-  if (options.threshold != AdaptOptions::Threshold::nodes) refined_share_ = share_of(Mark::refine);
+  const auto share_of = [&](RefinementFlag mark) {
+    return static_cast<double>(count_of(comm, flags, mark)) / all;
+  };
+  if (options.threshold != AdaptOptions::Threshold::nodes) refined_share_ = share_of(RefinementFlag::refine);
   if (statistics_.flat) refined_share_ = 0;
-  coarsened_share_ = share_of(Mark::coarsen);
+  coarsened_share_ = share_of(RefinementFlag::coarsen);
 }
 
-std::vector<Mark> MarkFamily::marks(double at) const {
-  if (by_size_) return size_marks(at);
+std::vector<RefinementFlag> MarkFamily::flags(double at) const {
+  if (by_size_) return size_flags(at);
   Thresholds thresholds = rule_;
   if (at < 1 || rule_.refine == Thresholds{}.refine)
     thresholds.refine = order_->refine_threshold(refined_share_ * std::max(at, 0.0));
   if (-at > coarsened_share_) thresholds.coarsen = order_->coarsen_threshold(-at);
-  return marks_above(solved_.tree.leaves, values_, thresholds);
+  return flags_above(solved_.tree.leaves, values_, thresholds);
 }
 
-std::vector<Mark> MarkFamily::size_marks(double at) const {
+std::vector<RefinementFlag> MarkFamily::size_flags(double at) const {
   constexpr double most = 16;
   std::vector<double> sizes = values_;
   for (double& size : sizes) size *= std::pow(most, (1 - at) / 2);

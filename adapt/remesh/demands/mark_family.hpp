@@ -22,7 +22,7 @@ class MarkFamily {
              std::optional<MirrorAxis> mirror = {});
 
   /// Returns the flags for a parameter from -1 to 1. *Collective.*
-  std::vector<Mark> marks(double at) const;
+  std::vector<RefinementFlag> flags(double at) const;
 
   double mean() const { return statistics_.mean; }
   double deviation() const { return statistics_.deviation; }
@@ -30,7 +30,7 @@ class MarkFamily {
   bool flat() const { return statistics_.flat; }
 
  private:
-  std::vector<Mark> size_marks(double at) const;
+  std::vector<RefinementFlag> size_flags(double at) const;
 
   const SolvedMesh& solved_;
   bool by_size_;

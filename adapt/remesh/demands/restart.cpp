@@ -17,8 +17,8 @@ constexpr std::int64_t siblings = 4;
 int child_number(const Quadrant& q) { return curve_index(quarter_at(q.x, q.y, q.level - 1)); }
 
 /// Whether a cell may be coarsened. An empty cell has no flag of its own: its siblings decide.
-bool may_go(const LeafRecord& leaf, Mark mark) {
-  return mark == Mark::coarsen || (mark == Mark::keep && !has_cells(leaf));
+bool may_go(const LeafRecord& leaf, RefinementFlag mark) {
+  return mark == RefinementFlag::coarsen || (mark == RefinementFlag::keep && !has_cells(leaf));
 }
 
 /// A quadtree cell, and whether it is to be coarsened.
@@ -32,8 +32,8 @@ struct MarkedLeaf {
 class LeafRun {
  public:
   /// Tree and flags must outlive the object. *Collective.*
-  LeafRun(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks)
-      : leaves_{tree.leaves}, marks_{marks}, first_{comm.exclusive_sum(std::ssize(tree.leaves))} {
+  LeafRun(const Communicator& comm, const TreeRecord& tree, std::span<const RefinementFlag> flags)
+      : leaves_{tree.leaves}, flags_{flags}, first_{comm.exclusive_sum(std::ssize(tree.leaves))} {
     const auto count = std::ssize(leaves_);
     std::vector<Numbered> ends;
     for (std::int64_t i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ class LeafRun {
   };
 
   MarkedLeaf own(std::int64_t index) const {
-    return {quadrant_of(leaves_[index]), may_go(leaves_[index], marks_[index])};
+    return {quadrant_of(leaves_[index]), may_go(leaves_[index], flags_[index])};
   }
   MarkedLeaf at(std::int64_t index) const {
     if (index < 0) return before_[std::ssize(before_) + index];
@@ -75,7 +75,7 @@ class LeafRun {
   }
 
   std::span<const LeafRecord> leaves_;
-  std::span<const Mark> marks_;
+  std::span<const RefinementFlag> flags_;
   std::int64_t first_;  ///< global number of this rank's first cell
   std::vector<MarkedLeaf> before_, after_;
 };
@@ -104,29 +104,30 @@ std::vector<SplitDemand> wanted_splits(const TreeRecord& tree) {
   return demands;
 }
 
-std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput& input) {
+std::vector<SplitDemand> unchanged_splits(const TreeRecord& tree, const MeshInput& input) {
   const bool same_geometry = tree.attributes.geometry_digest == input.geometry.digest();
   const bool same_case = tree.attributes.case_digest == input.digest;
   return same_geometry && !same_case ? wanted_splits(tree) : adapted_splits(tree);
 }
 
-ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
+ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree,
+                             std::span<const RefinementFlag> flags,
                              std::span<const std::int8_t> finest_levels) {
-  QUADLOOP_REQUIRE(marks.size() == tree.leaves.size() && finest_levels.size() == marks.size(),
+  QUADLOOP_REQUIRE(flags.size() == tree.leaves.size() && finest_levels.size() == flags.size(),
                    "one mark and one finest level for each leaf");
   std::optional<LeafRun> run;  // only if some cell is to be coarsened
-  if (comm.any(std::find(marks.begin(), marks.end(), Mark::coarsen) != marks.end()))
-    run.emplace(comm, tree, marks);
+  if (comm.any(std::find(flags.begin(), flags.end(), RefinementFlag::coarsen) != flags.end()))
+    run.emplace(comm, tree, flags);
   ChangedSplits changed;
-  for (std::size_t i = 0; i < marks.size(); ++i) {
+  for (std::size_t i = 0; i < flags.size(); ++i) {
     const LeafRecord& leaf = tree.leaves[i];
     std::uint32_t levels = leaf.adapted;
-    if (marks[i] == Mark::refine && leaf.level < finest_levels[i]) {
+    if (flags[i] == RefinementFlag::refine && leaf.level < finest_levels[i]) {
       levels |= 1U << leaf.level;
       ++changed.refined;
     }
     const std::uint32_t parent = leaf.level > 0 ? 1U << (leaf.level - 1) : 0U;
-    if (run && (leaf.adapted & parent) != 0 && may_go(leaf, marks[i]) && run->family_goes(i)) {
+    if (run && (leaf.adapted & parent) != 0 && may_go(leaf, flags[i]) && run->family_goes(i)) {
       levels &= ~parent;
       ++changed.coarsened;
     }
@@ -140,9 +141,9 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, s
 void keep_root(const TreeAttributes& tree, MeshInput& input) {
   const Box root = root_box(tree);
   if (!input.mesh.size.root) {
-    const Lattice lattice = choose_root(input.geometry, {});
-    const bool same = lattice.box().low == root.low && lattice.tree_edge() == tree.tree_edge &&
-                      lattice.trees_x() == tree.trees_x && lattice.trees_y() == tree.trees_y;
+    const TreeGrid grid = choose_root(input.geometry, {});
+    const bool same = grid.box().low == root.low && grid.tree_edge() == tree.tree_edge &&
+                      grid.trees_x() == tree.trees_x && grid.trees_y() == tree.trees_y;
     if (same) return;
   }
   const Geometry& geometry = input.geometry;

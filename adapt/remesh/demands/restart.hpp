@@ -24,7 +24,7 @@ std::vector<SplitDemand> wanted_splits(const TreeRecord& tree);
 
 /// Returns the demands of a saved tree for a restart with this input: its target levels if the geometry has
 /// not changed, else only the adaptation splits.
-std::vector<SplitDemand> standing_splits(const TreeRecord& tree, const MeshInput& input);
+std::vector<SplitDemand> unchanged_splits(const TreeRecord& tree, const MeshInput& input);
 
 /// Demands after flagging, and the number of flags that took effect over all ranks.
 struct ChangedSplits {
@@ -37,7 +37,8 @@ struct ChangedSplits {
 /// by case, geometry and gradation remain, so coarsening flags reverse earlier refinement flags. Empty cells,
 /// which are never flagged, are merged with their siblings if any cell is coarsened. `marks` has one entry
 /// for each quadtree cell of this rank. *Collective.*
-ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree, std::span<const Mark> marks,
+ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree,
+                             std::span<const RefinementFlag> flags,
                              std::span<const std::int8_t> finest_levels);
 
 /// Keeps the root of a saved tree, by setting the option if the geometry would now imply another. Throws

@@ -7,8 +7,8 @@ namespace quadloop {
 
 namespace {
 
-std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& comm, const CurveShares& shares,
-                                                         const Mesh& mesh,
+std::vector<std::vector<CellTriangle>> triangles_by_rank(const Communicator& comm,
+                                                         const CurvePartition& shares, const Mesh& mesh,
                                                          std::span<const CellTriangle> triangles) {
   std::vector<std::vector<CellTriangle>> by_rank(comm.size());
   std::vector<int> ranks;
@@ -40,7 +40,7 @@ std::vector<NodeId> renumber(std::vector<CellTriangle>& triangles, IdVector<Node
 
 }  // namespace
 
-TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
+TrianglePiece gather_piece(const Communicator& comm, const CurvePartition& shares, const Mesh& mesh,
                            const Field& field, std::span<const CellTriangle> triangles) {
   std::vector<CellTriangle> cells;
   std::vector<Point> points;

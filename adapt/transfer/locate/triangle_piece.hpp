@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapt/transfer/locate/cell_triangles.hpp"
-#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/curve_partition.hpp"
 #include "mesher/mesh/field.hpp"
 
 namespace quadloop {
@@ -23,7 +23,7 @@ struct TrianglePiece {
 
 /// The triangles of all ranks that meet this rank's part of the plane, with the values at their nodes.
 /// *Collective.*
-TrianglePiece gather_piece(const Communicator& comm, const CurveShares& shares, const Mesh& mesh,
+TrianglePiece gather_piece(const Communicator& comm, const CurvePartition& shares, const Mesh& mesh,
                            const Field& field, std::span<const CellTriangle> triangles);
 
 }  // namespace quadloop

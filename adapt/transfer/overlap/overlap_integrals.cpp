@@ -26,9 +26,9 @@ Box box_of_triangle(const Triangle& triangle) {
 }
 
 /// Sends triangles and their data to all ranks whose parts of the plane they meet.
-class ToShares {
+class ToPartition {
  public:
-  ToShares(const Communicator& comm, const CurveShares& shares, std::span<const Triangle> triangles)
+  ToPartition(const Communicator& comm, const CurvePartition& shares, std::span<const Triangle> triangles)
       : exchange_{comm, find_ranks(shares, triangles)} {}
 
   template <class Rows>
@@ -43,7 +43,7 @@ class ToShares {
   std::span<const Exchange::Source> sources() const { return exchange_.sources(); }
 
  private:
-  std::vector<int> find_ranks(const CurveShares& shares, std::span<const Triangle> triangles) {
+  std::vector<int> find_ranks(const CurvePartition& shares, std::span<const Triangle> triangles) {
     std::vector<int> ranks, meeting;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       shares.ranks_meeting(box_of_triangle(triangles[i]), meeting);
@@ -102,13 +102,13 @@ struct Parts {
 class OldPiece {
  public:
   /// *Collective.*
-  OldPiece(const Communicator& comm, const CurveShares& shares, const BrokenField& field)
+  OldPiece(const Communicator& comm, const CurvePartition& shares, const BrokenField& field)
       : rank_{comm.rank()}, shares_{shares} {
-    const ToShares to_shares(comm, shares, field.triangles);
+    const ToPartition to_partition(comm, shares, field.triangles);
     field_.width = field.width;
-    field_.triangles = to_shares.deliver(field.triangles);
-    field_.numbers = to_shares.deliver(field.numbers);
-    field_.at_corners = to_shares.deliver(field.at_corners, 3 * field.width);
+    field_.triangles = to_partition.deliver(field.triangles);
+    field_.numbers = to_partition.deliver(field.numbers);
+    field_.at_corners = to_partition.deliver(field.at_corners, 3 * field.width);
     std::vector<Box> boxes;
     for (const Triangle& triangle : field_.triangles) boxes.push_back(box_of_triangle(triangle));
     tree_ = BoxTree(boxes);
@@ -167,7 +167,7 @@ class OldPiece {
   }
 
   int rank_;
-  const CurveShares& shares_;
+  const CurvePartition& shares_;
   BrokenField field_;
   BoxTree tree_;
   std::vector<std::int32_t> candidates_;
@@ -200,16 +200,16 @@ OverlapIntegrals add_up(const Communicator& comm, const Parts& parts, std::size_
 
 }  // namespace
 
-OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurveShares& shares,
+OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartition& shares,
                                     const BrokenField& old_field, std::span<const Triangle> new_triangles) {
   OldPiece old_piece(comm, shares, old_field);
-  const ToShares to_shares(comm, shares, new_triangles);
+  const ToPartition to_partition(comm, shares, new_triangles);
   std::vector<std::int64_t> items(new_triangles.size());
   std::iota(items.begin(), items.end(), std::int64_t{0});
-  const std::vector<Triangle> triangles = to_shares.deliver(new_triangles);
-  items = to_shares.deliver(items);
+  const std::vector<Triangle> triangles = to_partition.deliver(new_triangles);
+  items = to_partition.deliver(items);
   Parts parts;
-  for (const Exchange::Source& source : to_shares.sources()) {
+  for (const Exchange::Source& source : to_partition.sources()) {
     for (std::size_t i = source.begin; i < source.end; ++i)
       old_piece.cut(triangles[i], items[i], source.rank, parts);
   }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
 namespace quadloop {
@@ -35,7 +35,7 @@ struct OverlapIntegrals {
 /// meshes via supermesh construction", Comput. Methods Appl. Mech. Engrg. 198 (2009). A pair is intersected
 /// on the rank whose part of the plane contains the lower left corner of the intersection of their boxes.
 /// Sums are ordered by the numbers of the old triangles: the same bits on any number of ranks. *Collective.*
-OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurveShares& shares,
+OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartition& shares,
                                     const BrokenField& old_field,
                                     std::span<const std::array<Point, 3>> new_triangles);
 

@@ -31,7 +31,7 @@ void validate(const EulerOptions& options) {
                    *options.average_from, "0 or more and below end_time");
   }
   require_option(options.flow_throughs > 0, "flow_throughs", options.flow_throughs, "above 0");
-  if (options.unsteady == EulerOptions::Unsteady::carry_on)
+  if (options.unsteady == EulerOptions::Unsteady::continue_in_time)
     require_option(options.mach > 0, "mach", options.mach, "above 0 for a flow that is continued in time");
   require_option(options.cfl > 0, "cfl", options.cfl, "above 0");
   require_option(options.iterations >= 0, "iterations", options.iterations, "0 or more");

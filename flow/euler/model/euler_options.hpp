@@ -40,7 +40,7 @@ struct EulerOptions {
   enum class Limiter { venkatakrishnan, none };
   enum class Initial { freestream, vortex };
   enum class FarField { uniform, vortex };
-  enum class Unsteady { stop, carry_on };
+  enum class Unsteady { stop, continue_in_time };
 
   double mach = 0.8;
   double alpha = 0;  ///< degrees

@@ -14,8 +14,8 @@ struct FlowRun {
   const DualMesh& mesh;
   const FlowModel& model;
   Residual residual;
-  std::vector<State> states;  ///< of each node
-  bool is_carried = false;    ///< whether the states are those of a given flow
+  std::vector<State> states;    ///< of each node
+  bool is_transferred = false;  ///< whether the states are those of a given flow
 };
 
 }  // namespace quadloop::euler

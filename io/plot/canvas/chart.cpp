@@ -142,7 +142,7 @@ class ChartPicture {
       canvas_.add_line({frame.low.x, up(value)}, {frame.high.x, up(value)});
     canvas_.stroke(grid_ink, 1, 1);
     canvas_.clip(frame);
-    for (const double mark : chart_.marks)
+    for (const double mark : chart_.flags)
       canvas_.add_line({across(mark), frame.low.y}, {across(mark), frame.high.y});
     canvas_.stroke(mark_ink, 1, 1);
     for (const ChartLine& line : panel.lines) draw_line(line, y, across, up);

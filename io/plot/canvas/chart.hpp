@@ -32,7 +32,7 @@ struct ChartPanel {
 struct Chart {
   ChartAxis x;
   std::vector<ChartPanel> panels;
-  std::vector<double> marks = {};  ///< x positions of thin vertical lines
+  std::vector<double> flags = {};  ///< x positions of thin vertical lines
 };
 
 /// Returns the chart as a file's bytes; sizes as in PlotOptions. Throws InputError if a panel is empty.

@@ -107,18 +107,18 @@ Chart wall_chart(const PlotTable& walls, const std::string& column, const std::o
   return chart;
 }
 
-Chart cycles_chart(const std::vector<CycleFigures>& cycles) {
+Chart cycles_chart(const std::vector<CycleStatistics>& cycles) {
   Chart chart{{"cycle"}, {}};
-  const auto add = [&](const char* name, bool logarithmic, std::optional<double> CycleFigures::*figure) {
+  const auto add = [&](const char* name, bool logarithmic, std::optional<double> CycleStatistics::*figure) {
     ChartLine line{name, {}};
-    for (const CycleFigures& cycle : cycles) {
+    for (const CycleStatistics& cycle : cycles) {
       if (cycle.*figure) line.points.push_back({cycle.cycle, *(cycle.*figure)});
     }
     if (!line.points.empty()) chart.panels.push_back({{name, logarithmic}, {line}});
   };
-  add("residual", true, &CycleFigures::residual);
-  add("CL", false, &CycleFigures::cl);
-  add("CD", false, &CycleFigures::cd);
+  add("residual", true, &CycleStatistics::residual);
+  add("CL", false, &CycleStatistics::cl);
+  add("CD", false, &CycleStatistics::cd);
   if (chart.panels.empty()) throw InputError("no cycle tells a residual or forces");
   return chart;
 }
@@ -136,9 +136,9 @@ Chart history_chart(const std::vector<PlotTable>& histories) {
     }
     if (steps.empty()) continue;
     before += steps.back();
-    chart.marks.push_back(before);
+    chart.flags.push_back(before);
   }
-  if (!chart.marks.empty()) chart.marks.pop_back();
+  if (!chart.flags.empty()) chart.flags.pop_back();
   return chart;
 }
 

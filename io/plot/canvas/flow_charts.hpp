@@ -30,13 +30,13 @@ PlotTable read_plot_table(const std::string& path);
 Chart wall_chart(const PlotTable& walls, const std::string& column, const std::optional<Box>& window);
 
 /// Results of one cycle of an adaptive run.
-struct CycleFigures {
+struct CycleStatistics {
   double cycle = 0;
   std::optional<double> residual, cl, cd;
 };
 
 /// Returns residual, CL and CD over the cycles, if any cycle has them. Throws InputError if none has any.
-Chart cycles_chart(const std::vector<CycleFigures>& cycles);
+Chart cycles_chart(const std::vector<CycleStatistics>& cycles);
 
 /// Returns residual, CL and CD over the steps of consecutive runs, with a mark at the end of each.
 Chart history_chart(const std::vector<PlotTable>& histories);

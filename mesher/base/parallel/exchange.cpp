@@ -72,18 +72,18 @@ void Exchange::answer_bytes(Bytes rows, Room room, std::size_t row) const {
     std::memcpy(room.data() + order_[i] * row, sorted.data() + i * row, row);
 }
 
-std::vector<int> CopyExchange::owners_of(std::vector<Copy>& copies) {
-  std::stable_sort(copies.begin(), copies.end(),
+std::vector<int> GhostExchange::owners_of(std::vector<Copy>& ghosts) {
+  std::stable_sort(ghosts.begin(), ghosts.end(),
                    [](const Copy& a, const Copy& b) { return a.owner < b.owner; });
   std::vector<int> owners;
-  for (const Copy& copy : copies) owners.push_back(copy.owner);
+  for (const Copy& copy : ghosts) owners.push_back(copy.owner);
   return owners;
 }
 
-CopyExchange::CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned)
-    : exchange_(comm, owners_of(copies)) {
-  for (const Copy& copy : copies) {
-    copies_.push_back(copy.entry);
+GhostExchange::GhostExchange(const Communicator& comm, std::vector<Copy> ghosts, std::int32_t first_owned)
+    : exchange_(comm, owners_of(ghosts)) {
+  for (const Copy& copy : ghosts) {
+    ghosts_.push_back(copy.entry);
     owned_.push_back(copy.owners_entry);
   }
   owned_ = exchange_.deliver(owned_);

@@ -111,7 +111,7 @@ class RankRanges {
 
 /// Ghost entries of a rank's array, which are copies of entries on their owner ranks and are updated from
 /// them.
-class CopyExchange {
+class GhostExchange {
  public:
   struct Copy {
     std::int32_t entry = 0;  ///< index on this rank
@@ -119,7 +119,7 @@ class CopyExchange {
     std::int32_t owners_entry = 0;  ///< index on the owner, relative to `first_owned` there
   };
   /// *Collective.*
-  CopyExchange(const Communicator& comm, std::vector<Copy> copies, std::int32_t first_owned = 0);
+  GhostExchange(const Communicator& comm, std::vector<Copy> ghosts, std::int32_t first_owned = 0);
 
   /// Replaces the rows of ghosts, of `width` values each, by those of their owners. *Collective.*
   template <std::ranges::contiguous_range Rows>
@@ -137,10 +137,10 @@ class CopyExchange {
   void update_some(const ValueOf& value_of, const Take& take) const;
 
  private:
-  static std::vector<int> owners_of(std::vector<Copy>& copies);  ///< sorts the copies by owner
+  static std::vector<int> owners_of(std::vector<Copy>& ghosts);  ///< sorts the copies by owner
 
   Exchange exchange_;                         ///< from ghosts to owners
-  std::vector<std::int32_t> copies_, owned_;  ///< entries of items and of arrivals
+  std::vector<std::int32_t> ghosts_, owned_;  ///< entries of items and of arrivals
 };
 
 template <std::ranges::contiguous_range Rows>
@@ -163,21 +163,21 @@ std::vector<std::ranges::range_value_t<Rows>> Exchange::answer(const Rows& rows,
 }
 
 template <std::ranges::contiguous_range Rows>
-void CopyExchange::update_rows(Rows& rows, std::size_t width) const {
+void GhostExchange::update_rows(Rows& rows, std::size_t width) const {
   const auto row_of = [&](std::size_t entry) { return std::ranges::begin(rows) + entry * width; };
   std::vector<std::ranges::range_value_t<Rows>> out;
   out.reserve(owned_.size() * width);
   for (const std::int32_t entry : owned_) std::copy_n(row_of(entry), width, std::back_inserter(out));
   out = exchange_.answer(out, width);
   auto row = out.cbegin();
-  for (const std::int32_t entry : copies_) {
+  for (const std::int32_t entry : ghosts_) {
     std::copy_n(row, width, row_of(entry));
     row += width;
   }
 }
 
 template <std::ranges::contiguous_range Values, class Changed>
-void CopyExchange::update(Values& values, const Changed& changed) const {
+void GhostExchange::update(Values& values, const Changed& changed) const {
   struct Item {
     std::ranges::range_value_t<Values> value;
     bool is_new;
@@ -188,17 +188,17 @@ void CopyExchange::update(Values& values, const Changed& changed) const {
   for (const std::int32_t entry : owned_) items.push_back({at[entry], changed(entry)});
   items = exchange_.answer(items);
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].is_new) at[copies_[i]] = items[i].value;
+    if (items[i].is_new) at[ghosts_[i]] = items[i].value;
   }
 }
 
 template <class ValueOf, class Take>
-void CopyExchange::update_some(const ValueOf& value_of, const Take& take) const {
+void GhostExchange::update_some(const ValueOf& value_of, const Take& take) const {
   std::vector<std::decay_t<std::invoke_result_t<ValueOf, std::int32_t>>> values;
   values.reserve(owned_.size());
   for (const std::int32_t entry : owned_) values.push_back(value_of(entry));
   values = exchange_.answer(values);
-  for (std::size_t i = 0; i < values.size(); ++i) take(copies_[i], values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) take(ghosts_[i], values[i]);
 }
 
 }  // namespace quadloop

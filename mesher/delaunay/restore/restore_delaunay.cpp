@@ -27,7 +27,7 @@ class Region {
         mesh_{mesh},
         known_{known},
         owners_(comm, mesh.first_node),
-        exchange_(comm, owners_, mesh.owned_nodes, mesh.copies),
+        exchange_(comm, owners_, mesh.owned_nodes, mesh.ghosts),
         core_(mesh.points.size(), 0) {}
 
   /// Adds core nodes; every rank may list any node. *Collective.*

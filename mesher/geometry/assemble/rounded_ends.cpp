@@ -122,10 +122,11 @@ class LooseEnds {
       const Chain& chain = chains_[end / 2];
       std::string names = fmt::format("'{}'", chain.name);
       for (const std::size_t other : near) names += fmt::format(", '{}'", chains_[other / 2].name);
-      throw InputError(fmt::format(
-          "{}: boundary '{}': {} chains end within {:.2g} of ({}, {}) ({}), where two should; give each piece "
-          "of the outline once, or make geometry.join smaller if they are different points",
-          chain.source, chain.name, near.size() + 1, most_, point(end).x, point(end).y, names));
+      throw InputError(
+          fmt::format("{}: boundary '{}': {} chains end within {:.2g} of ({}, {}) ({}), where two should; "
+                      "give each piece "
+                      "of the outline once, or make geometry.join smaller if they are different points",
+                      chain.source, chain.name, near.size() + 1, most_, point(end).x, point(end).y, names));
     }
   }
 

@@ -74,9 +74,9 @@ Box box_of_loop(const SplitLoop& loop) {
 class SearchedLoop {
  public:
   explicit SearchedLoop(const SplitLoop& loop)
-      : points_{loop.points},
-        sorted_{loop.points},
-        tree_(size32(loop.points), [&](std::int32_t e) { return box_of(points_[e], after(e)); }) {
+      : points_{loop.points}, sorted_{loop.points}, tree_(size32(loop.points), [&](std::int32_t e) {
+          return box_of(points_[e], after(e));
+        }) {
     std::ranges::sort(sorted_);
   }
 
@@ -211,8 +211,8 @@ class IslandUnion {
     return *std::ranges::max_element(group, {}, [&](std::int32_t l) { return std::abs(areas_[l]); });
   }
 
-  /// +1 for a loop with domain inside, -1 for an island. Among loops that meet and are not enclosed the largest
-  /// one is an outer boundary, and others whose specified direction says so.
+  /// +1 for a loop with domain inside, -1 for an island. Among loops that meet and are not enclosed the
+  /// largest one is an outer boundary, and others whose specified direction says so.
   int sign_of(std::int32_t l, std::int32_t g, std::int32_t largest) const {
     const std::vector<std::int32_t>& outer = outer_[g];
     std::vector<std::int32_t> around = around_.of_loop(
@@ -286,7 +286,7 @@ class IslandUnion {
   LoopsAround around_;
   std::vector<double> areas_;
   std::vector<int> sign_;
-  std::vector<std::int32_t> group_of_;          ///< for each loop
+  std::vector<std::int32_t> group_of_;            ///< for each loop
   std::vector<std::vector<std::int32_t>> outer_;  ///< for each group the loops of other groups around it
 };
 

@@ -45,7 +45,7 @@ class Measurements {
   BoxTree tree_;
 };
 
-double wanted_height(const LayerSpec& spec, double wall_units) {
+double target_height(const LayerSpec& spec, double wall_units) {
   if (spec.y_plus <= 0 || wall_units < 0) return spec.first;
   const double least = spec.first / most_over_estimate, most = spec.first * most_over_estimate;
   const double height = wall_units * most > spec.y_plus ? spec.y_plus / wall_units : most;
@@ -77,7 +77,7 @@ std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredWall&
   const Measurements measurements(measured);
   std::vector<double> heights;
   for (std::int32_t i = 0; i < line.size(); ++i)
-    heights.push_back(wanted_height(line.spec(i), measurements.wall_units(line[i])));
+    heights.push_back(target_height(line.spec(i), measurements.wall_units(line[i])));
   limit_growth(line, heights);
   std::vector<LayerSpec> layers;
   for (std::int32_t i = 0; i < line.size(); ++i) {

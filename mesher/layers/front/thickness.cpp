@@ -131,7 +131,7 @@ class Fitting {
       std::fill(meets_.begin(), meets_.end(), 0);
       mark_meeting();
       mark_unproved();
-      if (pass >= passes_alone) spread_marks();
+      if (pass >= passes_alone) spread_flags();
       if (!any_marked()) return {std::move(h_), std::move(columns_), std::move(front_)};
       for (std::int32_t i = 0; i < line_.size(); ++i) {
         if (meets_[i]) h_[i] *= shrink;
@@ -283,7 +283,7 @@ class Fitting {
   }
 
   /// Extends marks to all stations within a thickness along the wall.
-  void spread_marks() {
+  void spread_flags() {
     const std::vector<char> direct = meets_;
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       if (!direct[i]) continue;
@@ -297,9 +297,9 @@ class Fitting {
     return std::ranges::any_of(meets_, [](char m) { return m != 0; });
   }
 
-  /// Marks places where the proof fails. If each strip between two columns has four left-turning corners, and
-  /// no segment of a front meets another one or a boundary, no two columns meet: a map of a ring that is
-  /// locally one-to-one, and one-to-one on its rims, is one-to-one.
+  /// RefinementFlags places where the proof fails. If each strip between two columns has four left-turning
+  /// corners, and no segment of a front meets another one or a boundary, no two columns meet: a map of a ring
+  /// that is locally one-to-one, and one-to-one on its rims, is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
       if (!place_exists(i) || !front_moved(i) || is_positive(i)) continue;
@@ -309,8 +309,8 @@ class Fitting {
     mark_bodies_within();
   }
 
-  /// Marks bodies between columns. A loop that touches no column and no front may still lie entirely between
-  /// two columns; this is the case if one of its points does.
+  /// RefinementFlags bodies between columns. A loop that touches no column and no front may still lie
+  /// entirely between two columns; this is the case if one of its points does.
   void mark_bodies_within() {
     const Geometry& g = line_.geometry();
     for (std::int32_t i = 0; i < line_.size(); ++i) {

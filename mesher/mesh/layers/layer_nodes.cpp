@@ -51,11 +51,11 @@ class BestOfAll {
         mesh_{mesh},
         better_{better},
         owners_{comm, mesh.first_node},
-        exchange_{comm, owners_, mesh.owned_nodes, mesh.copies} {}
+        exchange_{comm, owners_, mesh.owned_nodes, mesh.ghosts} {}
 
   /// Updates ghosts from their owners. *Collective.*
   template <class Values>
-  void update_copies(Values& values) const {
+  void update_ghosts(Values& values) const {
     exchange_.update(values);
   }
 
@@ -116,14 +116,14 @@ void spread(const Neighbours& neighbours, std::vector<NodeId> from, LayerPlaces&
 /// Places the nodes of strips that are on this rank; those of a wall's own columns belong to the wall.
 void place_strips(const Mesh& mesh, LayerPlaces& places) {
   if (mesh.strips.empty()) return;
-  std::unordered_map<GlobalNodeId, NodeId> copies;
+  std::unordered_map<GlobalNodeId, NodeId> ghosts;
   for (const NodeId node : ids_between(NodeId{mesh.owned_nodes}, NodeId{size32(mesh.points)}))
-    copies.emplace(mesh.global(node), node);
+    ghosts.emplace(mesh.global(node), node);
   const auto local = [&](GlobalNodeId node) {
     const std::int64_t offset = node.value() - mesh.first_node;
     if (0 <= offset && offset < mesh.owned_nodes) return NodeId{static_cast<std::int32_t>(offset)};
-    const auto found = copies.find(node);
-    return found == copies.end() ? NodeId{} : found->second;
+    const auto found = ghosts.find(node);
+    return found == ghosts.end() ? NodeId{} : found->second;
   };
   for (std::int32_t s = 0; s < size32(mesh.strips); ++s) {
     const StripLayers& strip = mesh.strips[s];
@@ -190,7 +190,7 @@ IdVector<NodeId, double> heights_to_front(const Communicator& comm, const Mesh& 
   const std::vector<NodeId> nodes = from_front(places);
   const BestOfAll<double> best(comm, mesh, lower);
   std::vector<Point> points = mesh.points;
-  best.update_copies(points);  // a ghost may differ by rounding, and heights would depend on the ranks
+  best.update_ghosts(points);  // a ghost may differ by rounding, and heights would depend on the ranks
   const auto edge = [&](NodeId a, NodeId b) { return length(points[b.value()] - points[a.value()]); };
   do {
     for (const NodeId node : nodes) {

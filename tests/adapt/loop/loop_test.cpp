@@ -1,5 +1,5 @@
 // The loop in memory, with a solver of a few lines: each cycle's mesh is finer where the flow changes, the
-// flow is carried over, and one rank alone finds the same.
+// flow is transferred, and one rank alone finds the same.
 #include "adapt/loop/loop.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "mesher/base/error.hpp"
-#include "tests/adapt/loop/front_in_square.hpp"
+#include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -16,7 +16,7 @@ namespace {
 using test::all_nodes;
 using test::options_of;
 using test::solve_constant;
-using test::solve_front;
+using test::solve_shock;
 using test::square_in_eighths;
 using test::world;
 
@@ -43,7 +43,7 @@ class Notes final : public CycleObserver {
 
 TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
   Notes notes;
-  const LoopEnd end = run_loop(world(), square_in_eighths, options_of(2), solve_front, notes);
+  const LoopEnd end = run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes);
   EXPECT_EQ(notes.calls, "b0msf b1Msf b2Msf ");
   ASSERT_EQ(notes.records.size(), 3U);
   EXPECT_GT(notes.records[1].nodes, notes.records[0].nodes);
@@ -55,7 +55,7 @@ TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
 
   const Communicator alone(MPI_COMM_SELF);
   Notes of_one;
-  const LoopEnd on_one = run_loop(alone, square_in_eighths, options_of(2), solve_front, of_one);
+  const LoopEnd on_one = run_loop(alone, square_in_eighths, options_of(2), solve_shock, of_one);
   ASSERT_TRUE(end.left && on_one.left);
   EXPECT_EQ(all_nodes(world(), end.left->solved.mesh), all_nodes(alone, on_one.left->solved.mesh));
   EXPECT_EQ(notes.records[2].drift, of_one.records[2].drift);
@@ -66,8 +66,8 @@ TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
   const FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
     for (std::int32_t i = 0; cycle > 0 && i < mesh.owned_nodes; ++i)
       worst =
-          std::max(worst, std::abs(start.row(NodeId{i})[0] - test::circular_front(mesh.point(NodeId{i}))));
-    return solve_front(comm, mesh, start, cycle);
+          std::max(worst, std::abs(start.row(NodeId{i})[0] - test::circular_shock(mesh.point(NodeId{i}))));
+    return solve_shock(comm, mesh, start, cycle);
   };
   Notes notes;
   run_loop(world(), square_in_eighths, options_of(3), solver, notes);
@@ -77,10 +77,10 @@ TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
 
 TEST(Loop, GoesOnFromWhatACycleCameTo) {
   Notes notes;
-  const LoopEnd whole = run_loop(world(), square_in_eighths, options_of(2), solve_front, notes);
-  LoopEnd begun = run_loop(world(), square_in_eighths, options_of(1), solve_front, notes);
+  const LoopEnd whole = run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes);
+  LoopEnd begun = run_loop(world(), square_in_eighths, options_of(1), solve_shock, notes);
   const LoopEnd resumed =
-      run_loop(world(), square_in_eighths, options_of(2), solve_front, notes, 2, std::move(begun.left));
+      run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes, 2, std::move(begun.left));
   EXPECT_EQ(resumed.first, 2);
   EXPECT_EQ(resumed.last, 2);
   EXPECT_EQ(all_nodes(world(), whole.left->solved.mesh), all_nodes(world(), resumed.left->solved.mesh));

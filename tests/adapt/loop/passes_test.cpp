@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/adapt/loop/front_in_square.hpp"
+#include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -20,17 +20,17 @@ AdaptOptions options_with(int passes) {
   return options;
 }
 
-SolvedFlow solve_front_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-  SolvedFlow flow = test::solve_front(comm, mesh, start, cycle);
+SolvedFlow solve_shock_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+  SolvedFlow flow = test::solve_shock(comm, mesh, start, cycle);
   flow.cl = 0.25;
   return flow;
 }
 
 TEST(Passes, LeadToTheMeshOfAsManyCycles) {
   CycleObserver nobody;
-  const LoopEnd end = run_loop(world(), square_in_eighths, options_with(2), solve_front_with_lift, nobody);
-  const CarriedMesh first =
-      mesh_after_passes(world(), square_in_eighths, options_with(2), solve_front_with_lift);
+  const LoopEnd end = run_loop(world(), square_in_eighths, options_with(2), solve_shock_with_lift, nobody);
+  const RemeshedSolution first =
+      mesh_after_passes(world(), square_in_eighths, options_with(2), solve_shock_with_lift);
   ASSERT_TRUE(end.left);
   EXPECT_EQ(all_nodes(world(), first.generated.result.mesh), all_nodes(world(), end.left->solved.mesh));
   EXPECT_EQ(first.start.names, (std::vector<std::string>{"q"}));
@@ -39,13 +39,13 @@ TEST(Passes, LeadToTheMeshOfAsManyCycles) {
   EXPECT_EQ(first.passes[1].cl, 0.25);
 
   const Communicator alone(MPI_COMM_SELF);
-  const CarriedMesh on_one =
-      mesh_after_passes(alone, square_in_eighths, options_with(2), solve_front_with_lift);
+  const RemeshedSolution on_one =
+      mesh_after_passes(alone, square_in_eighths, options_with(2), solve_shock_with_lift);
   EXPECT_EQ(all_nodes(alone, on_one.generated.result.mesh), all_nodes(world(), first.generated.result.mesh));
 }
 
 TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
-  const CarriedMesh first =
+  const RemeshedSolution first =
       mesh_after_passes(world(), square_in_eighths, options_with(3), test::solve_constant);
   EXPECT_EQ(first.passes.size(), 1U);
   const Mesh& mesh = first.generated.result.mesh;
@@ -67,8 +67,8 @@ TEST(Passes, StandInTheRecordOfTheFirstCycle) {
     std::vector<CycleRecord> records;
   } notes;
   AdaptOptions options = options_with(1);
-  run_loop(world(), square_in_eighths, options, solve_front_with_lift, notes, 0, {},
-           [&] { return mesh_after_passes(world(), square_in_eighths, options, solve_front_with_lift); });
+  run_loop(world(), square_in_eighths, options, solve_shock_with_lift, notes, 0, {},
+           [&] { return mesh_after_passes(world(), square_in_eighths, options, solve_shock_with_lift); });
   ASSERT_EQ(notes.records.size(), 2U);
   const std::string first = json_text(notes.records[0]), second = json_text(notes.records[1]);
   EXPECT_NE(first.find("\"passes\": [{\"nodes\": "), std::string::npos) << first;

@@ -251,7 +251,7 @@ TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
   }
 }
 
-/// Copies the mesh with its state as it is, or leaves what is no solution.
+/// Ghosts the mesh with its state as it is, or leaves what is no solution.
 
 }  // namespace
 }  // namespace quadloop

@@ -12,11 +12,11 @@
 #include "adapt/metric/gradation.hpp"
 #include "adapt/metric/leaf_shares.hpp"
 #include "adapt/metric/loose_triangles.hpp"
-#include "adapt/metric/metric_figures.hpp"
+#include "adapt/metric/metric_statistics.hpp"
 #include "adapt/metric/node_bends.hpp"
+#include "adapt/metric/target_metric.hpp"
 #include "adapt/metric/tiles.hpp"
 #include "adapt/metric/unit_mesh.hpp"
-#include "adapt/metric/wanted_metric.hpp"
 #include "adapt/sensor/solver_error.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
@@ -131,9 +131,9 @@ TEST(StretchMesh, HasNoMoreNodesThanAllowedWhereTheTreesMeshHasNot) {
 }
 
 /// The share of the edges from 1 / sqrt(2) to sqrt(2).
-double unit_share(const MetricFigures& figures) {
-  const auto all = std::accumulate(figures.edges.begin(), figures.edges.end(), std::int64_t{0});
-  return static_cast<double>(figures.edges[2] + figures.edges[3]) / static_cast<double>(all);
+double unit_share(const MetricStatistics& statistics) {
+  const auto all = std::accumulate(statistics.edges.begin(), statistics.edges.end(), std::int64_t{0});
+  return static_cast<double>(statistics.edges[2] + statistics.edges[3]) / static_cast<double>(all);
 }
 
 TEST(StretchMesh, FollowsTheMetricWithTheNodesWanted) {
@@ -142,8 +142,8 @@ TEST(StretchMesh, FollowsTheMetricWithTheNodesWanted) {
   EXPECT_LE(nodes, 600);
   EXPECT_GE(nodes, 0.95 * 600);
   EXPECT_TRUE(made.report.warnings.empty());
-  EXPECT_GT(unit_share(made.report.figures), 0.93);
-  EXPECT_GT(made.report.figures.worst_quality, 0.15);
+  EXPECT_GT(unit_share(made.report.statistics), 0.93);
+  EXPECT_GT(made.report.statistics.worst_quality, 0.15);
   expect_counted_by_leaves(made.result);
   const Mesh whole = gather_whole(world(), made.result.mesh),
              equal = gather_whole(world(), generate_mesh(world(), holed_square(1.0 / 16)).result.mesh);
@@ -168,8 +168,8 @@ TEST(StretchMesh, IsTheSameOnAnyNumberOfRanks) {
   const Stretched here = stretched(self, holed_square(0.25), 1, 350);
   const Stretched all = stretched(world(), holed_square(0.25), 1, 350);
   const Mesh whole = gather_whole(world(), all.result.mesh), alone = gather_whole(self, here.result.mesh);
-  EXPECT_EQ(all.report.figures.complexity, here.report.figures.complexity);
-  EXPECT_EQ(all.report.figures.edges, here.report.figures.edges);
+  EXPECT_EQ(all.report.statistics.complexity, here.report.statistics.complexity);
+  EXPECT_EQ(all.report.statistics.edges, here.report.statistics.edges);
   if (!world().is_root()) return;
   EXPECT_EQ(whole.points, alone.points);
   EXPECT_EQ(whole.triangles, alone.triangles);
@@ -224,17 +224,17 @@ TEST(LimitGrowth, KeepsSizesWithinReachOfTheSmallest) {
   }
 }
 
-TEST(WantedMetric, HasTheComplexityAskedFor) {
+TEST(TargetMetric, HasTheComplexityAskedFor) {
   const Mesh mesh = generate_mesh(world(), holed_square(0.0625)).result.mesh;
   const SizeBounds bounds{1e-3, std::vector<double>(mesh.points.size(), 0.5), 0.25};
   const auto wanted_of = [&](const Field& field) {
-    return WantedMetric(world(), mesh, variable_bends(world(), mesh, field), 2, bounds);
+    return TargetMetric(world(), mesh, variable_bends(world(), mesh, field), 2, bounds);
   };
-  const WantedMetric wanted = wanted_of(front_on(mesh));
+  const TargetMetric wanted = wanted_of(front_on(mesh));
   ASSERT_FALSE(wanted.flat());
   for (const double complexity : {200.0, 2000.0}) {
     const auto metrics = wanted.of_complexity(complexity);
-    EXPECT_NEAR(metric_figures(world(), mesh, metrics).complexity, complexity, 0.021 * complexity);
+    EXPECT_NEAR(metric_statistics(world(), mesh, metrics).complexity, complexity, 0.021 * complexity);
     for (const LogMetric& m : metrics) EXPECT_LE(eigen_of(exp_of(m)).larger, 1.0001e6) << "the least size";
   }
   Field constant = front_on(mesh);
@@ -276,11 +276,11 @@ TEST(StretchMesh, KeepsCellsLongAtAFrontWhereTheyMayBeNoThinner) {
   EXPECT_GT(median_stretch(whole), 4);
 }
 
-TEST(WantedMetric, KeepsItsShapeWhereCellsMayNotBeThinner) {
+TEST(TargetMetric, KeepsItsShapeWhereCellsMayNotBeThinner) {
   const Mesh mesh = generate_mesh(world(), holed_square(0.25)).result.mesh;
   const std::vector<Symmetric> bends(mesh.points.size(), Symmetric{100, 0, 1});
   const SizeBounds bounds{0.01, std::vector<double>(mesh.points.size(), 1), 0.25};
-  const WantedMetric wanted(world(), mesh, bends, 2, bounds);
+  const TargetMetric wanted(world(), mesh, bends, 2, bounds);
   for (const LogMetric& m : wanted.of_complexity(1e9)) {
     const Eigen2 axes = eigen_of(exp_of(m));
     EXPECT_NEAR(axes.larger, 1e4, 1e-6 * 1e4);
@@ -332,20 +332,20 @@ TEST(ErrorBends, LoseAsMuchForEachAreaAsTheError) {
   EXPECT_TRUE(error_bends(world(), mesh, error, shapes).empty());
 }
 
-TEST(MetricFigures, CountEveryEdgeOnce) {
+TEST(MetricStatistics, CountEveryEdgeOnce) {
   const Mesh mesh = generate_mesh(world(), holed_square(0.125)).result.mesh;
   const std::vector<LogMetric> metrics(mesh.points.size(), log_of(isotropic(0.125)));
-  const MetricFigures figures = metric_figures(world(), mesh, metrics);
+  const MetricStatistics statistics = metric_statistics(world(), mesh, metrics);
   const auto sum = [](const auto& counts) {
     return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   };
   const std::int64_t nodes = world().sum(std::int64_t{mesh.owned_nodes}),
                      triangles = world().sum(std::ssize(mesh.triangles));
-  EXPECT_EQ(sum(figures.triangles), triangles);
-  EXPECT_EQ(nodes - sum(figures.edges) + triangles, 0) << "Euler's number of a ring";
-  EXPECT_NEAR(figures.complexity, (4 - 0.3 * 0.3 * std::acos(-1.0)) / (0.125 * 0.125), 1);
-  EXPECT_NE(lines_of(figures).find("complexity"), std::string::npos);
-  EXPECT_NE(record_of(figures).text().find("\"limits\""), std::string::npos);
+  EXPECT_EQ(sum(statistics.triangles), triangles);
+  EXPECT_EQ(nodes - sum(statistics.edges) + triangles, 0) << "Euler's number of a ring";
+  EXPECT_NEAR(statistics.complexity, (4 - 0.3 * 0.3 * std::acos(-1.0)) / (0.125 * 0.125), 1);
+  EXPECT_NE(lines_of(statistics).find("complexity"), std::string::npos);
+  EXPECT_NE(record_of(statistics).text().find("\"limits\""), std::string::npos);
 }
 
 }  // namespace

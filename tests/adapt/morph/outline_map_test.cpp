@@ -107,7 +107,8 @@ TEST(OutlineMap, OfTheSameOutlineIsTheIdentityAlsoWhereCornersAreBlunter) {
 }
 
 TEST(OutlineMap, OfTheSameOutlineIsTheIdentityWhereTheMeshLostACorner) {
-  const std::vector<Point> tip{{0, 0}, {4, 0}, {4.3, 0.5}, {4, 1}, {0, 1}}, cut_off{{0, 0}, {4, 0}, {4, 1}, {0, 1}};
+  const std::vector<Point> tip{{0, 0}, {4, 0}, {4.3, 0.5}, {4, 1}, {0, 1}},
+      cut_off{{0, 0}, {4, 0}, {4, 1}, {0, 1}};
   std::vector<Point> far_tip = tip;
   far_tip[2] = {4.6, 0.5};
   const Geometry from = outline({loop("body", {{0, 0}, {4, 0}, {4.24, 0.4}, {4.24, 0.6}, {4, 1}, {0, 1}})}),
@@ -154,8 +155,9 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
   };
   EXPECT_NE(said(one, two).find("more loops of 'body'"), std::string::npos);
   EXPECT_NE(said(two, one).find("near (5.5, 0.5)"), std::string::npos);
-  EXPECT_NE(said(outline({loop("body", triangle)}), one).find("has 4 feature points and that of the mesh has 3"),
-            std::string::npos);
+  EXPECT_NE(
+      said(outline({loop("body", triangle)}), one).find("has 4 feature points and that of the mesh has 3"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -197,14 +197,14 @@ TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
   EXPECT_TRUE(plan.new_heights);
   EXPECT_TRUE(plan.changes_mesh());
   EXPECT_TRUE(plan.warnings.empty());
-  const CarriedMesh carried = carry_over(world(), input, plan, flow);
-  const MeshResult& made = carried.generated.result;
+  const RemeshedSolution remeshed = remesh_and_transfer(world(), input, plan, flow);
+  const MeshResult& made = remeshed.generated.result;
   expect_heights(made.mesh);
   EXPECT_EQ(made.tree.measured_wall, plan.measured_wall);
-  ASSERT_EQ(carried.generated.layers.size(), 1U);
-  EXPECT_NEAR(carried.generated.layers[0].first_asked, 2 / wall_units(4), 1e-6);
-  EXPECT_NEAR(carried.generated.layers[0].first_asked_most, 2 / wall_units(0), 1e-6);
-  const AdaptationPlan standing = standing_plan(made.tree, input);
+  ASSERT_EQ(remeshed.generated.layers.size(), 1U);
+  EXPECT_NEAR(remeshed.generated.layers[0].first_asked, 2 / wall_units(4), 1e-6);
+  EXPECT_NEAR(remeshed.generated.layers[0].first_asked_most, 2 / wall_units(0), 1e-6);
+  const AdaptationPlan standing = unchanged_plan(made.tree, input);
   const MeshResult again =
       generate_mesh(world(), input, DemandedSplits(world(), standing.demands), standing.measured_wall).result;
   EXPECT_EQ(again.tree.attributes.coordinate_digest, made.tree.attributes.coordinate_digest);
@@ -212,7 +212,8 @@ TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
   const SolvedMesh of_one = solved(alone, input, "wall_shear", shear);
   const AdaptationPlan plan_of_one = plan_adaptation(alone, input, options(), of_one);
   EXPECT_EQ(plan_of_one.measured_wall, plan.measured_wall);
-  EXPECT_EQ(carry_over(alone, input, plan_of_one, of_one).generated.result.tree.attributes.coordinate_digest,
+  EXPECT_EQ(remesh_and_transfer(alone, input, plan_of_one, of_one)
+                .generated.result.tree.attributes.coordinate_digest,
             made.tree.attributes.coordinate_digest);
 }
 

@@ -17,8 +17,8 @@
 #include "adapt/remesh/remesh.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/facets.hpp"
-#include "mesher/lattice/lattice.hpp"
-#include "tests/adapt/remesh/circular_front.hpp"
+#include "mesher/grid/tree_grid.hpp"
+#include "tests/adapt/remesh/circular_shock.hpp"
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
@@ -40,30 +40,30 @@ AdaptOptions adapt_options() {
 SolvedMesh solved_on(MeshResult made) {
   SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"q"}, {}, {}}, "front.mesh"};
   for (std::int32_t i = 0; i < solved.mesh.owned_nodes; ++i)
-    solved.solution.values.push_back(test::circular_front(solved.mesh.point(NodeId{i})));
+    solved.solution.values.push_back(test::circular_shock(solved.mesh.point(NodeId{i})));
   return solved;
 }
-SolvedMesh solved_front(const Communicator& comm, const MeshInput& input) {
+SolvedMesh solved_shock(const Communicator& comm, const MeshInput& input) {
   return solved_on(generate_mesh(comm, input).result);
 }
 
 struct Counts {
   std::int64_t refined = 0, coarsened = 0;
 };
-Counts counts_of(const std::vector<Mark>& marks) {
-  return {world().sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::refine)}),
-          world().sum(std::int64_t{std::count(marks.begin(), marks.end(), Mark::coarsen)})};
+Counts counts_of(const std::vector<RefinementFlag>& flags) {
+  return {world().sum(std::int64_t{std::count(flags.begin(), flags.end(), RefinementFlag::refine)}),
+          world().sum(std::int64_t{std::count(flags.begin(), flags.end(), RefinementFlag::coarsen)})};
 }
 
 TEST(MarkFamily, GoesFromFewLeavesToMany) {
-  const SolvedMesh solved = solved_front(world(), square_input());
+  const SolvedMesh solved = solved_shock(world(), square_input());
   const MarkFamily family(world(), adapt_options(), solved);
   EXPECT_FALSE(family.flat());
-  Counts before = counts_of(family.marks(-1));
+  Counts before = counts_of(family.flags(-1));
   EXPECT_EQ(before.refined, 0);
   EXPECT_EQ(before.coarsened, world().sum(std::ssize(solved.tree.leaves))) << "in the end all";
   for (double at = -0.9; at <= 1.01; at += 0.1) {
-    const Counts now = counts_of(family.marks(std::min(at, 1.0)));
+    const Counts now = counts_of(family.flags(std::min(at, 1.0)));
     EXPECT_GE(now.refined, before.refined);
     EXPECT_LE(now.coarsened, before.coarsened);
     if (at < 0.05) {
@@ -75,32 +75,33 @@ TEST(MarkFamily, GoesFromFewLeavesToMany) {
 }
 
 TEST(MarkFamily, DropsTheSmallestIndicatorsFirst) {
-  const SolvedMesh solved = solved_front(world(), square_input());
+  const SolvedMesh solved = solved_shock(world(), square_input());
   const MarkFamily family(world(), adapt_options(), solved);
-  const auto all = family.marks(1), some = family.marks(0.4);
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(some[i] != Mark::refine || all[i] == Mark::refine);
+  const auto all = family.flags(1), some = family.flags(0.4);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_TRUE(some[i] != RefinementFlag::refine || all[i] == RefinementFlag::refine);
   EXPECT_LT(counts_of(some).refined, counts_of(all).refined);
 }
 
 TEST(MarkFamily, OfAConstantMarksNothingToRefine) {
-  SolvedMesh solved = solved_front(world(), square_input());
+  SolvedMesh solved = solved_shock(world(), square_input());
   std::fill(solved.solution.values.begin(), solved.solution.values.end(), 4.0);
   const MarkFamily family(world(), adapt_options(), solved);
   EXPECT_TRUE(family.flat());
-  EXPECT_EQ(counts_of(family.marks(1)).refined, 0);
+  EXPECT_EQ(counts_of(family.flags(1)).refined, 0);
 }
 
 TEST(MarkFamily, OfSizesGrowsThemSixteenfold) {
-  SolvedMesh solved = solved_front(world(), square_input());
+  SolvedMesh solved = solved_shock(world(), square_input());
   std::fill(solved.solution.values.begin(), solved.solution.values.end(),
             1.0 / 32);  // leaves are twice as large
   AdaptOptions options = adapt_options();
   options.source = AdaptOptions::Source::size;
   const MarkFamily family(world(), options, solved);
   const auto leaves = world().sum(std::ssize(solved.tree.leaves));
-  EXPECT_EQ(counts_of(family.marks(1)).refined, leaves);
-  EXPECT_EQ(counts_of(family.marks(0.4)).refined, 0);
-  EXPECT_EQ(counts_of(family.marks(-1)).coarsened, leaves);
+  EXPECT_EQ(counts_of(family.flags(1)).refined, leaves);
+  EXPECT_EQ(counts_of(family.flags(0.4)).refined, 0);
+  EXPECT_EQ(counts_of(family.flags(-1)).coarsened, leaves);
 }
 
 std::int64_t nodes_by(const AdaptationPlan& plan, const MeshInput& input) {
@@ -110,7 +111,7 @@ std::int64_t nodes_by(const AdaptationPlan& plan, const MeshInput& input) {
 
 TEST(Plan, RefinesTheFrontAlone) {
   const MeshInput input = square_input();
-  const SolvedMesh solved = solved_front(world(), input);
+  const SolvedMesh solved = solved_shock(world(), input);
   const AdaptationPlan plan = plan_adaptation(world(), input, adapt_options(), solved);
   EXPECT_TRUE(plan.changes_mesh());
   EXPECT_GT(plan.refined, 10);
@@ -120,7 +121,7 @@ TEST(Plan, RefinesTheFrontAlone) {
 
 TEST(Plan, KeepsToTheCapAndComesNearIt) {
   const MeshInput input = square_input();
-  const SolvedMesh solved = solved_front(world(), input);
+  const SolvedMesh solved = solved_shock(world(), input);
   AdaptOptions options = adapt_options();
   const std::int64_t all = nodes_by(plan_adaptation(world(), input, options, solved), input);
   options.max_nodes = (solved.tree.attributes.nodes + all) / 2;
@@ -133,7 +134,7 @@ TEST(Plan, SaysWhenCaseAndGeometryPassTheCap) {
   const MeshInput input = square_input();
   AdaptOptions options = adapt_options();
   options.max_nodes = 20;
-  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved_front(world(), input));
+  const AdaptationPlan plan = plan_adaptation(world(), input, options, solved_shock(world(), input));
   EXPECT_EQ(plan.refined, 0);
   ASSERT_FALSE(plan.warnings.empty());
   EXPECT_NE(plan.warnings[0].find("adapt.max_nodes is 20"), std::string::npos) << plan.warnings[0];
@@ -143,7 +144,7 @@ TEST(Plan, SaysWhyTheMeshStays) {
   const MeshInput input = square_input();
   AdaptOptions options = adapt_options();
   options.min = 1.0 / 16;
-  const auto plan = plan_adaptation(world(), input, options, solved_front(world(), input));
+  const auto plan = plan_adaptation(world(), input, options, solved_shock(world(), input));
   EXPECT_FALSE(plan.changes_mesh());
   ASSERT_EQ(plan.warnings.size(), 1U);
   EXPECT_NE(plan.warnings[0].find("adapt.min = 0.0625"), std::string::npos) << plan.warnings[0];
@@ -153,7 +154,7 @@ TEST(Plan, NamesTheFileOfAMissingVariable) {
   const MeshInput input = square_input();
   AdaptOptions options = adapt_options();
   options.variables = {"entropy"};
-  const SolvedMesh solved = solved_front(world(), input);
+  const SolvedMesh solved = solved_shock(world(), input);
   try {
     plan_adaptation(world(), input, options, solved);
     FAIL();
@@ -164,56 +165,57 @@ TEST(Plan, NamesTheFileOfAMissingVariable) {
 
 TEST(Remesh, CarriesTheSolutionOverByThePlan) {
   const MeshInput input = square_input();
-  const SolvedMesh solved = solved_front(world(), input);
-  const CarriedMesh carried =
-      carry_over(world(), input, plan_adaptation(world(), input, adapt_options(), solved), solved);
-  const Mesh& mesh = carried.generated.result.mesh;
-  ASSERT_EQ(carried.start.values.size(), static_cast<std::size_t>(mesh.owned_nodes));
-  ASSERT_EQ(carried.drifts().size(), 1U);
-  EXPECT_EQ(carried.drifts()[0].first, "q");
-  EXPECT_LT(std::abs(carried.drifts()[0].second), 0.05);
-  const CarriedMesh again = carry_over(world(), input, standing_plan(solved.tree, input), solved);
+  const SolvedMesh solved = solved_shock(world(), input);
+  const RemeshedSolution remeshed =
+      remesh_and_transfer(world(), input, plan_adaptation(world(), input, adapt_options(), solved), solved);
+  const Mesh& mesh = remeshed.generated.result.mesh;
+  ASSERT_EQ(remeshed.start.values.size(), static_cast<std::size_t>(mesh.owned_nodes));
+  ASSERT_EQ(remeshed.drifts().size(), 1U);
+  EXPECT_EQ(remeshed.drifts()[0].first, "q");
+  EXPECT_LT(std::abs(remeshed.drifts()[0].second), 0.05);
+  const RemeshedSolution again =
+      remesh_and_transfer(world(), input, unchanged_plan(solved.tree, input), solved);
   EXPECT_EQ(again.generated.result.mesh.points, solved.mesh.points) << "without marks the mesh stays";
   EXPECT_EQ(again.start.values, solved.solution.values);
 }
 
 TEST(Remesh, WarnsOfAConservedIntegralThatDrifts) {
-  CarriedMesh carried;
-  carried.start.names = {"p"};
-  carried.start.cells.names = {"rho", "p"};
-  TransferReport& report = carried.report;
+  RemeshedSolution remeshed;
+  remeshed.start.names = {"p"};
+  remeshed.start.cells.names = {"rho", "p"};
+  TransferReport& report = remeshed.report;
   report.drift = report.relative_drift = {0.1, -3e-9, 2e-11};
   report.conserved_from = 1;
-  const std::vector<std::string> warnings = drift_warnings(carried);
+  const std::vector<std::string> warnings = drift_warnings(remeshed);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("integral of rho by -3e-09 of its size;"), std::string::npos) << warnings[0];
   report.area_change = 1e-9;
-  EXPECT_TRUE(drift_warnings(carried).empty()) << "the meshes differ in area by as much";
+  EXPECT_TRUE(drift_warnings(remeshed).empty()) << "the meshes differ in area by as much";
   report.area_change = 0;
   report.relative_drift = {0.1, 1e-8, 1e-7};
-  EXPECT_NE(drift_warnings(carried).at(0).find("of cell_p by 1e-07 of its size, and those of 1 more"),
+  EXPECT_NE(drift_warnings(remeshed).at(0).find("of cell_p by 1e-07 of its size, and those of 1 more"),
             std::string::npos)
-      << drift_warnings(carried)[0];
+      << drift_warnings(remeshed)[0];
   report.relative_drift = {0.1, 9e-11, 0};
-  EXPECT_TRUE(drift_warnings(carried).empty());
+  EXPECT_TRUE(drift_warnings(remeshed).empty());
 }
 
 TEST(Remesh, KeepsConservedIntegralsBetweenSlantedSides) {
   MeshInput input = square_input();
   input.geometry = Geometry({{"far", 0, 30, "farfield"}}, {{0, 0}, {1, 0.1}, {1.07, 1.01}, {-0.02, 0.93}},
                             {0, 4}, std::vector<BoundaryId>(4, BoundaryId{0}));
-  const SolvedMesh solved = solved_front(world(), input);
+  const SolvedMesh solved = solved_shock(world(), input);
   AdaptOptions options = adapt_options();
   options.transfer = TransferKind::conservative;
-  const CarriedMesh carried =
-      carry_over(world(), input, plan_adaptation(world(), input, options, solved), solved);
-  EXPECT_NEAR(carried.report.relative_drift.at(0), 0, 1e-12);
-  EXPECT_NEAR(carried.report.area_change, 0, 1e-12);
-  EXPECT_TRUE(drift_warnings(carried).empty());
+  const RemeshedSolution remeshed =
+      remesh_and_transfer(world(), input, plan_adaptation(world(), input, options, solved), solved);
+  EXPECT_NEAR(remeshed.report.relative_drift.at(0), 0, 1e-12);
+  EXPECT_NEAR(remeshed.report.area_change, 0, 1e-12);
+  EXPECT_TRUE(drift_warnings(remeshed).empty());
 }
 
 TEST(OwnMesh, IsTheOneThatTheTreeWasMadeWith) {
-  SolvedMesh solved = solved_front(world(), square_input());
+  SolvedMesh solved = solved_shock(world(), square_input());
   EXPECT_NO_THROW(require_own_mesh(world(), solved, "mesh", "tree"));
   EXPECT_NO_THROW(require_untouched_mesh(world(), solved, "mesh", "tree"));
   for (Point& p : solved.mesh.points) p.x += 1e-9;
@@ -224,7 +226,7 @@ TEST(OwnMesh, IsTheOneThatTheTreeWasMadeWith) {
 }
 
 TEST(OwnMesh, CountsNodesAndCells) {
-  SolvedMesh solved = solved_front(world(), square_input());
+  SolvedMesh solved = solved_shock(world(), square_input());
   ++solved.tree.attributes.quads;
   try {
     require_own_mesh(world(), solved, "a.mesh", "a.tree.h5");
@@ -241,13 +243,13 @@ TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   input.stretch = 4;
   AdaptOptions options = adapt_options();
   options.refine = options.coarsen = 100;
-  SolvedMesh solved = solved_front(world(), input);
+  SolvedMesh solved = solved_shock(world(), input);
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
   EXPECT_EQ(plan.refined, 0);
   ASSERT_TRUE(std::holds_alternative<TargetDemand>(plan.anisotropy));
   EXPECT_EQ(std::get<TargetDemand>(plan.anisotropy).stretch, 4);
   EXPECT_TRUE(plan.changes_mesh());
-  const CarriedMesh next = carry_over(world(), input, plan, solved);
+  const RemeshedSolution next = remesh_and_transfer(world(), input, plan, solved);
   ASSERT_EQ(next.generated.result.mesh.points.size(), solved.mesh.points.size());
   const std::int64_t moved = next.generated.result.mesh.points != solved.mesh.points ? 1 : 0;
   EXPECT_GT(world().sum(moved), 0);
@@ -255,7 +257,7 @@ TEST(Plan, TargetsMoveNodesWhereNoLeafIsMarked) {
   EXPECT_FALSE(plan_adaptation(world(), input, options, solved).changes_mesh());
   input.stretch.reset();
   EXPECT_FALSE(std::holds_alternative<TargetDemand>(
-      plan_adaptation(world(), input, options, solved_front(world(), input)).anisotropy));
+      plan_adaptation(world(), input, options, solved_shock(world(), input)).anisotropy));
 }
 
 TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
@@ -286,9 +288,9 @@ TEST(Plan, RefusesToFollowAMetricInFewerNodesThanTheCaseTakes) {
   // What is said to do does.
   input.mesh.type = MeshType::metric;
   options.max_nodes = least;
-  const SolvedMesh solved = solved_front(world(), input);
+  const SolvedMesh solved = solved_shock(world(), input);
   const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
-  const CarriedMesh next = carry_over(world(), input, plan, solved);
+  const RemeshedSolution next = remesh_and_transfer(world(), input, plan, solved);
   EXPECT_LE(next.generated.result.tree.attributes.nodes, least);
 }
 
@@ -313,11 +315,11 @@ MeshInput polygon_input() {
 double least_share_at_facets(const Communicator& comm, const MeshInput& input, const TreeRecord& tree,
                              const AdaptationPlan& plan) {
   const FacetZones facets(input.geometry);
-  const Lattice lattice(root_box(tree.attributes), tree.attributes.trees_x, tree.attributes.trees_y);
+  const TreeGrid grid(root_box(tree.attributes), tree.attributes.trees_x, tree.attributes.trees_y);
   double share = 1e9;
   for (const SplitDemand& demand : plan.demands) {
-    const double least = facets.least_size(lattice.box_of(demand.leaf));
-    if (least > 0) share = std::min(share, lattice.edge(std::bit_width(demand.levels)) / least);
+    const double least = facets.least_size(grid.box_of(demand.leaf));
+    if (least > 0) share = std::min(share, grid.edge(std::bit_width(demand.levels)) / least);
   }
   return comm.minimum(share);
 }
@@ -335,7 +337,7 @@ TEST(Plan, FacetsOfAPolygonAreNotResolved) {
       }
       double share = 1e9;
       bool told = false;
-      SolvedMesh solved = solved_front(world(), input);
+      SolvedMesh solved = solved_shock(world(), input);
       for (int cycle = 0; cycle < 3; ++cycle) {
         const AdaptationPlan plan = plan_adaptation(world(), input, options, solved);
         share = std::min(share, least_share_at_facets(world(), input, solved.tree, plan));
@@ -375,7 +377,7 @@ TEST(Plan, TellsShapesByMeansRatherThanByTheFlowAtTheirEnd) {
   options.variables = {"error"};
   options.norm = 2;
   options.max_nodes = 400;
-  SolvedMesh solved = solved_front(world(), input);
+  SolvedMesh solved = solved_shock(world(), input);
   const std::vector<double> front = std::exchange(solved.solution.values, {});
   solved.solution.names = {"q", "lone_at_end", "error", "q_at_end"};
   for (const double value : front)

@@ -75,7 +75,7 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
     const Field fields = field_of(result.mesh, "density", step);
     const auto values =
         leaf_indicator(world(), result.mesh, result.tree.leaves, fields, Indicator::difference);
-    const test::RuledMarks marked = test::marks_by(DeviationRule{}, world(), result.tree.leaves, values);
+    const test::RuledFlags marked = test::flags_by(DeviationRule{}, world(), result.tree.leaves, values);
     EXPECT_GT(marked.refined, 0);
     EXPECT_GT(marked.coarsened, 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -83,10 +83,10 @@ TEST(BuiltMesh, LeavesAtAShockAreRefined) {
       const double edge = std::ldexp(tree.tree_edge, -leaf.level);
       const double centre = tree.root_x + (leaf.tree_x + std::ldexp(leaf.x, -30)) * tree.tree_edge + edge / 2,
                    far = std::abs(centre - 0.3) - edge;
-      if (marked.marks[i] == Mark::refine) {
+      if (marked.flags[i] == RefinementFlag::refine) {
         EXPECT_LT(far, 0.15);
       }
-      if (marked.marks[i] == Mark::coarsen) {
+      if (marked.flags[i] == RefinementFlag::coarsen) {
         EXPECT_GT(far, 0);
       }
     }
@@ -118,10 +118,10 @@ TEST(BuiltMesh, MarksAreTheSameOnAnyNumberOfRanks) {
       };
       const std::vector<double> of_one = values_of(alone, one), of_all = values_of(world(), all);
       EXPECT_EQ(test::joined(world(), of_all), of_one);
-      const test::RuledMarks expected = test::marks_by(DeviationRule{}, alone, one.tree.leaves, of_one);
+      const test::RuledFlags expected = test::flags_by(DeviationRule{}, alone, one.tree.leaves, of_one);
       EXPECT_EQ(
-          test::joined(world(), test::marks_by(DeviationRule{}, world(), all.tree.leaves, of_all).marks),
-          expected.marks);
+          test::joined(world(), test::flags_by(DeviationRule{}, world(), all.tree.leaves, of_all).flags),
+          expected.flags);
       EXPECT_GT(expected.refined, 0);
     }
   }

@@ -74,15 +74,15 @@ Field field_of(const Mesh& mesh, const std::string& name,
   return field;
 }
 
-RuledMarks marks_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
+RuledFlags flags_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
                     std::span<const double> values) {
   const OrderedValues ordered(comm, leaves, values);
-  RuledMarks ruled;
+  RuledFlags ruled;
   ruled.statistics = statistics_of(comm, ordered);
   ruled.thresholds = thresholds_by(rule, ordered, ruled.statistics);
-  ruled.marks = marks_above(leaves, values, ruled.thresholds);
-  ruled.refined = count_of(comm, ruled.marks, Mark::refine);
-  ruled.coarsened = count_of(comm, ruled.marks, Mark::coarsen);
+  ruled.flags = flags_above(leaves, values, ruled.thresholds);
+  ruled.refined = count_of(comm, ruled.flags, RefinementFlag::refine);
+  ruled.coarsened = count_of(comm, ruled.flags, RefinementFlag::coarsen);
   return ruled;
 }
 

@@ -57,19 +57,19 @@ Mesh part_of(const Grid& grid);
 /// Calls `check(pieces)` for several meshes and orders.
 void for_each_distribution(const std::function<void(const Pieces&)>& check);
 
-/// A field by a function of the global node number and the position. Copies' values are wrong, which nobody
+/// A field by a function of the global node number and the position. Ghosts' values are wrong, which nobody
 /// must notice.
 Field field_of(const Mesh& mesh, const std::string& name,
                const std::function<double(std::int64_t, Point)>& value);
 
-/// Marks by a rule, as MarkFamily comes to them, and what they follow from.
-struct RuledMarks {
-  std::vector<Mark> marks;  ///< of this rank's share
+/// RefinementFlags by a rule, as MarkFamily comes to them, and what they follow from.
+struct RuledFlags {
+  std::vector<RefinementFlag> flags;  ///< of this rank's share
   IndicatorStatistics statistics;
   Thresholds thresholds;
   std::int64_t refined = 0, coarsened = 0;  ///< of all ranks' leaves
 };
-RuledMarks marks_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
+RuledFlags flags_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
                     std::span<const double> values);
 
 /// The variables of both at the same nodes.

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "flow/quantities/wall_table.hpp"
+#include "flow/postprocess/wall_table.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"

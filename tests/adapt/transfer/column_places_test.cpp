@@ -47,14 +47,14 @@ TEST(ColumnPlaces, LayersKeepTheirHeightsThoughChordsDiffer) {
   const Mesh old_whole = bent(6), new_whole = bent(12);
   const Mesh old_mesh = scatter_mesh(world(), old_whole, test::shuffled_order(old_whole, 3));
   const Mesh new_mesh = scatter_mesh(world(), new_whole, test::shuffled_order(new_whole, 4));
-  const Field carried = transfer(world(), old_mesh, heights_of(old_mesh, 6), new_mesh).field;
+  const Field transferred = transfer(world(), old_mesh, heights_of(old_mesh, 6), new_mesh).field;
   std::int64_t compared = 0;
   for (std::int32_t i = 0; i < new_mesh.owned_nodes; ++i) {
     const Point p = new_mesh.points[i];
     if (std::abs(p.x - 3) > 0.6 || p.x == 3) continue;  // half way along chords, 0.025 below them
     const double wanted = height(p, 12);
     if (wanted > 0.2) continue;
-    EXPECT_NEAR(carried.values[i], wanted, 0.005) << "not 0.025 more or less, at " << p.x << ", " << p.y;
+    EXPECT_NEAR(transferred.values[i], wanted, 0.005) << "not 0.025 more or less, at " << p.x << ", " << p.y;
     ++compared;
   }
   EXPECT_GE(world().sum(compared), 4) << "two nodes in each of two columns";

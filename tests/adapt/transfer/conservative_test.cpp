@@ -161,12 +161,12 @@ TEST(ConservativeTransfer, OfTheSameMeshChangesNothing) {
 TEST(ConservativeTransfer, HasTheSameBitsOnAnyNumberOfRanks) {
   const Communicator alone(MPI_COMM_SELF);
   const Whole old_whole = jittered({12, {1, 1}, true}, 6), new_whole = jittered({15, {1.1, 1}, true}, 8);
-  const auto carried = [&](const Communicator& comm) {
+  const auto transferred = [&](const Communicator& comm) {
     const Mesh old_mesh = old_whole.part(comm);
     return transfer(comm, old_mesh, field_with_cells(old_mesh, step), new_whole.part(comm),
                     TransferKind::conservative);
   };
-  const Transferred one = carried(alone), many = carried(world());
+  const Transferred one = transferred(alone), many = transferred(world());
   EXPECT_GT(one.report.cells_outside, 0);
   EXPECT_EQ(one.report.cells_outside, many.report.cells_outside);
   EXPECT_EQ(gathered(many.field.values), one.field.values);

@@ -149,12 +149,12 @@ TEST(ExchangeMessages, GoInPieces) {
 
 /// Each rank owns three entries, 10 * rank + 0, 1, 2, behind `rank` others, and has copies of all ranks' last
 /// two, itself included.
-struct Copies {
+struct Ghosts {
   std::int32_t first = world().rank();
-  std::vector<CopyExchange::Copy> list;
+  std::vector<GhostExchange::Copy> list;
   std::vector<int> values;  ///< of copies yet unknown
 
-  Copies() : values(static_cast<std::size_t>(first), -7) {
+  Ghosts() : values(static_cast<std::size_t>(first), -7) {
     for (int k = 0; k < 3; ++k) values.push_back(10 * first + k);
     for (int k = 1; k < 3; ++k) {
       for (int owner = world().size() - 1; owner >= 0; --owner) {
@@ -165,34 +165,34 @@ struct Copies {
   }
 };
 
-TEST(CopyExchange, BringsOwnersValues) {
-  Copies copies;
-  const CopyExchange exchange(world(), copies.list, copies.first);
-  std::vector<int> expected = copies.values;
-  for (const auto& copy : copies.list) expected[copy.entry] = 10 * copy.owner + copy.owners_entry;
-  exchange.update(copies.values);
-  EXPECT_EQ(copies.values, expected);
+TEST(GhostExchange, BringsOwnersValues) {
+  Ghosts ghosts;
+  const GhostExchange exchange(world(), ghosts.list, ghosts.first);
+  std::vector<int> expected = ghosts.values;
+  for (const auto& copy : ghosts.list) expected[copy.entry] = 10 * copy.owner + copy.owners_entry;
+  exchange.update(ghosts.values);
+  EXPECT_EQ(ghosts.values, expected);
 }
 
-TEST(CopyExchange, BringsThoseThatChangedAlone) {
-  Copies copies;
-  const CopyExchange exchange(world(), copies.list, copies.first);
-  std::vector<int> expected = copies.values;
-  for (const auto& copy : copies.list) {
+TEST(GhostExchange, BringsThoseThatChangedAlone) {
+  Ghosts ghosts;
+  const GhostExchange exchange(world(), ghosts.list, ghosts.first);
+  std::vector<int> expected = ghosts.values;
+  for (const auto& copy : ghosts.list) {
     if (copy.owner % 2 == 1 && copy.owners_entry == 2) expected[copy.entry] = 10 * copy.owner + 2;
   }
-  exchange.update(copies.values,
-                  [&](std::int32_t entry) { return copies.first % 2 == 1 && entry == copies.first + 2; });
-  EXPECT_EQ(copies.values, expected);
+  exchange.update(ghosts.values,
+                  [&](std::int32_t entry) { return ghosts.first % 2 == 1 && entry == ghosts.first + 2; });
+  EXPECT_EQ(ghosts.values, expected);
 }
 
-TEST(CopyExchange, BringsRows) {
-  const Copies copies;
-  const CopyExchange exchange(world(), copies.list, copies.first);
+TEST(GhostExchange, BringsRows) {
+  const Ghosts ghosts;
+  const GhostExchange exchange(world(), ghosts.list, ghosts.first);
   std::vector<double> rows, none, expected;
-  for (const int value : copies.values) rows.insert(rows.end(), {value + 0.25, value + 0.5});
+  for (const int value : ghosts.values) rows.insert(rows.end(), {value + 0.25, value + 0.5});
   expected = rows;
-  for (const auto& copy : copies.list) {
+  for (const auto& copy : ghosts.list) {
     const auto at = 2 * static_cast<std::size_t>(copy.entry);
     expected[at] = 10 * copy.owner + copy.owners_entry + 0.25;
     expected[at + 1] = expected[at] + 0.25;

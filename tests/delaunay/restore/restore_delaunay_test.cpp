@@ -172,7 +172,7 @@ void expect_delaunay(const Mesh& whole) {
   });
 }
 
-void expect_consistent_copies(const Mesh& part, const Mesh& whole) {
+void expect_consistent_ghosts(const Mesh& part, const Mesh& whole) {
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     EXPECT_EQ(part.points[i], whole.point(NodeId{static_cast<std::int32_t>(
                                   part.global(NodeId{static_cast<std::int32_t>(i)}).value())}));
@@ -189,7 +189,7 @@ Mesh move_and_restore(Mesh whole, Mesh part, std::int64_t every, unsigned seed) 
   restore_delaunay(world(), part, moved, rank_of);
   EXPECT_FALSE(whole.triangles == triangles_before);
   expect_same_meshes(gather(world(), part), whole);
-  expect_consistent_copies(part, whole);
+  expect_consistent_ghosts(part, whole);
   expect_delaunay(whole);
   return whole;
 }
@@ -272,7 +272,7 @@ TEST(RestoreDelaunay, NothingMovedNothingChanges) {
     restore_delaunay(world(), mesh, NodeFlags(mesh.points.size(), flag), rank_of);
     EXPECT_TRUE(mesh.triangles == before.triangles);
     EXPECT_TRUE(mesh.points == before.points);
-    EXPECT_TRUE(mesh.copies == before.copies);
+    EXPECT_TRUE(mesh.ghosts == before.ghosts);
   }
 }
 

@@ -101,7 +101,7 @@ TEST(Ranks, GiveTheSameBitsInTime) {
       options.iterations = 100;
       expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);
       options.time = EulerOptions::Time::steady;
-      options.unsteady = EulerOptions::Unsteady::carry_on;
+      options.unsteady = EulerOptions::Unsteady::continue_in_time;
       options.flow_throughs = 1;
       options.iterations = 3;
       expect_same_on_all_ranks(*mesh, test::shuffled_order(*mesh, 5), options);

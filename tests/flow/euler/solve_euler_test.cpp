@@ -111,12 +111,12 @@ TEST(SteadyFlow, LeavesAStartThatLeadsNowhereForTheFreeStream) {
     start.values.insert(start.values.end(), {1, speed, 0, 1e-4});
   }
   const EulerResult cold = solve_euler(world(), mesh, options),
-                    carried = solve_euler(world(), mesh, options, start),
+                    transferred = solve_euler(world(), mesh, options, start),
                     gone_on = solve_euler(world(), mesh, options, cold.flow);
-  EXPECT_TRUE(carried.converged);
-  EXPECT_GT(carried.left_start, 0);
-  EXPECT_EQ(carried.iterations, carried.left_start + cold.iterations);
-  EXPECT_EQ(carried.flow.values, cold.flow.values);
+  EXPECT_TRUE(transferred.converged);
+  EXPECT_GT(transferred.left_start, 0);
+  EXPECT_EQ(transferred.iterations, transferred.left_start + cold.iterations);
+  EXPECT_EQ(transferred.flow.values, cold.flow.values);
   EXPECT_EQ(gone_on.left_start, 0);
 }
 

@@ -4,13 +4,13 @@
 
 #include "flow/euler/residual_watch.hpp"
 #include "flow/euler/shortfall.hpp"
-#include "flow/euler/step_shares.hpp"
+#include "flow/euler/step_fractions.hpp"
 
 namespace quadloop::euler {
 namespace {
 
-TEST(StepShares, FallWhereChangesSwingAndGrowAgain) {
-  StepShares shares(2);
+TEST(StepFractions, FallWhereChangesSwingAndGrowAgain) {
+  StepFractions shares(2);
   for (int step = 0; step < 30; ++step) {
     const float sign = step % 2 == 0 ? 1.F : -1.F;
     shares.follow({Change{sign, 0, 0, sign}, Change{1, 0, 0, 1}});
@@ -24,8 +24,8 @@ TEST(StepShares, FallWhereChangesSwingAndGrowAgain) {
   EXPECT_EQ(shares.shares()[0], 1);
 }
 
-TEST(StepShares, StayWhereSwingsDieOutFast) {
-  StepShares shares(1);
+TEST(StepFractions, StayWhereSwingsDieOutFast) {
+  StepFractions shares(1);
   float change = 1;
   for (int step = 0; step < 30; ++step) shares.follow({Change{change *= -0.7F, 0, 0, 0}});
   EXPECT_EQ(shares.shares()[0], 1);

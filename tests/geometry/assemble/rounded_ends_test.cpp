@@ -74,8 +74,9 @@ TEST(RoundedEnds, ThreeEndsAreNotGuessedAt) {
   const std::vector<Chain> given{chain(true, {{0, 0}, {1, 0}}), chain(true, {{1, ulps(2)}, {0, 1}}),
                                  chain(true, {{1, ulps(4)}, {0.5, 1}})};
   const std::string said = test::refusal([&] { const Repaired three(given); });
-  EXPECT_NE(said.find("file:1: boundary 'wall': 3 chains end within 3.6e-15 of (1, 0) ('wall', 'wall', 'wall')"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("file:1: boundary 'wall': 3 chains end within 3.6e-15 of (1, 0) ('wall', 'wall', 'wall')"),
+      std::string::npos)
       << said;
 }
 

@@ -230,9 +230,9 @@ TEST(UnitedIslands, RandomIslandsCoverWhatTheyCoverEach) {
 
 TEST(UnitedIslands, APointThatTouchesAnEdgeIsCommon) {
   const Chain house = rectangle("house", {10, 10}, {20, 20});
-  for (const Chain& wedge : {closed("wedge", {{20, 15}, {30, 10}, {30, 20}}),
-                             closed("wedge", {{17, 20}, {19, 30}, {15, 30}}),
-                             closed("wedge", {{-50, 3}, {-40, 8}, {-40, -2}})}) {
+  for (const Chain& wedge :
+       {closed("wedge", {{20, 15}, {30, 10}, {30, 20}}), closed("wedge", {{17, 20}, {19, 30}, {15, 30}}),
+        closed("wedge", {{-50, 3}, {-40, 8}, {-40, -2}})}) {
     Warnings warnings;
     const Geometry g = united({sea, house, wedge}, &warnings);
     EXPECT_EQ(g.loop_count(), 3);

@@ -6,7 +6,7 @@
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_polygons.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/check_solid.hpp"
+#include "io/model/check_mesh3d.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/read_plane.hpp"
@@ -68,14 +68,14 @@ TEST(FoamReader, DividesPolygonsOfPlaneMeshes) {
   EXPECT_EQ(loaded.mesh.boundaries.size(), 4U);
   EXPECT_EQ(loaded.warnings,
             std::vector<std::string>{path + ": 1 polygonal cells are divided into 2 triangles and quads"});
-  const std::optional<FileMesh> solid = test::read_solid(path);
-  EXPECT_TRUE(check_solid(*solid).faults.empty());
+  const std::optional<FileMesh> mesh3d = test::read_mesh3d(path);
+  EXPECT_TRUE(check_mesh3d(*mesh3d).faults.empty());
 }
 
 TEST(FoamReader, RefusesPolygonsInSpace) {
   const test::TemporaryFolder folder;
   const std::string path = write_plane(folder, "patch", "wall");
-  EXPECT_THROW(test::read_solid(path), InputError);
+  EXPECT_THROW(test::read_mesh3d(path), InputError);
 }
 
 TEST(FoamReader, KeepsCyclicPatchesAndReportsThem) {

@@ -201,8 +201,7 @@ std::string dxf_square(const std::string& layer, double x, double side) {
 std::string drawing_with_block(const std::string& content, const std::string& entities) {
   std::string layers;
   for (const auto& [name, frozen, colour] : {std::tuple("wall", 0, 7), {"old", 1, 7}, {"dark", 0, -7}})
-    layers +=
-        fmt::format("  0\nLAYER\n  2\n{}\n 70\n{}\n 62\n{}\n  6\nCONTINUOUS\n", name, frozen, colour);
+    layers += fmt::format("  0\nLAYER\n  2\n{}\n 70\n{}\n 62\n{}\n  6\nCONTINUOUS\n", name, frozen, colour);
   return "  0\nSECTION\n  2\nTABLES\n  0\nTABLE\n  2\nLAYER\n" + layers +
          "  0\nENDTAB\n  0\nENDSEC\n  0\nSECTION\n  2\nBLOCKS\n"
          "  0\nBLOCK\n  8\n0\n  2\nHole\n 70\n0\n 10\n0\n 20\n0\n  3\nHole\n" +
@@ -236,17 +235,17 @@ TEST_F(OgrReader, LayersWithinABlockAreHiddenAsElsewhere) {
 }
 
 TEST_F(OgrReader, ReadsBlocksOfDrawingsWithClasses) {
-  const auto chains = read("a.dxf", with_header(drawing_with_block(dxf_square("0", 0, 2),
-                                                                   insert_of("Hole", "wall", true))));
+  const auto chains =
+      read("a.dxf", with_header(drawing_with_block(dxf_square("0", 0, 2), insert_of("Hole", "wall", true))));
   ASSERT_EQ(chains.size(), 4u);
   EXPECT_EQ(chains[0].name, "wall") << "what is on layer 0 of a block takes the layer of the reference";
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
 }
 
 TEST_F(OgrReader, NamesOfADrawingHaveNoCase) {
-  const auto chains = read("a.dxf", with_header(drawing_with_block(
-                                        dxf_square("0", 0, 2),
-                                        insert_of("HOLE", "Wall", true) + dxf_circle("A1", "OLD", 1))));
+  const auto chains =
+      read("a.dxf", with_header(drawing_with_block(dxf_square("0", 0, 2), insert_of("HOLE", "Wall", true) +
+                                                                              dxf_circle("A1", "OLD", 1))));
   ASSERT_EQ(chains.size(), 4u);
   EXPECT_EQ(chains[0].name, "wall");
   ASSERT_EQ(warnings_.size(), 1u);

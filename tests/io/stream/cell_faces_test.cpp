@@ -76,7 +76,7 @@ std::vector<Face> held(const std::string& path) {
   OutputSet outputs(alone);
   write_mesh(outputs, extruded_sample(whole), path);
   outputs.commit();
-  const std::optional<FileMesh> mesh = test::read_solid(path);
+  const std::optional<FileMesh> mesh = test::read_mesh3d(path);
   const HeldFaces faces(*mesh, path);
   std::vector<Face> found;
   for (const HeldFaces::Inner& face : faces.internal()) {

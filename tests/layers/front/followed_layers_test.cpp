@@ -13,8 +13,8 @@ namespace quadloop {
 namespace {
 
 /// An estimate of 0.02 for y+ = 2; 0.519 thick.
-const LayerSpec wanted_layers{0.02, 1.2, 1.2, 10, 1, 2};
-const double wanted_thickness = layers_thickness(wanted_layers);
+const LayerSpec target_layers{0.02, 1.2, 1.2, 10, 1, 2};
+const double target_thickness = layers_thickness(target_layers);
 
 /// The floor from x = 0 to 8 in so many edges, with wall units that depend on x.
 template <class WallUnits>
@@ -36,60 +36,60 @@ struct Followed {
 };
 
 TEST(FollowedLayers, TheFirstHeightHasTheYPlusAndThicknessAndCountStay) {
-  const Followed f(test::floor_with_layers(wanted_layers),
+  const Followed f(test::floor_with_layers(target_layers),
                    measured_floor(1, [](double x) { return 100 + 7.5 * x; }));
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const LayerSpec& layers = f.layers[i];
     EXPECT_NEAR(layers.first, 2 / (100 + 7.5 * f.line[i].wall.x), 1e-15);
     EXPECT_EQ(layers.count, 10);
-    EXPECT_NEAR(layers_thickness(layers), wanted_thickness, 1e-9) << f.line[i].wall.x;
+    EXPECT_NEAR(layers_thickness(layers), target_thickness, 1e-9) << f.line[i].wall.x;
   }
 }
 
 TEST(FollowedLayers, HeightsStayWithinATenthAndTenTimesOfTheEstimate) {
-  const Followed thin(test::floor_with_layers(wanted_layers), measured_floor(4, [](double) { return 1e9; }));
-  const Followed thick(test::floor_with_layers(wanted_layers), measured_floor(4, [](double) { return 0.0; }));
+  const Followed thin(test::floor_with_layers(target_layers), measured_floor(4, [](double) { return 1e9; }));
+  const Followed thick(test::floor_with_layers(target_layers), measured_floor(4, [](double) { return 0.0; }));
   for (const LayerSpec& layers : thin.layers) {
     EXPECT_DOUBLE_EQ(layers.first, 0.002);
     EXPECT_NEAR(layers.growth, 1.3, 1e-9) << "no more than half as much again";
-    EXPECT_LT(layers_thickness(layers), wanted_thickness);
+    EXPECT_LT(layers_thickness(layers), target_thickness);
   }
   for (const LayerSpec& layers : thick.layers) {
-    EXPECT_NEAR(layers.first, wanted_thickness / 10, 1e-12) << "less than ten times, as the others need room";
-    EXPECT_NEAR(layers_thickness(layers), wanted_thickness, 1e-12);
+    EXPECT_NEAR(layers.first, target_thickness / 10, 1e-12) << "less than ten times, as the others need room";
+    EXPECT_NEAR(layers_thickness(layers), target_thickness, 1e-12);
   }
 }
 
 TEST(FollowedLayers, HeightsGrowSlowlyTowardsAPlaceWithoutFriction) {
-  const Followed f(test::floor_with_layers(wanted_layers),
+  const Followed f(test::floor_with_layers(target_layers),
                    measured_floor(64, [](double x) { return 200 * std::abs(x - 4); }));
   double largest = 0;
   for (std::int32_t i = 0; f.line.next(i) != WallLine::none; ++i) {
     const double here = f.layers[i].first, next = f.layers[f.line.next(i)].first;
-    const double most = 1 + 0.6 * f.line.width(i) / wanted_thickness;
+    const double most = 1 + 0.6 * f.line.width(i) / target_thickness;
     EXPECT_LE(next, here * most * (1 + 1e-12));
     EXPECT_LE(here, next * most * (1 + 1e-12));
     EXPECT_LE(here, 2 / (200 * std::abs(f.line[i].wall.x - 4)) * (1 + 1e-12)) << "y+ is never more";
     largest = std::max(largest, here);
   }
   EXPECT_NEAR(f.layers[0].first, 2.0 / 800, 1e-15) << "far from there y+ is met";
-  EXPECT_LT(largest, wanted_thickness / 10) << "there it is not the bound that holds";
+  EXPECT_LT(largest, target_thickness / 10) << "there it is not the bound that holds";
 }
 
 TEST(FollowedLayers, BoundariesOfAGivenHeightAndWhatIsNotMeasuredKeepTheirs) {
-  LayerSpec given = wanted_layers;
+  LayerSpec given = target_layers;
   given.y_plus = 0;
   const Followed fixed(test::floor_with_layers(given), measured_floor(4, [](double) { return 1000.0; }));
   for (const LayerSpec& layers : fixed.layers) EXPECT_EQ(layers, given);
   const MeasuredWall backwards{{{8, 0}, {0, 0}, 1000, 1000}};
-  const Followed unknown(test::floor_with_layers(wanted_layers), backwards);
-  for (const LayerSpec& layers : unknown.layers) EXPECT_EQ(layers.first, wanted_layers.first);
+  const Followed unknown(test::floor_with_layers(target_layers), backwards);
+  for (const LayerSpec& layers : unknown.layers) EXPECT_EQ(layers.first, target_layers.first);
 }
 
 TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
   // of an earlier mesh, whose lower side lies nearer to the upper one of this body than its own upper side
   const MeasuredWall wall{{{-2, 1e-3}, {2, 1e-3}, 100, 100}, {{2, 0}, {-2, 0}, 150, 150}};
-  const Followed f(test::rhombus_with_layers(wanted_layers, 1e-4), wall);
+  const Followed f(test::rhombus_with_layers(target_layers, 1e-4), wall);
   int above = 0, below = 0;
   for (std::int32_t i = 0; i < f.line.size(); ++i) {
     const Point place = f.line[i].wall;
@@ -103,7 +103,7 @@ TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
 
 TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
   MeasuredWall wall = measured_floor(13, [](double x) { return 100 + 300 * std::abs(std::sin(x)); }), other;
-  const Geometry floor = test::floor_with_layers(wanted_layers);
+  const Geometry floor = test::floor_with_layers(target_layers);
   for (const MeasuredEdge& e : wall)
     other.push_back({{e.to.x, -e.to.y}, {e.from.x, -e.from.y}, e.wall_units_to, e.wall_units_from});
   const Followed one(floor, wall), image(test::mirrored(floor), other);
@@ -113,12 +113,12 @@ TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
 }
 
 TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
-  const Geometry floor = test::floor_with_layers(wanted_layers);
+  const Geometry floor = test::floor_with_layers(target_layers);
   const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
   const LayerFront front = layer_front(floor, {}, {}, wall);
   const auto last_layer = [&](std::int32_t i) {
     const std::vector<double> heights =
-        column_heights(front.line.spec(i), 2 / (100 + 7.5 * front.line[i].wall.x), wanted_thickness).reached;
+        column_heights(front.line.spec(i), 2 / (100 + 7.5 * front.line[i].wall.x), target_thickness).reached;
     return heights.back() - heights[heights.size() - 2];
   };
   double first = 0, last = 0;

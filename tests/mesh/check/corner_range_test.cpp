@@ -55,7 +55,7 @@ TEST(CornerRange, HasTheBitsOfAllMeasured) {
   }
 }
 
-// Angles that differ in their last bits alone, as of a turned lattice.
+// Angles that differ in their last bits alone, as of a turned grid.
 TEST(CornerRange, TellsAnglesThatRoundingParts) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> turned(0, 360);

@@ -77,9 +77,9 @@ TEST(RequireSound, EdgesHaveACellOrTheBoundaryOnEitherSide) {
 TEST(RequireSound, RanksAgreeOnPlaces) {
   const Mesh whole = grid();
   Mesh part = scatter_mesh(world(), whole, test::shuffled_order(whole, 3));
-  if (!world().any(!part.copies.empty())) return;
+  if (!world().any(!part.ghosts.empty())) return;
   if (world().rank() + 1 == world().size()) {
-    ASSERT_FALSE(part.copies.empty());
+    ASSERT_FALSE(part.ghosts.empty());
     part.points.back() = part.points.back() + Point{1e-6, 1e-6};
   }
   EXPECT_THROW(require_sound(world(), part), Fault);

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "mesher/mesh/check/shape_figures.hpp"
+#include "mesher/mesh/check/solver_statistics.hpp"
 #include "tests/support/world.hpp"
 
 namespace {
@@ -62,9 +62,9 @@ TEST(ShapeMemory, IsLessThanTheMeshs) {
   const Mesh mesh = squares(n);
   const std::size_t before = held;
   most_held = held;
-  const ShapeFigures figures = shape_figures(world(), mesh);
-  EXPECT_EQ(figures.inexact_nodes, 8);  // of the nine of the four cells that are no squares
-  EXPECT_NEAR(figures.area_ratio_max, 1 / 0.6, 1e-6);
+  const SolverStatistics statistics = solver_statistics(world(), mesh);
+  EXPECT_EQ(statistics.inexact_nodes, 8);  // of the nine of the four cells that are no squares
+  EXPECT_NEAR(statistics.area_ratio_max, 1 / 0.6, 1e-6);
   EXPECT_LT(static_cast<double>(most_held - before) / mesh.owned_nodes, 1.1 * bytes_of_node);
 }
 

@@ -56,8 +56,8 @@ TEST_F(Case, ReadsWhatWantedSizesFollow) {
   EXPECT_EQ(options.until.cl, 1e-3);
   EXPECT_EQ(options.until.cd, 1e-4);
   EXPECT_EQ(options.until.estimate, 0.1);
-  const AdaptOptions by_marks = *adapt("[adapt]\nuntil = { cd = 1e-4 }\n");
-  EXPECT_FALSE(by_marks.norm || by_marks.growth || by_marks.until.cl);
+  const AdaptOptions by_flags = *adapt("[adapt]\nuntil = { cd = 1e-4 }\n");
+  EXPECT_FALSE(by_flags.norm || by_flags.growth || by_flags.until.cl);
   EXPECT_TRUE(adapt("[adapt]\n")->until.empty());
 }
 

@@ -311,11 +311,11 @@ TEST_F(SettingsTest, ReadsWhatFlowsInTimeAreToDo) {
   const EulerOptions usual = read("[solver]\nmach = 1\n").solver.euler;
   EXPECT_EQ(usual.unsteady, EulerOptions::Unsteady::stop);
   EXPECT_FALSE(usual.time_step || usual.average_from);
-  const EulerOptions carried =
+  const EulerOptions transferred =
       read("[solver]\nunsteady = \"carry_on\"\nflow_throughs = 7\ntime_step = 0.5\n").solver.euler;
-  EXPECT_EQ(carried.unsteady, EulerOptions::Unsteady::carry_on);
-  EXPECT_EQ(carried.flow_throughs, 7);
-  EXPECT_EQ(carried.time_step, 0.5);
+  EXPECT_EQ(transferred.unsteady, EulerOptions::Unsteady::continue_in_time);
+  EXPECT_EQ(transferred.flow_throughs, 7);
+  EXPECT_EQ(transferred.time_step, 0.5);
   const EulerOptions timed =
       read("[solver]\ntime = \"accurate\"\nend_time = 9\naverage_from = 4\n").solver.euler;
   EXPECT_EQ(timed.average_from, 4);

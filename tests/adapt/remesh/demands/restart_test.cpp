@@ -64,10 +64,10 @@ std::vector<std::int8_t> levels_of(const TreeRecord& tree, int level) {
 }
 
 ChangedSplits refined_by_choice(const TreeRecord& tree, const Communicator& comm = world()) {
-  std::vector<Mark> marks;
+  std::vector<RefinementFlag> flags;
   for (const LeafRecord& leaf : tree.leaves)
-    marks.push_back(chosen(quadrant_of(leaf)) ? Mark::refine : Mark::keep);
-  return changed_splits(comm, tree, marks, levels_of(tree, finest));
+    flags.push_back(chosen(quadrant_of(leaf)) ? RefinementFlag::refine : RefinementFlag::keep);
+  return changed_splits(comm, tree, flags, levels_of(tree, finest));
 }
 
 class RestartUnderGradation : public testing::TestWithParam<double> {};
@@ -89,8 +89,8 @@ TEST_P(RestartUnderGradation, OneRankAndAllRanksMakeTheSameTree) {
     ASSERT_EQ(all_leaves(together), all_leaves(single, alone)) << "refined " << cycle + 1 << " times";
   }
   for (int cycle = 0; cycle < 2; ++cycle) {
-    const std::vector<Mark> of_all(together.leaves.size(), Mark::coarsen),
-        of_one(single.leaves.size(), Mark::coarsen);
+    const std::vector<RefinementFlag> of_all(together.leaves.size(), RefinementFlag::coarsen),
+        of_one(single.leaves.size(), RefinementFlag::coarsen);
     const ChangedSplits by_all = changed_splits(world(), together, of_all, levels_of(together, finest)),
                         by_one = changed_splits(alone, single, of_one, levels_of(single, finest));
     EXPECT_EQ(by_all.coarsened, by_one.coarsened);
@@ -106,9 +106,9 @@ INSTANTIATE_TEST_SUITE_P(Gradations, RestartUnderGradation, testing::Values(1.25
 TEST(Restart, WithoutMarksTheTreeIsTheSame) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
-  EXPECT_EQ(all_leaves(tree_of(input, standing_splits(first, input))), all_leaves(first));
+  EXPECT_EQ(all_leaves(tree_of(input, unchanged_splits(first, input))), all_leaves(first));
   const TreeRecord second = tree_of(input, refined_by_choice(first).demands);
-  EXPECT_EQ(all_leaves(tree_of(input, standing_splits(second, input))), all_leaves(second));
+  EXPECT_EQ(all_leaves(tree_of(input, unchanged_splits(second, input))), all_leaves(second));
 }
 
 TEST(Restart, EveryMarkedLeafIsSplit) {
@@ -130,23 +130,24 @@ TEST(Restart, RefiningThenCoarseningByTheSameMarksGivesTheTreeBack) {
   const TreeRecord second = tree_of(input, refined_by_choice(first).demands);
   // The leaves in a quadrant that was marked go; its children may have been split further by gradation, then
   // it takes a cycle for each level.
-  std::vector<Mark> marks(second.leaves.size(), Mark::coarsen);
+  std::vector<RefinementFlag> flags(second.leaves.size(), RefinementFlag::coarsen);
   TreeRecord third =
-      tree_of(input, changed_splits(world(), second, marks, levels_of(second, finest)).demands);
+      tree_of(input, changed_splits(world(), second, flags, levels_of(second, finest)).demands);
   for (int cycle = 0; cycle < 4; ++cycle) {
-    marks.assign(third.leaves.size(), Mark::coarsen);
-    third = tree_of(input, changed_splits(world(), third, marks, levels_of(third, finest)).demands);
+    flags.assign(third.leaves.size(), RefinementFlag::coarsen);
+    third = tree_of(input, changed_splits(world(), third, flags, levels_of(third, finest)).demands);
   }
   EXPECT_EQ(all_leaves(third), all_leaves(first));
 }
 
 /// As a sensor leaves them: no mark where there are no cells.
-std::vector<Mark> marks_of_cells(const TreeRecord& tree, Mark mark,
-                                 const std::function<bool(const Quadrant&)>& where) {
-  std::vector<Mark> marks;
+std::vector<RefinementFlag> flags_of_cells(const TreeRecord& tree, RefinementFlag mark,
+                                           const std::function<bool(const Quadrant&)>& where) {
+  std::vector<RefinementFlag> flags;
   for (const LeafRecord& leaf : tree.leaves)
-    marks.push_back(leaf.triangles + leaf.quads > 0 && where(quadrant_of(leaf)) ? mark : Mark::keep);
-  return marks;
+    flags.push_back(leaf.triangles + leaf.quads > 0 && where(quadrant_of(leaf)) ? mark
+                                                                                : RefinementFlag::keep);
+  return flags;
 }
 
 TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
@@ -155,29 +156,30 @@ TEST(Restart, LeavesAtWallsGoBackThoughTheirSiblingsHaveNoCells) {
   const TreeRecord first = tree_of(input, {});
   TreeRecord tree = first;
   for (int cycle = 0; cycle < 2; ++cycle) {
-    const auto marks = marks_of_cells(tree, Mark::refine,
+    const auto flags = flags_of_cells(tree, RefinementFlag::refine,
                                       [](const Quadrant& q) { return q.level >= 6; });  // those at the disc
-    tree = tree_of(input, changed_splits(world(), tree, marks, levels_of(tree, finest)).demands);
+    tree = tree_of(input, changed_splits(world(), tree, flags, levels_of(tree, finest)).demands);
   }
   EXPECT_GT(world().sum(std::ssize(tree.leaves)), 2 * world().sum(std::ssize(first.leaves)));
-  const std::vector<Mark> nothing(tree.leaves.size(), Mark::keep);
+  const std::vector<RefinementFlag> nothing(tree.leaves.size(), RefinementFlag::keep);
   EXPECT_EQ(
       all_leaves(tree_of(input, changed_splits(world(), tree, nothing, levels_of(tree, finest)).demands)),
       all_leaves(tree));
   for (int cycle = 0; cycle < 4; ++cycle) {
-    tree = tree_of(input, changed_splits(world(), tree, marks_of_cells(tree, Mark::coarsen, everywhere),
-                                         levels_of(tree, finest))
-                              .demands);
+    tree = tree_of(input,
+                   changed_splits(world(), tree, flags_of_cells(tree, RefinementFlag::coarsen, everywhere),
+                                  levels_of(tree, finest))
+                       .demands);
   }
   EXPECT_EQ(all_leaves(tree), all_leaves(first));
 }
 
 /// One cycle of a mark on every leaf.
-TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, Mark mark) {
-  const ChangedSplits changed =
-      changed_splits(world(), tree, std::vector<Mark>(tree.leaves.size(), mark), levels_of(tree, finest));
+TreeRecord all_marked(const MeshInput& input, const TreeRecord& tree, RefinementFlag mark) {
+  const ChangedSplits changed = changed_splits(
+      world(), tree, std::vector<RefinementFlag>(tree.leaves.size(), mark), levels_of(tree, finest));
   const std::int64_t leaves = world().sum(std::ssize(tree.leaves));
-  EXPECT_EQ(mark == Mark::refine ? changed.refined : changed.coarsened, leaves);
+  EXPECT_EQ(mark == RefinementFlag::refine ? changed.refined : changed.coarsened, leaves);
   return tree_of(input, changed.demands);
 }
 
@@ -190,21 +192,21 @@ TEST(Restart, CoarseningGoesBackALevelEachCycle) {
   input.mesh.size.min = input.mesh.size.max = 0.125;
   input.mesh.size.root = RootOptions{{-1, -1}, 2};
   input.smooth.sweeps = 0;
-  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, Mark::refine),
-                   third = all_marked(input, second, Mark::refine);
+  const TreeRecord first = tree_of(input, {}), second = all_marked(input, first, RefinementFlag::refine),
+                   third = all_marked(input, second, RefinementFlag::refine);
   const auto leaves = all_leaves(first).size();
   EXPECT_EQ(all_leaves(second).size(), 4 * leaves);
   EXPECT_EQ(all_leaves(third).size(), 16 * leaves);
-  const TreeRecord fourth = all_marked(input, third, Mark::coarsen);
+  const TreeRecord fourth = all_marked(input, third, RefinementFlag::coarsen);
   EXPECT_EQ(all_leaves(fourth), all_leaves(second));
-  EXPECT_EQ(all_leaves(all_marked(input, fourth, Mark::coarsen)), all_leaves(first));
+  EXPECT_EQ(all_leaves(all_marked(input, fourth, RefinementFlag::coarsen)), all_leaves(first));
 }
 
 TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
-  const std::vector<Mark> marks(first.leaves.size(), Mark::coarsen);
-  const ChangedSplits changed = changed_splits(world(), first, marks, levels_of(first, finest));
+  const std::vector<RefinementFlag> flags(first.leaves.size(), RefinementFlag::coarsen);
+  const ChangedSplits changed = changed_splits(world(), first, flags, levels_of(first, finest));
   EXPECT_EQ(changed.coarsened, 0);
   EXPECT_EQ(all_leaves(tree_of(input, changed.demands)), all_leaves(first));
 }
@@ -212,8 +214,8 @@ TEST(Restart, CoarseningNeverPassesTheCasesOwnTree) {
 TEST(Restart, LeavesOfTheFinestLevelAreNotSplit) {
   const MeshInput input = disc_input();
   const TreeRecord first = tree_of(input, {});
-  const std::vector<Mark> marks(first.leaves.size(), Mark::refine);
-  EXPECT_EQ(changed_splits(world(), first, marks, levels_of(first, 1)).refined, 0);
+  const std::vector<RefinementFlag> flags(first.leaves.size(), RefinementFlag::refine);
+  EXPECT_EQ(changed_splits(world(), first, flags, levels_of(first, 1)).refined, 0);
 }
 
 TEST(Restart, WantedLevelsStandUnderACoarserCase) {
@@ -223,7 +225,7 @@ TEST(Restart, WantedLevelsStandUnderACoarserCase) {
   coarser.mesh.size.min = 0.1;
   coarser.digest = 1;
   const auto before = all_leaves(first),
-             after = all_leaves(tree_of(coarser, standing_splits(first, coarser)));
+             after = all_leaves(tree_of(coarser, unchanged_splits(first, coarser)));
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t i = 0; i < before.size(); ++i)
     EXPECT_EQ((std::array{before[i][0], before[i][1], before[i][2]}),

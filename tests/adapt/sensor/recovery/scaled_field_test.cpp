@@ -78,7 +78,7 @@ TEST(ScaledField, IsScaledToItsRange) {
        {1.0, -0.25, 0x1p1019, -0x1p-1000}) {  // the third one's range, 30 units wide, overflows
     const Field field = field_of(
         mesh, "q", [&](std::int64_t node, Point) { return factor * static_cast<double>(2 * node - 15); });
-    const ScaledField scaled = scaled_by_range(world(), with_copies(world(), mesh, field).column(0));
+    const ScaledField scaled = scaled_by_range(world(), with_ghosts(world(), mesh, field).column(0));
     EXPECT_FALSE(scaled.constant);
     EXPECT_EQ(scaled.rounding, 0x1p-44 * (0.5 * 15 / 15));
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -97,7 +97,7 @@ TEST(ScaledField, IsConstantWithinRounding) {
   const auto is_constant = [&](double base, double change) {
     const Field field =
         field_of(mesh, "q", [&](std::int64_t node, Point) { return node == 5 ? base + change : base; });
-    return scaled_by_range(world(), with_copies(world(), mesh, field).column(0)).constant;
+    return scaled_by_range(world(), with_ghosts(world(), mesh, field).column(0)).constant;
   };
   EXPECT_TRUE(is_constant(0, 0));
   EXPECT_TRUE(is_constant(-7.5, 0));

@@ -135,7 +135,7 @@ Field linear_field(const Mesh& mesh, Point slope, double constant) {
 }
 
 std::vector<double> integrals_of(const Communicator& comm, const Mesh& mesh, const Field& owned) {
-  const Field field = with_copies(comm, mesh, owned);
+  const Field field = with_ghosts(comm, mesh, owned);
   return integrate(comm, mesh, centre_of_nodes(comm, mesh), field);
 }
 
@@ -153,7 +153,7 @@ TEST(Integrals, OfLinearFieldsAreExactAndTheSameOnAnyNumberOfRanks) {
 
 TEST(Integrals, OfSizesCountNegativeValuesAsPositive) {
   const Mesh whole = grid_mesh(), mesh = scatter_mesh(world(), whole, space_filling_order(whole));
-  const Field field = with_copies(world(), mesh, linear_field(mesh, {0, 0}, -3));
+  const Field field = with_ghosts(world(), mesh, linear_field(mesh, {0, 0}, -3));
   const Point centre = centre_of_nodes(world(), mesh);
   const auto [values, sizes] = integrate_with_sizes(world(), mesh, centre, field);
   EXPECT_EQ(values, integrate(world(), mesh, centre, field));
@@ -178,8 +178,8 @@ TEST(Integrals, OfRectanglesHaveTheSameBitsFromWhicheverCornerTheyAreListed) {
 
 TEST(TrianglePiece, HasEveryTriangleThatMeetsOnesPieceOfThePlane) {
   const Mesh whole = grid_mesh(), mesh = scatter_mesh(world(), whole, test::shuffled_order(whole, 4));
-  const CurveShares shares(world(), std::span(mesh.points).first(mesh.owned_nodes), {});
-  const Field field = with_copies(world(), mesh, linear_field(mesh, {3, -5}, 0.25));
+  const CurvePartition shares(world(), std::span(mesh.points).first(mesh.owned_nodes), {});
+  const Field field = with_ghosts(world(), mesh, linear_field(mesh, {3, -5}, 0.25));
   const auto own = cell_triangles(world(), mesh, centre_of_nodes(world(), mesh));
   const TrianglePiece piece = gather_piece(world(), shares, mesh, field, own);
 

@@ -8,7 +8,7 @@
 
 #include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
-#include "adapt/transfer/locate/curve_shares.hpp"
+#include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
 #include "mesher/base/ids.hpp"
@@ -189,9 +189,9 @@ TEST(PointCells, OfNoPointsMeetNothing) {
       PointCells(world(), grid, std::span(points).first(world().rank() == 0 ? 1 : 0)).meet({{0, 0}, {1, 1}}));
 }
 
-TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
+TEST(CurvePartition, ABoxMeetsThePiecesOfItsPoints) {
   const std::vector<Point> points = graded_points(2000, 100 + static_cast<std::uint64_t>(world().rank()));
-  const CurveShares shares(world(), points, {});
+  const CurvePartition shares(world(), points, {});
   std::vector<int> ranks;
   for (int i = 0; i < 100; ++i) {
     const double size = std::ldexp(1.0, -(i % 12));
@@ -208,20 +208,20 @@ TEST(CurveShares, ABoxMeetsThePiecesOfItsPoints) {
   }
 }
 
-TEST(CurveShares, SharesAreEven) {
+TEST(CurvePartition, SharesAreEven) {
   const std::vector<Point> points = graded_points(2000, 200 + static_cast<std::uint64_t>(world().rank()));
-  const CurveShares shares(world(), points, {});
+  const CurvePartition shares(world(), points, {});
   std::vector<std::int64_t> counts(world().size(), 0);
   for (const Point p : points) ++counts[shares.rank_of(p)];
   for (std::int64_t& count : counts) count = world().sum(count);
   for (const std::int64_t count : counts) EXPECT_NEAR(static_cast<double>(count), 2000, 400);
 }
 
-TEST(CurveShares, TakesABoxWithoutExtentOrWithoutPoints) {
+TEST(CurvePartition, TakesABoxWithoutExtentOrWithoutPoints) {
   const std::vector<Point> same(5, Point{3, 4}), none;
   std::vector<int> ranks;
   for (const auto& points : {same, none}) {
-    const CurveShares shares(world(), points, {});
+    const CurvePartition shares(world(), points, {});
     shares.ranks_meeting({{0, 0}, {9, 9}}, ranks);
     EXPECT_TRUE(std::binary_search(ranks.begin(), ranks.end(), shares.rank_of({3, 4})));
   }

@@ -199,12 +199,12 @@ TEST(TimeAverage, WeighsByDuration) {
 }
 
 /// A pulse leaves a ring: nothing is steady meanwhile.
-EulerOptions carried() {
+EulerOptions transferred() {
   EulerOptions options;
   options.mach = 0.4;
   options.alpha = 4;
   options.iterations = 4;
-  options.unsteady = EulerOptions::Unsteady::carry_on;
+  options.unsteady = EulerOptions::Unsteady::continue_in_time;
   options.flow_throughs = 2;
   return options;
 }
@@ -214,10 +214,10 @@ Mesh coarse_ring() {
   return scatter_mesh(world(), whole, space_filling_order(whole));
 }
 
-TEST(CarryOn, LeavesMeansAndTheFlowAtTheEnd) {
+TEST(ContinueInTime, LeavesMeansAndTheFlowAtTheEnd) {
   const Mesh mesh = coarse_ring();
   for (const std::optional<double> step : {std::optional<double>{}, std::optional{0.05}}) {
-    EulerOptions options = carried();
+    EulerOptions options = transferred();
     options.time_step = step;
     const EulerResult result = solve_euler(world(), mesh, options);
     ASSERT_TRUE(result.unsteady);
@@ -238,9 +238,9 @@ TEST(CarryOn, LeavesMeansAndTheFlowAtTheEnd) {
   }
 }
 
-TEST(CarryOn, GoesOnFromTheEndOfAMean) {
+TEST(ContinueInTime, GoesOnFromTheEndOfAMean) {
   const Mesh mesh = coarse_ring();
-  EulerOptions options = carried();
+  EulerOptions options = transferred();
   options.time_step = 0.05;
   const EulerResult first = solve_euler(world(), mesh, options),
                     more = solve_euler(world(), mesh, options, first.flow);
@@ -254,9 +254,9 @@ TEST(CarryOn, GoesOnFromTheEndOfAMean) {
   EXPECT_NEAR(steady.history.front().cl, first.cl, 1e-12);  // begins with the means
 }
 
-TEST(CarryOn, EndsWhereTheFlowIsSteadyAfterAll) {
+TEST(ContinueInTime, EndsWhereTheFlowIsSteadyAfterAll) {
   const Mesh mesh = coarse_ring();
-  EulerOptions options = carried();
+  EulerOptions options = transferred();
   options.alpha = 0;
   options.tolerance = 0.02;
   options.flow_throughs = 100;
@@ -292,9 +292,9 @@ Field hopeless_at_end(const Mesh& mesh) {
   return start;
 }
 
-TEST(CarryOn, FallsBackToTheSteadyFlow) {
+TEST(ContinueInTime, FallsBackToTheSteadyFlow) {
   const Mesh mesh = coarse_ring();
-  EulerOptions options = carried(), steady = options;
+  EulerOptions options = transferred(), steady = options;
   steady.unsteady = EulerOptions::Unsteady::stop;
   const Field start = hopeless(mesh, euler_names);
   const EulerResult fallen = solve_euler(world(), mesh, options, start),
@@ -315,11 +315,11 @@ TEST(CarryOn, FallsBackToTheSteadyFlow) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
 }
 
-TEST(CarryOn, FallsBackToASteadyFlowFromAStartThatCannotGoOn) {
+TEST(ContinueInTime, FallsBackToASteadyFlowFromAStartThatCannotGoOn) {
   const Mesh mesh = coarse_ring();
   const Field start = hopeless_at_end(mesh);
   for (const double viscosity : {0.0, 1e-3}) {  // with one the means slip along walls, as carried flows do
-    EulerOptions options = carried();
+    EulerOptions options = transferred();
     options.viscosity = viscosity;
     EulerOptions steady = options;
     steady.unsteady = EulerOptions::Unsteady::stop;
@@ -357,7 +357,7 @@ TEST(MarchInTime, TellsOfStepsThatWereNotSolvedWithoutMeansToo) {
   EXPECT_TRUE(shortfalls(means, options).empty()) << "told with the means";
 }
 
-TEST(CarryOn, RefusesStepsWithoutEnd) {
+TEST(ContinueInTime, RefusesStepsWithoutEnd) {
   const Mesh mesh = coarse_ring();
   const auto refusal = [&mesh](const EulerOptions& options) -> std::string {
     try {
@@ -367,14 +367,14 @@ TEST(CarryOn, RefusesStepsWithoutEnd) {
     }
     return {};
   };
-  EulerOptions options = carried();
+  EulerOptions options = transferred();
   options.time_step = 1e-300;
   EXPECT_NE(refusal(options).find("5e+300 steps of 1e-300"), std::string::npos) << refusal(options);
   EXPECT_NE(refusal(options).find("time_step of 0.062"), std::string::npos) << refusal(options);
   options.time_step = {};
   options.flow_throughs = 1e6;
   EXPECT_NE(refusal(options).find("reduce solver.flow_throughs"), std::string::npos) << refusal(options);
-  options = carried();
+  options = transferred();
   options.unsteady = EulerOptions::Unsteady::stop;
   options.time = EulerOptions::Time::accurate;
   options.time_step = 1e-8;

@@ -53,7 +53,7 @@ TEST(EulerOptions, TakeMeansFromATimeBeforeTheEnd) {
 TEST(EulerOptions, CarryOnWhatMoves) {
   EXPECT_EQ(said_of([](EulerOptions& o) {
               o.mach = 0;
-              o.unsteady = EulerOptions::Unsteady::carry_on;
+              o.unsteady = EulerOptions::Unsteady::continue_in_time;
             }),
             "mach is 0, but must be above 0 for a flow that is continued in time");
 }

@@ -20,7 +20,7 @@
 #include "io/files/reading/value_pipe.hpp"
 #include "io/files/staging_folder.hpp"
 #include "io/model/mesh_of_file.hpp"
-#include "io/model/pass_mesh.hpp"
+#include "io/model/serialize_mesh.hpp"
 #include "io/tree/tree_share.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -208,8 +208,9 @@ TEST_F(ReadSeparately, AReaderThatIsNotThereOrNotOursIsNamed) {
 TEST_F(ReadSeparately, IsDoneByTheProgramOfThisBuild) {
   const std::string refused = test::refusal_text<Error>([&] { read_separately<FileMesh>("cgns", path); });
   EXPECT_TRUE(says(refused, "a.cgns: the CGNS library refuses: ")) << refused;
-  const std::string no_tree =
-      test::refusal_text<Error>([&] { read_separately<TreeShare>("tree", path, {"0", "1"}); });
+  const std::string no_tree = test::refusal_text<Error>([&] {
+    read_separately<TreeShare>("tree", path, {"0", "1"});
+  });
   EXPECT_TRUE(says(no_tree, "a.cgns: cannot be opened, or is no HDF5 file")) << no_tree;
   const std::string other = test::refusal_text<Error>([&] { read_separately<std::string>("cgns", path); });
   EXPECT_TRUE(says(other, "quadloop-reader is of another version than this program")) << other;

@@ -102,10 +102,10 @@ TEST_F(Tables, OfHistoriesFollowEachOther) {
   const PlotTable history = table("step,residual,cl,cd\n0,1,0,0\n10,0.1,0.3,0.02\n");
   const Chart chart = history_chart({history, history});
   ASSERT_EQ(chart.panels.size(), 3U);
-  EXPECT_EQ(chart.marks, (std::vector<double>{10}));
+  EXPECT_EQ(chart.flags, (std::vector<double>{10}));
   EXPECT_EQ(chart.panels[1].lines.at(0).points, (std::vector<Point>{{0, 0}, {10, 0.3}, {10, 0}, {20, 0.3}}));
   EXPECT_TRUE(chart.panels[0].y.logarithmic);
-  EXPECT_TRUE(history_chart({history}).marks.empty());
+  EXPECT_TRUE(history_chart({history}).flags.empty());
 }
 
 }  // namespace
