@@ -26,10 +26,9 @@ std::string_view FluentScanner::token(std::string_view expected) {
   if (is_sign(text[at_])) {
     ++at_;
   } else if (text[at_] == '"') {
-    do {
-      at_ = std::min(text.find('"', at_ + 1), text.size() - 1);
-    } while (text[at_ - 1] == '\\' && at_ + 1 < text.size());
     ++at_;
+    while (at_ < text.size() && (text[at_] != '"' || text[at_ - 1] == '\\')) ++at_;
+    at_ = std::min(at_ + 1, text.size());
   } else {
     while (at_ < text.size() && !is_fluent_blank(text[at_]) && !is_sign(text[at_])) ++at_;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -66,20 +67,42 @@ bool is_small(const Geometry& g, std::int32_t loop, double min) {
   return box.width() < min && box.height() < min;
 }
 
-/// Returns the short edges of a loop in the order of vertices; those without a gap in front of them do not
-/// come first. An edge with layers does not count, as it has columns, whose width is not limited.
-std::vector<ShortEdge> short_edges_of(const Geometry& g, std::int32_t loop, double min) {
+/// Returns the parts of a loop between consecutive feature points less than four `min` apart, in order from
+/// the first one after a gap. Empty without a gap.
+std::vector<ShortEdge> near_points_of(const Geometry& g, std::int32_t loop, double min) {
+  constexpr double near = 4;
   std::vector<ShortEdge> edges;
   for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
-    if (!g.kept(v) || g.boundary(g.boundary_of(v)).layers) continue;
-    if (const auto stretch = g.stretch_shorter_than(min, v))
+    if (!g.kept(v)) continue;
+    if (const auto stretch = g.stretch_shorter_than(near * min, v))
       edges.push_back({v, stretch->end, stretch->length});
   }
   if (edges.empty()) return edges;
   std::int32_t before = edges.back().last;
   const auto after_gap = std::ranges::find_if(
       edges, [&](const ShortEdge& edge) { return std::exchange(before, edge.last) != edge.first; });
-  if (after_gap != edges.end()) std::ranges::rotate(edges, after_gap);
+  if (after_gap == edges.end()) return {};
+  std::ranges::rotate(edges, after_gap);
+  return edges;
+}
+
+/// Returns the short edges between up to four feature points that are apart from others: a base, a step, a
+/// tab or a notch. Longer rows of feature points, e.g. along a coast, lose points in the mesh anyway. An edge
+/// with layers does not count, as it has columns, whose width is not limited.
+std::vector<ShortEdge> short_edges_of(const Geometry& g, std::int32_t loop, double min) {
+  constexpr std::ptrdiff_t most_edges = 3;
+  const std::vector<ShortEdge> all = near_points_of(g, loop, min);
+  std::vector<ShortEdge> edges;
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto is_apart = [](const ShortEdge& a, const ShortEdge& b) { return a.last != b.first; };
+    const auto last = std::adjacent_find(begin, all.end(), is_apart);
+    const auto end = last == all.end() ? last : last + 1;
+    if (end - begin <= most_edges)
+      std::copy_if(begin, end, std::back_inserter(edges), [&](const ShortEdge& edge) {
+        return edge.length < min && !g.boundary(g.boundary_of(edge.first)).layers;
+      });
+    begin = end;
+  }
   return edges;
 }
 

@@ -129,7 +129,7 @@ TEST(Generate, LayersStandOnTheWallsThatAskForThem) {
     EXPECT_EQ(a.nodes, world().sum(made.result.mesh.owned_nodes));
     EXPECT_EQ(a.triangles, world().sum(std::ssize(made.result.mesh.triangles)));
     EXPECT_EQ(a.quads, world().sum(std::ssize(made.result.mesh.quads)));
-    EXPECT_EQ(made.times.stages().front().first, "front");
+    EXPECT_EQ(made.times.stages().front().first, "layer edge");
     EXPECT_EQ(std::prev(made.times.stages().end(), 2)->first, "layers");
     const Mesh whole = gather_whole(world(), made.result.mesh);
     if (!world().is_root()) continue;

@@ -188,12 +188,13 @@ TEST(Remesh, WarnsOfAConservedIntegralThatDrifts) {
   report.conserved_from = 1;
   const std::vector<std::string> warnings = drift_warnings(remeshed);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("integral of rho by -3e-09 of its size;"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("integral of rho by -3e-09 of its magnitude;"), std::string::npos)
+      << warnings[0];
   report.area_change = 1e-9;
   EXPECT_TRUE(drift_warnings(remeshed).empty()) << "the meshes differ in area by as much";
   report.area_change = 0;
   report.relative_drift = {0.1, 1e-8, 1e-7};
-  EXPECT_NE(drift_warnings(remeshed).at(0).find("of cell_p by 1e-07 of its size, and those of 1 more"),
+  EXPECT_NE(drift_warnings(remeshed).at(0).find("of cell_p by 1e-07 of its magnitude, and those of 1 more"),
             std::string::npos)
       << drift_warnings(remeshed)[0];
   report.relative_drift = {0.1, 9e-11, 0};

@@ -78,8 +78,8 @@ TEST_F(FlowSettingsTest, RefusesWhatNoFlowHas) {
   expect_refused("[flow]\npressure = 1\nalpha = 400\n", "'flow.alpha' is 400");
   const std::string layers = "[boundary.box]\nlayers = { first = \"yplus:1\", count = 3 }\n";
   expect_refused("[flow]\npressure = 1\nreynolds = 40\n" + layers,
-                 "'flow.reynolds' must be 1000 or more; it is 40");
-  expect_refused("[flow]\npressure = 1\n" + layers, "'flow.reynolds' must be 1000 or more; it is missing");
+                 "requires 'flow.reynolds' of at least 1000 for a y+; it is 40");
+  expect_refused("[flow]\npressure = 1\n" + layers, "requires 'flow.reynolds' of at least 1000 for a y+; it is missing");
 }
 
 }  // namespace
