@@ -26,8 +26,8 @@ Geometry with_merged(const Geometry& geometry, std::span<const ShortBase> bases)
 /// merged. A base is one or more consecutive edges between feature points of one boundary, shorter than `min`
 /// in total: e.g. a blunt trailing edge or a tiny notch, which would get thin triangles. This is repeated
 /// until no such edge is left, except those that stay: an edge in a row of more than four feature points less
-/// than 4 `min` apart, e.g. along a coast, of which the mesh loses some anyway; an edge with layers, as it has
-/// columns, and leaves only at their outer edge; all of a boundary; an edge of an interface or of a loop
+/// than 4 `min` apart, e.g. along a coast, of which the mesh loses some anyway; an edge with layers, as it
+/// has columns, and leaves only at their outer edge; all of a boundary; an edge of an interface or of a loop
 /// smaller than `min` in both directions; an edge without which the boundary would touch itself. One warning
 /// gives the number of merged edges and the location of the longest, another one those of the edges that
 /// cannot be merged.

@@ -79,7 +79,8 @@ TEST_F(FlowSettingsTest, RefusesWhatNoFlowHas) {
   const std::string layers = "[boundary.box]\nlayers = { first = \"yplus:1\", count = 3 }\n";
   expect_refused("[flow]\npressure = 1\nreynolds = 40\n" + layers,
                  "requires 'flow.reynolds' of at least 1000 for a y+; it is 40");
-  expect_refused("[flow]\npressure = 1\n" + layers, "requires 'flow.reynolds' of at least 1000 for a y+; it is missing");
+  expect_refused("[flow]\npressure = 1\n" + layers,
+                 "requires 'flow.reynolds' of at least 1000 for a y+; it is missing");
 }
 
 }  // namespace
