@@ -130,7 +130,7 @@ std::string why_ended(const LoopEnd& end) {
   if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
   return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
-                     end.left->plan.reason_for_rejection);
+                     end.left->plan.reason_for_no_change);
 }
 
 std::string closing_line(const std::string& folder, const LoopEnd& end) {

@@ -114,12 +114,13 @@ Warnings solver_warnings(const Settings& settings, const SolverStatistics& shape
   const auto& formats = settings.formats;
   if (std::find(formats.begin(), formats.end(), "su2") == formats.end() || shape.parallelogram_share() > few)
     return {};
-  return {fmt::format(
-      "{}.su2: {:.0f} % of the quads are skewed, where node-centred solvers such as SU2 lose accuracy; {}",
-      settings.output_prefix, 100 * (1 - shape.parallelogram_share()),
-      settings.mesh.quads == QuadChoice::parallel
-          ? "they are in layers, which mesh.quads = \"parallel\" does not divide"
-          : "mesh.quads = \"parallel\" divides them")};
+  return {
+      fmt::format("{}.su2: {:.0f} % of the quads are not parallelograms, where node-centred solvers such as "
+                  "SU2 lose accuracy; {}",
+                  settings.output_prefix, 100 * (1 - shape.parallelogram_share()),
+                  settings.mesh.quads == QuadChoice::parallel
+                      ? "they are in layers, which mesh.quads = \"parallel\" does not divide"
+                      : "mesh.quads = \"parallel\" divides them into triangles")};
 }
 
 /// Anisotropic cells depend on a solution, which this command does not use. Warns if the saved mesh had

@@ -23,19 +23,19 @@
 /// ranks call it, in the same order, with the same case. Meshes and fields are distributed over the ranks;
 /// results are bitwise independent of the number of ranks. Only write() and write_solved() write files.
 ///
-/// Shapes and units: a Mesh is the part of one rank (mesh.hpp); a Field stores nodal values for owned nodes
-/// and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in the
-/// unit of the case's geometry. Values are in solver units; sense() and remesh() require finite values.
+/// Shapes and units: a Mesh holds one rank's partition (mesh.hpp); a Field stores nodal values for owned
+/// nodes and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in
+/// the unit of the case's geometry. Values are in solver units; sense() and remesh() require finite values.
 ///
 /// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes; halo.exchange() updates
 /// ghost values from their owners. Ghost contributions are never summed at the owner, because the sum would
 /// depend on the partition. Accumulate over halo.for_each_cell() at owned nodes only; cells are visited in
 /// global order. reproducible_sum() sums over all ranks.
 ///
-/// Errors are exceptions derived from Error, the same on all ranks: InputError for a case, mesh or field that
-/// cannot be used, SolverError, OutputError. The message gives location and remedy. Fault is an internal
-/// error. Other exceptions are documented at the function. User code that may fail on a single rank must run
-/// inside comm.together(), which raises the error on all ranks.
+/// Errors are exceptions derived from Error, the same on all ranks. InputError: a case, mesh or field cannot
+/// be used. SolverError: the solver failed. OutputError: a file cannot be written. The message gives location
+/// and remedy. Fault is an internal error. Other exceptions are documented at the function. User code that
+/// may fail on a single rank must run inside comm.together(), which raises the error on all ranks.
 ///
 /// Warnings are returned, the same on all ranks. Nothing is printed unless log::configure() enables it.
 ///
@@ -49,7 +49,7 @@ namespace quadloop {
 struct CaseParts;
 struct AdaptationPlan;
 
-/// A case file with its geometry: sizes, smoothing, adaptation, solver. Ghosts share the data.
+/// A case file with its geometry: sizes, smoothing, adaptation, solver. Copies of the object share the data.
 class Case {
  public:
   /// Reads the file on every rank. `assignments` override keys of the file, e.g. "spacing.min=0.01". Throws
@@ -74,16 +74,16 @@ struct NewMesh {
   std::vector<std::string> warnings;
 };
 
-/// Generates the initial mesh of the case, smoothed by the case's settings. Throws InputError, naming the
+/// Generates the initial mesh of the case, smoothed with the case's settings. Throws InputError, naming the
 /// boundary, if the geometry cannot be meshed or the mesh would exceed free memory.
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
-/// Smooths a mesh by the case's settings; boundary nodes slide along the case's geometry. The mesh may be any
-/// valid mesh of that geometry. Connectivity is preserved, except for Delaunay meshes of Delaunay-type cases,
-/// where edge flips restore the Delaunay property (checking this gathers the mesh on one rank). With quads =
-/// "parallel", smoothing avoids skewing parallelograms; quads that nevertheless become skew are not split,
-/// unlike in make_mesh(). Boundary layers (boundaries with a layer count) are kept bitwise. Never degrades
-/// the worst cell. Untangles as many inverted cells as possible; check() reports the others.
+/// Smooths a mesh with the case's settings; boundary nodes slide along the case's geometry. The mesh may be
+/// any valid mesh of that geometry. Connectivity is preserved, except for Delaunay meshes of Delaunay-type
+/// cases, where edge flips restore the Delaunay property (checking this gathers the mesh on one rank). With
+/// quads = "parallel", smoothing avoids skewing parallelograms; quads that nevertheless lose this shape are
+/// not split into triangles, unlike in make_mesh(). The nodes of layer cells do not move. Never degrades the
+/// worst cell. Untangles as many inverted cells as possible; check() reports the others.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
@@ -94,12 +94,13 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 /// unphysical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
-/// Refinement decisions computed by sense(), valid for that mesh only. Ghosts share the data.
+/// Refinement decisions computed by sense(), valid only for the mesh passed to sense(). Copies of the object
+/// share the data.
 class RefinementFlags {
  public:
   std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
-  const std::vector<std::string>& warnings() const;  ///< why no cell is flagged; limits that were not reached
+  const std::vector<std::string>& warnings() const;  ///< why no cell is flagged; limits that could not be met
   /// Whether remesh() returns a different mesh: refined or coarsened quadtree cells, a metric, target sizes
   /// for the nodes, or new first-layer heights.
   bool changes_mesh() const;
@@ -114,14 +115,15 @@ class RefinementFlags {
   std::shared_ptr<const AdaptationPlan> plan_;
 };
 
-/// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` is a mesh of
-/// make_mesh() or remesh() for this case, with a solution. Throws InputError if the case has no such table,
-/// or if the solution lacks the variable, lacks a row for an owned node, or has a value that is not finite.
+/// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` was returned by
+/// make_mesh() or remesh() for this case, and has a solution. Throws InputError if the case has no such
+/// table, or if the solution lacks the variable, lacks a row for an owned node, or has a value that is not
+/// finite.
 RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
 
 /// Returns the next mesh, smoothed, with all variables transferred from the previous mesh (transfer()).
-/// `marks` must be those of sense() for `before`; the nodes of `before` may have moved since. Throws
-/// InputError as make_mesh() and sense() do, and for marks of another mesh.
+/// `flags` must be the result of sense() for `before`; the nodes of `before` may have moved since. Throws
+/// InputError as make_mesh() and sense() do, and if `flags` belongs to another mesh.
 NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
                const SolvedMesh& before);
 
@@ -129,8 +131,8 @@ NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& 
 /// rank. Gathers the mesh on one rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh read from a file with its blocks merged, distributed along a space-filling curve and therefore
-/// renumbered.
+/// A mesh read from a file. Its blocks are merged, and it is partitioned along a space-filling curve, which
+/// renumbers nodes and cells.
 struct MeshFile {
   Mesh mesh;
   Field field;  ///< no variables if the file has none
@@ -150,13 +152,14 @@ MeshFile read(const Communicator& comm, const std::string& path);
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field = {});
 
-/// Writes a mesh of make_mesh() or remesh(), its tree and its solution to `stem`.mesh and `stem`.tree.h5,
-/// both or neither. Throws as write() does.
+/// Writes a mesh returned by make_mesh() or remesh(), its tree and its solution to `stem`.mesh and
+/// `stem`.tree.h5, both or neither. Throws as write() does.
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem);
 
-/// Reads the files of write_solved() bitwise, on any number of ranks, so that an interrupted adaptation can
-/// continue with identical results. The tree is read by quadloop-reader, as CGNS is by read(). Throws
-/// InputError if the files do not belong together, or are not of this case.
+/// Reads files written by write_solved(), on any number of ranks, and restores the data bit for bit, so that
+/// an interrupted adaptation continues with identical results. Like CGNS files in read(), the tree file is
+/// read by the program quadloop-reader. Throws InputError if the files do not belong together, or are not of
+/// this case.
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem);
 
 }  // namespace quadloop

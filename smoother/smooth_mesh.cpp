@@ -181,7 +181,7 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
   return over_ranks(comm, worst);
 }
 
-/// Ghosts the present node positions to `to`; flags the nodes that have moved.
+/// Copies the present node positions to `to`; flags the nodes that have moved.
 NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
   NodeFlags moved(to.points.size(), 0);
   for (const NodeId node : moved.ids()) {

@@ -20,30 +20,33 @@ struct SmoothOptions {
   int sweeps = 20;  ///< maximum number; fewer if nothing moves any more
   Objective objective = Objective::power;
   Method method = Method::perturb;
-  /// Cost threshold: a node moves only if it, or a node of one of its cells, belongs to a cell above it, and
-  /// only within three rings of the cells that are above it at the start.
+  /// Cost threshold: a node may move only if the node or a neighbour belongs to a cell whose cost exceeds it,
+  /// and only within three rings of the cells that exceed it initially.
   double threshold = 0.05;
-  /// First moves lines where squares of two sizes meet, which raises angles of 26.6 degrees to 29.7.
+  /// First shifts the grid lines where cells of two quadtree levels meet; the angles of 26.6 degrees there
+  /// become 29.7 degrees.
   bool level_transitions = true;
-  double bad = 0.072;  ///< nodes of parallelograms stay unless a cell that costs more (an angle below 28
-                       ///< degrees) is near
-  /// Boundary nodes slide along it; without it along straight parts of the mesh boundary.
+  double bad = 0.072;  ///< nodes of parallelograms are fixed unless a nearby cell has a cost above this value
+                       ///< (an angle below 28 degrees)
+  /// Boundary nodes slide along this geometry; if null, only along straight parts of the mesh boundary.
   const Geometry* geometry = nullptr;
-  /// Height of the last layer at each segment of the geometry where layers end, 0 for other segments; may be
-  /// empty. Nodes there are spread evenly, and the adjacent cells are fitted to this height.
+  /// For each segment of the geometry that is the outer edge of layers: the height of the last layer; 0 for
+  /// other segments; may be empty. Nodes on these segments are spaced evenly, and the adjacent cells are
+  /// fitted to this height.
   std::vector<double> front_heights;
   NodeFlags pinned;                        ///< flags the owned nodes that must stay; may be empty
-  std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay under this order of nodes, and
-                                           ///< flips restore this at the end
+  std::function<TieRank(Point)> delaunay;  ///< if set, the mesh is Delaunay, with cocircular nodes ordered
+                                           ///< by this rank; final flips restore this
   /// Block of each owned triangle (empty: one block); edges between blocks are not flipped.
   std::vector<std::int32_t> triangle_to_block;
-  /// A slot is the position of a triangle in the global order. True: triangles made by flips take the slots
-  /// of removed ones, one each, in the order of the slots. False: they are stored next to a removed triangle
-  /// with the same first node, so a slot may hold none or several; not with blocks.
+  /// True: each triangle created by an edge flip takes the global position of a removed triangle. False: it
+  /// is stored next to a removed triangle with the same first node, so one position may hold no or several
+  /// triangles; this cannot be combined with `triangle_to_block`.
   bool keep_slots = true;
-  std::optional<MirrorAxis> mirror;  ///< the mesh is mirror-symmetric in this axis, and stays so
+  std::optional<MirrorAxis>
+      mirror;  ///< the mesh is symmetric about this axis; smoothing preserves the symmetry
   /// Target shape of each owned cell, triangles first, then quadrilaterals; empty: ideal shapes. With targets
-  /// angles may decrease. Not with `delaunay`.
+  /// the smallest angle may decrease. Not with `delaunay`.
   std::vector<CellTarget> targets;
 };
 

@@ -51,7 +51,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
   if (record.estimate) text += fmt::format("error {:.4g}", *record.estimate);
   if (record.order) text += fmt::format(", order {:.2f}", *record.order);
   if (record.estimate) text += "\n";
-  text += fmt::format("marks for the next cycle: {} quadtree cells to split, {} to remove\n", record.refined,
+  text += fmt::format("next cycle: {} quadtree cells to refine, {} to coarsen\n", record.refined,
                       record.coarsened);
   for (const auto& [stage, seconds] : record.seconds) text += fmt::format("{} {:.2f} s\n", stage, seconds);
   return text;

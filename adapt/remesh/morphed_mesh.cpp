@@ -128,8 +128,9 @@ std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wis
   const std::string why = has_outline_of(old, input)
                               ? fmt::format("{} are not those that it was made with", what_shapes_cells)
                               : "the geometry or the settings of its boundaries have changed";
-  const std::string cure =
-      wished || has_outline_of(old, input) ? "" : "; design.morph_to in the case file keeps the cells";
+  const std::string cure = wished || has_outline_of(old, input)
+                               ? ""
+                               : "; set design.morph_to in the case file to morph the mesh instead";
   return fmt::format("{}: was remeshed, because {}{}", old.file, why, cure);
 }
 

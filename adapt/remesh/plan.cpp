@@ -91,13 +91,12 @@ std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
 }
 
 constexpr const char* text_of_facets =
-    "cells at the points of a polygonal boundary are not refined below half of its segments, because the "
-    "flow "
-    "has a peak at each point; supply more points, or set adapt.facets = true";
+    "boundary cells of a polygonal geometry are not refined below half the length of its segments, because "
+    "the flow would resolve the corners of the polygon; supply more points, or set adapt.facets = true";
 
 /// Returns the reason why a plan changes no cell, for the user. `all`: the changes flagged by the rule alone.
 /// *Collective.*
-std::string reason_for_rejection(const Communicator& comm, const AdaptOptions& options,
+std::string reason_for_no_change(const Communicator& comm, const AdaptOptions& options,
                                  const SolvedMesh& solved, const MarkFamily& family, const ChangedSplits& all,
                                  bool held) {
   if (family.flat())
@@ -177,7 +176,7 @@ void plan_by_flags(const Communicator& comm, const AdaptOptions& options, const 
   plan.mean = family.mean();
   plan.deviation = family.deviation();
   if (!plan.changes_mesh())
-    plan.reason_for_rejection = reason_for_rejection(comm, options, solved, family, all, held);
+    plan.reason_for_no_change = reason_for_no_change(comm, options, solved, family, all, held);
 }
 
 /// Returns the number of nodes requested by the options.
@@ -209,7 +208,7 @@ void plan_by_sizes(const Communicator& comm, const AdaptOptions& options, const 
   plan.estimates_of_cells = wanted.of_cells(complexity);
   if (plan.changes_mesh()) return;
   const bool by_error = options.source == AdaptOptions::Source::error;
-  plan.reason_for_rejection =
+  plan.reason_for_no_change =
       wanted.flat() ? by_error ? "the error is 0 everywhere" : "no variable has a second derivative"
                     : "all cells have their target sizes";
 }
@@ -277,7 +276,7 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
   plan.estimate = wanted.error();
   plan.estimates_of_cells = wanted.of_cells(0);
   if (wanted.flat()) {
-    plan.reason_for_rejection = "no variable has a second derivative";
+    plan.reason_for_no_change = "no variable has a second derivative";
     return;
   }
   const std::int64_t nodes = bounded_nodes(options, solved), allowed = allowed_nodes(input.mesh.limit, nodes);
@@ -307,7 +306,7 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
     plan_by_flags(comm, options, solved, count, finest, input.mesh.mirror, plan);
   if (input.stretch && !plan.flat) plan.anisotropy = target_demand(input, options, solved);
   if (!plan.changes_mesh())
-    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_rejection);
+    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_no_change);
   return plan;
 }
 

@@ -80,7 +80,7 @@ std::string script(const std::string& application, int ranks) {
   return text + "cd ..\necho done > " + done_name + "\n";
 }
 
-/// Ghosts the case to the cycle's files and returns its application. On the root only.
+/// Copies the case to the cycle's files and returns its application. On the root only.
 std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int ranks,
                       const CellValues& start) {
   const OpenfoamTemplate given = read_openfoam_template(solver.case_template);

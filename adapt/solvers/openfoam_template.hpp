@@ -20,7 +20,7 @@ struct OpenfoamTemplate {
 /// unreadable files. On the calling rank only.
 OpenfoamTemplate read_openfoam_template(const std::string& folder);
 
-/// Ghosts the files to another folder, which may lie inside the first. Throws InputError, OutputError.
+/// Copies the files to another folder, which may lie inside the first. Throws InputError, OutputError.
 void copy_openfoam_template(const std::string& from, const OpenfoamTemplate& given,
                             const std::filesystem::path& to);
 

@@ -23,12 +23,12 @@ struct TransferReport {
   std::vector<double> drift;  ///< for each variable, nodal ones first: its integral over the new mesh minus
                               ///< that over the old one
   std::vector<double> relative_drift;  ///< drift relative to the old integral of the variable's absolute
-                                       ///< value; 0 if that is 0
+                                       ///< value; 0 if that integral is 0
   std::size_t conserved_from =
-      0;                   ///< the first of these variables whose integral is to be kept; all later are
-  double area_change = 0;  ///< of the new mesh against the old one, as a fraction; 0 if nothing is conserved
+      0;  ///< index of the first variable that is transferred conservatively, as all later ones are
+  double area_change = 0;  ///< (new area - old area) / old area; 0 if nothing is conserved
 
-  /// Of a field that stays on its mesh.
+  /// The report for a field that is not transferred: all drifts are 0.
   static TransferReport without_drift(const Field& field) {
     const std::vector<double> none(field.width() + field.cells.width(), 0.0);
     return {.drift = none, .relative_drift = none};
@@ -36,18 +36,19 @@ struct TransferReport {
 };
 
 struct Transferred {
-  Field field;  ///< rows for the new mesh's owned nodes and its cells; constants of the old field
+  Field field;  ///< values at the new mesh's owned nodes and cells; the constants of the old field
   TransferReport report;
 };
 
 /// Transfers nodal and cell values from one mesh to another.
 ///
-/// Linear: a node inside an old triangle, or half of a quad (parts_of), gets the linear interpolation there:
-/// exact for linear fields up to rounding, and bitwise the old value at a coincident node. If it lies in
-/// several triangles, that of the lowest global number is used. A node outside the old mesh gets the value at
-/// the nearest point of the old boundary; of equally close edges that of the lowest number is used. Nodes in
-/// wall layers are placed by their wall distance (column_places). So new values stay within the range of the
-/// old nodes used, and the result is bitwise independent of the distribution of the two meshes.
+/// Linear: a node inside an old triangle (quads are split into two triangles, parts_of()) gets the linear
+/// interpolant there: exact for linear fields up to rounding, and bitwise the old value at a coincident node.
+/// If it lies in several triangles, that of the lowest global number is used. A node outside the old mesh
+/// gets the value at the nearest point of the old boundary; ties are resolved by the lowest edge number.
+/// Nodes in wall layers are located in the old mesh by wall distance (column_places). So new values stay
+/// within the range of the old nodes used, and the result is bitwise independent of the distribution of the
+/// two meshes.
 ///
 /// Conservative: the same, corrected such that integrals are kept (conserve_at_nodes()).
 ///

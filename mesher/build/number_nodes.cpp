@@ -149,7 +149,7 @@ void NodeNumbering::use_local(Home home, Point position) {
   }
 }
 
-/// RefinementFlags a leaf's node of CutForest::nodes as used.
+/// Flags a leaf's node of CutForest::nodes as used.
 void NodeNumbering::use_cut(LeafId leaf, std::int32_t node) {
   if (listed_[node] == used) return;
   const Home home = home_of_cut_node(leaf, cut_->nodes[node]);

@@ -32,7 +32,7 @@ struct CutForest {
   std::vector<LocalTriangle> triangles;  ///< numbers are relative to the leaf's first node
   std::vector<LocalQuad> quads;
   std::vector<CutLeaf::Edge> outline;
-  /// TreeGrid corners that have been moved; all of those at local leaves, and some others.
+  /// Grid vertices that have been moved; all of those at local leaves, and some others.
   struct Moved {
     GridPoint corner;
     Point position;

@@ -13,7 +13,7 @@
 
 namespace quadloop {
 
-/// Boundary layers: thin cells along a boundary.
+/// Layer cells along a boundary.
 struct WallLayers {
   std::int32_t count = 0;  ///< 0: none
   double thickness = 0;    ///< requested total thickness, normal to the boundary; 0: not known
@@ -29,23 +29,25 @@ struct BoundaryEdges {
   WallLayers layers = {};
 };
 
-/// Layers on both sides of a line inside the domain, e.g. a wake: the nodes of the columns across it, the
+/// Layers on both sides of an interior line, e.g. a wake, stored as columns of nodes across the line. The
 /// same on every rank.
 struct StripLayers {
   std::string name;
   WallLayers layers;  ///< on each side of the line
-  /// Whether the line begins at a wall: its first column consists of two columns of the wall.
+  /// Whether the line begins at a wall, e.g. at a trailing edge. Its first column is then the union of the
+  /// two layer columns of the wall there, one on each side.
   bool from_wall = false;
-  /// Nodes of a column: 2 layers.count + 1; behind a blunt edge one more for each row between the two sides.
+  /// Nodes per column: 2 * layers.count + 1, plus one for each row of cells between the two sides behind a
+  /// blunt trailing edge.
   std::int32_t across = 0;
-  /// Column by column along the line, in each from the right side of the line to its left.
+  /// Nodes column by column along the line; within a column from the right side of the line to its left.
   std::vector<GlobalNodeId> nodes;
 
   std::int32_t columns() const { return across > 0 ? size32(nodes) / across : 0; }
   GlobalNodeId node(std::int32_t column, std::int32_t row) const {
     return nodes[static_cast<std::size_t>(column) * across + row];
   }
-  /// Whether the node belongs to a column of the wall.
+  /// Whether the node belongs to a layer column of the wall.
   bool is_walls(std::int32_t column, std::int32_t row) const {
     return from_wall && column == 0 && (row <= layers.count || row >= across - 1 - layers.count);
   }
@@ -60,8 +62,8 @@ bool any_flagged(const NodeFlags& flags, const Nodes& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [&](NodeId n) { return flags[n] != 0; });
 }
 
-/// Calls `visit(node)` for each flagged node, in ascending order; it may change the flag. Fast if few are
-/// flagged.
+/// Calls `visit(node)` for each flagged node, in ascending order; `visit` may change the flag. Fast if few
+/// are flagged.
 template <class Visit>
 void for_each_flagged(const NodeFlags& flags, const Visit& visit) {
   std::int32_t i = 0;
@@ -88,10 +90,11 @@ void flag_all(const Nodes& nodes, NodeFlags& flags) {
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Each node is owned
 /// by one rank; global node numbers follow the order of ranks. Owned nodes come first, in global order, then
-/// ghost (halo) nodes: nodes of other ranks that this rank's cells touch. Each cell, and each boundary edge,
-/// is on a single rank, which need not own any of its nodes: some cells around an owned node may be on other
-/// ranks (HaloMesh has them all). The global order of cells is by rank, then the order here. `boundaries` has
-/// the same entries in the same order on every rank, even if this rank has no edge of them.
+/// ghost (halo) nodes: nodes of other ranks that this rank's cells touch. Each cell and each
+/// boundary edge is stored on exactly one rank. This rank need not own the nodes of the cell, so some cells
+/// around an owned node may be on other ranks; HaloMesh adds them. Cells are ordered globally by rank, then
+/// by local index. `boundaries` has the same entries in the same order on every rank, even if this rank has
+/// no edge of them.
 struct Mesh {
   std::vector<Point> points;    ///< owned nodes, then ghosts
   std::int64_t first_node = 0;  ///< global number of points[0]

@@ -51,7 +51,7 @@ Field scatter_field(const Communicator& comm, const Field& of_whole, const Mesh&
 /// elsewhere. `field` must not have ghost rows. *Collective.*
 Field gather_field(const Communicator& comm, const Field& field, const Mesh& part, const MeshOrder& order);
 
-/// Ghosts the parts' positions and cells back to the whole mesh on the root. *Collective.*
+/// Copies the parts' positions and cells back to the whole mesh on the root. *Collective.*
 void gather_mesh(const Communicator& comm, const Mesh& part, const MeshOrder& order, Mesh& whole);
 
 /// Gathers a distributed mesh on the root, nodes and cells in global order, with its boundaries and strips;

@@ -90,7 +90,7 @@ class SizeRules {
   int finest_of_case_;
   int finest_;
   int coarsest_;
-  /// TreeGrid lines around the domain's bounding box: left, right, bottom, top.
+  /// Grid lines around the domain's bounding box: left, right, bottom, top.
   std::array<std::int64_t, 4> domain_{};
   std::int64_t slope_;
 };

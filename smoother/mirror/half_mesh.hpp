@@ -34,7 +34,7 @@ class HalfMesh {
   template <class T>
   std::vector<T> of_cells(const std::vector<T>& values) const;
 
-  /// Ghosts the half's node positions, and with `flips` its triangles, to the unchanged `whole`, and their
+  /// Copies the half's node positions, and with `flips` its triangles, to the unchanged `whole`, and their
   /// images to the other side. `standing`: number of triangles stored in the slot of each of the half's
   /// original triangles; empty means one each. Returns the same counts for the whole mesh, empty without
   /// flips. *Collective.*

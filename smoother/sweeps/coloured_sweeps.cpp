@@ -30,7 +30,7 @@ void ColouredSweeps::look_again(NodeId node) {
     woken_.push_back(stars_.star_of(node));
 }
 
-/// RefinementFlags the node and all nodes that share a cell with it for a new visit.
+/// Flags the node and all nodes that share a cell with it for a new visit.
 void ColouredSweeps::move(std::size_t i, Point to) {
   const NodeId node = stars_.nodes()[i];
   mesh_.points()[node.value()] = to;

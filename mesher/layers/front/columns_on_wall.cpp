@@ -62,7 +62,7 @@ class ColumnsOnWall::Columns {
         changed, [&](std::int32_t i) { return known_within * std::max(h_[i], h_before[i]); }, false));
   }
 
-  /// RefinementFlags the station, and the stretch of active stations that it touches, to be recomputed.
+  /// Flags the station, and the stretch of active stations that it touches, to be recomputed.
   void add_stretches(std::int32_t i) {
     if (!add_again(i)) return;
     for (std::int32_t j = line_.next(i); j != WallLine::none && active_[j] && add_again(j);)

@@ -297,7 +297,7 @@ class Fitting {
     return std::ranges::any_of(meets_, [](char m) { return m != 0; });
   }
 
-  /// RefinementFlags places where the proof fails. If each strip between two columns has four left-turning
+  /// Flags places where the proof fails. If each strip between two columns has four left-turning
   /// corners, and no segment of a front meets another one or a boundary, no two columns meet: a map of a ring
   /// that is locally one-to-one, and one-to-one on its rims, is one-to-one.
   void mark_unproved() {
@@ -309,7 +309,7 @@ class Fitting {
     mark_bodies_within();
   }
 
-  /// RefinementFlags bodies between columns. A loop that touches no column and no front may still lie
+  /// Flags bodies between columns. A loop that touches no column and no front may still lie
   /// entirely between two columns; this is the case if one of its points does.
   void mark_bodies_within() {
     const Geometry& g = line_.geometry();

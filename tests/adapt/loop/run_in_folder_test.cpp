@@ -71,7 +71,7 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
   }
   const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
   EXPECT_TRUE(log.starts_with("cycle 1: "));
-  EXPECT_NE(log.find("\nmarks for the next cycle: "), std::string::npos);
+  EXPECT_NE(log.find("\nnext cycle: "), std::string::npos);
   world().barrier();
 }
 
@@ -251,7 +251,7 @@ TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
   }
 }
 
-/// Ghosts the mesh with its state as it is, or leaves what is no solution.
+/// Copies the mesh with its state as it is, or leaves what is no solution.
 
 }  // namespace
 }  // namespace quadloop

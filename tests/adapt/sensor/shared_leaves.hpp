@@ -62,7 +62,7 @@ void for_each_distribution(const std::function<void(const Pieces&)>& check);
 Field field_of(const Mesh& mesh, const std::string& name,
                const std::function<double(std::int64_t, Point)>& value);
 
-/// RefinementFlags by a rule, as MarkFamily comes to them, and what they follow from.
+/// Flags by a rule, as MarkFamily comes to them, and what they follow from.
 struct RuledFlags {
   std::vector<RefinementFlag> flags;  ///< of this rank's share
   IndicatorStatistics statistics;

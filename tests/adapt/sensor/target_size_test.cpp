@@ -1,4 +1,4 @@
-// RefinementFlags from a field of wanted edge lengths.
+// Flags from a field of target edge lengths.
 #include "adapt/sensor/target_size.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// RefinementFlags by each rule: worked out by hand, nothing where nothing differs, equal leaves alike, the
+// Flags by each rule: worked out by hand, nothing where nothing differs, equal leaves alike, the
 // same on any number of ranks.
 #include "adapt/sensor/thresholds.hpp"
 

@@ -115,7 +115,7 @@ TEST(TargetLevels, OfALinearFieldAskForNothing) {
   const AdaptationPlan plan = plan_adaptation(world(), input, sizes_for(1000), mesh);
   EXPECT_FALSE(plan.changes_mesh());
   EXPECT_EQ(plan.estimate, 0);
-  EXPECT_NE(plan.reason_for_rejection.find("no variable has a second derivative"), std::string::npos);
+  EXPECT_NE(plan.reason_for_no_change.find("no variable has a second derivative"), std::string::npos);
 }
 
 TEST(SizePlan, MeetsTheNumberOfNodesAndLowersTheError) {
