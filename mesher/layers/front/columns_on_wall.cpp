@@ -149,8 +149,9 @@ class ColumnsOnWall::Columns {
             leans[j] = lean;
         };
       };
-      line_.walk_on(i, reach, take(onwards));
-      line_.walk_back(i, reach, take(backwards));
+      const std::int32_t before = line_.previous(i);
+      if (line_.goes_on(i)) line_.walk_on(i, reach, take(onwards));
+      if (before != WallLine::none && line_.goes_on(before)) line_.walk_back(i, reach, take(backwards));
     }
     for (std::int32_t i = 0; i < line_.size(); ++i) onwards[i] -= backwards[i];
     return onwards;
@@ -190,25 +191,32 @@ class ColumnsOnWall::Columns {
     }
     for (const std::int32_t i : stations) {
       const Station& station = line_[i];
-      const bool corner = station.slope != 0 || station.shape == Station::Shape::end;
-      const double share = station.shape == Station::Shape::fan ? 0 : corner ? 1 : mean_convergence(i);
+      const bool corner = station.shape == Station::Shape::concave || station.shape == Station::Shape::end;
+      const bool in_fan = station.shape == Station::Shape::fan && !station.at_wake;
+      const double share = in_fan ? 0 : corner ? 1 : mean_convergence(i);
       const double cosine = std::max(cosine_of_tilt(i), 0.5);
       columns_.length[i] = h_[i] * (1 + share * (1 / cosine - 1));
     }
   }
 
-  /// The mean over half a thickness of wall on both sides.
+  /// The mean over half a thickness of wall on both sides; over one side only if a wake begins on the other.
   double mean_convergence(std::int32_t i) const {
-    double on = 0, back = 0, wall_on = 0, wall_back = 0;
-    const auto add = [&](std::int32_t place, double& sum, double& wall) {
-      sum += line_.width(place) * convergence_[place];
-      wall += line_.width(place);
+    struct Side {
+      double sum = 0, wall = 0;
+      bool has_wake = false;
     };
-    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
-    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
-    if (wall_on == 0 || wall_back == 0)
-      return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
-    return std::min(on / wall_on, back / wall_back);
+    const auto add = [&](std::int32_t place, Side& side) {
+      if (!line_.goes_on(place)) side = {.has_wake = true};
+      if (side.has_wake) return;
+      side.sum += line_.width(place) * convergence_[place];
+      side.wall += line_.width(place);
+    };
+    Side on, back;
+    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on); });
+    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back); });
+    if (on.wall == 0 || back.wall == 0)
+      return on.wall > 0 ? on.sum / on.wall : back.wall > 0 ? back.sum / back.wall : 0;
+    return std::min(on.sum / on.wall, back.sum / back.wall);
   }
 
   /// Stations at both ends of the places beside the given stations where columns come too close or spread too

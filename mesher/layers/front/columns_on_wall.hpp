@@ -18,10 +18,10 @@ struct WallColumns {
 /// Columns for layers of given thicknesses (normal to the wall, one for each station), for one set of these
 /// after another: each time the work is that of the places that have changed and of those whose columns
 /// depend on them, with the columns that a first set would have, bit for bit. Each stands normal to the wall
-/// where it can. Beside a concave corner, columns lean away from it, less with the distance, so that the
-/// front is the wall's offset line and nothing crosses; where columns would come too close to each other, or
-/// spread too far, directions are averaged along the wall, but a column always rises visibly from both sides
-/// of its station.
+/// where it can. Beside a concave corner, an end or a wake, columns lean as the one there does, less with the
+/// distance, so that the front is the wall's offset line and nothing crosses; where columns would come too
+/// close to each other, or spread too far, directions are averaged along the wall, but a column always rises
+/// visibly from both sides of its station.
 /// Thickness changes by at most 0.35 of the distance along the wall.
 class ColumnsOnWall {
  public:

@@ -43,6 +43,13 @@ Point lerp(Point a, Point b, int part, int parts) {
   return 2 * part < parts ? a + share * (b - a) : b + rest * (a - b);
 }
 
+/// Tangent of the angle between the column at an end of a wall and the wall's normal, positive if the column
+/// leans over the wall. `along`: direction of the wall there, which begins or ends.
+double slope_over(Point column, Point along, bool begins) {
+  const double ahead = dot(column, along);
+  return (begins ? ahead : -ahead) / dot(column, left_of(along));
+}
+
 /// Distances of stations from the end of a segment up to its middle (included): an eighth of the thickness
 /// apart near the end, where columns may lean, then increasing.
 std::vector<double> widening_distances(double middle, double thickness, double widest) {
@@ -156,10 +163,12 @@ void WallLine::add_wake(Station station, BoundaryId before, const WakeStart& wak
   station.at_wake = station.opens_wake = true;
   station.layers = before;
   station.direction = unit(left_of(station.before) + left_of(wake.direction));
+  station.slope = slope_over(station.direction, station.before, false);
   stations_.push_back(station);
   station.opens_wake = false;
   station.layers = after;
   station.direction = unit(left_of(station.after) - left_of(wake.direction));
+  station.slope = slope_over(station.direction, station.after, true);
   stations_.push_back(station);
 }
 
@@ -200,8 +209,7 @@ void WallLine::add_end(const WallRun& run, bool first) {
     station.opens_wake = !first;
     station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->second.direction));
   }
-  const double along = dot(station.direction, station.after);
-  station.slope = (first ? along : -along) / dot(station.direction, left_of(station.after));
+  station.slope = slope_over(station.direction, station.after, first);
   stations_.push_back(station);
 }
 

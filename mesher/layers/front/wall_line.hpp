@@ -28,8 +28,8 @@ struct Station {
   bool at_wake = false;     ///< a wake begins there
   bool opens_wake = false;  ///< a wake lies between it and the next station
   bool kept = false;        ///< must be a node, on the wall and on the front
-  double slope = 0;  ///< at a concave corner or an end: tangent of the column's angle to the normal, away
-                     ///< from the corner
+  double slope = 0;  ///< at a concave corner, an end or a wake: tangent of the column's angle to the normal,
+                     ///< away from the corner
   Point direction;   ///< of its column: given in fans and at ends, elsewhere the bisector of the two normals
 
   bool fixed() const { return shape != Shape::smooth; }

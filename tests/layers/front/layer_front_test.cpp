@@ -1,6 +1,7 @@
 // The outline of the domain outside the layers, and what it asks of the mesh there.
 #include "mesher/layers/front/layer_front.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -213,6 +214,45 @@ TEST(LayerFront, LayersAreNoThickerAtAnEndThanTheBoundaryThereIsStraight) {
   const LayerFront front = layer_front(g);
   EXPECT_NEAR(front.thickness[0], 0.18, 1e-12);
   EXPECT_NEAR(front.thickness[front.line.size() - 1], layers_thickness(ten_layers), 1e-12);
+}
+
+/// A body that is straight up to its sharp edge (4, 0), whose outline has `points` points on either side with
+/// nine decimals; their distances from the edge grow as squares.
+Geometry wedge_of(int points, double camber) {
+  const auto decimals = [](double length) { return std::round(1e9 * length) / 1e9; };
+  std::vector<Point> upper, lower;
+  for (int k = 1; k < points; ++k) {
+    const double share = std::pow(k / static_cast<double>(points), 2), x = decimals(4 - 4 * share);
+    upper.push_back({x, decimals((camber + 0.6) * share)});
+    lower.push_back({x, decimals((camber - 0.6) * share)});
+  }
+  std::vector<Point> body(upper.rbegin(), upper.rend());
+  body.push_back({4, 0});
+  body.insert(body.end(), lower.begin(), lower.end());
+  return test::outline_of(
+      {{{"box", {{-8, -8}, {16, -8}, {16, 8}, {-8, 8}}}}, {{"body", body, test::equal_layers(0.5, 4)}}});
+}
+
+TEST(LayerFront, LayersAtAWakeDoNotDependOnTheDensityOfTheOutline) {
+  LayerLine wake;
+  wake.from = {"body"};
+  wake.spacing = 0.2;
+  for (const int points : {10, 100, 400}) {
+    for (const double camber : {0.0, 0.8}) {
+      const Geometry geometry = wedge_of(points, camber);
+      for (const double bend : {0.0, 0.3}) {
+        wake.path = {{5, bend - camber / 4}, {7, bend - camber / 2}};
+        const LayerFront front = layer_front(geometry, {}, {wake});
+        const auto which = fmt::format("{} points, camber {}, bend {}", points, camber, bend);
+        EXPECT_EQ(*std::ranges::min_element(front.thickness), 0.5) << which;
+        for (std::int32_t i = 0; i < front.line.size(); ++i) {
+          if (front.line[i].wall.x < 2 || !front.line.goes_on(i)) continue;
+          const double ahead = length(front.points[front.line.next(i)] - front.points[i]);
+          EXPECT_LT(ahead, 2 * front.line.width(i)) << which << ": a step at " << front.line[i].wall.x;
+        }
+      }
+    }
+  }
 }
 
 /// The segments of the outer geometry by their ends, from left to right, with the sizes that they request;
