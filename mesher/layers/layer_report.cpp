@@ -206,13 +206,13 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
   std::ranges::stable_sort(thin, {}, &BoundaryLayerReport::share_least);
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
-    warnings.push_back(fmt::format(
-        "boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the requested "
-        "thickness {:.3g}, as walls come close, turn sharply or are rough there (points close together "
-        "with few decimals): the growth is {:.3g} "
-        "instead of {:.3g}; {:.1f} % of the wall has the full thickness",
-        row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least, row.thickness_asked,
-        row.growth_least, row.growth_asked, 100 * row.share_full));
+    warnings.push_back(
+        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the requested "
+                    "thickness {:.3g}, as walls come close, turn sharply or are rough there (close "
+                    "points with few decimals): the growth is {:.3g} instead of {:.3g}; {:.1f} % of the wall "
+                    "has the full thickness",
+                    row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
+                    row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
   }
   if (thin.size() > most_named)
     warnings.push_back(

@@ -199,24 +199,18 @@ class ColumnsOnWall::Columns {
     }
   }
 
-  /// The mean over half a thickness of wall on both sides; over one side only if a wake begins on the other.
+  /// The mean over half a thickness of wall on both sides.
   double mean_convergence(std::int32_t i) const {
-    struct Side {
-      double sum = 0, wall = 0;
-      bool has_wake = false;
+    double on = 0, back = 0, wall_on = 0, wall_back = 0;
+    const auto add = [&](std::int32_t place, double& sum, double& wall) {
+      sum += line_.width(place) * convergence_[place];
+      wall += line_.width(place);
     };
-    const auto add = [&](std::int32_t place, Side& side) {
-      if (!line_.goes_on(place)) side = {.has_wake = true};
-      if (side.has_wake) return;
-      side.sum += line_.width(place) * convergence_[place];
-      side.wall += line_.width(place);
-    };
-    Side on, back;
-    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on); });
-    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back); });
-    if (on.wall == 0 || back.wall == 0)
-      return on.wall > 0 ? on.sum / on.wall : back.wall > 0 ? back.sum / back.wall : 0;
-    return std::min(on.sum / on.wall, back.sum / back.wall);
+    line_.walk_on(i, h_[i] / 2, [&](std::int32_t j, double) { add(line_.previous(j), on, wall_on); });
+    line_.walk_back(i, h_[i] / 2, [&](std::int32_t j, double) { add(j, back, wall_back); });
+    if (wall_on == 0 || wall_back == 0)
+      return wall_on > 0 ? on / wall_on : wall_back > 0 ? back / wall_back : 0;
+    return std::min(on / wall_on, back / wall_back);
   }
 
   /// Stations at both ends of the places beside the given stations where columns come too close or spread too
