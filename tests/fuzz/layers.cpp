@@ -6,6 +6,7 @@
 
 #include "generate/outside_layers.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/delaunay/flipper.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/fuzz/fuzz.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "quadloop/case/case_input.hpp"
+#include "quadloop/case/first_height.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
 namespace quadloop {
