@@ -23,10 +23,10 @@ struct FileUnit {
   std::vector<std::string> layers;  ///< of a drawing or map; ascending
 };
 
-/// Reads the polylines of a geometry file, told by its suffix: .geom, .dat (airfoil), and those of
-/// gis_suffixes where add_geometry_reader() has brought a reader for them; of those the layers given. On the
-/// calling rank alone. Throws InputError "file:line: ..." where the file is not what its suffix says. What
-/// was left out of the file is told by a warning each. `unit` receives what the file declares.
+/// Reads the polylines of a geometry file. The suffix selects the format: .geom, .dat (airfoil), and those of
+/// gis_suffixes if add_geometry_reader() has registered a reader; only the given layers are read from these.
+/// On the calling rank only. Throws InputError "file:line: ..." if the content does not match the suffix. A
+/// warning reports each kind of content that is left out. `unit` receives the unit that the file declares.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
                                  const LayerNames& layers = {}, FileUnit* unit = nullptr);
 

@@ -115,7 +115,7 @@ TEST_P(TreeRulesAt, NoLeafIsTooLargeForAWantedOne) {
   int target_leaves = 0;
   SizeCursor cursor(tree.sizes);
   for (const Quadrant& w : tree.leaves) {
-    if (cursor.target_level(w) != w.level) continue;  // smaller than it was asked to be: it asks for nothing
+    if (cursor.target_level(w) != w.level) continue;  // smaller than requested, so it requests nothing
     ++target_leaves;
     for (const Quadrant& q : tree.leaves) {
       if (tree.is_outside(q)) continue;

@@ -119,7 +119,7 @@ bool is_node_file(std::string_view text) {
   return is_first && (two.empty() || (one.size() == two.size() && two[0] == one[0] + 1));
 }
 
-/// HDF5 is the container of many formats; the names of groups or the suffix tell which.
+/// HDF5 is the container of many formats; the names of groups or the suffix determine which.
 FileKind hdf5_kind(const std::string& path, std::string_view begins) {
   const std::string name = small_letters(path);
   if (name.ends_with(".cas.h5") || name.ends_with(".msh.h5"))

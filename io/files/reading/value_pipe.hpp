@@ -136,7 +136,7 @@ void pass(Pipe& pipe, First& first, Second& second, More&... more) {
   (pass(pipe, more), ...);
 }
 
-/// Tells types that are sent in different ways, of two builds of a program too.
+/// Returns a number that differs for types that are sent in different ways, also between two builds.
 template <class T>
 std::uint64_t signature_of() {
   PipeSignature signature;
