@@ -105,7 +105,7 @@ void add_shapes(Statistics& statistics, const QualitySummary& quality, const std
 }  // namespace
 
 void add_layers(Statistics& statistics, const LayerReport& report, std::size_t most) {
-  add_rows(statistics, report, {"count", "first", "median", "of thick.", "full wall", "growth", "least at"},
+  add_rows(statistics, report, {"count", "min first", "med first", "t/t_req", "full t", "growth", "minimum at"},
            most);
 }
 
