@@ -9,6 +9,7 @@
 
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
+#include "mesher/geometry/curve.hpp"
 #include "mesher/geometry/layer_spec.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -22,6 +23,8 @@ struct Chain {
   std::vector<Point> points;
   std::string source;    ///< "file:line" of its header, for messages
   bool directed = true;  ///< whether the file defines the direction; drawings, maps and airfoil files do not
+  /// The shapes of the segments, the closing one of a closed chain included; empty: all are straight.
+  std::vector<Curve> curves = {};
 };
 
 /// A boundary: its mesh settings, and its boundary condition for solvers.

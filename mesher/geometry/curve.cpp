@@ -1,0 +1,173 @@
+#include "mesher/geometry/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace quadloop {
+
+namespace {
+
+/// A control point in homogeneous coordinates.
+struct Pole {
+  double x = 0, y = 0, weight = 1;
+  Point point() const { return {x / weight, y / weight}; }
+};
+
+Pole between(const Pole& a, const Pole& b, double t) {
+  const double s = 1 - t;
+  return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.weight + t * b.weight};
+}
+
+/// The origin of control points in homogeneous coordinates: rounding errors follow the size of the curve, and
+/// the reversed curve has the same ones.
+Point origin_of(const CurvedSegment& segment) { return 0.5 * (segment.from + segment.to); }
+
+std::vector<Pole> poles_of(const CurvedSegment& segment) {
+  const Curve& curve = segment.curve;
+  const Point origin = origin_of(segment);
+  std::vector<Pole> poles;
+  poles.reserve(curve.inner.size() + 2);
+  const auto add = [&](Point p) {
+    const double weight = curve.weights.empty() ? 1 : curve.weights[poles.size()];
+    poles.push_back({weight * (p.x - origin.x), weight * (p.y - origin.y), weight});
+  };
+  add(segment.from);
+  for (const Point p : curve.inner) add(p);
+  add(segment.to);
+  return poles;
+}
+
+struct PointAndDerivative {
+  Point point, derivative;  ///< derivative by the parameter
+};
+
+/// De Casteljau's algorithm, which overwrites the poles (Farin, Curves and Surfaces for CAGD, chapters 4 and
+/// 13).
+PointAndDerivative evaluate(std::span<Pole> poles, double t) {
+  const std::size_t degree = poles.size() - 1;
+  for (std::size_t round = degree; round > 1; --round) {
+    for (std::size_t i = 0; i < round; ++i) poles[i] = between(poles[i], poles[i + 1], t);
+  }
+  const Pole a = poles[0], b = poles[1], at = between(a, b, t);
+  const double scale = double(degree) * a.weight * b.weight / (at.weight * at.weight);
+  return {at.point(), scale * (b.point() - a.point())};
+}
+
+CurvedSegment segment_of(std::span<const Pole> poles, Point from, Point to, Point origin, const Curve& like) {
+  CurvedSegment part{from, {{}, {}, like.spacing}, to};
+  for (std::size_t i = 1; i + 1 < poles.size(); ++i) part.curve.inner.push_back(origin + poles[i].point());
+  if (like.weights.empty()) return part;
+  for (const Pole& pole : poles) part.curve.weights.push_back(pole.weight);
+  return part;
+}
+
+/// Control points without repeated ones.
+std::vector<Point> control_polygon(const CurvedSegment& segment) {
+  std::vector<Point> polygon{segment.from};
+  const auto add = [&](Point p) {
+    if (p != polygon.back()) polygon.push_back(p);
+  };
+  for (const Point p : segment.curve.inner) add(p);
+  add(segment.to);
+  return polygon;
+}
+
+Point unit_or_zero(Point p) {
+  const double size = length(p);
+  return size > 0 ? (1 / size) * p : Point{};
+}
+
+/// As point_above_chord(), relative to the origin, by an iteration that begins at the first end.
+Point above_chord_from_start(const CurvedSegment& segment, Point p) {
+  constexpr int steps = 24;
+  const std::vector<Pole> poles = poles_of(segment);
+  std::vector<Pole> work;
+  const Point chord = segment.to - segment.from;
+  const double wanted = dot(p - origin_of(segment), chord);
+  double low = 0, high = 1, t = 0.5 + wanted / dot(chord, chord);
+  Point at;
+  for (int step = 0; step < steps; ++step) {
+    work = poles;
+    const PointAndDerivative here = evaluate(work, std::clamp(t, low, high));
+    at = here.point;
+    const double error = dot(at, chord) - wanted;
+    (error > 0 ? high : low) = t;
+    const double newton = t - error / dot(here.derivative, chord);
+    if (newton == t) break;
+    t = low < newton && newton < high ? newton : low + 0.5 * (high - low);
+  }
+  return at;
+}
+
+}  // namespace
+
+Curve reversed(Curve curve) {
+  std::ranges::reverse(curve.inner);
+  std::ranges::reverse(curve.weights);
+  return curve;
+}
+
+CurvedSegment reversed(CurvedSegment segment) {
+  return {segment.to, reversed(std::move(segment.curve)), segment.from};
+}
+
+std::pair<CurvedSegment, CurvedSegment> halves(const CurvedSegment& segment) {
+  std::vector<Pole> poles = poles_of(segment), first{poles.front()}, second{poles.back()};
+  for (std::size_t round = poles.size() - 1; round > 0; --round) {
+    for (std::size_t i = 0; i < round; ++i) poles[i] = between(poles[i], poles[i + 1], 0.5);
+    first.push_back(poles.front());
+    second.push_back(poles[round - 1]);
+  }
+  std::ranges::reverse(second);
+  const Point origin = origin_of(segment), middle = origin + first.back().point();
+  return {segment_of(first, segment.from, middle, origin, segment.curve),
+          segment_of(second, middle, segment.to, origin, segment.curve)};
+}
+
+Point point_at(const CurvedSegment& segment, double parameter) {
+  std::vector<Pole> poles = poles_of(segment);
+  return origin_of(segment) + evaluate(poles, parameter).point;
+}
+
+Point direction_at_start(const CurvedSegment& segment) {
+  const std::vector<Point> polygon = control_polygon(segment);
+  return polygon.size() < 2 ? Point{} : unit_or_zero(polygon[1] - polygon[0]);
+}
+
+Point direction_at_end(const CurvedSegment& segment) {
+  return -1 * direction_at_start(reversed(segment));
+}
+
+double height_of_hull(const CurvedSegment& segment) {
+  const Point along = unit_or_zero(segment.to - segment.from);
+  double height = 0;
+  for (const Point p : segment.curve.inner) {
+    const Point from = p - segment.from, to = p - segment.to;
+    const double beyond = std::max({0.0, -dot(from, along), dot(to, along)});
+    height = std::max(height, std::hypot(beyond, cross(along, from)));
+  }
+  return height;
+}
+
+double turning_of_hull(const CurvedSegment& segment) {
+  const std::vector<Point> polygon = control_polygon(segment);
+  double turning = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const Point in = polygon[i - 1] - polygon[i - 2], out = polygon[i] - polygon[i - 1];
+    turning += std::abs(std::atan2(cross(in, out), dot(in, out)));
+  }
+  return turning * (180 / std::numbers::pi);
+}
+
+Point point_above_chord(const CurvedSegment& segment, Point p) {
+  const Point chord = segment.to - segment.from;
+  if (dot(p - segment.from, chord) <= 0) return segment.from;
+  if (dot(p - segment.to, chord) >= 0) return segment.to;
+  if (segment.curve.straight()) return p;
+  const Point forward = above_chord_from_start(segment, p), back = above_chord_from_start(reversed(segment), p);
+  return origin_of(segment) + 0.5 * (forward + back);
+}
+
+}  // namespace quadloop
