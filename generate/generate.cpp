@@ -16,10 +16,12 @@
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/grid_rank.hpp"
+#include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "mesher/mesh/check/require_sound.hpp"
 #include "mesher/mesh/mirror_images.hpp"
+#include "smoother/outline/nodes_on_curves.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
@@ -101,12 +103,22 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   result.tree.attributes.geometry_digest = input.geometry.digest();
 }
 
+/// Moves the boundary nodes onto the geometry's curves; a Delaunay mesh stays Delaunay. *Collective.*
+void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult& result) {
+  const NodeFlags moved = move_nodes_to_curves(comm, input.geometry, result.mesh);
+  if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
+  count_triangles(restore_delaunay_nearby(comm, result.mesh, moved,
+                                          order_of_nodes(input, result.report.finest_allowed)),
+                  result.tree.leaves);
+}
+
 /// Builds a mesh without smoothing. *Collective.*
 GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
   GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
   const MeshReport& report = generated.result.report;
   generated.times.append(report.times);
   require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
+  follow_curves(comm, input, generated.result);
   return generated;
 }
 

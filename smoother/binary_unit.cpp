@@ -19,16 +19,17 @@ BinaryUnit::BinaryUnit(const Communicator& comm, const Mesh& mesh) {
 Geometry BinaryUnit::into(const Geometry& geometry) const {
   std::vector<Boundary> boundaries(geometry.boundaries().begin(), geometry.boundaries().end());
   for (Boundary& boundary : boundaries) boundary.spacing = std::ldexp(boundary.spacing, -exponent_);
-  std::vector<Point> points;
-  std::vector<BoundaryId> segment_boundary;
-  for (std::int32_t v = 0; v < geometry.size(); ++v) {
-    points.push_back(into(geometry.point(v)));
-    segment_boundary.push_back(geometry.boundary_of(v));
+  GeometryBuilder builder;
+  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
+    for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v) {
+      Curve curve = geometry.curve(v);
+      for (Point& p : curve.inner) p = into(p);
+      curve.spacing = std::ldexp(curve.spacing, -exponent_);
+      builder.add(into(geometry.point(v)), geometry.boundary_of(v), curve);
+    }
+    builder.end_loop();
   }
-  std::vector<std::int32_t> loop_starts;
-  for (std::int32_t loop = 0; loop <= geometry.loop_count(); ++loop)
-    loop_starts.push_back(geometry.loop_start(loop));
-  return {std::move(boundaries), std::move(points), std::move(loop_starts), std::move(segment_boundary)};
+  return std::move(builder).geometry(std::move(boundaries));
 }
 
 }  // namespace quadloop

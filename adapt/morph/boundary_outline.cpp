@@ -40,19 +40,17 @@ class Loops {
     }
   }
   BoundaryOutline outline(const std::vector<Boundary>& boundaries) && {
-    return {Geometry(boundaries, std::move(points_), std::move(starts_), std::move(segment_boundary_)),
-            std::move(nodes_)};
+    return {std::move(builder_).geometry(boundaries), std::move(nodes_)};
   }
 
  private:
   void walk(std::size_t first) {
     for (std::size_t at = first; taken_[at] == 0; at = after(edges_[at], first)) {
       taken_[at] = 1;
-      points_.push_back(edges_[at].place);
+      builder_.add(edges_[at].place, BoundaryId{edges_[at].boundary});
       nodes_.push_back(edges_[at].from);
-      segment_boundary_.push_back(BoundaryId{edges_[at].boundary});
     }
-    starts_.push_back(size32(points_));
+    builder_.end_loop();
   }
 
   std::span<const OutlineEdge> leaving(GlobalNodeId node) const {
@@ -85,10 +83,8 @@ class Loops {
 
   std::vector<OutlineEdge> edges_;
   std::vector<char> taken_;
-  std::vector<Point> points_;
+  GeometryBuilder builder_;
   std::vector<GlobalNodeId> nodes_;
-  std::vector<std::int32_t> starts_{0};
-  std::vector<BoundaryId> segment_boundary_;
 };
 
 }  // namespace

@@ -19,21 +19,13 @@ Box box_of_loop(const Geometry& g, std::int32_t loop) {
 }
 
 Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
-  std::vector<Point> points;
-  std::vector<std::int32_t> starts{0};
-  std::vector<BoundaryId> segment_boundary;
+  GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     if (keep[loop] == 0) continue;
-    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
-      points.push_back(g.point(v));
-      segment_boundary.push_back(g.boundary_of(v));
-    }
-    starts.push_back(size32(points));
+    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) builder.add(g, v);
+    builder.end_loop();
   }
-  return {{g.boundaries().begin(), g.boundaries().end()},
-          std::move(points),
-          std::move(starts),
-          std::move(segment_boundary)};
+  return std::move(builder).geometry(g.boundaries());
 }
 
 /// Returns the names in the order of the geometry.

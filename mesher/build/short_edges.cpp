@@ -261,21 +261,14 @@ Geometry with_merged(const Geometry& g, std::span<const ShortBase> bases) {
     for (std::int32_t v = base.first; v != base.last; v = g.next(v)) is_dropped[v] = 1;
     moved[base.last] = merged_end(g, base);
   }
-  std::vector<Point> points;
-  std::vector<std::int32_t> starts{0};
-  std::vector<BoundaryId> of_segment;
+  GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
-      if (is_dropped[v] != 0) continue;
-      points.push_back(moved[v]);
-      of_segment.push_back(g.boundary_of(v));
+      if (is_dropped[v] == 0) builder.add(moved[v], g.boundary_of(v), g.curve(v));
     }
-    starts.push_back(size32(points));
+    builder.end_loop();
   }
-  return {{g.boundaries().begin(), g.boundaries().end()},
-          std::move(points),
-          std::move(starts),
-          std::move(of_segment)};
+  return std::move(builder).geometry(g.boundaries());
 }
 
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,

@@ -1,9 +1,11 @@
 #include "mesher/geometry/curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace quadloop {
 
@@ -24,23 +26,31 @@ Pole between(const Pole& a, const Pole& b, double t) {
 /// the reversed curve has the same ones.
 Point origin_of(const CurvedSegment& segment) { return 0.5 * (segment.from + segment.to); }
 
-std::vector<Pole> poles_of(const CurvedSegment& segment) {
-  const Curve& curve = segment.curve;
-  const Point origin = origin_of(segment);
-  std::vector<Pole> poles;
-  poles.reserve(curve.inner.size() + 2);
-  const auto add = [&](Point p) {
-    const double weight = curve.weights.empty() ? 1 : curve.weights[poles.size()];
-    poles.push_back({weight * (p.x - origin.x), weight * (p.y - origin.y), weight});
-  };
-  add(segment.from);
-  for (const Point p : curve.inner) add(p);
-  add(segment.to);
-  return poles;
-}
+/// The control points of a curve.
+class Poles {
+ public:
+  explicit Poles(const CurvedSegment& segment) : weights_{segment.curve.weights} {
+    const Point origin = origin_of(segment);
+    add(segment.from - origin);
+    for (const Point p : segment.curve.inner) add(p - origin);
+    add(segment.to - origin);
+  }
+  std::span<Pole> all() { return {poles_.data(), count_}; }
+
+ private:
+  void add(Point p) {
+    const double weight = weights_.empty() ? 1 : weights_[count_];
+    poles_[count_++] = {weight * p.x, weight * p.y, weight};
+  }
+
+  std::span<const double> weights_;
+  std::size_t count_ = 0;
+  std::array<Pole, Curve::largest_degree + 1> poles_;
+};
 
 struct PointAndDerivative {
-  Point point, derivative;  ///< derivative by the parameter
+  Point point;
+  Point derivative;  ///< by the parameter
 };
 
 /// De Casteljau's algorithm, which overwrites the poles (Farin, Curves and Surfaces for CAGD, chapters 4 and
@@ -79,22 +89,20 @@ Point unit_or_zero(Point p) {
   return size > 0 ? (1 / size) * p : Point{};
 }
 
-/// As point_above_chord(), relative to the origin, by an iteration that begins at the first end.
-Point above_chord_from_start(const CurvedSegment& segment, Point p) {
-  constexpr int steps = 24;
-  const std::vector<Pole> poles = poles_of(segment);
-  std::vector<Pole> work;
+/// As above_chord(), relative to the origin, by an iteration that begins at the first end.
+PointAndDerivative above_chord_from_start(const CurvedSegment& segment, Point p) {
+  constexpr int most_steps = 24;
+  const Poles poles(segment);
   const Point chord = segment.to - segment.from;
   const double wanted = dot(p - origin_of(segment), chord);
-  double low = 0, high = 1, t = 0.5 + wanted / dot(chord, chord);
-  Point at;
-  for (int step = 0; step < steps; ++step) {
-    work = poles;
-    const PointAndDerivative here = evaluate(work, std::clamp(t, low, high));
-    at = here.point;
-    const double error = dot(at, chord) - wanted;
+  double low = 0, high = 1, t = std::clamp(0.5 + wanted / dot(chord, chord), 0.0, 1.0);
+  PointAndDerivative at;
+  for (int step = 0; step < most_steps; ++step) {
+    Poles work = poles;
+    at = evaluate(work.all(), t);
+    const double error = dot(at.point, chord) - wanted;
     (error > 0 ? high : low) = t;
-    const double newton = t - error / dot(here.derivative, chord);
+    const double newton = t - error / dot(at.derivative, chord);
     if (newton == t) break;
     t = low < newton && newton < high ? newton : low + 0.5 * (high - low);
   }
@@ -114,7 +122,9 @@ CurvedSegment reversed(CurvedSegment segment) {
 }
 
 std::pair<CurvedSegment, CurvedSegment> halves(const CurvedSegment& segment) {
-  std::vector<Pole> poles = poles_of(segment), first{poles.front()}, second{poles.back()};
+  Poles of_segment(segment);
+  const std::span<Pole> poles = of_segment.all();
+  std::vector<Pole> first{poles.front()}, second{poles.back()};
   for (std::size_t round = poles.size() - 1; round > 0; --round) {
     for (std::size_t i = 0; i < round; ++i) poles[i] = between(poles[i], poles[i + 1], 0.5);
     first.push_back(poles.front());
@@ -127,8 +137,8 @@ std::pair<CurvedSegment, CurvedSegment> halves(const CurvedSegment& segment) {
 }
 
 Point point_at(const CurvedSegment& segment, double parameter) {
-  std::vector<Pole> poles = poles_of(segment);
-  return origin_of(segment) + evaluate(poles, parameter).point;
+  Poles poles(segment);
+  return origin_of(segment) + evaluate(poles.all(), parameter).point;
 }
 
 Point direction_at_start(const CurvedSegment& segment) {
@@ -161,13 +171,15 @@ double turning_of_hull(const CurvedSegment& segment) {
   return turning * (180 / std::numbers::pi);
 }
 
-Point point_above_chord(const CurvedSegment& segment, Point p) {
+CurvePoint above_chord(const CurvedSegment& segment, Point p) {
   const Point chord = segment.to - segment.from;
-  if (dot(p - segment.from, chord) <= 0) return segment.from;
-  if (dot(p - segment.to, chord) >= 0) return segment.to;
-  if (segment.curve.straight()) return p;
-  const Point forward = above_chord_from_start(segment, p), back = above_chord_from_start(reversed(segment), p);
-  return origin_of(segment) + 0.5 * (forward + back);
+  if (segment.curve.straight()) return {p, unit_or_zero(chord)};
+  if (dot(p - segment.from, chord) <= 0) return {segment.from, direction_at_start(segment)};
+  if (dot(p - segment.to, chord) >= 0) return {segment.to, direction_at_end(segment)};
+  const PointAndDerivative forward = above_chord_from_start(segment, p),
+                           back = above_chord_from_start(reversed(segment), p);
+  return {origin_of(segment) + 0.5 * (forward.point + back.point),
+          unit_or_zero(unit_or_zero(forward.derivative) - unit_or_zero(back.derivative))};
 }
 
 }  // namespace quadloop

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -8,9 +7,11 @@
 
 namespace quadloop {
 
-/// The shape of a segment between its two ends: a straight line or a rational Bézier curve. The first and the
+/// The shape of a segment between its two ends: a straight line or a rational Bézier curve, whose degree is
+/// at most `largest_degree`. The first and the
 /// last control point are the ends of the segment, which are stored with the segment.
 struct Curve {
+  static constexpr int largest_degree = 15;
   std::vector<Point> inner;     ///< control points between the ends; none: a straight line
   std::vector<double> weights;  ///< of all control points, ends included; positive; empty: all are 1
   /// The cell size that the curve requests, as the length of a straight segment does; 0: the length of its
@@ -51,10 +52,15 @@ double height_of_hull(const CurvedSegment& segment);
 /// The sum of the turning angles of the control polygon, in degrees: the curve does not turn by more.
 double turning_of_hull(const CurvedSegment& segment);
 
+/// A point of a curve and the unit direction of the curve there.
+struct CurvePoint {
+  Point point, direction;
+};
+
 /// The point of the curve whose foot on the chord is that of p. A curve that turns by less than 90 degrees
 /// has exactly one such point for each foot between the ends; beyond the ends the result is the nearer end.
 /// A bracketed Newton iteration finds it from either end of the curve; the result is the mean, so that the
 /// reversed curve gives the same point, bit by bit.
-Point point_above_chord(const CurvedSegment& segment, Point p);
+CurvePoint above_chord(const CurvedSegment& segment, Point p);
 
 }  // namespace quadloop

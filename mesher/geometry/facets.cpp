@@ -8,6 +8,12 @@ namespace {
 
 constexpr double visible_degrees = 2 + 1e-9;  // a circle of 180 points turns by 2 degrees, up to rounding
 
+/// Chords of a curve are no sides of a polygon.
+double turn_of_polygon(const Geometry& geometry, std::int32_t v) {
+  const bool curved = geometry.is_curved(v) && geometry.is_curved(geometry.previous(v));
+  return curved ? 0 : geometry.bend_degrees(v);
+}
+
 /// A straight side of a polygon, from a vertex to the next one that is not on it.
 struct Side {
   double length = 0;
@@ -26,7 +32,7 @@ Side side_from(const Geometry& geometry, std::int32_t v, const Next& next) {
     u = next(u);
     turned += geometry.bend_degrees(u);
   } while (u != v && !geometry.kept(u) && turned <= straight_degrees);
-  side.ends_in_facet = u != v && geometry.bend_degrees(u) > visible_degrees;
+  side.ends_in_facet = u != v && turn_of_polygon(geometry, u) > visible_degrees;
   return side;
 }
 
@@ -35,7 +41,7 @@ Side side_from(const Geometry& geometry, std::int32_t v, const Next& next) {
 std::vector<Facet> facets_of(const Geometry& geometry) {
   std::vector<Facet> facets;
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
-    const double turn = geometry.bend_degrees(v);
+    const double turn = turn_of_polygon(geometry, v);
     if (turn <= visible_degrees) continue;
     const Side before = side_from(geometry, v, [&](std::int32_t u) { return geometry.previous(u); }),
                after = side_from(geometry, v, [&](std::int32_t u) { return geometry.next(u); });

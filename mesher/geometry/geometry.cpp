@@ -47,6 +47,16 @@ void digest_layers(const LayerSpec& layers, Digest& digest) {
   if (layers.y_plus > 0) digest.add(layers.y_plus);
 }
 
+void digest_curve(const Curve& curve, Digest& digest) {
+  digest.add(std::uint64_t{curve.inner.size()});
+  for (const Point p : curve.inner) {
+    digest.add(p.x);
+    digest.add(p.y);
+  }
+  for (const double weight : curve.weights) digest.add(weight);
+  digest.add(curve.spacing);
+}
+
 const std::string& name_of(const Geometry& geometry, std::int32_t segment) {
   return geometry.boundary(geometry.boundary_of(segment)).name;
 }
@@ -96,6 +106,7 @@ Chain open_chain(const Geometry& geometry, std::int32_t first) {
   Chain chain{name_of(geometry, first), true, {geometry.point(first)}, {}};
   std::int32_t v = first;
   do {
+    if (geometry.has_curves()) chain.curves.push_back(geometry.curve(v));
     v = geometry.next(v);
     chain.points.push_back(geometry.point(v));
   } while (geometry.boundary_of(v) == geometry.boundary_of(first));
@@ -105,13 +116,18 @@ Chain open_chain(const Geometry& geometry, std::int32_t first) {
 }  // namespace
 
 Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
-                   std::vector<std::int32_t> loop_starts, std::vector<BoundaryId> segment_boundary)
+                   std::vector<std::int32_t> loop_starts, std::vector<BoundaryId> segment_boundary,
+                   std::vector<Curve> curves)
     : boundaries_{std::move(boundaries)},
       points_{std::move(points)},
       loop_starts_{std::move(loop_starts)},
-      segment_boundary_{std::move(segment_boundary)} {
+      segment_boundary_{std::move(segment_boundary)},
+      curves_{std::move(curves)} {
   QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex",
                    segment_boundary_.size(), points_.size());
+  QUADLOOP_REQUIRE(curves_.empty() || curves_.size() == points_.size(), "each segment has one shape",
+                   curves_.size(), points_.size());
+  if (std::ranges::all_of(curves_, &Curve::straight)) curves_.clear();
   flags_.resize(points_.size());
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
     const std::int32_t begin = loop_start(loop), end = loop_start(loop + 1);
@@ -123,10 +139,11 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   const std::vector<TurnLimit> corners = corner_limits(boundaries_);
   const TurnLimit straight(straight_degrees);
   for (std::int32_t v = 0; v < size(); ++v) {
-    const Point in = point(v) - point(previous(v)), out = point(next(v)) - point(v);
+    const Point in = direction_into(v), out = direction_out_of(v);
     const BoundaryId before = boundary_of(previous(v)), after = boundary_of(v);
     kept_[v] = before != after || corners[after.value()].exceeded_by(in, out);
-    if (before == after && straight.undercut_by(in, out)) flags_[v] |= is_straight;
+    const bool curved = is_curved(previous(v)) || is_curved(v);
+    if (before == after && !curved && straight.undercut_by(in, out)) flags_[v] |= is_straight;
   }
   keep_touching_points();
   shorten_spacing_between_corners();
@@ -169,6 +186,10 @@ void Geometry::shorten_spacing_between_corners() {
 }
 
 double Geometry::turn_degrees(std::int32_t v) const {
+  return turn_between(direction_into(v), direction_out_of(v));
+}
+
+double Geometry::chord_turn_degrees(std::int32_t v) const {
   return turn_between(point(v) - point(previous(v)), point(next(v)) - point(v));
 }
 
@@ -185,7 +206,9 @@ Geometry Geometry::with(LocalDemands demands) const {
 
 double Geometry::spacing_of_boundary(std::int32_t segment) const {
   const double wanted = boundary(boundary_of(segment)).spacing;
-  return wanted > 0 ? wanted : length(point(next(segment)) - point(segment));
+  if (wanted > 0) return wanted;
+  if (is_curved(segment) && curves_[segment].spacing > 0) return curves_[segment].spacing;
+  return length(point(next(segment)) - point(segment));
 }
 
 double Geometry::spacing_of(std::int32_t segment) const {
@@ -217,9 +240,26 @@ std::uint64_t Geometry::digest() const {
     digest.add(p.x);
     digest.add(p.y);
   }
+  for (const Curve& curve : curves_) digest_curve(curve, digest);
   for (const std::uint64_t start : loop_starts_) digest.add(start);
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
   return digest.value();
+}
+
+void GeometryBuilder::add(Point vertex, BoundaryId boundary, const Curve& curve) {
+  if (!curve.straight()) curves_.resize(points_.size());
+  if (!curve.straight() || !curves_.empty()) curves_.push_back(curve);
+  points_.push_back(vertex);
+  segment_boundary_.push_back(boundary);
+}
+
+void GeometryBuilder::end_loop() {
+  if (loop_starts_.back() < size()) loop_starts_.push_back(size());
+}
+
+Geometry GeometryBuilder::geometry(std::vector<Boundary> boundaries) && {
+  return Geometry(std::move(boundaries), std::move(points_), std::move(loop_starts_),
+                  std::move(segment_boundary_), std::move(curves_));
 }
 
 std::vector<Chain> chains_of(const Geometry& geometry) {
@@ -230,6 +270,8 @@ std::vector<Chain> chains_of(const Geometry& geometry) {
     if (change < 0) {
       const auto points = geometry.points().subspan(begin, end - begin);
       chains.push_back({name_of(geometry, begin), false, {points.begin(), points.end()}, {}});
+      for (std::int32_t v = begin; geometry.has_curves() && v < end; ++v)
+        chains.back().curves.push_back(geometry.curve(v));
       continue;
     }
     std::int32_t v = change;

@@ -50,8 +50,10 @@ class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
   /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of segment v.
+  /// `curves`: the shape of each segment; empty: all are straight. A curve is nowhere far from its chord
+  /// (subdivide_curves()).
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
-           std::vector<BoundaryId> segment_boundary);
+           std::vector<BoundaryId> segment_boundary, std::vector<Curve> curves = {});
 
   /// The same geometry with other requirements at single places.
   Geometry with(LocalDemands demands) const;
@@ -73,6 +75,24 @@ class Geometry {
   }
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
+  /// Whether any segment is a curve. Decisions are made on chords; nodes of the final mesh lie on the curves.
+  bool has_curves() const { return !curves_.empty(); }
+  bool is_curved(std::int32_t segment) const { return has_curves() && !curves_[segment].straight(); }
+  Curve curve(std::int32_t segment) const { return has_curves() ? curves_[segment] : Curve{}; }
+  CurvedSegment segment(std::int32_t s) const { return {point(s), curve(s), point(next(s))}; }
+  /// The point of the segment above a point of its chord: above_chord().
+  Point on_curve(std::int32_t s, Point p) const {
+    return is_curved(s) ? above_chord(segment(s), p).point : p;
+  }
+  /// Directions of the geometry into and out of a vertex, tangents of curves; their lengths are arbitrary.
+  Point direction_into(std::int32_t v) const {
+    const std::int32_t s = previous(v);
+    return is_curved(s) ? direction_at_end(segment(s)) : point(v) - point(s);
+  }
+  Point direction_out_of(std::int32_t v) const {
+    return is_curved(v) ? direction_at_start(segment(v)) : point(next(v)) - point(v);
+  }
+
   std::span<const Boundary> boundaries() const { return boundaries_; }
   const Boundary& boundary(BoundaryId b) const { return boundaries_[b.value()]; }
   std::span<const Point> points() const { return points_; }
@@ -87,12 +107,14 @@ class Geometry {
   static constexpr double straight_degrees = 1e-6;
   /// Turning angle of the geometry at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
+  /// Turning angle of the chords at the vertex, in degrees; that of the geometry where it has no curve.
+  double chord_turn_degrees(std::int32_t v) const;
   /// Turning angle for the curvature rule, in degrees; 0 at kept vertices.
   double bend_degrees(std::int32_t v) const {
-    return !bend_.empty() ? bend_[v] : kept(v) ? 0 : turn_degrees(v);
+    return !bend_.empty() ? bend_[v] : kept(v) ? 0 : chord_turn_degrees(v);
   }
-  /// The size that the segment requests of the leaves which contain it: its boundary's spacing, else its own
-  /// length. If the geometry between two feature points is shorter than the spacing, its whole length counts,
+  /// The size that the segment requests of the leaves which contain it: its boundary's spacing, else that of
+  /// its curve, else its own length. If the geometry between two feature points is shorter than the spacing, its whole length counts,
   /// as one cell with both points would be thin.
   double spacing_of(std::int32_t segment) const;
   /// The part of the geometry between two consecutive kept vertices.
@@ -121,6 +143,7 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
+  std::vector<Curve> curves_;    ///< of each segment; empty: all are straight
   std::vector<double> spacing_;  ///< of each segment, if some differ from their boundary's
   std::vector<double> bend_;     ///< of each vertex, if set by LocalDemands
   std::vector<char> kept_;
@@ -128,6 +151,31 @@ class Geometry {
   static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;
   std::vector<std::uint8_t> flags_;
   Box box_;
+};
+
+/// Collects the vertices of a geometry, loop after loop.
+class GeometryBuilder {
+ public:
+  /// Adds a vertex, with boundary and shape of the segment that begins there.
+  void add(Point vertex, BoundaryId boundary, const Curve& curve = {});
+  /// Adds vertex v of a geometry, with its segment.
+  void add(const Geometry& geometry, std::int32_t v) {
+    add(geometry.point(v), geometry.boundary_of(v), geometry.curve(v));
+  }
+  /// Ends a loop, if it has vertices.
+  void end_loop();
+  std::int32_t size() const { return size32(points_); }
+
+  Geometry geometry(std::vector<Boundary> boundaries) &&;
+  Geometry geometry(std::span<const Boundary> boundaries) && {
+    return std::move(*this).geometry(std::vector(boundaries.begin(), boundaries.end()));
+  }
+
+ private:
+  std::vector<Point> points_;
+  std::vector<std::int32_t> loop_starts_{0};
+  std::vector<BoundaryId> segment_boundary_;
+  std::vector<Curve> curves_;
 };
 
 /// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else an

@@ -16,6 +16,7 @@ struct OutlineLoop {
   std::vector<BoundaryId> boundary;
   std::string source;    ///< source of its first chain, for messages
   bool directed = true;  ///< whether its chains are
+  std::vector<Curve> curves = {};  ///< the shape of each segment; empty: all are straight
 };
 
 struct Outline {

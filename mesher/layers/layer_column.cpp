@@ -13,7 +13,8 @@ Point foot_of(const WallLine& line, const FrontPlace& place) {
   if (place.at_station()) return a;
   const Point b = line[line.next(place.station)].wall;
   if (a == b) return a;
-  return 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
+  const Point between = 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
+  return line.geometry().on_curve(line[place.station].segment, between);
 }
 
 /// The cosine of the angle between the column and the wall's normal, for the larger of two angles; 1 in a

@@ -35,7 +35,7 @@ Proximity::Proximity(const Geometry& g) : geometry_{&g}, segments_{g} {
   double arc = 0, turning = 0;
   std::int32_t kept = 0;
   for (std::int32_t v = 0; v < g.size(); ++v) {
-    turning += g.kept(v) ? 0 : g.turn_degrees(v);
+    turning += g.kept(v) ? 0 : g.chord_turn_degrees(v);
     kept += g.kept(v) ? 1 : 0;
     arc_.push_back(arc);
     turning_.push_back(turning);
@@ -54,7 +54,7 @@ bool Proximity::is_one_bend_onwards(std::int32_t a, Point p, std::int32_t b, Poi
   std::int32_t kept = at(kept_, b) - at(kept_, a);
   if (arc < 0) {  // across the first vertex of the loop
     arc += at(arc_, last) + length(g.point(first) - g.point(last)) - at(arc_, first);
-    turning += at(turning_, last) - at(turning_, first) + (g.kept(first) ? 0 : g.turn_degrees(first));
+    turning += at(turning_, last) - at(turning_, first) + (g.kept(first) ? 0 : g.chord_turn_degrees(first));
     kept += at(kept_, last) - at(kept_, first) + (g.kept(first) ? 1 : 0);
   }
   return arc < bend_length * gap || (kept == 1 && turning < straight_sides_degrees);

@@ -11,6 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -97,6 +98,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     layers.insert(extent.declared.layers.begin(), extent.declared.layers.end());
     if (extents != nullptr) extents->push_back(extent);
     const Transform transform = in_metres(input.transform, extent);
+    if (input.spline) {
+      for (Chain& chain : of_file) join_by_splines(chain, options.default_corner_degrees);
+    }
     apply(transform, of_file);
     if (!settings.inside && is_airfoil_file(input.path)) {
       for (const Chain& chain : of_file) options.bodies.push_back(chain.name);

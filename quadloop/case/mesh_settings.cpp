@@ -114,6 +114,10 @@ const KeyTable<Settings>& geometry_keys() {
            "unit", texts(unit_words()),
            "Unit of the coordinates, which are converted to metres; see [units](#units).",
            {.fallback = "`\"none\"`"}),
+       key<&Settings::placement, &Placement::spline>(
+           "spline", flag(),
+           "Points are joined by cubic splines from corner to corner; without it by straight lines.",
+           {.fallback = "`true` for `.dat`, else `false`"}),
        key<&Settings::outline, &AssembleOptions::unite_islands>(
            "overlap", choice<bool>({{"error", false}, {"union", true}}),
            "`union`: islands that overlap or share edges are merged, see below."),
@@ -240,7 +244,9 @@ void read_geometry_table(const CaseTable& table, const std::string& case_path, S
     files.push_back({(folder / file).string(),
                      fmt::format("{}: 'geometry.file'", table.place("file")),
                      {},
-                     given.layers});
+                     given.layers,
+                     "none",
+                     given.spline.value_or(is_airfoil_file(file))});
   if (files.empty()) table.refuse("file", "is empty; name the outline, as in file = \"outline.geom\"");
   if (!given.layers.empty() && std::ranges::none_of(given.files, has_layers_of_drawings))
     table.refuse("layers", "chooses layers of drawings and maps, but no file is one");
@@ -256,7 +262,10 @@ void read_geometry_table(const CaseTable& table, const std::string& case_path, S
 }
 
 void read_spacing_table(const CaseTable& table, Settings& settings) {
+  constexpr double height_share = 1.0 / 16;  // of the smallest cells, by which boundary nodes may move
   spacing_keys().read(table, settings);
+  if (settings.min) settings.outline.chord_height = height_share * *settings.min;
+  if (settings.mesh.size.curvature) settings.outline.cell_degrees = *settings.mesh.size.curvature;
   if (settings.min && settings.max && *settings.min > *settings.max)
     table.refuse("min", fmt::format("is {}, but must not be above spacing.max, which is {}", *settings.min,
                                     *settings.max));

@@ -30,11 +30,13 @@ struct GeometryInput {
   /// "none": coordinates are taken unchanged; "file": in the unit that the file declares; or a name of
   /// length_units.hpp. Except for "none" coordinates are converted to metres.
   std::string unit = "none";
+  bool spline = false;  ///< its points are joined by cubic splines from corner to corner
 };
 
 /// The files of a case and their placement: each list has one value for all files, or one per file.
 struct Placement {
   std::vector<std::string> files, layers, unit;
+  std::optional<bool> spline;
   std::vector<double> scale, rotate;
   std::vector<Point> rotate_about, translate;
 };

@@ -117,21 +117,21 @@ std::vector<char> loops_against(const Geometry& outline, const Mesh& whole) {
 }
 
 Geometry with_loops_turned(const Geometry& outline, const std::vector<char>& turned) {
-  std::vector<Point> points(outline.points().begin(), outline.points().end());
-  std::vector<BoundaryId> segment_boundary;
-  std::vector<std::int32_t> starts{0};
-  for (std::int32_t v = 0; v < outline.size(); ++v) segment_boundary.push_back(outline.boundary_of(v));
+  GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < outline.loop_count(); ++loop) {
     const std::int32_t begin = outline.loop_start(loop), end = outline.loop_start(loop + 1);
-    starts.push_back(end);
-    if (turned[loop] == 0) continue;
-    std::reverse(points.begin() + begin + 1, points.begin() + end);
-    std::reverse(segment_boundary.begin() + begin, segment_boundary.begin() + end);
+    std::int32_t v = begin;
+    for (std::int32_t count = begin; count < end; ++count) {
+      const std::int32_t before = outline.previous(v);
+      if (turned[loop] != 0)
+        builder.add(outline.point(v), outline.boundary_of(before), reversed(outline.curve(before)));
+      else
+        builder.add(outline, v);
+      v = turned[loop] != 0 ? before : outline.next(v);
+    }
+    builder.end_loop();
   }
-  return {{outline.boundaries().begin(), outline.boundaries().end()},
-          std::move(points),
-          std::move(starts),
-          std::move(segment_boundary)};
+  return std::move(builder).geometry(outline.boundaries());
 }
 
 }  // namespace quadloop

@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t usually_near = 16;  ///< usual number of near segments
 constexpr int short_walk = 8;             ///< in segments; farther places are found by search
 
-Box widened(const Box& box, double by) { return {box.low - Point{by, by}, box.high + Point{by, by}}; }
-
 }  // namespace
 
 OutlinePath::OutlinePath(const Geometry& geometry)
@@ -31,6 +29,8 @@ OutlinePath::OutlinePath(const Geometry& geometry)
     }
     length_.push_back(arc);
   }
+  for (std::int32_t s = 0; geometry.has_curves() && s < geometry.size(); ++s)
+    height_ = std::max(height_, height_of_hull(geometry.segment(s)));
 }
 
 std::int32_t OutlinePath::segment_at(std::int32_t loop, double arc) const {
@@ -57,9 +57,10 @@ OutlinePlace OutlinePath::moved(const OutlinePlace& from, double step) const {
 void OutlinePath::points_at(const OutlinePlace& from, std::span<const double> steps,
                             std::span<Point> points) const {
   const Line line = line_of(from.segment);
+  const bool straight = !geometry_.is_curved(from.segment);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const double arc = within(from.loop, from.arc + steps[k]);
-    points[k] = line.holds(arc) ? line.point_at(arc) : point_at(moved(from, steps[k]));
+    points[k] = straight && line.holds(arc) ? line.point_at(arc) : point_at(moved(from, steps[k]));
   }
 }
 
@@ -72,22 +73,27 @@ OutlinePath::Segments OutlinePath::segments_near(Box box) const {
 
 void OutlinePath::find_segments_near(Box box, Segments& near) const {
   near.clear();
-  segments_.for_each_meeting(widened(box, tolerance_), [&](std::int32_t s) { near.push_back(s); });
+  segments_.for_each_meeting(widened(box, tolerance_ + height_), [&](std::int32_t s) { near.push_back(s); });
 }
 
 /// The nearest segment of that boundary, the lowest index of equal ones; none if farther than `within`.
 OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, double within,
                                           std::span<const std::int32_t> near) const {
   Nearest found{-1, within};
-  const Box reach = widened({p, p}, within);
+  const Box reach = widened({p, p}, within + height_);
   for (const std::int32_t s : near) {
     if (!box_of_segment(s).meets(reach) || !is_of(s, boundary)) continue;
-    const double distance = distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
+    const double distance = distance_to(s, p);
     if (distance > found.distance || (distance == found.distance && found.segment >= 0 && s > found.segment))
       continue;
     found = {s, distance};
   }
   return found;
+}
+
+double OutlinePath::distance_to(std::int32_t segment, Point p) const {
+  if (geometry_.is_curved(segment)) return length(p - geometry_.on_curve(segment, p));
+  return distance_to_segment(p, geometry_.point(segment), geometry_.point(geometry_.next(segment)));
 }
 
 bool OutlinePath::has(const std::string& boundary) const {

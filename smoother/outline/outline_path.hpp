@@ -22,7 +22,7 @@ struct OutlinePlace {
   bool valid() const { return loop >= 0; }
 };
 
-/// The geometry as curves along which nodes slide.
+/// The geometry as curves along which nodes slide. Arc lengths are those of chords.
 class OutlinePath {
  public:
   /// `geometry` must outlive it.
@@ -57,7 +57,9 @@ class OutlinePath {
   OutlinePlace place_at(std::int32_t loop, double arc) const;
   /// The place at the distance `step` from another one (negative: backwards); fast for short steps.
   OutlinePlace moved(const OutlinePlace& from, double step) const;
-  Point point_at(const OutlinePlace& place) const { return line_of(place.segment).point_at(place.arc); }
+  Point point_at(const OutlinePlace& place) const {
+    return geometry_.on_curve(place.segment, line_of(place.segment).point_at(place.arc));
+  }
   /// Prefetches the segment of a place.
   void fetch(const OutlinePlace& place) const {
     __builtin_prefetch(&arc_[place.segment]);
@@ -116,6 +118,9 @@ class OutlinePath {
   Box box_of_segment(std::int32_t s) const {
     return box_of(geometry_.point(s), geometry_.point(geometry_.next(s)));
   }
+  static Box widened(const Box& box, double by) {
+    return {box.low - Point{by, by}, box.high + Point{by, by}};
+  }
   std::int32_t segment_at(std::int32_t loop, double arc) const;
   /// A segment and its range of arc lengths: `begin` included, `end` excluded.
   struct Line {
@@ -132,6 +137,8 @@ class OutlinePath {
     const double end = next <= segment ? std::numeric_limits<double>::infinity() : arc_[next];
     return {geometry_.point(segment), geometry_.point(next), arc_[segment], end};
   }
+  /// The distance of a point from a segment; from a curve the distance along the normal of its chord.
+  double distance_to(std::int32_t segment, Point p) const;
   double within(std::int32_t loop, double arc) const {
     const double whole = loop_length(loop);
     if (arc < 0) arc += whole;
@@ -152,6 +159,7 @@ class OutlinePath {
   std::vector<double> arc_;     ///< of each vertex, from its loop's first
   std::vector<double> length_;  ///< of each loop
   double tolerance_ = 0;
+  double height_ = 0;  ///< largest distance of a curve from its chord
   SegmentTree segments_;
 };
 

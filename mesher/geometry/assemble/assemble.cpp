@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
+#include "mesher/geometry/assemble/subdivide_curves.hpp"
 #include "mesher/geometry/assemble/united_islands.hpp"
 #include "mesher/geometry/validate.hpp"
 
@@ -20,6 +23,7 @@ namespace {
 void turn_round(OutlineLoop& loop) {
   std::reverse(loop.points.begin() + 1, loop.points.end());
   std::reverse(loop.boundary.begin(), loop.boundary.end());
+  loop.curves = reversed(std::move(loop.curves));
 }
 
 std::string turned_text(const Outline& outline, const OutlineLoop& loop, const LoopNesting& nesting) {
@@ -114,21 +118,14 @@ std::vector<Boundary> boundaries_of(Outline& outline, const AssembleOptions& opt
 
 Geometry to_geometry(Outline outline, const AssembleOptions& options) {
   std::vector<Boundary> boundaries = boundaries_of(outline, options);
-  std::size_t size = 0;
-  for (const OutlineLoop& loop : outline.loops) size += loop.points.size();
-  std::vector<Point> points;
-  std::vector<BoundaryId> segment_boundary;
-  points.reserve(size);
-  segment_boundary.reserve(size);
-  std::vector<std::int32_t> loop_starts{0};
+  GeometryBuilder builder;
   for (OutlineLoop& loop : outline.loops) {
-    points.insert(points.end(), loop.points.begin(), loop.points.end());
-    segment_boundary.insert(segment_boundary.end(), loop.boundary.begin(), loop.boundary.end());
-    loop_starts.push_back(size32(points));
+    for (std::size_t i = 0; i < loop.points.size(); ++i)
+      builder.add(loop.points[i], loop.boundary[i], loop.curves.empty() ? Curve{} : loop.curves[i]);
+    builder.end_loop();
     loop = {};  // frees a long loop at once
   }
-  return Geometry(std::move(boundaries), std::move(points), std::move(loop_starts),
-                  std::move(segment_boundary));
+  return std::move(builder).geometry(std::move(boundaries));
 }
 
 constexpr const char* union_remedy = ", or set geometry.overlap = \"union\" to join islands that overlap";
@@ -146,6 +143,7 @@ void require_extent(const Geometry& g) {
 }  // namespace
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  subdivide_curves(chains, options);
   clean_chains(chains, warnings);
   join_rounded_ends(chains, options.join, warnings);
   if (chains.empty())

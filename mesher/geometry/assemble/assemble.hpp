@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct AssembleOptions {
   std::vector<BoundaryRule> rules;
   double default_corner_degrees = 30;  ///< for boundaries without a rule of their own
   double join = 1e-9;  ///< tolerance, as a fraction of the extent, within which ends of chains are joined
+  /// Largest distance of a curve from its chords, by the smallest cells: the nodes of a mesh move by it.
+  double chord_height = std::numeric_limits<double>::infinity();
+  double cell_degrees = 15;    ///< a curve may turn by so much along a cell
   bool unite_islands = false;  ///< unite islands that overlap or touch: united_islands()
   /// The chains come from a mesh, for example: no warnings about reversed loops or several domains.
   bool domain_is_known = false;

@@ -145,11 +145,77 @@ Curve hermite_curve(Point from, Point slope_from, Point to, Point slope_to) {
   return {{from + (h / 3) * slope_from, to - (h / 3) * slope_to}, {}, h};
 }
 
+/// Joins the points of a closed chain by a periodic cubic spline in the chord length.
+void make_periodic_spline(Chain& chain) {
+  // A slope depends on that of a point k places away by 0.27 to the power of k: 32 places are enough.
+  constexpr std::size_t around = 32;
+  const std::vector<Point>& points = chain.points;
+  const std::size_t n = points.size();
+  std::vector<Point> repeated;
+  for (std::size_t i = 0; i < n + 2 * around; ++i) repeated.push_back(points[(i + around * (n - 1)) % n]);
+  const std::vector<Point> slopes = slopes_of(repeated, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    chain.curves.push_back(hermite_curve(points[i], slopes[around + i], points[j], slopes[around + j]));
+  }
+}
+
+/// The corners of a chain: see join_by_splines(). The ends of an open chain are corners.
+std::vector<std::size_t> corners_of(const Chain& chain, double corner_degrees) {
+  constexpr double surely = 60, sharper_than_neighbours = 2;
+  const std::vector<Point>& p = chain.points;
+  const std::size_t n = p.size();
+  std::vector<double> turns(n, 180);
+  for (std::size_t i = chain.open ? 1 : 0; i + (chain.open ? 1 : 0) < n; ++i) {
+    const Point in = p[i] - p[(i + n - 1) % n], out = p[(i + 1) % n] - p[i];
+    turns[i] = std::abs(std::atan2(cross(in, out), dot(in, out))) * (180 / std::numbers::pi);
+  }
+  std::vector<std::size_t> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool is_end = chain.open && (i == 0 || i + 1 == n);
+    const double beside = std::max(turns[(i + n - 1) % n], turns[(i + 1) % n]);
+    const bool is_sharp = turns[i] > surely || turns[i] > sharper_than_neighbours * beside;
+    if (is_end || (turns[i] > corner_degrees && is_sharp)) corners.push_back(i);
+  }
+  return corners;
+}
+
 std::optional<Point> unit(std::optional<Point> p) {
   return p ? std::optional((1 / length(*p)) * *p) : std::nullopt;
 }
 
 }  // namespace
+
+std::pair<std::int64_t, Point> drop_repeats(Chain& chain, double within) {
+  std::vector<Point>& points = chain.points;
+  const auto near = [&](Point a, Point b) {
+    return std::abs(a.x - b.x) <= within && std::abs(a.y - b.y) <= within;
+  };
+  const auto repeated = std::adjacent_find(points.begin(), points.end(), near);
+  const bool ends_at_start = !chain.open && points.size() > 1 && near(points.back(), points.front());
+  if (repeated == points.end() && !ends_at_start) return {};
+  const Point first = repeated == points.end() ? points.back() : *repeated, last = points.back();
+  const std::size_t before = points.size();
+  std::size_t kept = 1;
+  for (std::size_t i = 1; i < before; ++i) {
+    if (near(points[kept - 1], points[i])) continue;
+    if (!chain.curves.empty()) chain.curves[kept - 1] = std::move(chain.curves[i - 1]);
+    points[kept++] = points[i];
+  }
+  while (!chain.open && kept > 1 && near(points[kept - 1], points.front())) --kept;
+  if (!chain.curves.empty() && !chain.open) chain.curves[kept - 1] = std::move(chain.curves[before - 1]);
+  points.resize(kept);
+  if (chain.open && kept == 1 && last != points.front()) points.push_back(last);
+  if (chain.open) points.back() = last;
+  if (!chain.curves.empty()) chain.curves.resize(chain.open ? points.size() - 1 : points.size());
+  return {before - points.size(), first};
+}
+
+std::vector<Curve> reversed(std::vector<Curve> curves) {
+  std::ranges::reverse(curves);
+  for (Curve& curve : curves) curve = reversed(std::move(curve));
+  return curves;
+}
 
 void append_segment(Chain& chain, Curve curve, Point to) {
   if (!curve.straight()) chain.curves.resize(chain.points.size() - 1);
@@ -190,7 +256,7 @@ void append_bulge(Chain& chain, double bulge, Point to) {
 }
 
 std::string fault_of(const BSpline& spline) {
-  constexpr int largest_degree = 15;
+  constexpr int largest_degree = Curve::largest_degree;
   const std::size_t poles = spline.poles.size();
   if (spline.degree < 1 || spline.degree > largest_degree)
     return fmt::format("its degree is {}, but degrees from 1 to {} are read", spline.degree, largest_degree);
@@ -240,20 +306,23 @@ void append_spline(Chain& chain, std::span<const Point> points, const EndDirecti
     append_segment(chain, hermite_curve(through[i - 1], slopes[i - 1], through[i], slopes[i]), through[i]);
 }
 
-void make_closed_spline(Chain& chain) {
-  // A slope depends on that of a point k places away by 0.27 to the power of k: 32 places are enough.
-  constexpr std::size_t around = 32;
-  const std::vector<Point> points = std::exchange(chain.points, {});
-  const std::size_t n = points.size();
-  std::vector<Point> repeated;
-  for (std::size_t i = 0; i < n + 2 * around; ++i) repeated.push_back(points[(i + around * (n - 1)) % n]);
-  const std::vector<Point> slopes = slopes_of(repeated, {});
-  chain.curves.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    chain.curves.push_back(hermite_curve(points[i], slopes[around + i], points[j], slopes[around + j]));
+void join_by_splines(Chain& chain, double corner_degrees) {
+  drop_repeats(chain, 0);
+  const std::size_t n = chain.points.size();
+  if (n < 3) return;
+  const std::vector<std::size_t> corners = corners_of(chain, corner_degrees);
+  if (corners.empty()) return make_periodic_spline(chain);
+  const auto at = [&](std::size_t i) { return chain.points[i % n]; };
+  Chain joined{chain.name, true, {at(corners.front())}, chain.source, chain.directed};
+  for (std::size_t c = 0; c + (chain.open ? 1 : 0) < corners.size(); ++c) {
+    const std::size_t end = c + 1 < corners.size() ? corners[c + 1] : corners.front() + n;
+    std::vector<Point> through;
+    for (std::size_t i = corners[c] + 1; i <= end; ++i) through.push_back(at(i));
+    append_spline(joined, through);
   }
-  chain.points = points;
+  joined.open = chain.open;
+  if (!chain.open) joined.points.pop_back();
+  chain = std::move(joined);
 }
 
 }  // namespace quadloop

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
+
+/// Drops points whose distance from the previous one along each axis is at most `within`, with the segments
+/// between them; of a closed chain also last points as near to the first. An open chain keeps its ends, if
+/// they differ. Returns the number of dropped points and the first of them.
+std::pair<std::int64_t, Point> drop_repeats(Chain& chain, double within);
+
+/// The segments in reverse order, each from its other end.
+std::vector<Curve> reversed(std::vector<Curve> curves);
 
 /// Continues a chain by a segment from its last point. The chain must have a point.
 void append_segment(Chain& chain, Curve curve, Point to);
@@ -58,7 +68,9 @@ struct EndDirections {
 };
 void append_spline(Chain& chain, std::span<const Point> points, const EndDirections& directions = {});
 
-/// Joins the points of a closed chain by a periodic cubic spline in the chord length.
-void make_closed_spline(Chain& chain);
+/// Joins the points of a chain of straight segments by cubic splines from corner to corner. A corner turns by
+/// more than `corner_degrees`, and by more than 60 degrees or twice as much as both its neighbours: points on
+/// a sharply curved nose are none. A closed chain without corners becomes a periodic spline.
+void join_by_splines(Chain& chain, double corner_degrees);
 
 }  // namespace quadloop

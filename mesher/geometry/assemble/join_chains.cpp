@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
 
 namespace quadloop {
 
@@ -43,21 +45,6 @@ struct Dropped {
   std::int64_t count = 0;
   Point first;
 };
-
-/// Returns the place of the first dropped point.
-std::optional<Point> drop_repeated(Chain& chain, std::int64_t& count) {
-  const auto before = chain.points.size();
-  const auto repeated = std::adjacent_find(chain.points.begin(), chain.points.end());
-  std::optional<Point> first;
-  if (repeated != chain.points.end()) first = *repeated;
-  chain.points.erase(std::unique(chain.points.begin(), chain.points.end()), chain.points.end());
-  while (!chain.open && chain.points.size() > 1 && chain.points.front() == chain.points.back()) {
-    if (!first) first = chain.points.back();
-    chain.points.pop_back();
-  }
-  count += before - chain.points.size();
-  return first;
-}
 
 /// The ends of open chains, numbered 2 * chain for the first point and 2 * chain + 1 for the last.
 class ChainEnds {
@@ -155,6 +142,7 @@ class Joiner {
       } else {
         loop.points = std::move(chains_[c].points);
         loop.boundary.assign(loop.points.size(), numbers_.at(chains_[c].name));
+        loop.curves = std::move(chains_[c].curves);
       }
       require_area(chains_[c], loop);
       outline_.loops.push_back(std::move(loop));
@@ -174,13 +162,26 @@ class Joiner {
     std::size_t entered = 2 * first;
     do {
       const std::size_t c = entered / 2;
-      std::vector<Point> points = chains_[c].points;
-      if (entered % 2 == 1) std::reverse(points.begin(), points.end());
+      std::vector<Point> points = std::move(chains_[c].points);
+      std::vector<Curve> curves = std::move(chains_[c].curves);
+      if (entered % 2 == 1) {
+        std::reverse(points.begin(), points.end());
+        curves = reversed(std::move(curves));
+      }
       used_[c] = 1;
+      append(std::move(curves), loop);
       loop.points.insert(loop.points.end(), points.begin(), points.end() - 1);
+      if (!loop.curves.empty()) loop.curves.resize(loop.points.size());
       loop.boundary.resize(loop.points.size(), numbers_.at(chains_[c].name));
       entered = ends_.partner(entered ^ 1);
     } while (entered != 2 * first);
+  }
+
+  /// Appends the shapes of segments, before their points are appended.
+  static void append(std::vector<Curve> curves, OutlineLoop& loop) {
+    if (curves.empty()) return;
+    loop.curves.resize(loop.points.size());
+    std::ranges::move(curves, std::back_inserter(loop.curves));
   }
 
   static void require_area(const Chain& chain, const OutlineLoop& loop) {
@@ -205,12 +206,11 @@ void clean_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings
   std::vector<Dropped> dropped;
   for (Chain& chain : chains) {
     require_finite(chain);
-    std::int64_t count = 0;
-    const std::optional<Point> first = drop_repeated(chain, count);
-    if (!first) continue;
+    const auto [count, first] = drop_repeats(chain, 0);
+    if (count == 0) continue;
     auto of_name =
         std::find_if(dropped.begin(), dropped.end(), [&](const Dropped& d) { return d.name == chain.name; });
-    if (of_name == dropped.end()) of_name = dropped.insert(of_name, {chain.name, 0, *first});
+    if (of_name == dropped.end()) of_name = dropped.insert(of_name, {chain.name, 0, first});
     of_name->count += count;
   }
   std::erase_if(chains, [](const Chain& chain) { return chain.open && chain.points.size() < 2; });

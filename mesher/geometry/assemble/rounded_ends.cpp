@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
 
 namespace quadloop {
 
@@ -27,23 +28,6 @@ double rounding_of(const std::vector<Chain>& chains) {
     }
   }
   return units_in_last_place * std::numeric_limits<double>::epsilon() * largest;
-}
-
-/// Drops points within rounding of the previous one; keeps the ends of an open chain. Returns the number of
-/// dropped points.
-std::int64_t drop_near_repeats(Chain& chain, double rounding) {
-  const auto near = [&](Point a, Point b) {
-    return std::abs(a.x - b.x) <= rounding && std::abs(a.y - b.y) <= rounding;
-  };
-  auto& points = chain.points;
-  if (points.size() < 2) return 0;
-  const std::size_t before = points.size();
-  const Point last = points.back();
-  points.erase(std::unique(points.begin(), points.end(), near), points.end());
-  if (chain.open && points.size() == 1) points.push_back(last);
-  if (chain.open) points.back() = last;
-  while (!chain.open && points.size() > 1 && near(points.back(), points.front())) points.pop_back();
-  return before - points.size();
 }
 
 /// Ends of open chains that coincide exactly with no other end, by place. Number 2 * chain is the first
@@ -180,7 +164,7 @@ void drop_repeated_chains(std::vector<Chain>& chains, std::vector<std::string>& 
 void join_rounded_ends(std::vector<Chain>& chains, double share, std::vector<std::string>& warnings) {
   const double rounding = rounding_of(chains);
   std::int64_t dropped = 0;
-  for (Chain& chain : chains) dropped += drop_near_repeats(chain, rounding);
+  for (Chain& chain : chains) dropped += drop_repeats(chain, rounding).first;
   if (dropped > 0) {
     warnings.push_back(
         fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before",

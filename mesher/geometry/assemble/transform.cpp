@@ -34,6 +34,10 @@ void apply(const Transform& transform, std::vector<Chain>& chains) {
   const Point turn = direction(transform.rotate_degrees);
   for (Chain& chain : chains) {
     for (Point& p : chain.points) p = placed(p, transform, turn);
+    for (Curve& curve : chain.curves) {
+      for (Point& p : curve.inner) p = placed(p, transform, turn);
+      curve.spacing *= transform.scale;
+    }
   }
 }
 

@@ -20,6 +20,17 @@ namespace quadloop {
 
 namespace {
 
+void require_polygons(const Outline& outline) {
+  for (const OutlineLoop& loop : outline.loops) {
+    if (loop.curves.empty()) continue;
+    const Point p = loop.points.front();
+    throw InputError(fmt::format(
+        "{}: boundary '{}' at ({}, {}) has curves, which geometry.overlap = \"union\" does not unite; unite "
+        "the shapes in the drawing, or set geometry.spline = false",
+        loop.source, outline.names[loop.boundary.front().value()], p.x, p.y));
+  }
+}
+
 using LoopGroup = std::vector<std::int32_t>;  ///< loops that meet, ascending
 
 double longer_side_of(const Outline& outline) {
@@ -291,6 +302,7 @@ class IslandUnion {
 };
 
 void require_simple_loops(const Outline& outline) {
+  require_polygons(outline);
   for (const OutlineLoop& loop : outline.loops) validate({outline.names, {loop}});
 }
 

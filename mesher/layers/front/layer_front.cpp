@@ -63,7 +63,7 @@ class OuterOutline {
   void build(LayerFront& into) {
     for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
       for (std::int32_t v = g_.loop_start(loop); v < g_.loop_start(loop + 1); ++v) add_segment(v);
-      starts_.push_back(size32(points_));
+      builder_.end_loop();
     }
     for (const PlacedLine& line : lines_) {
       if (line.edge == PlacedLine::nowhere) add_free_strip(line);
@@ -71,7 +71,8 @@ class OuterOutline {
     std::vector<Boundary> boundaries(g_.boundaries().begin(), g_.boundaries().end());
     if (!strips_.empty()) boundaries.push_back({.name = "wakes and free lines", .corner_degrees = 180});
     into.strips = std::move(strips_);
-    into.outer = Geometry(std::move(boundaries), std::move(points_), std::move(starts_), std::move(boundary_))
+    into.outer = std::move(builder_)
+                     .geometry(std::move(boundaries))
                      .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
     for (const std::int32_t i : station_of_)
       into.last_heights.push_back(i == WallLine::none ? 0 : (last_layer(i) + last_layer(line_.next(i))) / 2);
@@ -87,10 +88,14 @@ class OuterOutline {
   void add_segment(std::int32_t s) {
     if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
       add_front(first, s);
-    } else if (!begins_below(s) && !is_base(s) && !covered_[s]) {
+    } else if (stays(s)) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none, g_.spacing_of(s), g_.kept(s),
-                 g_.bend_degrees(s));
+                 g_.bend_degrees(s), stays(g_.next(s)) ? g_.curve(s) : Curve{});
     }
+  }
+  /// Whether vertex s of the geometry is one of the outer geometry.
+  bool stays(std::int32_t s) const {
+    return first_of_segment_[s] == WallLine::none && !begins_below(s) && !is_base(s) && !covered_[s];
   }
   void cover_ends();
   void add_front(std::int32_t first, std::int32_t s);
@@ -104,9 +109,8 @@ class OuterOutline {
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
   void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept,
-                  double bend) {
-    points_.push_back(p);
-    boundary_.push_back(boundary);
+                  double bend, const Curve& curve = {}) {
+    builder_.add(p, boundary, curve);
     station_of_.push_back(station);
     spacing_.push_back(spacing);
     kept_.push_back(kept ? 1 : 0);
@@ -131,9 +135,7 @@ class OuterOutline {
   std::vector<char> covered_;  ///< flags of vertices on which a run's last column lies
   std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
   std::vector<char> is_base_;                            ///< flags of segments: a wake begins there
-  std::vector<Point> points_;
-  std::vector<std::int32_t> starts_{0};
-  std::vector<BoundaryId> boundary_;
+  GeometryBuilder builder_;
   std::vector<std::int32_t> station_of_;
   std::vector<double> spacing_;
   std::vector<char> kept_;
@@ -186,7 +188,7 @@ void OuterOutline::add_wake(std::int32_t i) {
 void OuterOutline::add_free_strip(const PlacedLine& line) {
   strips_.push_back(layer_strip(line, {}));
   add_front_of(strips_.back());
-  starts_.push_back(size32(points_));
+  builder_.end_loop();
 }
 
 void OuterOutline::add_front_of(const LayerStrip& strip) {

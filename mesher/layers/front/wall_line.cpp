@@ -85,6 +85,18 @@ std::vector<Point> places_between(Point from, Point to, double thickness, double
   return places;
 }
 
+void set_on_curve(const CurvePoint& at, Station& station) {
+  station.wall = at.point;
+  station.before = station.after = at.direction;
+  station.direction = left_of(at.direction);
+}
+
+/// The unit direction of a segment at its first or its last point, a tangent of its curve.
+Point direction_along(const Geometry& g, std::int32_t s, bool at_start) {
+  if (!g.is_curved(s)) return direction_of(g.point(s), g.point(g.next(s)));
+  return at_start ? direction_at_start(g.segment(s)) : direction_at_end(g.segment(s));
+}
+
 }  // namespace
 
 WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
@@ -127,8 +139,8 @@ void WallLine::add_corner(const WallRun& run, std::size_t k) {
   const Geometry& g = *geometry_;
   Station station;
   station.wall = g.point(after);
-  station.before = direction_of(g.point(before), g.point(after));
-  station.after = direction_of(g.point(after), g.point(g.next(after)));
+  station.before = direction_along(g, before, false);
+  station.after = direction_along(g, after, true);
   station.segment = after;
   station.layers = run.layers[k];
   station.kept = g.kept(after);
@@ -185,6 +197,7 @@ void WallLine::add_between(const WallRun& run, std::size_t k) {
   station.direction = left_of(station.after);
   for (const Point p : places_between(from, to, thickness, g.spacing_of(s))) {
     station.wall = p;
+    if (g.is_curved(s)) set_on_curve(above_chord(g.segment(s), p), station);
     stations_.push_back(station);
   }
 }
@@ -196,7 +209,7 @@ void WallLine::add_end(const WallRun& run, bool first) {
   const std::int32_t vertex = first ? s : g.next(s);
   Station station;
   station.wall = g.point(vertex);
-  station.before = station.after = direction_of(g.point(s), g.point(g.next(s)));
+  station.before = station.after = direction_along(g, s, first);
   station.segment = s;
   station.layers = first ? run.layers.front() : run.layers.back();
   station.shape = Station::Shape::end;

@@ -1,0 +1,279 @@
+#include "mesher/geometry/assemble/subdivide_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Turning angle of a curve that requests no spacing, per cell: it requests the length of such a piece.
+constexpr double degrees_of_cell = 15;
+/// Largest turning angle of a curve over its chord, as a fraction of the turning angle per cell.
+constexpr double turn_share = 0.25;
+/// Largest distance of a curve from its chord, as a fraction of the requested cell size (by default cells are
+/// not smaller than half of it), and of the thickness of layers.
+constexpr double height_share = 1.0 / 32, height_in_layers = 1.0 / 500;
+/// Curves shorter than this fraction of the extent are not subdivided.
+constexpr double shortest_share = 1e-12;
+
+/// A segment of a chain, while it is subdivided.
+struct Piece {
+  CurvedSegment segment;
+  std::size_t chain = 0;
+};
+
+/// The largest turning angle of a curve over its chord, and its largest height above it.
+struct ChordLimits {
+  double degrees = 0, height = 0;
+};
+
+/// The chord limits of the boundaries.
+class ChordLimitsByName {
+ public:
+  ChordLimitsByName(const std::vector<Chain>& chains, const AssembleOptions& options) {
+    std::vector<std::string> names;
+    for (const Chain& chain : chains) {
+      if (limits_.try_emplace(chain.name).second) names.push_back(chain.name);
+    }
+    for (const Boundary& b : boundaries_by_rules(names, options.rules, options.default_corner_degrees))
+      limits_.at(b.name) = limits_of(b, options);
+  }
+
+  bool hold(const Piece& piece, const std::string& name) const {
+    const ChordLimits& limits = limits_.at(name);
+    const double height = std::min(limits.height, height_share * piece.segment.curve.spacing);
+    return turning_of_hull(piece.segment) <= limits.degrees && height_of_hull(piece.segment) <= height;
+  }
+
+ private:
+  static ChordLimits limits_of(const Boundary& b, const AssembleOptions& options) {
+    ChordLimits limits{turn_share * std::min(options.cell_degrees, degrees_of_cell), options.chord_height};
+    for (const double size : {b.spacing, b.corner_spacing}) {
+      if (size > 0) limits.height = std::min(limits.height, height_share * size);
+    }
+    if (b.layers) limits.height = std::min(limits.height, height_in_layers * layers_thickness(*b.layers));
+    return limits;
+  }
+
+  std::map<std::string, ChordLimits> limits_;
+};
+
+/// Convex hull of the control points, counter-clockwise (Andrew 1979); two points if they are collinear.
+std::vector<Point> hull_of(const CurvedSegment& segment) {
+  std::vector<Point> points = segment.curve.inner;
+  points.insert(points.end(), {segment.from, segment.to});
+  std::ranges::sort(points);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  std::vector<Point> hull;
+  const auto add_chain = [&](auto first, auto last) {
+    const std::size_t base = hull.size();
+    for (; first != last; ++first) {
+      while (hull.size() >= base + 2 && orientation(hull[hull.size() - 2], hull.back(), *first) <= 0)
+        hull.pop_back();
+      hull.push_back(*first);
+    }
+    hull.pop_back();
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull;
+}
+
+Box box_of(std::span<const Point> points) {
+  Box box;
+  for (const Point p : points) box.include(p);
+  return box;
+}
+
+bool contains(std::span<const Point> hull, Point p) {
+  if (hull.size() < 3) return false;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    if (orientation(hull[i], hull[(i + 1) % hull.size()], p) < 0) return false;
+  }
+  return true;
+}
+
+bool hulls_meet(std::span<const Point> a, std::span<const Point> b) {
+  if (contains(a, b.front()) || contains(b, a.front())) return true;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      if (segments_meet(a[i], a[(i + 1) % a.size()], b[j], b[(j + 1) % b.size()])) return true;
+    }
+  }
+  return false;
+}
+
+/// The directions from a common corner within which a hull lies: from `right` counter-clockwise to `left`.
+struct Cone {
+  Point corner, right, left;
+
+  Cone(Point at, std::span<const Point> hull) : corner{at} {
+    bool first = true;
+    for (const Point p : hull) {
+      if (p == at) continue;
+      if (first || orientation(at, right, p) < 0) right = p;
+      if (first || orientation(at, left, p) > 0) left = p;
+      first = false;
+    }
+  }
+  bool holds(Point p) const {
+    return dot(p - corner, left - corner) + dot(p - corner, right - corner) > 0 &&
+           orientation(corner, right, p) >= 0 && orientation(corner, left, p) <= 0;
+  }
+  bool meets(const Cone& other) const {
+    return holds(other.left) || holds(other.right) || other.holds(left) || other.holds(right);
+  }
+};
+
+std::optional<Point> common_end(const CurvedSegment& a, const CurvedSegment& b) {
+  for (const Point p : {a.from, a.to}) {
+    if (p == b.from || p == b.to) return p;
+  }
+  return {};
+}
+
+class Subdivision {
+ public:
+  Subdivision(const std::vector<Chain>& chains, const AssembleOptions& options)
+      : chains_{chains}, limits_{chains, options} {
+    Box box;
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+      const Chain& chain = chains[c];
+      for (const Point p : chain.points) box.include(p);
+      const std::size_t segments = chain.points.size() - (chain.open ? 1 : 0);
+      for (std::size_t s = 0; s < segments; ++s) {
+        const Curve curve = chain.curves.empty() ? Curve{} : chain.curves[s];
+        pieces_.push_back({{chain.points[s], curve, chain.points[(s + 1) % chain.points.size()]}, c});
+      }
+    }
+    shortest_ = shortest_share * std::max(box.width(), box.height());
+  }
+
+  void run() {
+    halve_while([](const Piece& piece) {
+      return piece.segment.curve.spacing == 0 && turning_of_hull(piece.segment) > degrees_of_cell;
+    });
+    for (Piece& piece : pieces_) {
+      Curve& curve = piece.segment.curve;
+      if (!curve.straight() && curve.spacing == 0) curve.spacing = chord_of(piece);
+    }
+    halve_while([&](const Piece& piece) { return !limits_.hold(piece, chains_[piece.chain].name); });
+    while (separate()) {
+    }
+  }
+
+  /// The chains with the pieces as their segments.
+  std::vector<Chain> chains() const {
+    std::vector<Chain> chains = chains_;
+    for (Chain& chain : chains) {
+      if (chain.open && chain.points.size() > 1) chain.points.erase(chain.points.begin(), chain.points.end() - 1);
+      if (!chain.open) chain.points.clear();
+      chain.curves.clear();
+    }
+    for (const Piece& piece : pieces_) {
+      Chain& chain = chains[piece.chain];
+      chain.points.insert(chain.points.end() - (chain.open ? 1 : 0), piece.segment.from);
+      chain.curves.push_back(piece.segment.curve);
+    }
+    return chains;
+  }
+
+ private:
+  static double chord_of(const Piece& piece) { return length(piece.segment.to - piece.segment.from); }
+  bool can_be_halved(const Piece& piece) const {
+    return !piece.segment.curve.straight() && chord_of(piece) + height_of_hull(piece.segment) > shortest_;
+  }
+
+  /// Halves curves, and their halves, as long as `test` holds.
+  template <class Test>
+  void halve_while(const Test& test) {
+    std::vector<Piece> halved;
+    for (const Piece& piece : pieces_) {
+      std::vector<Piece> waiting{piece};
+      while (!waiting.empty()) {
+        const Piece next = std::move(waiting.back());
+        waiting.pop_back();
+        if (!can_be_halved(next) || !test(next)) {
+          halved.push_back(next);
+          continue;
+        }
+        const auto [first, second] = halves(next.segment);
+        waiting.push_back({second, next.chain});
+        waiting.push_back({first, next.chain});
+      }
+    }
+    pieces_ = std::move(halved);
+  }
+
+  /// Halves all curves whose hull meets that of another piece. Returns whether there were any.
+  bool separate() {
+    std::vector<std::vector<Point>> hulls;
+    for (const Piece& piece : pieces_) hulls.push_back(hull_of(piece.segment));
+    const BoxTree tree(size32(hulls), [&](std::int32_t i) { return box_of(hulls[i]); });
+    std::vector<char> meets(pieces_.size(), 0);
+    for (std::int32_t i = 0; i < size32(pieces_); ++i) {
+      if (pieces_[i].segment.curve.straight()) continue;
+      tree.for_each_meeting(box_of(hulls[i]), [&](std::int32_t j) {
+        if (i != j && overlap(i, j, hulls)) meets[i] = meets[j] = 1;
+      });
+    }
+    std::vector<Piece> separated;
+    bool any = false;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      if (meets[i] == 0 || !can_be_halved(pieces_[i])) {
+        separated.push_back(std::move(pieces_[i]));
+        continue;
+      }
+      any = true;
+      const auto [first, second] = halves(pieces_[i].segment);
+      separated.push_back({first, pieces_[i].chain});
+      separated.push_back({second, pieces_[i].chain});
+    }
+    pieces_ = std::move(separated);
+    return any;
+  }
+
+  /// Whether two pieces have more in common than an end. Throws InputError if they are too short to be
+  /// halved; pieces with a common end may touch each other there in a cusp.
+  bool overlap(std::int32_t i, std::int32_t j, const std::vector<std::vector<Point>>& hulls) const {
+    const Piece &a = pieces_[i], &b = pieces_[j];
+    if (const std::optional<Point> corner = common_end(a.segment, b.segment))
+      return Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j]));
+    if (!hulls_meet(hulls[i], hulls[j])) return false;
+    if (can_be_halved(a) || can_be_halved(b)) return true;
+    const Point at = a.segment.from;
+    throw InputError(fmt::format(
+        "{}: boundaries '{}' and '{}' touch or cross at ({}, {}); move them apart, or let both have a point "
+        "there",
+        chains_[a.chain].source, chains_[a.chain].name, chains_[b.chain].name, at.x, at.y));
+  }
+
+  const std::vector<Chain>& chains_;
+  ChordLimitsByName limits_;
+  std::vector<Piece> pieces_;
+  double shortest_ = 0;
+};
+
+}  // namespace
+
+void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options) {
+  const auto is_curved = [](const Chain& chain) { return !chain.curves.empty(); };
+  if (std::ranges::none_of(chains, is_curved)) return;
+  Subdivision subdivision(chains, options);
+  subdivision.run();
+  chains = subdivision.chains();
+}
+
+}  // namespace quadloop

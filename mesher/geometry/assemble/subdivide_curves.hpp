@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "mesher/geometry/geometry.hpp"
+
+namespace quadloop {
+
+struct AssembleOptions;
+
+/// Subdivides the curves of chains until decisions that are made on their chords hold for the curves too: no
+/// curve turns by more than 15 degrees nor is farther from its chord than a fraction of the cells there, and
+/// the convex hulls of the control points of two curves are disjoint, except for a common end. Then curves
+/// and chords are isotopic, as the curves can be deformed into their chords within these hulls. Throws
+/// InputError with a place if two curves touch.
+void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options);
+
+}  // namespace quadloop
