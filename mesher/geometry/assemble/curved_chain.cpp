@@ -199,11 +199,11 @@ std::pair<std::int64_t, Point> drop_repeats(Chain& chain, double within) {
   std::size_t kept = 1;
   for (std::size_t i = 1; i < before; ++i) {
     if (near(points[kept - 1], points[i])) continue;
-    if (!chain.curves.empty()) chain.curves[kept - 1] = std::move(chain.curves[i - 1]);
+    if (!chain.curves.empty()) chain.curves[kept - 1] = chain.curves[i - 1];
     points[kept++] = points[i];
   }
+  if (!chain.curves.empty() && !chain.open) chain.curves[kept - 1] = chain.curves[before - 1];
   while (!chain.open && kept > 1 && near(points[kept - 1], points.front())) --kept;
-  if (!chain.curves.empty() && !chain.open) chain.curves[kept - 1] = std::move(chain.curves[before - 1]);
   points.resize(kept);
   if (chain.open && kept == 1 && last != points.front()) points.push_back(last);
   if (chain.open) points.back() = last;

@@ -162,8 +162,8 @@ class Joiner {
     std::size_t entered = 2 * first;
     do {
       const std::size_t c = entered / 2;
-      std::vector<Point> points = std::move(chains_[c].points);
-      std::vector<Curve> curves = std::move(chains_[c].curves);
+      std::vector<Point> points = chains_[c].points;
+      std::vector<Curve> curves = chains_[c].curves;
       if (entered % 2 == 1) {
         std::reverse(points.begin(), points.end());
         curves = reversed(std::move(curves));

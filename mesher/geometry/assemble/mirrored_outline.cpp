@@ -9,10 +9,15 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
+#include "mesher/geometry/assemble/mirrored_curves.hpp"
 
 namespace quadloop {
 
 namespace {
+
+/// Largest distance of control points of a curve from those of its image, as a fraction of the extent.
+constexpr double curve_rounding = 1e-9;
 
 double gap(Point a, Point b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
@@ -116,6 +121,7 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
       if (side < 0) move(p, image_of(axis, *image));
     }
   }
+  fit_curves_to_mirror(chains, axis, curve_rounding * std::max(box.width(), box.height()));
   if (moved > 0) {
     warnings.push_back(
         fmt::format("{} points of the geometry were moved by a rounding error, onto mirror images of others "
@@ -188,13 +194,18 @@ std::vector<Chain> parts_above(const Geometry& geometry, MirrorAxis axis) {
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     Point from = geometry.point(s), to = geometry.point(geometry.next(s));
     if (side_of(axis, from) <= 0 && side_of(axis, to) <= 0) continue;
-    if (side_of(axis, from) < 0) from = foot_on(axis, from);  // its own image: at a right angle to the axis
-    if (side_of(axis, to) < 0) to = foot_on(axis, to);
+    Curve curve = geometry.curve(s);
+    if (side_of(axis, from) < 0 || side_of(axis, to) < 0) {  // its own image: at a right angle to the axis
+      const auto [first, second] = halves(geometry.segment(s));
+      const bool begins_above = side_of(axis, from) > 0;
+      curve = begins_above ? first.curve : second.curve;
+      (begins_above ? to : from) = foot_on(axis, first.to);
+    }
     const std::string& name = geometry.boundary(geometry.boundary_of(s)).name;
     const bool goes_on = !parts.empty() && parts.back().name == name && parts.back().points.back() == from &&
                          geometry.previous(s) == s - 1;
     if (!goes_on) parts.push_back({name, true, {from}, "half of the outline"});
-    parts.back().points.push_back(to);
+    append_segment(parts.back(), std::move(curve), to);
   }
   for (Chain& part : parts) {
     part.open = part.points.front() != part.points.back();
