@@ -23,7 +23,7 @@
 #include "quadloop/case/design_start.hpp"
 #include "quadloop/case/solver_settings.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -209,4 +209,4 @@ void add_adapt_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_adapt(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -17,7 +17,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -130,4 +130,4 @@ void add_check_command(CommandLine& line, CommandContext& context) {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -22,7 +22,7 @@
 #include "io/parts/part_output.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -216,4 +216,4 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_convert(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -29,7 +29,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -268,4 +268,4 @@ void add_extrude_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_extrude(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -216,4 +216,4 @@ std::function<void()> CommandLine::parse(int argc, char** argv, const Communicat
   return chosen_;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

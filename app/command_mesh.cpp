@@ -24,7 +24,7 @@
 #include "mesher/build/islands.hpp"
 #include "quadloop/case/case_input.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -208,4 +208,4 @@ void add_mesh_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_mesh(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -31,7 +31,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/outline/outline_match.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -287,4 +287,4 @@ void add_morph_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_morph(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

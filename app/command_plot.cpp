@@ -25,7 +25,7 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -263,4 +263,4 @@ void add_plot_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_plot(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

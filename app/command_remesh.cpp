@@ -25,7 +25,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "quadloop/case/case_input.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -298,4 +298,4 @@ void add_remesh_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_remesh(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

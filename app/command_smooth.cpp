@@ -30,7 +30,7 @@
 #include "smoother/outline/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -246,4 +246,4 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

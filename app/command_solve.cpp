@@ -26,7 +26,7 @@
 #include "mesher/mesh/variable_names.hpp"
 #include "quadloop/case/settings.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -228,4 +228,4 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_solve(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

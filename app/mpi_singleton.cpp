@@ -6,7 +6,7 @@
 
 #include "flow/command/environment.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -35,4 +35,4 @@ MpiSingleton::~MpiSingleton() {
   for (const char* name : set_) unsetenv(name);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -86,4 +86,4 @@ Chart chart_of_history(const std::string& input) {
   return histories.empty() ? chart_of_records(input, cycles) : history_chart(histories);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

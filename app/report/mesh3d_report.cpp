@@ -9,7 +9,7 @@
 #include "app/report/statistics.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<std::string> doubts_about(const FileMesh& mesh, const std::string& f
                       fault_text(statistics.faults.front()), more_faults(statistics.all_faults - 1))};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -7,7 +7,7 @@
 #include "io/model/file_mesh.hpp"
 #include "mesher/base/json.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Results of `check` for a 3D mesh: the table, and the record.
 std::string mesh3d_text(const FileMesh& mesh, const Mesh3dStatistics& statistics, bool verbose);
@@ -20,4 +20,4 @@ JsonObject mesh3d_record(const std::string& file, const FileMesh& mesh, const Me
 /// empty.
 std::vector<std::string> doubts_about(const FileMesh& mesh, const std::string& file);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -7,7 +7,7 @@
 #include "mesher/base/error.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -84,4 +84,4 @@ void require_valid(const LoadedMesh& smoothed, const std::string& file) {
                   file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -7,7 +7,7 @@
 #include "io/model/loaded_mesh.hpp"
 #include "mesher/mesh/check/validate.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Returns "; 2 faults more", or an empty string.
 std::string more_faults(std::int64_t count);
@@ -29,4 +29,4 @@ void require_valid_input(const LoadedMesh& loaded, const std::string& file);
 /// cells are still inverted, else its first error.
 void require_valid(const LoadedMesh& smoothed, const std::string& file);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -6,7 +6,7 @@
 
 #include "mesher/mesh/check/layer_statistics.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::string comparison_table(const ShapeReport& before, const ShapeReport& after
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

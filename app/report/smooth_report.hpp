@@ -9,7 +9,7 @@
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "smoother/shape_histogram.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Shape statistics of a mesh, over all ranks.
 struct ShapeReport {
@@ -29,4 +29,4 @@ JsonObject record_of(const ShapeReport& report);
 /// and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

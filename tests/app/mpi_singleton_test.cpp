@@ -10,7 +10,7 @@
 
 #include "flow/command/environment.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 namespace {
 
 constexpr const char* daemon = "OMPI_MCA_ess_singleton_isolated";
@@ -70,4 +70,4 @@ TEST_F(MpiSingletonTest, SaysNothingToOneOfALaunchersRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::app
