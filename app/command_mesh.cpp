@@ -127,7 +127,7 @@ Warnings solver_warnings(const Settings& settings, const SolverStatistics& shape
 /// metric-based cells; r-adaptation is not recorded in a tree.
 Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& saved, const MeshInput& input,
                               const TreeAttributes& made) {
-  const char* setting = setting_that_follows(input);
+  const char* setting = adapt::setting_that_follows(input);
   const bool same =
       saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
   if (!setting || (same && input.mesh.type == MeshType::metric)) return {};
@@ -139,7 +139,7 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
 
 /// Without a tree this command generates the initial mesh of a case whose cells follow a solution.
 Warnings first_mesh_warnings(const MeshInput& input) {
-  const char* setting = setting_that_follows(input);
+  const char* setting = adapt::setting_that_follows(input);
   if (!setting) return {};
   return {fmt::format(
       "{}: there is no solution yet: this is the first mesh of \"adapt\", that of the quadtree", setting)};
@@ -157,7 +157,8 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   comm.together([&] { prepared = prepare(arguments, saved, context.record.noted); });
   MeshInput& input = *prepared.input.mesh;
   input.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const DemandedSplits demanded(comm, saved ? unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
+  const DemandedSplits demanded(comm,
+                                saved ? adapt::unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
   const GeneratedMesh generated =

@@ -124,7 +124,7 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
   return input;
 }
 
-[[noreturn]] void refuse_way(const MorphArguments& arguments, const MorphReport& report) {
+[[noreturn]] void refuse_way(const MorphArguments& arguments, const adapt::MorphReport& report) {
   throw InputError(
       fmt::format("{}: cannot morph to {}: cells near ({:g}, {:g}) become inverted after {:.0f} % of the "
                   "movement; use smaller steps, or generate a new mesh",
@@ -132,7 +132,7 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
                   100 * report.possible_way));
 }
 
-void require_derivative(const MorphArguments& arguments, const MorphReport& report) {
+void require_derivative(const MorphArguments& arguments, const adapt::MorphReport& report) {
   if (report.smoothed)
     throw InputError(fmt::format(
         "{}: the mesh had to be smoothed on {}, so the node positions have no derivative; start from a mesh "
@@ -158,7 +158,8 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the geometry. *Collective.*
 void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
-                            const MorphInput& input, const Mesh& part, const MorphDerivative& derivative) {
+                            const MorphInput& input, const Mesh& part,
+                            const adapt::MorphDerivative& derivative) {
   Field of_whole;
   comm.together([&] {
     if (!comm.is_root()) return;
@@ -185,12 +186,12 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
 
 /// *Collective.*
 void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Mesh& part,
-                    const MorphDerivative& derivative, MorphInput& input) {
+                    const adapt::MorphDerivative& derivative, MorphInput& input) {
   if (!arguments.direction.empty()) add_velocities(comm, part, derivative.velocity(input.direction), input);
   if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, part, derivative);
 }
 
-Statistics statistics_of(const MorphReport& report) {
+Statistics statistics_of(const adapt::MorphReport& report) {
   Statistics statistics;
   statistics.add("nodes moved", report.moved);
   statistics.add("largest move", report.largest_move, "{:.4g}");
@@ -210,11 +211,11 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   if (comm.is_root() && input.whole.blocks > 1) interfaces = interface_nodes(input.whole);
   interfaces = NodeFlags(scatter_nodes(comm, interfaces, input.order));
   times.begin("morph");
-  const OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
-                             arguments.from};
-  std::optional<MorphDerivative> derivative;
+  const adapt::OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
+                                    arguments.from};
+  std::optional<adapt::MorphDerivative> derivative;
   if (arguments.wants_derivative()) derivative.emplace(comm, part, change);
-  const MorphReport report = morph_mesh(comm, part, change, interfaces);
+  const adapt::MorphReport report = adapt::morph_mesh(comm, part, change, interfaces);
   if (!report.valid()) refuse_way(arguments, report);
   gather_mesh(comm, part, input.order, input.whole.mesh);
   comm.together([&] {

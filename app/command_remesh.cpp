@@ -53,7 +53,7 @@ MeshCounts counts_of(const Mesh& whole) {
 /// and valid cells.
 LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedMesh named = read_mesh(arguments.mesh);
-  require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
+  adapt::require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
   for (const MeshFault& fault : validate(named.mesh)) {
     if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
         fault.rule != MeshRule::coincident)
@@ -74,7 +74,7 @@ LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& 
     if (!std::filesystem::exists(file)) continue;
     try {
       LoadedMesh loaded = read_mesh(file);
-      if (is_mesh_of_tree(loaded.mesh, tree)) return loaded;
+      if (adapt::is_mesh_of_tree(loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
     }
@@ -89,9 +89,10 @@ LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& 
 /// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. On the calling rank only.
 LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
   LoadedSolution solution = read_solution(arguments.solution);
-  if (solution.mesh) require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
+  if (solution.mesh)
+    adapt::require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
   LoadedMesh whole;
-  if (solution.mesh && is_mesh_of_tree(solution.mesh->mesh, tree)) {
+  if (solution.mesh && adapt::is_mesh_of_tree(solution.mesh->mesh, tree)) {
     whole = std::move(*solution.mesh);
   } else {
     whole = mesh_of_tree(arguments, tree);
@@ -110,7 +111,7 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   return whole;
 }
 
-Statistics transfer_statistics(const RemeshedSolution& remeshed) {
+Statistics transfer_statistics(const adapt::RemeshedSolution& remeshed) {
   Statistics statistics;
   statistics.add_raw("nodes outside the old mesh", std::to_string(remeshed.report.outside),
                      json_of(remeshed.report.outside), "outside");
@@ -129,7 +130,7 @@ struct RemeshProblem {
 };
 
 /// Writes the outputs; returns the statistics of the partitions, if requested. *Collective.*
-std::optional<PartStatistics> write(const Communicator& comm, const RemeshedSolution& remeshed,
+std::optional<PartStatistics> write(const Communicator& comm, const adapt::RemeshedSolution& remeshed,
                                     const RemeshProblem& problem) {
   OutputSet outputs(comm);
   PartFiles part_files(comm);
@@ -176,16 +177,16 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
 }
 
 /// Distributes the solved mesh. *Collective.*
-SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
+adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
   const LoadedMesh whole = std::exchange(problem.whole, {});
-  SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
+  adapt::SolvedMesh solved =
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
-  require_own_mesh(comm, solved, arguments.solution, arguments.tree);
+  adapt::require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;
 }
 
-void report(const CommandContext& context, const RemeshedSolution& remeshed, const StageTimes& times,
+void report(const CommandContext& context, const adapt::RemeshedSolution& remeshed, const StageTimes& times,
             const RemeshProblem& problem, const std::optional<PartStatistics>& parts) {
   for (const std::string& file : problem.files)
     context.warn(changes_in(remeshed.generated.result.mesh, file));
@@ -196,8 +197,8 @@ void report(const CommandContext& context, const RemeshedSolution& remeshed, con
   Statistics of_transfer = transfer_statistics(remeshed);
   if (remeshed.estimate) of_transfer.add("interpolation error", *remeshed.estimate, "{:.3e}");
   if (remeshed.stretched) {
-    of_transfer.add_member("metric", record_of(*remeshed.stretched).text());
-    of_transfer.add_lines(lines_of(*remeshed.stretched));
+    of_transfer.add_member("metric", adapt::record_of(*remeshed.stretched).text());
+    of_transfer.add_lines(adapt::lines_of(*remeshed.stretched));
   }
   if (problem.input.settings.morph_to)
     of_transfer.add_raw("morphed", remeshed.morphed ? "yes" : "no", remeshed.morphed ? "true" : "false");
@@ -211,28 +212,28 @@ void report(const CommandContext& context, const RemeshedSolution& remeshed, con
 
 /// Returns the old cells on the changed geometry, if the case requests it and they are good enough; otherwise
 /// adds to `doubts` why the mesh is generated again. *Collective.*
-std::optional<RemeshedSolution> morph(const Communicator& comm, const RemeshArguments& arguments,
-                                      const RemeshProblem& problem, const SolvedMesh& solved,
-                                      Warnings& doubts) {
+std::optional<adapt::RemeshedSolution> morph(const Communicator& comm, const RemeshArguments& arguments,
+                                             const RemeshProblem& problem, const adapt::SolvedMesh& solved,
+                                             Warnings& doubts) {
   const std::optional<double>& least = problem.input.settings.morph_to;
   if (!least) return {};
   const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
-  const MorphWish wish{*least, file};
-  MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, wish);
-  if (!morphed.refusal.empty()) doubts.push_back(why_anew(wish, morphed.refusal));
+  const adapt::MorphWish wish{*least, file};
+  adapt::MorphedMesh morphed = adapt::morph_solved(comm, *problem.input.mesh, solved, wish);
+  if (!morphed.refusal.empty()) doubts.push_back(adapt::why_anew(wish, morphed.refusal));
   return std::move(morphed.remeshed);
 }
 
 /// Flags cells by the solution, generates the mesh, and transfers the solution. *Collective.*
-RemeshedSolution remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
-                        StageTimes& times, Warnings& warnings) {
+adapt::RemeshedSolution remesh(const Communicator& comm, const RemeshProblem& problem,
+                               const adapt::SolvedMesh& solved, StageTimes& times, Warnings& warnings) {
   times.begin("adapt");
   const MeshInput& mesh = *problem.input.mesh;
-  const std::optional<AdaptOptions>& adapt = problem.input.settings.adapt;
-  const AdaptationPlan plan =
-      adapt ? plan_adaptation(comm, mesh, *adapt, solved) : unchanged_plan(solved.tree, mesh);
+  const std::optional<adapt::AdaptOptions>& adapt = problem.input.settings.adapt;
+  const adapt::AdaptationPlan plan =
+      adapt ? adapt::plan_adaptation(comm, mesh, *adapt, solved) : adapt::unchanged_plan(solved.tree, mesh);
   times.end();
-  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh, plan, solved);
+  adapt::RemeshedSolution remeshed = adapt::remesh_and_transfer(comm, mesh, plan, solved);
   remeshed.estimate = plan.estimate;
   const Warnings& of_mesh = remeshed.generated.result.report.warnings;
   warnings.insert(warnings.end(), of_mesh.begin(), of_mesh.end());
@@ -247,10 +248,10 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   Warnings& warnings = context.record.noted;
   RemeshProblem problem = load(comm, arguments, warnings);
   times.begin("compare");
-  const SolvedMesh solved = spread(comm, arguments, problem);
+  const adapt::SolvedMesh solved = spread(comm, arguments, problem);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
-  std::optional<RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);
+  std::optional<adapt::RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);
   if (!remeshed) remeshed = remesh(comm, problem, solved, times, warnings);
   times.append(remeshed->times);
   times.begin("write");

@@ -165,7 +165,7 @@ Statistics result_statistics(std::int64_t nodes, const EulerResult& result, cons
     statistics.add("cl friction", result.cl_friction, "{:.6f}");
   }
   std::string lines;
-  for (const GoalValue& goal : result.goals) lines += "  " + line_of(goal) + "\n";
+  for (const GoalValue& goal : result.goals) lines += "  " + adapt::line_of(goal) + "\n";
   for (const BoundaryForce& force : result.forces) {
     const auto& [name, cl, cd, cl_friction, cd_friction] = force;
     lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
@@ -173,10 +173,10 @@ Statistics result_statistics(std::int64_t nodes, const EulerResult& result, cons
   }
   if (result.unsteady) {
     lines += "  " + line_of(*result.unsteady) + "\n";
-    statistics.add_member("unsteady", record_of(*result.unsteady).text());
+    statistics.add_member("unsteady", adapt::record_of(*result.unsteady).text());
   }
-  if (!result.goals.empty()) statistics.add_member("goals", record_of(result.goals).text());
-  statistics.add_member("forces", record_of(result.forces).text());
+  if (!result.goals.empty()) statistics.add_member("goals", adapt::record_of(result.goals).text());
+  statistics.add_member("forces", adapt::record_of(result.forces).text());
   statistics.add_lines(lines);
   return statistics;
 }

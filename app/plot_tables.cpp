@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct WholeCycle {
   int number;
-  CyclePaths paths;
+  adapt::CyclePaths paths;
 };
 
 /// Returns the cycles of an adaptive run, in order.
@@ -57,8 +57,8 @@ Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cy
   for (const auto& [number, paths] : cycles) {
     if (!fs::exists(paths.record())) continue;
     const std::string json = read_input(paths.record());
-    statistics.push_back({static_cast<double>(number), recorded_number(json, "residual"),
-                          recorded_number(json, "cl"), recorded_number(json, "cd")});
+    statistics.push_back({static_cast<double>(number), adapt::recorded_number(json, "residual"),
+                          adapt::recorded_number(json, "cl"), adapt::recorded_number(json, "cd")});
   }
   try {
     return cycles_chart(statistics);

@@ -95,7 +95,7 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
 FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   const CaseInput& input = of.parts().input;
   const std::string& path = of.parts().path;
-  std::optional<ChosenSolver> chosen;
+  std::optional<adapt::ChosenSolver> chosen;
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
     if (!std::holds_alternative<EulerOptions>(*chosen))
@@ -105,7 +105,7 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   return euler_solver(options, estimate_goals(options));
 }
 
-RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
+RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const adapt::AdaptationPlan> plan)
     : case_digest_{of.tree.attributes.case_digest},
       coordinate_digest_{of.tree.attributes.coordinate_digest},
       plan_{std::move(plan)} {}
@@ -117,8 +117,9 @@ const std::vector<std::string>& RefinementFlags::warnings() const { return plan_
 
 RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
-  const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
-  auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
+  const adapt::AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
+  auto plan = std::make_shared<const adapt::AdaptationPlan>(
+      adapt::plan_adaptation(comm, mesh_input(of), options, solved));
   return {solved, std::move(plan)};
 }
 
@@ -130,7 +131,7 @@ NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& 
     if (flags.case_digest_ != tree.case_digest || flags.coordinate_digest_ != tree.coordinate_digest)
       throw InputError("the flags belong to another mesh than the one to be changed; call sense() again");
   });
-  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh_input(of), *flags.plan_, before);
+  adapt::RemeshedSolution remeshed = adapt::remesh_and_transfer(comm, mesh_input(of), *flags.plan_, before);
   MeshResult& made = remeshed.generated.result;
   return {{std::move(made.mesh), std::move(made.tree), std::move(remeshed.start), {}},
           std::move(remeshed.report),
@@ -187,7 +188,7 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
     if (comm.is_root()) whole = read_mesh(mesh);
   });
   SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {
@@ -195,7 +196,7 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
       throw InputError(tree + ": belongs to another case than " + of.parts().path +
                        ", or to another geometry");
   });
-  require_own_mesh(comm, solved, mesh, tree);
+  adapt::require_own_mesh(comm, solved, mesh, tree);
   return solved;
 }
 

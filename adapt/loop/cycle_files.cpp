@@ -13,7 +13,7 @@
 #include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -148,4 +148,4 @@ std::string CycleFiles::place_of_solution(int cycle) const {
   return CyclePaths{folders_.under_way(cycle)}.native_mesh();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

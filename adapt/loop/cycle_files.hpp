@@ -8,7 +8,7 @@
 #include "adapt/loop/loop.hpp"
 #include "mesher/partition/partition.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The files of a cycle, and the case data in its record.
 struct CycleFileOptions {
@@ -55,4 +55,4 @@ class CycleFiles final : public CycleObserver {
   CellParts cell_parts_;  ///< of the current mesh
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -15,7 +15,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -149,4 +149,4 @@ void CycleFolders::finish(int cycle) {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -149,4 +149,4 @@ LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOpt
   return end;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

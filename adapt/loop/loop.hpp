@@ -10,7 +10,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Result of a cycle: a mesh with its solution, and the splits of the next mesh.
 struct CycleEnd {
@@ -65,4 +65,4 @@ LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOpt
                  const FlowSolver& solver, CycleObserver& observer, int first = 0,
                  std::optional<CycleEnd> before = {}, const FirstMesh& start = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -46,4 +46,4 @@ RemeshedSolution mesh_after_passes(const Communicator& comm, const MeshInput& me
   return remeshed;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -188,4 +188,4 @@ std::optional<RecordedCase> recorded_case(const std::string& text) {
   return RecordedCase{*of_case, *of_geometry, digest_in(json, "solution_digest"), settings_in(json)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "flow/postprocess/flow_statistics.hpp"
 #include "mesher/base/json.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// First heights of one boundary's layers, in the geometry's unit of length.
 struct FirstHeights {
@@ -89,4 +89,4 @@ std::optional<double> recorded_number(const std::string& text, const std::string
 /// Returns the case data of a record; empty if the text is not a complete record.
 std::optional<RecordedCase> recorded_case(const std::string& text);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

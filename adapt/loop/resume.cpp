@@ -13,7 +13,7 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -126,4 +126,4 @@ CycleValues read_earlier_values(const Communicator& comm, const std::string& fol
   return values;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

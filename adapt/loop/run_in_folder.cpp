@@ -16,7 +16,7 @@
 #include "io/formats.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -136,4 +136,4 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
                   first_mesh);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

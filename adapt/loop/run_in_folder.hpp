@@ -10,7 +10,7 @@
 #include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/solvers/chosen_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A case for the adaptive loop.
 struct AdaptiveCase {
@@ -47,4 +47,4 @@ struct RunReport {
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

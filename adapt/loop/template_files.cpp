@@ -10,7 +10,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::uint64_t template_digest(const CaseSettings& files) {
   return text_digest(text);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -17,7 +17,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -285,4 +285,4 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
   return std::move(stretching.report);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

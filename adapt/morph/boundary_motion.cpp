@@ -9,7 +9,7 @@
 #include "adapt/morph/outline_map.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, 
   return each_once(std::move(motions), change.file);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

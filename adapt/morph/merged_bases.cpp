@@ -8,7 +8,7 @@
 #include "mesher/build/short_edges.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -61,4 +61,4 @@ Geometry with_bases_as_in(const Geometry& outline, const Geometry& geometry) {
   return bases.empty() ? geometry : with_merged(geometry, bases);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

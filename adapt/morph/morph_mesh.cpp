@@ -11,7 +11,7 @@
 #include "smoother/smooth_mesh.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -172,4 +172,4 @@ MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange
   return report;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

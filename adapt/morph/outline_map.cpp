@@ -14,7 +14,7 @@
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "smoother/outline/outline_match.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -367,4 +367,4 @@ Point OutlineMap::image(std::int32_t loop, double arc) const {
   return new_path_.point_at(new_path_.place_at(map.image, on_new));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 ShapesOfTree::ShapesOfTree(const Mesh& mesh) {
   const std::vector<CellShape> cells = cell_shapes(mesh);
@@ -66,4 +66,4 @@ std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector
   return targets;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The original shapes of a mesh's cells, on which targets are based, so that cells without requirements are
 /// at their target.
@@ -34,4 +34,4 @@ class ShapesOfTree {
   std::vector<Shape> shapes_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -13,7 +13,7 @@
 #include "smoother/smooth_mesh.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -130,4 +130,4 @@ void move_nodes_to_shocks(const Communicator& comm, const MeshInput& input, cons
   result.mesh.points = best.places();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

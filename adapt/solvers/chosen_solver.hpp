@@ -7,7 +7,7 @@
 #include "adapt/solvers/su2_solver.hpp"
 #include "flow/euler/model/euler_options.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The solver chosen by a case: built-in, an external command, SU2 or OpenFOAM.
 using ChosenSolver = std::variant<EulerOptions, CommandSolver, Su2Solver, OpenfoamSolver>;
@@ -18,4 +18,4 @@ inline const CommandSolver* command_of(const ChosenSolver& solver) {
   return std::get_if<CommandSolver>(&solver);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

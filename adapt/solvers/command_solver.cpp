@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -85,4 +85,4 @@ FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cy
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "flow/command/solver_command.hpp"
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// An external solver, with the names of its files in the cycle's folder.
 struct CommandSolver {
@@ -27,4 +27,4 @@ struct CommandSolver {
 /// the initial state if there is one. Throws SolverError if the command fails or its solution is unusable.
 FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "io/formats.hpp"
 #include "io/tree/tree_file.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the name of a cycle's folder, in the folder of its run.
 inline std::string cycle_name(int cycle) { return fmt::format("cycle_{:02}", cycle); }
@@ -38,4 +38,4 @@ struct CyclePaths {
   std::string log() const { return folder + "/log.txt"; }
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -19,7 +19,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -162,4 +162,4 @@ FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int 
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

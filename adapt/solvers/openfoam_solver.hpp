@@ -5,7 +5,7 @@
 
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// An OpenFOAM solver, specified by a case of the user.
 struct OpenfoamSolver {
@@ -27,4 +27,4 @@ struct OpenfoamSolver {
 /// template, SolverError if the solver fails or its solution is unusable.
 FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

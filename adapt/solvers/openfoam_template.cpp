@@ -10,7 +10,7 @@
 #include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -145,4 +145,4 @@ void copy_openfoam_template(const std::string& from, const OpenfoamTemplate& giv
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -118,4 +118,4 @@ FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> fo
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

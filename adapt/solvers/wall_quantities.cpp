@@ -8,7 +8,7 @@
 #include "flow/postprocess/wall_flow.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -41,4 +41,4 @@ FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream) {
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,6 +2,8 @@
 
 namespace quadloop {
 
+using adapt::AdaptOptions;
+
 namespace {
 
 /// Reads a name, a list of names, { size = "h" } or { error = "e" }.
@@ -39,8 +41,8 @@ ValueForm<UntilKeys> until() {
 void read_thresholds(const CaseTable& table, AdaptOptions& options) {
   const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
   if (shares) {
-    options.refine = table.number("refine", {0, 1}).value_or(FractionRule{}.refine);
-    options.coarsen = table.number("coarsen", {0, 1}).value_or(FractionRule{}.coarsen);
+    options.refine = table.number("refine", {0, 1}).value_or(adapt::FractionRule{}.refine);
+    options.coarsen = table.number("coarsen", {0, 1}).value_or(adapt::FractionRule{}.coarsen);
     if (options.refine + options.coarsen > 1)
       table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
   } else if (-options.coarsen > options.refine) {
@@ -53,11 +55,11 @@ void take_norm(const CaseTable& table, AdaptOptions& options) {
   if (!options.norm) return;
   if (options.source == AdaptOptions::Source::size)
     table.refuse("norm", "makes sizes from variables or an error; name these in variable, or leave norm out");
-  if (table.has("indicator") && options.indicator != Indicator::hessian)
+  if (table.has("indicator") && options.indicator != adapt::Indicator::hessian)
     table.refuse("indicator", "must be \"hessian\" with norm, or left out");
   if (table.has("threshold") && options.threshold != AdaptOptions::Threshold::nodes)
     table.refuse("threshold", "must be \"nodes\" with norm, or left out");
-  options.indicator = Indicator::hessian;
+  options.indicator = adapt::Indicator::hessian;
   options.threshold = AdaptOptions::Threshold::nodes;
 }
 
@@ -96,7 +98,7 @@ const KeyTable<AdaptKeys>& adapt_keys() {
                                "}` for an error estimate, written by the solver.",
                                {.fallback = "`\"density\"`"}),
        key<&AdaptKeys::options, &AdaptOptions::indicator>(
-           "indicator", choice(indicator_words),
+           "indicator", choice(adapt::indicator_words),
            "[Indicator](../explanation/adaptation.md) of the cells to refine."),
        key<&AdaptKeys::options, &AdaptOptions::threshold>(
            "threshold", choice(AdaptOptions::threshold_words),
@@ -139,7 +141,7 @@ const KeyTable<AdaptKeys>& adapt_keys() {
                                                        "Let cells at the points of a polygonal boundary "
                                                        "become smaller than half of the adjacent segments."),
        key<&AdaptKeys::options, &AdaptOptions::transfer>(
-           "transfer", choice(transfer_words),
+           "transfer", choice(adapt::transfer_words),
            "Transfer of node values; cell values are always transferred "
            "[conservatively](../explanation/adaptation.md#solution-transfer).")}};
   return keys;

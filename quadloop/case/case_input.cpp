@@ -56,7 +56,7 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
                                case_digest(options, settings.lines), settings.lines, settings.stretch});
-  if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
+  if (arguments.saved) adapt::keep_root(*arguments.saved, *input.mesh);
   return input;
 }
 

@@ -252,12 +252,12 @@ LayerLine read_layer_line(const CaseTable& table, Settings& settings) {
   return keys.line;
 }
 
-std::optional<WallFlow> wall_flow(const Settings& settings) {
+std::optional<adapt::WallFlow> wall_flow(const Settings& settings) {
   const SolverSettings& solver = settings.solver;
   if (!settings.flow || !settings.wants_y_plus) return {};
   if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
-    return WallFlow{solver.euler.viscosity, 1};
-  return WallFlow{settings.flow->viscosity(), settings.flow->density};
+    return adapt::WallFlow{solver.euler.viscosity, 1};
+  return adapt::WallFlow{settings.flow->viscosity(), settings.flow->density};
 }
 
 Warnings unused_flow(const Settings& settings) {

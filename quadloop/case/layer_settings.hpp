@@ -61,7 +61,7 @@ LayerLine read_layer_line(const CaseTable& table, Settings& settings);
 
 /// Returns the flow that converts a solution's wall shear to wall units, if the layers of a wall specify a
 /// y+. The viscosity is that of a laminar flow, else that of [flow].
-std::optional<WallFlow> wall_flow(const Settings& settings);
+std::optional<adapt::WallFlow> wall_flow(const Settings& settings);
 
 /// Returns a warning if there is a table [flow] that is used neither by layers nor by an external solver.
 /// Call it after all tables have been read.

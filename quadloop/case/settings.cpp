@@ -176,7 +176,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   return settings;
 }
 
-const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
+const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
   if (settings.adapt) return *settings.adapt;
   throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
 }

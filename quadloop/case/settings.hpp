@@ -83,8 +83,8 @@ struct Settings {
   std::optional<FlowSettings> flow;
   bool wants_y_plus = false;  ///< whether some layers specify a y+, which needs [flow]
   SolverSettings solver;
-  std::optional<FreeStream> stream;   ///< of an external solver, if [flow] specifies it
-  std::optional<AdaptOptions> adapt;  ///< if the case has the table
+  std::optional<FreeStream> stream;          ///< of an external solver, if [flow] specifies it
+  std::optional<adapt::AdaptOptions> adapt;  ///< if the case has the table
   /// Least quality of the worst cell outside layers for which cells are kept on a changed geometry.
   std::optional<double> morph_to;
   std::string output_prefix;
@@ -105,7 +105,7 @@ const KeyTable<Settings>& output_keys();
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
 
 /// Returns the case's table [adapt]. Throws InputError, which names the case, if it has none.
-const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
+const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
 
 /// Returns the suffix of a mesh or tree file at the end of a prefix of output files, if any. This is a user
 /// error, as suffixes are appended.

@@ -39,7 +39,8 @@ void read_smooth_table(const CaseTable& table, Settings& settings) {
 }
 
 void require_variables_of_targets(const CaseTable& root, const Settings& settings) {
-  if (!settings.stretch || !settings.adapt || settings.adapt->source == AdaptOptions::Source::variables)
+  if (!settings.stretch || !settings.adapt ||
+      settings.adapt->source == adapt::AdaptOptions::Source::variables)
     return;
   root.table("smooth")->refuse("targets",
                                "follows variables, and adapt.variable names a size or an error; name "

@@ -122,23 +122,23 @@ std::vector<Key<SolverSettings>> command_keys() {
                 of_program = only_with("kind = \"command\" or kind = \"su2\""),
                 of_all = only_with("kind = \"command\" or kind = \"su2\" or kind = \"openfoam\"");
   const std::string own_names = "with the others both files have names of their own";
-  return {key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::arguments>(
+  return {key<&SolverSettings::command, &adapt::CommandSolver::command, &SolverCommand::arguments>(
               "command", texts(), "Program and arguments ([interface](solver-interface.md)).",
               {.example = "[\"flow\", \"{mesh}\"]",
                .needs = {of_program},
                .required = {{"kind = \"command\" needs the program to run and its arguments, as in command = "
                              "[\"my_solver\", \"{mesh}\"]",
                              "kind = \"command\""}}}),
-          key<&SolverSettings::command, &CommandSolver::ranks>(
+          key<&SolverSettings::command, &adapt::CommandSolver::ranks>(
               "ranks", whole({0, std::numeric_limits<int>::max()}),
               "Number of ranks of the program; 0: as many as quadloop.", {.example = "3", .needs = {of_all}}),
-          key<&SolverSettings::command, &CommandSolver::mesh>(
+          key<&SolverSettings::command, &adapt::CommandSolver::mesh>(
               "mesh", file_name(), "Input file of the program.",
               {.example = "\"m.su2\"", .needs = {of_command, {runs, own_names}}}),
-          key<&SolverSettings::command, &CommandSolver::solution>(
+          key<&SolverSettings::command, &adapt::CommandSolver::solution>(
               "solution", file_name(), "Output file of the program.",
               {.example = "\"s.cgns\"", .needs = {of_command, {runs, own_names}}}),
-          key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::timeout>(
+          key<&SolverSettings::command, &adapt::CommandSolver::command, &SolverCommand::timeout>(
               "timeout", number(Range::positive()), "Time limit of the program.",
               {.unit = "seconds", .needs = {of_all}}),
           key<&SolverSettings::case_template>(
@@ -284,8 +284,8 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
   }
 }
 
-ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Geometry& geometry, const std::string& case_path) {
+adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                  const Geometry& geometry, const std::string& case_path) {
   if (settings.kind == SolverSettings::Kind::euler) {
     Mesh named;
     for (const Boundary& boundary : geometry.boundaries())
@@ -294,14 +294,14 @@ ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<Bou
   }
   const std::filesystem::path case_folder = std::filesystem::absolute(case_path).parent_path();
   if (settings.kind == SolverSettings::Kind::openfoam) {
-    return OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
-                          settings.command.ranks, settings.command.command.timeout};
+    return adapt::OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
+                                 settings.command.ranks, settings.command.command.timeout};
   }
-  CommandSolver solver = settings.command;
+  adapt::CommandSolver solver = settings.command;
   solver.gamma = settings.euler.gamma;
   solver.case_folder = case_folder.string();
   if (settings.kind == SolverSettings::Kind::su2)
-    return su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
+    return adapt::su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
   return solver;
 }
 

@@ -41,8 +41,8 @@ struct SolverSettings {
   GoalWeights goals = {};
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
   std::optional<Point> goal_about = {};
-  CommandSolver command;      ///< without the case's folder
-  std::string case_template;  ///< path of SU2's configuration or OpenFOAM's case, as written in the case
+  adapt::CommandSolver command;  ///< without the case's folder
+  std::string case_template;     ///< path of SU2's configuration or OpenFOAM's case, as written in the case
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };
@@ -71,7 +71,7 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
                              const std::string& case_path);
 
 /// Returns the solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
-ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Geometry& geometry, const std::string& case_path);
+adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                  const Geometry& geometry, const std::string& case_path);
 
 }  // namespace quadloop

@@ -5,7 +5,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -104,4 +104,4 @@ bool collapse_edge(TileMesh& mesh, std::int32_t a, std::int32_t b, double longes
   return true;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

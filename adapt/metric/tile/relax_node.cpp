@@ -4,7 +4,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -101,4 +101,4 @@ bool relax_node(TileMesh& mesh, std::int32_t n) {
                              [&](double share) { return take(mesh, n, *now, from + share * way); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

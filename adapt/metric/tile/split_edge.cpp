@@ -4,7 +4,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -100,4 +100,4 @@ bool split_edge(TileMesh& mesh, std::int32_t a, std::int32_t b) {
   return true;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

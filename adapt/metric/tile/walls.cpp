@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -42,4 +42,4 @@ bool Walls::may_join(const Chord& whole, OutlinePlace at, Point p) const {
   return deviation(whole) <= allowed && meets_nothing(whole) && !outline_.sweeps_over(whole, p);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/geometry/point.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Rules for nodes on the geometry when a mesh is adapted: those of BoundarySlide, extended to added and
 /// removed nodes.
@@ -63,4 +63,4 @@ class Walls {
   bool keeps_nodes_ = false;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

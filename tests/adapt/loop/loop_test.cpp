@@ -10,7 +10,7 @@
 #include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::all_nodes;
@@ -106,4 +106,4 @@ TEST(Loop, HandsOnWhatTheSolverThrows) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::all_nodes;
@@ -78,4 +78,4 @@ TEST(Passes, StandInTheRecordOfTheFirstCycle) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

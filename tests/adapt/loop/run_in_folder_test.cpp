@@ -13,7 +13,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 namespace fs = std::filesystem;
@@ -254,4 +254,4 @@ TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
 /// Copies the mesh with its state as it is, or leaves what is no solution.
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,8 +12,8 @@ namespace quadloop::test {
 inline const MeshInput square_in_eighths = square_input(0.125);
 
 /// Of runs on the square with one variable, "q".
-inline AdaptOptions options_of(int cycles) {
-  AdaptOptions options;
+inline adapt::AdaptOptions options_of(int cycles) {
+  adapt::AdaptOptions options;
   options.cycles = cycles;
   options.variables = {"q"};
   options.min = 1.0 / 256;

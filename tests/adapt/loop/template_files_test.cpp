@@ -8,7 +8,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::TemporaryFolder, test::world;
@@ -58,4 +58,4 @@ TEST(TemplateFiles, OfSu2AreItsConfiguration) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

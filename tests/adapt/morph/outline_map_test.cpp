@@ -7,7 +7,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 Geometry outline(const std::vector<Chain>& chains) {
@@ -161,4 +161,4 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

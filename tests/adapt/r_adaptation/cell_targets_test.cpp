@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::Grid;
@@ -94,4 +94,4 @@ TEST(ShapesOfTree, MakeTheSmootherLowerTheirCostAndKeepCellsValid) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

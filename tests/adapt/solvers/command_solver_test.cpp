@@ -10,7 +10,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::TemporaryFolder, test::world;
@@ -54,4 +54,4 @@ TEST(CommandSolver, TheStateStandsWhereAFormatHasAPlaceForIt) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -79,4 +79,4 @@ TEST(WallQuantities, AreNoneWithoutVelocityAndPressure) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -69,7 +69,7 @@ class Dump {
   void add_one(const FlowSettings& f) {
     add(f.reynolds, f.reference_length, f.density, f.speed, f.alpha, f.gamma, f.pressure);
   }
-  void add_one(const AdaptOptions& a) {
+  void add_one(const adapt::AdaptOptions& a) {
     add(a.cycles, a.passes, a.source, a.variables, a.indicator, a.threshold, a.refine, a.coarsen, a.max_nodes,
         a.norm, a.growth, a.until.cl, a.until.cd, a.until.estimate, a.min, a.facets, a.transfer);
   }
@@ -91,7 +91,7 @@ std::string text_of(const Settings& s) {
   dump.add(e.mach, e.alpha, e.gamma, e.viscosity, e.prandtl, e.time, e.end_time, e.time_step, e.average_from,
            e.unsteady, e.flow_throughs, e.cfl, e.iterations, e.tolerance, e.limiter, e.initial, e.far_field,
            e.reference_length, e.goals, e.adjoint_fields);
-  const CommandSolver& c = s.solver.command;
+  const adapt::CommandSolver& c = s.solver.command;
   dump.add(c.command.arguments, c.command.timeout, c.mesh, c.solution, c.ranks);
   for (const OutflowPressure& outflow : s.solver.pressures) dump.add(outflow.pattern, outflow.pressure);
   for (const WallTemperature& wall : s.solver.wall_temperatures) dump.add(wall.pattern, wall.temperature);

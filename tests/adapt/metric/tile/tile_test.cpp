@@ -9,7 +9,7 @@
 #include "adapt/metric/tile/tile_passes.hpp"
 #include "adapt/metric/tile/walls.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 /// A ring of triangles, n around and two deep, between a circle of radius 1, which is a hole, and one of 3.
@@ -226,4 +226,4 @@ TEST(AdaptTile, CrowdsNoNodesOnEdgesThatStay) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt
