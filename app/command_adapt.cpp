@@ -72,7 +72,7 @@ adapt::AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::op
   const Settings& settings = input.settings;
   const adapt::AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
-  const EulerOptions& flow = settings.solver.euler;
+  const flow::EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
                        flow.alpha);

@@ -118,8 +118,8 @@ PlotOptions options_of(const PlotArguments& arguments) {
 }
 
 Subject subject_of(const PlotArguments& arguments) {
-  if (arguments.walls || arguments.input.ends_with(wall_table_suffix)) return Subject::walls;
-  if (arguments.history || arguments.input.ends_with(history_suffix)) return Subject::history;
+  if (arguments.walls || arguments.input.ends_with(flow::wall_table_suffix)) return Subject::walls;
+  if (arguments.history || arguments.input.ends_with(flow::history_suffix)) return Subject::history;
   return Subject::mesh;
 }
 
@@ -137,19 +137,20 @@ PlotTask task_of(const PlotArguments& arguments) {
 
 /// Computes Mach number or pressure coefficient if the file lacks them.
 void add_quantity(LoadedMesh& loaded, const std::string& field) {
-  if (!loaded.solution || std::ranges::find(quantity_names(), field) == quantity_names().end()) return;
+  if (!loaded.solution || std::ranges::find(flow::quantity_names(), field) == flow::quantity_names().end())
+    return;
   Field& solution = *loaded.solution;
   if (std::ranges::find(solution.names, field) != solution.names.end()) return;
-  for (const char* name : euler_names) {
+  for (const char* name : flow::euler_names) {
     if (variables_like(solution.names, name).size() != 1) return;
   }
-  FreeStream stream;
-  if (field == pressure_coefficient_name) {
-    const std::optional<RunConstants> run = RunConstants::of(solution.constants);
+  flow::FreeStream stream;
+  if (field == flow::pressure_coefficient_name) {
+    const std::optional<flow::RunConstants> run = flow::RunConstants::of(solution.constants);
     if (!run) return;
     stream.speed = run->mach;
   }
-  solution = with_quantities(solution, {field}, stream);
+  solution = flow::with_quantities(solution, {field}, stream);
 }
 
 std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {

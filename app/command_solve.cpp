@@ -54,7 +54,7 @@ void require_outputs(const std::string& output) {
 Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
-  std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
+  std::vector<std::string> wanted(flow::euler_names.begin(), flow::euler_names.end());
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
@@ -62,7 +62,7 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
         path, name));
     return {};
   }
-  for (const char* const name : at_end_names) {
+  for (const char* const name : flow::at_end_names) {
     if (std::ranges::find(names, name) != names.end()) wanted.emplace_back(name);
   }
   Field start = selected(*whole.solution, wanted, path);
@@ -106,7 +106,7 @@ struct TableFiles {
 
 TableFiles tables_beside(const std::string& output) {
   const std::string prefix = std::filesystem::path(output).replace_extension().string();
-  return {prefix + wall_table_suffix, prefix + history_suffix};
+  return {prefix + flow::wall_table_suffix, prefix + flow::history_suffix};
 }
 
 void write_text(OutputSet& outputs, const std::string& path, const std::string& text) {
@@ -116,15 +116,16 @@ void write_text(OutputSet& outputs, const std::string& path, const std::string& 
 }
 
 /// Adds the solution to the whole mesh on the root and writes it, with the tables. *Collective.*
-void write(const CommandContext& context, SolveProblem& problem, const Mesh& part, const EulerResult& result,
-           const std::string& path) {
+void write(const CommandContext& context, SolveProblem& problem, const Mesh& part,
+           const flow::EulerResult& result, const std::string& path) {
   const Communicator& comm = context.comm;
-  const EulerOptions& options = problem.settings.solver.euler;
-  const FreeStream stream = free_stream_of(options);
+  const flow::EulerOptions& options = problem.settings.solver.euler;
+  const flow::FreeStream stream = flow::free_stream_of(options);
   std::vector<std::string> wall_names;
-  for (const BoundaryForce& force : result.forces) wall_names.push_back(force.boundary);
-  const std::string walls = wall_table(comm, part, result.flow, stream, wall_names);
-  const Field flow = with_quantities(flow_with_constants(result, options), problem.settings.fields, stream);
+  for (const flow::BoundaryForce& force : result.forces) wall_names.push_back(force.boundary);
+  const std::string walls = flow::wall_table(comm, part, result.flow, stream, wall_names);
+  const Field flow =
+      flow::with_quantities(flow::flow_with_constants(result, options), problem.settings.fields, stream);
   Field solution = gather_field(comm, flow, part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
@@ -135,26 +136,27 @@ void write(const CommandContext& context, SolveProblem& problem, const Mesh& par
     OutputSet outputs(alone);
     write_mesh(outputs, problem.whole, path);
     write_text(outputs, tables_beside(path).walls, walls);
-    write_text(outputs, tables_beside(path).history, history_table(result.history));
+    write_text(outputs, tables_beside(path).history, flow::history_table(result.history));
     outputs.commit();
   });
 }
 
-EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
-  EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
-  const bool in_time = options.time == EulerOptions::Time::accurate;
-  options.progress = [&comm, in_time](const EulerProgress& progress) {
-    if (comm.is_root()) log::information(line_of(progress, in_time));
+flow::EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
+  flow::EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
+  const bool in_time = options.time == flow::EulerOptions::Time::accurate;
+  options.progress = [&comm, in_time](const flow::EulerProgress& progress) {
+    if (comm.is_root()) log::information(flow::line_of(progress, in_time));
   };
-  return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
-                     estimate_goals(options));
+  return flow::solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
+                           flow::estimate_goals(options));
 }
 
-Statistics result_statistics(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
+Statistics result_statistics(std::int64_t nodes, const flow::EulerResult& result,
+                             const flow::EulerOptions& options) {
   Statistics statistics;
   statistics.add("nodes", nodes);
   statistics.add("steps", result.iterations);
-  if (options.time == EulerOptions::Time::accurate || result.unsteady)
+  if (options.time == flow::EulerOptions::Time::accurate || result.unsteady)
     statistics.add("time", result.time, "{:.6g}");
   statistics.add("residual", result.residual, "{:.3e}");
   statistics.add("cl", result.cl, "{:.6f}");
@@ -165,14 +167,14 @@ Statistics result_statistics(std::int64_t nodes, const EulerResult& result, cons
     statistics.add("cl friction", result.cl_friction, "{:.6f}");
   }
   std::string lines;
-  for (const GoalValue& goal : result.goals) lines += "  " + adapt::line_of(goal) + "\n";
-  for (const BoundaryForce& force : result.forces) {
+  for (const flow::GoalValue& goal : result.goals) lines += "  " + adapt::line_of(goal) + "\n";
+  for (const flow::BoundaryForce& force : result.forces) {
     const auto& [name, cl, cd, cl_friction, cd_friction] = force;
     lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
     lines += options.viscosity > 0 ? fmt::format(", cd friction {:.6f}\n", cd_friction) : "\n";
   }
   if (result.unsteady) {
-    lines += "  " + line_of(*result.unsteady) + "\n";
+    lines += "  " + flow::line_of(*result.unsteady) + "\n";
     statistics.add_member("unsteady", adapt::record_of(*result.unsteady).text());
   }
   if (!result.goals.empty()) statistics.add_member("goals", adapt::record_of(result.goals).text());
@@ -188,14 +190,14 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   SolveProblem problem = load(context, arguments);
   const Mesh part = scatter_mesh(comm, problem.whole.mesh, problem.order);
   times.begin("solve");
-  const EulerResult result = solve(comm, problem, part);
+  const flow::EulerResult result = solve(comm, problem, part);
   times.begin("write");
   write(context, problem, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
-  context.warn(shortfalls(result, problem.settings.solver.euler));
+  context.warn(flow::shortfalls(result, problem.settings.solver.euler));
   const Statistics statistics = result_statistics(nodes, result, problem.settings.solver.euler);
   context.record.statistics = statistics.record();
   context.record.statistics.add("converged", result.converged);

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> settings{
 }  // namespace
 
 MpiSingleton::MpiSingleton() {
-  if (started_by_launcher()) return;
+  if (flow::started_by_launcher()) return;
   for (const auto& [name, value] : settings) {
     if (std::getenv(name) != nullptr) continue;
     setenv(name, value, 1);

@@ -70,14 +70,15 @@ Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cy
 }  // namespace
 
 PlotTable wall_table_for(const std::string& input) {
-  if (!fs::is_directory(input)) return read_plot_table(table_of(input, wall_table_suffix));
+  if (!fs::is_directory(input)) return read_plot_table(table_of(input, flow::wall_table_suffix));
   const std::string table = cycles_in(input).back().paths.walls();
   if (!fs::exists(table)) throw InputError(table + ": does not exist" + cure);
   return read_plot_table(table);
 }
 
 Chart chart_of_history(const std::string& input) {
-  if (!fs::is_directory(input)) return history_chart({read_plot_table(table_of(input, history_suffix))});
+  if (!fs::is_directory(input))
+    return history_chart({read_plot_table(table_of(input, flow::history_suffix))});
   const std::vector<WholeCycle> cycles = cycles_in(input);
   std::vector<PlotTable> histories;
   for (const WholeCycle& cycle : cycles) {

@@ -98,11 +98,11 @@ FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   std::optional<adapt::ChosenSolver> chosen;
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
-    if (!std::holds_alternative<EulerOptions>(*chosen))
+    if (!std::holds_alternative<flow::EulerOptions>(*chosen))
       throw InputError(path + ": 'solver.kind' is not the built-in solver; set kind = \"euler\"");
   });
-  const auto& options = std::get<EulerOptions>(*chosen);
-  return euler_solver(options, estimate_goals(options));
+  const auto& options = std::get<flow::EulerOptions>(*chosen);
+  return flow::euler_solver(options, flow::estimate_goals(options));
 }
 
 RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const adapt::AdaptationPlan> plan)

@@ -47,6 +47,7 @@
 namespace quadloop {
 
 using adapt::SolvedMesh, adapt::TransferReport;
+using flow::FlowSolver, flow::SolvedFlow;
 
 struct CaseParts;
 namespace adapt {

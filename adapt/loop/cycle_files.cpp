@@ -27,15 +27,15 @@ void write_text(const Communicator& comm, const std::string& path, const std::st
 }
 
 /// Writes the tables of walls and history, if the solver provides them. *Collective.*
-void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& flow,
+void write_tables(const Communicator& comm, const Mesh& mesh, const flow::SolvedFlow& flow,
                   const CyclePaths& paths) {
   if (flow.stream) {
     std::vector<std::string> walls;
-    for (const BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
+    for (const flow::BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
     const Field& at_walls = flow.at_walls.empty() ? flow.solution : flow.at_walls;
-    write_text(comm, paths.walls(), wall_table(comm, mesh, at_walls, *flow.stream, walls));
+    write_text(comm, paths.walls(), flow::wall_table(comm, mesh, at_walls, *flow.stream, walls));
   }
-  if (!flow.history.empty()) write_text(comm, paths.history(), history_table(flow.history));
+  if (!flow.history.empty()) write_text(comm, paths.history(), flow::history_table(flow.history));
 }
 
 std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes,
@@ -46,7 +46,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
     text += fmt::format("target first heights on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   if (record.metric) text += lines_of(*record.metric);
   for (const std::string& line : notes) text += line + "\n";
-  for (const GoalValue& goal : record.goals) text += line_of(goal) + "\n";
+  for (const flow::GoalValue& goal : record.goals) text += line_of(goal) + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";
   if (record.estimate) text += fmt::format("error {:.4g}", *record.estimate);
   if (record.order) text += fmt::format(", order {:.2f}", *record.order);
@@ -91,11 +91,11 @@ void CycleFiles::write_parts_of(const Mesh& mesh, const Field* field) const {
   files.commit();
 }
 
-std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& flow) {
+std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const flow::SolvedFlow& flow) {
   const CyclePaths paths{folders_.under_way(cycle_)};
   Field shown;
   if (flow.stream && !options_.fields.empty()) {
-    comm_.together([&] { shown = with_quantities(flow.solution, options_.fields, *flow.stream); });
+    comm_.together([&] { shown = flow::with_quantities(flow.solution, options_.fields, *flow.stream); });
   }
   OutputSet outputs(comm_);
   for (const std::string& format : options_.formats) {

@@ -8,6 +8,6 @@ namespace quadloop::adapt {
 /// shocks and edges reach their positions long before forces converge. Stops early if a pass does not change
 /// the mesh. Warnings are added to those of the mesh's report. *Collective.*
 RemeshedSolution mesh_after_passes(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                                   const FlowSolver& rough_solver);
+                                   const flow::FlowSolver& rough_solver);
 
 }  // namespace quadloop::adapt

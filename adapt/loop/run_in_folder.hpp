@@ -22,7 +22,7 @@ struct AdaptiveCase {
   /// Names of quantity_names() written to the mesh files of the cycles, but not to the restart file.
   std::vector<std::string> fields = {};
   /// Reference state for the forces of an external solver; empty: forces are not computed.
-  std::optional<FreeStream> stream = {};
+  std::optional<flow::FreeStream> stream = {};
   std::int32_t partitions = 0;  ///< partitions of each cycle's mesh for a solver's ranks; 0: none
   std::string outline = {};     ///< text of the geometry file that each cycle stores; empty: none
 };

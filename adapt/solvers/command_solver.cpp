@@ -15,9 +15,9 @@ namespace quadloop::adapt {
 
 namespace {
 
-SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
+flow::SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
   const std::filesystem::path cycle_folder = std::filesystem::absolute(folder);
-  SolverFiles files;
+  flow::SolverFiles files;
   files.folder = cycle_folder;
   files.mesh = (cycle_folder / solver.mesh).string();
   files.solution = (cycle_folder / solver.solution).string();
@@ -30,7 +30,7 @@ SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int
 
 /// Writes the mesh in the solver's format, and the initial state to a separate file if that format cannot
 /// store it. *Collective.*
-void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const SolverFiles& files,
+void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const flow::SolverFiles& files,
                double gamma) {
   OutputSet outputs(comm);
   const Field* state = !start.empty() ? &start : nullptr;
@@ -40,8 +40,8 @@ void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, c
 }
 
 /// Reads the solution of the command and distributes it. *Collective.*
-Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand& command,
-                const SolverFiles& files) {
+Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCommand& command,
+                const flow::SolverFiles& files) {
   Field whole;
   MeshOrder order;
   comm.together([&] {
@@ -53,8 +53,8 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand&
       order = own_order(given.mesh);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
-      throw SolverError(
-          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+      throw SolverError(flow::solver_message(command, files,
+                                             std::string("left no solution for its mesh: ") + fault.what()));
     }
   });
   return scatter_field(comm, whole, mesh, order);
@@ -73,13 +73,13 @@ std::string CommandSolver::state() const {
   return std::filesystem::path(mesh).replace_extension(alone.name).string();
 }
 
-FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {
+flow::FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {
   return [solver = std::move(solver), folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-    const SolverFiles files = files_in(folder_of(cycle), solver, comm.size(), cycle);
+    const flow::SolverFiles files = files_in(folder_of(cycle), solver, comm.size(), cycle);
     write_for(comm, mesh, start, files, solver.gamma);
-    run_solver(comm, solver.command, files);
-    SolvedFlow flow;
+    flow::run_solver(comm, solver.command, files);
+    flow::SolvedFlow flow;
     flow.solution = read_left(comm, mesh, solver.command, files);
     return flow;
   };

@@ -30,8 +30,8 @@ struct CyclePaths {
   std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
   /// The geometry of the mesh, for a later design cycle.
   std::string outline() const { return stem() + ".geom"; }
-  std::string walls() const { return folder + "/" + mesh_stem + wall_table_suffix; }
-  std::string history() const { return folder + "/" + mesh_stem + history_suffix; }
+  std::string walls() const { return folder + "/" + mesh_stem + flow::wall_table_suffix; }
+  std::string history() const { return folder + "/" + mesh_stem + flow::history_suffix; }
   /// Interpolation error and target size of each cell.
   std::string estimate() const { return stem() + ".estimate.vtu"; }
   std::string record() const { return folder + "/record.json"; }

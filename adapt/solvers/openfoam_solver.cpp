@@ -108,7 +108,7 @@ MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
 
 /// Reads the solver's last time step and distributes it. *Collective.*
 Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
-                     const SolverCommand& command, const SolverFiles& files) {
+                     const flow::SolverCommand& command, const flow::SolverFiles& files) {
   Field whole;
   comm.together([&] {
     if (!comm.is_root()) return;
@@ -121,8 +121,8 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
       put_wall_values(time, own + "/constant/polyMesh", whole.cells);
       if (whole.cells.names.empty()) throw InputError(time + ": contains no cell field");
     } catch (const InputError& fault) {
-      throw SolverError(
-          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+      throw SolverError(flow::solver_message(command, files,
+                                             std::string("left no solution for its mesh: ") + fault.what()));
     }
   });
   return scatter_field(comm, whole, mesh, order_of(comm, counts));
@@ -139,10 +139,10 @@ void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string
 
 }  // namespace
 
-FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
+flow::FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
   return [solver = std::move(solver), folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-    SolverFiles files;
+    flow::SolverFiles files;
     files.folder = fs::absolute(folder_of(cycle)).string();
     files.mesh = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
     files.solution = (fs::path(files.folder) / done_name).string();
@@ -150,13 +150,13 @@ FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int 
     files.cycle = cycle;
     const MeshCounts counts = count(comm, mesh);
     const Field whole = gather_field(comm, {{}, {}, {}, start.cells}, mesh, order_of(comm, counts));
-    SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
+    flow::SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
     comm.together([&] {
       if (comm.is_root()) command.name = make_case(solver, files.folder, files.ranks, whole.cells);
     });
     write_mesh_of(comm, mesh, files.folder);
-    run_solver(comm, command, files);
-    SolvedFlow flow;
+    flow::run_solver(comm, command, files);
+    flow::SolvedFlow flow;
     flow.solution = read_time_step(comm, mesh, counts, command, files);
     return flow;
   };

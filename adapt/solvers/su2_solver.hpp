@@ -25,6 +25,6 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command);
 /// MESH_FILENAME, MESH_FORMAT, RESTART_SOL, SOLUTION_FILENAME, RESTART_FILENAME, READ_BINARY_RESTART,
 /// CONV_FILENAME. The solution also has velocity, pressure and Mach number (with_primitive_variables()).
 /// Throws as command_solver() does.
-FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of);
+flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of);
 
 }  // namespace quadloop::adapt

@@ -6,9 +6,9 @@
 
 namespace quadloop {
 
-std::optional<FreeStream> FlowSettings::stream() const {
+std::optional<flow::FreeStream> FlowSettings::stream() const {
   if (!pressure) return {};
-  return FreeStream{density, *pressure, speed, alpha, gamma, viscosity(), reference_length};
+  return flow::FreeStream{density, *pressure, speed, alpha, gamma, viscosity(), reference_length};
 }
 
 const KeyTable<FlowSettings>& flow_keys() {

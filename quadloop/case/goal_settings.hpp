@@ -17,6 +17,7 @@ void place_goals(const CaseTable& table, SolverSettings& settings);
 
 /// Replaces the patterns of the functionals by the names of the matching boundaries. Throws InputError for a
 /// pattern that matches none.
-std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries);
+std::vector<flow::Goal> goals_on(const std::vector<flow::Goal>& goals,
+                                 const std::vector<std::string>& boundaries);
 
 }  // namespace quadloop

@@ -143,8 +143,8 @@ const KeyTable<Settings>& output_keys() {
                "and `.cgns` in any case.",
            {.example = "[\"vtu\", \"mesh\"]"}),
        key<&Settings::fields>(
-           "fields", words(quantity_names()),
-           "Derived fields: " + words_in_text(quantity_names()) +
+           "fields", words(flow::quantity_names()),
+           "Derived fields: " + words_in_text(flow::quantity_names()) +
                ". `solve` adds them to OUT. With the built-in solver, `adapt` adds them to all files of a "
                "cycle except `.mesh`, which is the restart file.",
            {.fallback = "none"}),

@@ -83,7 +83,7 @@ struct Settings {
   std::optional<FlowSettings> flow;
   bool wants_y_plus = false;  ///< whether some layers specify a y+, which needs [flow]
   SolverSettings solver;
-  std::optional<FreeStream> stream;          ///< of an external solver, if [flow] specifies it
+  std::optional<flow::FreeStream> stream;    ///< of an external solver, if [flow] specifies it
   std::optional<adapt::AdaptOptions> adapt;  ///< if the case has the table
   /// Least quality of the worst cell outside layers for which cells are kept on a changed geometry.
   std::optional<double> morph_to;

@@ -14,6 +14,8 @@
 
 namespace quadloop {
 
+using flow::EulerOptions;
+
 namespace {
 
 /// The name of a file in the cycle's folder.
@@ -122,7 +124,7 @@ std::vector<Key<SolverSettings>> command_keys() {
                 of_program = only_with("kind = \"command\" or kind = \"su2\""),
                 of_all = only_with("kind = \"command\" or kind = \"su2\" or kind = \"openfoam\"");
   const std::string own_names = "with the others both files have names of their own";
-  return {key<&SolverSettings::command, &adapt::CommandSolver::command, &SolverCommand::arguments>(
+  return {key<&SolverSettings::command, &adapt::CommandSolver::command, &flow::SolverCommand::arguments>(
               "command", texts(), "Program and arguments ([interface](solver-interface.md)).",
               {.example = "[\"flow\", \"{mesh}\"]",
                .needs = {of_program},
@@ -138,7 +140,7 @@ std::vector<Key<SolverSettings>> command_keys() {
           key<&SolverSettings::command, &adapt::CommandSolver::solution>(
               "solution", file_name(), "Output file of the program.",
               {.example = "\"s.cgns\"", .needs = {of_command, {runs, own_names}}}),
-          key<&SolverSettings::command, &adapt::CommandSolver::command, &SolverCommand::timeout>(
+          key<&SolverSettings::command, &adapt::CommandSolver::command, &flow::SolverCommand::timeout>(
               "timeout", number(Range::positive()), "Time limit of the program.",
               {.unit = "seconds", .needs = {of_all}}),
           key<&SolverSettings::case_template>(
@@ -156,13 +158,13 @@ std::vector<Key<SolverSettings>> command_keys() {
 /// Checks the time steps, and combinations of several keys.
 void check_times(const CaseTable& table, const EulerOptions& options) {
   const bool accurate = options.time == EulerOptions::Time::accurate;
-  if (accurate && options.time_step && options.end_time / *options.time_step > most_steps_in_time)
+  if (accurate && options.time_step && options.end_time / *options.time_step > flow::most_steps_in_time)
     table.refuse(
         "time_step",
         fmt::format(
             "would take {:.2g} steps to the end_time {}, of which there may be {:.0f}; give {:.2g} or more",
-            options.end_time / *options.time_step, options.end_time, most_steps_in_time,
-            options.end_time / most_steps_in_time));
+            options.end_time / *options.time_step, options.end_time, flow::most_steps_in_time,
+            options.end_time / flow::most_steps_in_time));
   if (options.average_from && *options.average_from >= options.end_time)
     table.refuse("average_from", "must be below end_time, so that there is something to take means over");
 }
@@ -249,7 +251,7 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
   EulerOptions options = settings.euler;
   for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
-    BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
+    flow::BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
         if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))
@@ -270,17 +272,18 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
                              const std::string& case_path) {
   if (settings.kind != SolverSettings::Kind::euler) return;
   for (const std::string& name : variables) {
-    if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
-    if (name == error_name && !settings.euler.goals.empty()) continue;
-    if (name == error_name)
+    if (std::find(flow::euler_names.begin(), flow::euler_names.end(), name) != flow::euler_names.end())
+      continue;
+    if (name == flow::error_name && !settings.euler.goals.empty()) continue;
+    if (name == flow::error_name)
       throw InputError(fmt::format(
           "{}: 'adapt.variable' names '{}', which the built-in solver writes where it knows what of; set "
           "solver.goal, as in goal = \"drag\"",
           case_path, name));
     throw InputError(fmt::format(
         "{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}",
-        case_path, name, fmt::join(euler_names, ", "),
-        guess_for(name, {euler_names.begin(), euler_names.end()})));
+        case_path, name, fmt::join(flow::euler_names, ", "),
+        guess_for(name, {flow::euler_names.begin(), flow::euler_names.end()})));
   }
 }
 

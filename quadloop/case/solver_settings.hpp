@@ -26,7 +26,7 @@ struct WallTemperature {
 };
 
 /// Output functionals, each with the weight of its error.
-using GoalWeights = std::vector<std::pair<Goal::Quantity, double>>;
+using GoalWeights = std::vector<std::pair<flow::Goal::Quantity, double>>;
 
 /// The case's table [solver], and the solver's keys of its boundary tables.
 struct SolverSettings {
@@ -35,8 +35,8 @@ struct SolverSettings {
       {{"euler", Kind::euler}, {"command", Kind::command}, {"su2", Kind::su2}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;  ///< whether the case has the table
-  EulerOptions euler;  ///< without the boundaries
+  bool given = false;        ///< whether the case has the table
+  flow::EulerOptions euler;  ///< without the boundaries
   std::optional<double> reynolds;
   GoalWeights goals = {};
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
@@ -62,8 +62,8 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
 
 /// Returns the options with the boundary conditions of the case's rules; the mesh's own conditions are the
 /// default.
-EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Mesh& mesh);
+flow::EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                 const Mesh& mesh);
 
 /// Rejects an adaptation variable that the built-in solver does not write. Throws InputError that names the
 /// case.

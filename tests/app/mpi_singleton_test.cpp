@@ -35,7 +35,7 @@ class MpiSingletonTest : public testing::Test {
     std::vector<std::string> names{daemon, folder, network, transfer, devices};
     for (char** entry = environ; *entry != nullptr; ++entry) {
       const std::string name = std::string(*entry).substr(0, std::string(*entry).find('='));
-      if (set_by_launcher(name)) names.push_back(name);
+      if (flow::set_by_launcher(name)) names.push_back(name);
     }
     for (const std::string& name : names) unsetenv(name.c_str());
   }

@@ -20,8 +20,9 @@ AdaptOptions options_with(int passes) {
   return options;
 }
 
-SolvedFlow solve_shock_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-  SolvedFlow flow = test::solve_shock(comm, mesh, start, cycle);
+flow::SolvedFlow solve_shock_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start,
+                                       int cycle) {
+  flow::SolvedFlow flow = test::solve_shock(comm, mesh, start, cycle);
   flow.cl = 0.25;
   return flow;
 }

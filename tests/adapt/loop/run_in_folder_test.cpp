@@ -21,9 +21,9 @@ using test::TemporaryFolder, test::world;
 
 /// A vortex in a square, a few steps of it.
 AdaptiveCase vortex_case(int cycles) {
-  EulerOptions euler;
+  flow::EulerOptions euler;
   euler.mach = 0.5;
-  euler.initial = EulerOptions::Initial::vortex;
+  euler.initial = flow::EulerOptions::Initial::vortex;
   euler.reference_length = 0.1;
   euler.iterations = 3;
   AdaptiveCase adaptive{{{{{"far", 0, 30, "farfield"}},
@@ -151,7 +151,7 @@ TEST(RunInFolder, WithPassesBeginsWithAnAdaptedMeshAndIsGoneOnWithToTheSameFiles
 AdaptiveCase floor_case(int cycles) {
   Boundary floor{"floor", 0.25, 30, "wall"}, rest{"rest", 0.25, 30, "farfield"};
   floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 0.5};
-  EulerOptions euler;
+  flow::EulerOptions euler;
   euler.mach = 0.5;
   euler.viscosity = 1e-3;
   euler.iterations = 3;

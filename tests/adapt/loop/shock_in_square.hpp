@@ -21,8 +21,8 @@ inline adapt::AdaptOptions options_of(int cycles) {
 }
 
 /// A solver whose flow is the front.
-inline SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
+inline flow::SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field&, int) {
+  flow::SolvedFlow flow;
   flow.solution.names = {"q"};
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     flow.solution.values.push_back(circular_shock(mesh.point(NodeId{i})));
@@ -30,8 +30,8 @@ inline SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field
 }
 
 /// And one whose flow is constant: it asks for no other mesh.
-inline SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
+inline flow::SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
+  flow::SolvedFlow flow;
   flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
   return flow;
 }

@@ -53,7 +53,7 @@ TEST(TemplateFiles, OfSu2AreItsConfiguration) {
     EXPECT_TRUE(template_files(Su2Solver{folder.file("none.cfg"), {}}).empty());
   }
   world().barrier();
-  EXPECT_TRUE(template_files(EulerOptions{}).empty());
+  EXPECT_TRUE(template_files(flow::EulerOptions{}).empty());
   EXPECT_TRUE(template_files(CommandSolver{}).empty());
 }
 

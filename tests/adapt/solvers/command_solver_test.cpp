@@ -35,7 +35,7 @@ TEST(CommandSolver, WhatItLeavesIsTheSolution) {
   const auto solve = [&](const std::string& script) {
     return command_solver(shell(script), folder_of)(world(), part, {}, 0);
   };
-  const SolvedFlow solved = solve("cp mesh.mesh left.mesh");
+  const flow::SolvedFlow solved = solve("cp mesh.mesh left.mesh");
   EXPECT_EQ(solved.solution.names, flow.names);
   EXPECT_EQ(solved.solution.values, flow.values);
   EXPECT_FALSE(solved.stream);

@@ -165,7 +165,7 @@ TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
   EXPECT_NO_THROW(require_known_variables(command, {"entropy"}, "case.toml"));
   EXPECT_THROW(require_known_variables(euler, {"density", "entropy"}, "case.toml"), InputError);
   EXPECT_THROW(require_known_variables(euler, {"error"}, "case.toml"), InputError) << "of what?";
-  euler.euler.goals = {{Goal::Quantity::drag}};
+  euler.euler.goals = {{flow::Goal::Quantity::drag}};
   EXPECT_NO_THROW(require_known_variables(euler, {"error"}, "case.toml"));
 }
 
@@ -176,8 +176,8 @@ TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
   const Geometry& geometry = input.mesh->geometry;
   const adapt::ChosenSolver euler =
       chosen_solver(settings, input.settings.outline.rules, geometry, "somewhere/case.toml");
-  EXPECT_EQ(std::get<EulerOptions>(euler).mach, 2);
-  EXPECT_EQ(std::get<EulerOptions>(euler).boundaries.at(0).condition, BoundaryCondition::wall);
+  EXPECT_EQ(std::get<flow::EulerOptions>(euler).mach, 2);
+  EXPECT_EQ(std::get<flow::EulerOptions>(euler).boundaries.at(0).condition, BoundaryCondition::wall);
   settings.kind = SolverSettings::Kind::command;
   const auto command =
       std::get<adapt::CommandSolver>(chosen_solver(settings, {}, geometry, "somewhere/case.toml"));

@@ -52,7 +52,7 @@ class Dump {
   void add_one(const SizeSource::Line& l) { add(l.from, l.to); }
   void add_one(const RootOptions& r) { add(r.corner, r.tree_edge, r.trees_x, r.trees_y); }
   void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
-  void add_one(const Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
+  void add_one(const flow::Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
   void add_one(const LayerSpec& s) { add(s.first, s.growth, s.growth_to, s.count, s.equal, s.y_plus); }
   void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
   void add_one(const GeometryInput& f) {
@@ -80,7 +80,7 @@ class Dump {
 /// What a case was read into, so far as other parts of the program see it.
 std::string text_of(const Settings& s) {
   const SizeOptions& size = s.mesh.size;
-  const EulerOptions& e = s.solver.euler;
+  const flow::EulerOptions& e = s.solver.euler;
   Dump dump;
   dump.add(s.title, s.files, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt, s.morph_to);
   dump.add(s.far_field ? s.far_field->half_width : 0, s.output_prefix, s.formats, s.fields, s.partitions);
