@@ -37,17 +37,18 @@ struct AdaptArguments {
 
 /// Checks for errors that would stop the loop after the initial mesh.
 void require_solver_files(const AdaptArguments& arguments, const adapt::CommandSolver& solver) {
-  const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
-  const auto is_for = [](const std::string& path, Content content) {
-    const FileFormat* format = format_of(path);
+  const io::CaseTable table = *io::read_case(arguments.case_path, arguments.assignments).table("solver");
+  const auto is_for = [](const std::string& path, io::Content content) {
+    const io::FileFormat* format = io::format_of(path);
     return format != nullptr && format->holds(content);
   };
-  if (!is_for(solver.mesh, Content::mesh))
+  if (!is_for(solver.mesh, io::Content::mesh))
     table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
-                             suffixes_for({Content::mesh}) + "; end the name in one of these");
-  if (!is_for(solver.solution, Content::solution))
+                             io::suffixes_for({io::Content::mesh}) + "; end the name in one of these");
+  if (!is_for(solver.solution, io::Content::solution))
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
-                                 suffixes_for({Content::solution}, "and") + "; end the name in one of these");
+                                 io::suffixes_for({io::Content::solution}, "and") +
+                                 "; end the name in one of these");
   if (solver.solution == solver.mesh ||
       std::filesystem::path(solver.solution).stem() == adapt::CyclePaths::mesh_stem)
     table.refuse("solution",
@@ -61,7 +62,8 @@ void require_solver_files(const AdaptArguments& arguments, const adapt::CommandS
 std::string outline_to_keep(const CaseInput& input) {
   if (!input.settings.morph_to) return {};
   MeshReport told_of_the_mesh;
-  return geom_text(without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
+  return io::geom_text(
+      without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
 }
 
 adapt::AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,

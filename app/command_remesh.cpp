@@ -37,11 +37,11 @@ struct RemeshArguments {
 
 /// Returns possible mesh files of a tree: next to it, with the same name.
 std::vector<std::string> files_beside(const std::string& tree) {
-  const std::string ending = tree_suffix;
+  const std::string ending = io::tree_suffix;
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
   std::vector<std::string> files;
-  for (const std::string& format : default_formats()) files.push_back(prefix + "." + format);
+  for (const std::string& format : io::default_formats()) files.push_back(prefix + "." + format);
   return files;
 }
 
@@ -51,8 +51,8 @@ MeshCounts counts_of(const Mesh& whole) {
 
 /// Returns the mesh of --mesh. It is accepted as the tree's mesh, with moved nodes, if it has the same counts
 /// and valid cells.
-LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  LoadedMesh named = read_mesh(arguments.mesh);
+io::LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  io::LoadedMesh named = io::read_mesh(arguments.mesh);
   adapt::require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
   for (const MeshFault& fault : validate(named.mesh)) {
     if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
@@ -67,13 +67,13 @@ LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tr
 
 /// Returns the mesh of the solution if the solution's file has another or none: that of --mesh, else the
 /// first file next to the tree that is bitwise the tree's mesh.
-LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
+io::LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
   if (!arguments.mesh.empty()) return named_mesh(arguments, tree);
   const std::vector<std::string> files = files_beside(arguments.tree);
   for (const std::string& file : files) {
     if (!std::filesystem::exists(file)) continue;
     try {
-      LoadedMesh loaded = read_mesh(file);
+      io::LoadedMesh loaded = io::read_mesh(file);
       if (adapt::is_mesh_of_tree(loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
@@ -87,17 +87,17 @@ LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& 
 
 /// Returns the mesh of the solution, with the solution. Its nodes are those of the tree: bitwise, or else
 /// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. On the calling rank only.
-LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  LoadedSolution solution = read_solution(arguments.solution);
+io::LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  io::LoadedSolution solution = io::read_solution(arguments.solution);
   if (solution.mesh)
     adapt::require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   if (solution.mesh && adapt::is_mesh_of_tree(solution.mesh->mesh, tree)) {
     whole = std::move(*solution.mesh);
   } else {
     whole = mesh_of_tree(arguments, tree);
     try {
-      require_same_mesh(solution, whole.mesh);
+      io::require_same_mesh(solution, whole.mesh);
     } catch (const InputError& fault) {
       if (!arguments.mesh.empty()) throw;
       throw InputError(std::string(fault.what()) + ", or name the mesh that was solved on with --mesh");
@@ -123,27 +123,27 @@ Statistics transfer_statistics(const adapt::RemeshedSolution& remeshed) {
 struct RemeshProblem {
   TreeRecord tree;
   CaseInput input;
-  LoadedMesh whole;                     ///< until it is distributed
+  io::LoadedMesh whole;                 ///< until it is distributed
   std::vector<std::string> files;       ///< output files
   std::vector<std::string> part_files;  ///< and those of partitions, if requested
-  PartRequest parts;
+  io::PartRequest parts;
 };
 
 /// Writes the outputs; returns the statistics of the partitions, if requested. *Collective.*
 std::optional<PartStatistics> write(const Communicator& comm, const adapt::RemeshedSolution& remeshed,
                                     const RemeshProblem& problem) {
-  OutputSet outputs(comm);
-  PartFiles part_files(comm);
+  io::OutputSet outputs(comm);
+  io::PartFiles part_files(comm);
   std::optional<PartStatistics> parts;
   const MeshResult& result = remeshed.generated.result;
   for (const std::string& file : problem.files) {
-    if (file.ends_with(tree_suffix))
-      write_tree(outputs, result.tree, file);
+    if (file.ends_with(io::tree_suffix))
+      io::write_tree(outputs, result.tree, file);
     else
-      write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
+      io::write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
   }
   if (!problem.part_files.empty())
-    parts = write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
+    parts = io::write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
   part_files.commit(outputs);
   return parts;
 }
@@ -156,7 +156,7 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
         "remesh --help'");
   }
   RemeshProblem problem;
-  problem.tree = read_tree(comm, arguments.tree);
+  problem.tree = io::read_tree(comm, arguments.tree);
   comm.together([&] {
     const TreeAttributes& tree = problem.tree.attributes;
     problem.input =
@@ -164,13 +164,13 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
-    problem.files.push_back(prefix + tree_suffix);
+    problem.files.push_back(prefix + io::tree_suffix);
     if (settings.partitions > 0) {
-      problem.parts = {prefix, settings.partitions, part_formats(settings.formats)};
-      problem.part_files = part_file_names(prefix, settings.partitions, problem.parts.formats);
+      problem.parts = {prefix, settings.partitions, io::part_formats(settings.formats)};
+      problem.part_files = io::part_file_names(prefix, settings.partitions, problem.parts.formats);
     }
-    require_possible_outputs(with_files_beside(problem.files));
-    require_possible_outputs(problem.part_files);
+    io::require_possible_outputs(io::with_files_beside(problem.files));
+    io::require_possible_outputs(problem.part_files);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
   return problem;
@@ -178,7 +178,7 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
 
 /// Distributes the solved mesh. *Collective.*
 adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
-  const LoadedMesh whole = std::exchange(problem.whole, {});
+  const io::LoadedMesh whole = std::exchange(problem.whole, {});
   adapt::SolvedMesh solved =
       adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
@@ -189,8 +189,8 @@ adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& argume
 void report(const CommandContext& context, const adapt::RemeshedSolution& remeshed, const StageTimes& times,
             const RemeshProblem& problem, const std::optional<PartStatistics>& parts) {
   for (const std::string& file : problem.files)
-    context.warn(changes_in(remeshed.generated.result.mesh, file));
-  const std::vector<std::string> files = with_files_beside(problem.files);
+    context.warn(io::changes_in(remeshed.generated.result.mesh, file));
+  const std::vector<std::string> files = io::with_files_beside(problem.files);
   MeshSummary summary = summarise(context.comm, remeshed.generated, times.stages(), files);
   if (context.comm.is_root()) add_extents(summary.statistics, problem.input.extents);
   if (parts) add_parts(summary, *parts, problem.part_files);
@@ -262,9 +262,9 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
 
 std::string solution_help() {
   std::string with_mesh, alone;
-  for (const FileFormat& format : file_formats()) {
-    if (!format.holds(Content::solution)) continue;
-    if (format.holds(Content::mesh)) {
+  for (const io::FileFormat& format : io::file_formats()) {
+    if (!format.holds(io::Content::solution)) continue;
+    if (format.holds(io::Content::mesh)) {
       with_mesh += "." + format.name + ", ";
     } else {
       alone += fmt::format("{}.{} ({})", alone.empty() ? "" : ", ", format.name, format.program);

@@ -42,7 +42,7 @@ struct SmoothArguments {
 
 /// Input on the root rank; on the others only the geometry.
 struct Loaded {
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   MeshOrder order;
   NodeFlags pinned;  ///< nodes_that_stay(), and fix_nodes()
   std::optional<Geometry> geometry;
@@ -50,7 +50,7 @@ struct Loaded {
 };
 
 /// Cells of layers are split by the shorter diagonals, which may not be Delaunay.
-bool is_delaunay_outside_layers(const LoadedMesh& loaded) {
+bool is_delaunay_outside_layers(const io::LoadedMesh& loaded) {
   const Communicator alone(MPI_COMM_SELF);
   const Mesh& mesh = loaded.mesh;
   return is_delaunay(mesh,
@@ -90,13 +90,13 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Warnings& warnings = context.record.noted;
   std::vector<char> turned;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
-    require_writable_suffix(arguments.output);
-    if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
+    io::require_readable_suffix(arguments.input);
+    io::require_writable_suffix(arguments.output);
+    if (!arguments.geometry.empty()) loaded.geometry = io::read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
-    require_possible_outputs({arguments.output});
-    loaded.whole = read_mesh(arguments.input);
-    tidy_mesh(loaded.whole, arguments.input);
+    io::require_possible_outputs({arguments.output});
+    loaded.whole = io::read_mesh(arguments.input);
+    io::tidy_mesh(loaded.whole, arguments.input);
     require_sound_topology(loaded.whole, arguments.input);
     append(warnings, loaded.whole.warnings);
     if (loaded.geometry) {
@@ -104,16 +104,16 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
       turned = loops_against(*loaded.geometry, loaded.whole.mesh);
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
-    loaded.pinned = nodes_that_stay(loaded.whole);
+    loaded.pinned = io::nodes_that_stay(loaded.whole);
     if (arguments.sweeps > 0)
-      append(warnings, fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
+      append(warnings, io::fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
     loaded.delaunay = loaded.whole.inner_curves.empty() && is_delaunay_outside_layers(loaded.whole);
     append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)
       warnings.push_back(
           arguments.input +
           ": the solution keeps its values at the nodes, which move; it is that of the old mesh");
-    append(warnings, losses_in(loaded.whole, arguments.output));
+    append(warnings, io::losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
   if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
@@ -176,7 +176,7 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   require_valid_result(comm, loaded, arguments.input);
   times.begin("write");
-  write_mesh_of_root(comm, loaded.whole, arguments.output);
+  io::write_mesh_of_root(comm, loaded.whole, arguments.output);
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
@@ -201,11 +201,11 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   std::string text;
   if (arguments.sweeps == 0) {
     require_valid_result(context.comm, loaded, arguments.input);
-    write_mesh_of_root(context.comm, loaded.whole, arguments.output);
+    io::write_mesh_of_root(context.comm, loaded.whole, arguments.output);
   } else {
     text = smooth_and_write(context, arguments, loaded, times);
   }
-  context.record.files = with_files_beside({arguments.output});
+  context.record.files = io::with_files_beside({arguments.output});
   if (context.shows_table())
     std::cout << text << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
@@ -215,7 +215,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   Command command = line.add_command("smooth", "improve the cell shapes of a mesh by moving its nodes");
-  command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  command.add_option("input", arguments->input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command

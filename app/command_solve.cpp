@@ -38,20 +38,20 @@ struct SolveArguments {
 /// The settings and, on the root rank only, the mesh with the initial state.
 struct SolveProblem {
   Settings settings;
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   MeshOrder order;
   Field start;  ///< without variables: the initial state follows from the case
 };
 
 void require_outputs(const std::string& output) {
-  require_writable_suffix(output);
-  if (!format_of(output)->holds(Content::solution))
+  io::require_writable_suffix(output);
+  if (!io::format_of(output)->holds(io::Content::solution))
     throw InputError(output + ": this format cannot store the flow; use a " +
-                     suffixes_for({Content::mesh, Content::solution}) + " file");
+                     io::suffixes_for({io::Content::mesh, io::Content::solution}) + " file");
 }
 
 /// Returns the initial state if the mesh file has density, velocity and pressure.
-Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
+Field start_of(const io::LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
   std::vector<std::string> wanted(flow::euler_names.begin(), flow::euler_names.end());
@@ -81,7 +81,7 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
 SolveProblem load(const CommandContext& context, const SolveArguments& arguments) {
   SolveProblem problem;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
+    io::require_readable_suffix(arguments.input);
     require_outputs(arguments.output);
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
@@ -90,8 +90,8 @@ SolveProblem load(const CommandContext& context, const SolveArguments& arguments
                        "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
-    require_possible_outputs({arguments.output});
-    problem.whole = read_mesh(arguments.input);
+    io::require_possible_outputs({arguments.output});
+    problem.whole = io::read_mesh(arguments.input);
     context.record.noted = problem.whole.warnings;
     problem.order = order_for_parts(problem.whole.mesh);
     problem.start = start_of(problem.whole, arguments.input, context.record.noted);
@@ -109,8 +109,8 @@ TableFiles tables_beside(const std::string& output) {
   return {prefix + flow::wall_table_suffix, prefix + flow::history_suffix};
 }
 
-void write_text(OutputSet& outputs, const std::string& path, const std::string& text) {
-  TextOutput file(outputs, path);
+void write_text(io::OutputSet& outputs, const std::string& path, const std::string& text) {
+  io::TextOutput file(outputs, path);
   file.write(text);
   file.close();
 }
@@ -129,12 +129,13 @@ void write(const CommandContext& context, SolveProblem& problem, const Mesh& par
   Field solution = gather_field(comm, flow, part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
-    if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
+    if (!io::format_of(path)->holds(io::Content::constants)) solution.constants.clear();
     problem.whole.solution = std::move(solution);
-    for (std::string& loss : losses_in(problem.whole, path)) context.record.noted.push_back(std::move(loss));
+    for (std::string& loss : io::losses_in(problem.whole, path))
+      context.record.noted.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);
-    OutputSet outputs(alone);
-    write_mesh(outputs, problem.whole, path);
+    io::OutputSet outputs(alone);
+    io::write_mesh(outputs, problem.whole, path);
     write_text(outputs, tables_beside(path).walls, walls);
     write_text(outputs, tables_beside(path).history, flow::history_table(result.history));
     outputs.commit();
@@ -203,7 +204,7 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   context.record.statistics.add("converged", result.converged);
   context.record.statistics.add("seconds", record_of(stages));
   const TableFiles tables = tables_beside(arguments.output);
-  context.record.files = with_files_beside({arguments.output, tables.walls, tables.history});
+  context.record.files = io::with_files_beside({arguments.output, tables.walls, tables.history});
   if (context.shows_table())
     std::cout << statistics.table() << stage_table(stages)
               << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
@@ -217,13 +218,15 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
       line.add_command("solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
   command.add_case_argument(arguments->case_path);
   command
-      .add_option("input", arguments->input,
-                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is the initial state")
+      .add_option(
+          "input", arguments->input,
+          "the mesh (" + io::suffixes_for({io::Content::mesh}) + "); a flow in it is the initial state")
       .required()
       .value_name("IN");
   command
-      .add_option("-o,--output", arguments->output,
-                  "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
+      .add_option(
+          "-o,--output", arguments->output,
+          "the mesh with the flow (" + io::suffixes_for({io::Content::mesh, io::Content::solution}) + ")")
       .required()
       .value_name("OUT");
   command.add_set_option(arguments->assignments, "solver.mach=0.5");

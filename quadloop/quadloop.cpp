@@ -148,11 +148,11 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
 }
 
 MeshFile read(const Communicator& comm, const std::string& path) {
-  LoadedMesh loaded;
+  io::LoadedMesh loaded;
   MeshOrder order;
   comm.together([&] {
     if (!comm.is_root()) return;
-    loaded = read_mesh(path);
+    loaded = io::read_mesh(path);
     order = space_filling_order(loaded.mesh);
   });
   MeshFile file;
@@ -164,31 +164,31 @@ MeshFile read(const Communicator& comm, const std::string& path) {
 
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field) {
-  require_writable_suffix(path);
+  io::require_writable_suffix(path);
   require_rows(comm, mesh, field);
-  OutputSet outputs(comm);
+  io::OutputSet outputs(comm);
   const Field* solution = !field.empty() ? &field : nullptr;
-  write_mesh(outputs, mesh, path, solution);
+  io::write_mesh(outputs, mesh, path, solution);
   outputs.commit();
-  return losses_in(mesh, solution, path);
+  return io::losses_in(mesh, solution, path);
 }
 
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem) {
   require_rows(comm, solved.mesh, solved.solution);
-  OutputSet outputs(comm);
-  write_mesh(outputs, solved.mesh, stem + ".mesh", !solved.solution.empty() ? &solved.solution : nullptr);
-  write_tree(outputs, solved.tree, stem + tree_suffix);
+  io::OutputSet outputs(comm);
+  io::write_mesh(outputs, solved.mesh, stem + ".mesh", !solved.solution.empty() ? &solved.solution : nullptr);
+  io::write_tree(outputs, solved.tree, stem + io::tree_suffix);
   outputs.commit();
 }
 
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem) {
-  const std::string mesh = stem + ".mesh", tree = stem + tree_suffix;
-  LoadedMesh whole;
+  const std::string mesh = stem + ".mesh", tree = stem + io::tree_suffix;
+  io::LoadedMesh whole;
   comm.together([&] {
-    if (comm.is_root()) whole = read_mesh(mesh);
+    if (comm.is_root()) whole = io::read_mesh(mesh);
   });
   SolvedMesh solved =
-      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {

@@ -34,7 +34,7 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
 
 /// Returns the default formats, then the others of the case.
 std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
-  std::vector<std::string> formats = default_formats();
+  std::vector<std::string> formats = io::default_formats();
   for (const std::string& format : of_case) {
     if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
   }

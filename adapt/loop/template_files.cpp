@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void add_file(const fs::path& path, const std::string& name, CaseSettings& files) {
   try {
     files.emplace_back(template_key(name),
-                       fmt::format("\"{:016x}\"", text_digest(read_input(path.string()))));
+                       fmt::format("\"{:016x}\"", text_digest(io::read_input(path.string()))));
   } catch (const InputError&) {  // reported by the solver that needs the file
   }
 }

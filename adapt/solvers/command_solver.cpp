@@ -32,10 +32,10 @@ flow::SolverFiles files_in(const std::string& folder, const CommandSolver& solve
 /// store it. *Collective.*
 void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const flow::SolverFiles& files,
                double gamma) {
-  OutputSet outputs(comm);
+  io::OutputSet outputs(comm);
   const Field* state = !start.empty() ? &start : nullptr;
-  if (files.mesh != CyclePaths{files.folder}.native_mesh()) write_mesh(outputs, mesh, files.mesh, state);
-  if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
+  if (files.mesh != CyclePaths{files.folder}.native_mesh()) io::write_mesh(outputs, mesh, files.mesh, state);
+  if (files.state != files.mesh) io::write_mesh(outputs, mesh, files.state, state, gamma);
   outputs.commit();
 }
 
@@ -47,9 +47,9 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCo
   comm.together([&] {
     if (!comm.is_root()) return;
     try {
-      LoadedSolution left = read_solution(files.solution);
-      const LoadedMesh given = read_mesh(CyclePaths{files.folder}.native_mesh());
-      require_same_mesh(left, given.mesh);
+      io::LoadedSolution left = io::read_solution(files.solution);
+      const io::LoadedMesh given = io::read_mesh(CyclePaths{files.folder}.native_mesh());
+      io::require_same_mesh(left, given.mesh);
       order = own_order(given.mesh);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
@@ -63,13 +63,14 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCo
 }  // namespace
 
 std::string CommandSolver::state() const {
-  const FileFormat* format = format_of(mesh);
-  const bool holds_state = format != nullptr && format->holds(Content::solution);
+  const io::FileFormat* format = io::format_of(mesh);
+  const bool holds_state = format != nullptr && format->holds(io::Content::solution);
   if (holds_state) return mesh;
-  const auto writes_alone = [](const FileFormat& row) { return row.write_solution != nullptr; };
-  const FileFormat* const left = format_of(solution);
-  const FileFormat& alone =
-      left != nullptr && writes_alone(*left) ? *left : *std::ranges::find_if(file_formats(), writes_alone);
+  const auto writes_alone = [](const io::FileFormat& row) { return row.write_solution != nullptr; };
+  const io::FileFormat* const left = io::format_of(solution);
+  const io::FileFormat& alone = left != nullptr && writes_alone(*left)
+                                    ? *left
+                                    : *std::ranges::find_if(io::file_formats(), writes_alone);
   return std::filesystem::path(mesh).replace_extension(alone.name).string();
 }
 

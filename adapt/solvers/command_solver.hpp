@@ -12,8 +12,8 @@ namespace quadloop::adapt {
 /// An external solver, with the names of its files in the cycle's folder.
 struct CommandSolver {
   flow::SolverCommand command;
-  std::string mesh = CyclePaths::mesh_name(native_format().name),
-              solution = "solution." + native_format().name;
+  std::string mesh = CyclePaths::mesh_name(io::native_format().name),
+              solution = "solution." + io::native_format().name;
   int ranks = 0;  ///< 0: as many as quadloop uses
   std::string case_folder;
   double gamma = 1.4;  ///< ratio of specific heats of the initial state, if its format needs it

@@ -26,8 +26,8 @@ struct CyclePaths {
   /// Common prefix of these paths.
   std::string stem() const { return folder + "/" + mesh_stem; }
   /// The restart file.
-  std::string native_mesh() const { return mesh(native_format().name); }
-  std::string tree() const { return folder + "/" + mesh_stem + tree_suffix; }
+  std::string native_mesh() const { return mesh(io::native_format().name); }
+  std::string tree() const { return folder + "/" + mesh_stem + io::tree_suffix; }
   /// The geometry of the mesh, for a later design cycle.
   std::string outline() const { return stem() + ".geom"; }
   std::string walls() const { return folder + "/" + mesh_stem + flow::wall_table_suffix; }

@@ -89,7 +89,7 @@ std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int 
   copy_openfoam_template(solver.case_template, given, own);
   if (!fs::exists(own / "0") && fs::exists(own / "0.orig")) fs::rename(own / "0.orig", own / "0");
   for (const char* const part : {"0", "constant"}) fs::create_directories(own / part);
-  if (start.width() > 0) set_foam_fields((own / "0").string(), start);
+  if (start.width() > 0) io::set_foam_fields((own / "0").string(), start);
   if (ranks > 1 && !fs::exists(own / "system/decomposeParDict"))
     write_text(own / "system/decomposeParDict", decompose_dict(ranks));
   write_text(folder / script_name, script(given.application, ranks));
@@ -114,11 +114,11 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
     if (!comm.is_root()) return;
     try {
       const std::string own = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
-      const std::string time = latest_foam_time(own);
+      const std::string time = io::latest_foam_time(own);
       if (time.empty()) throw InputError(own + ": has no time folder above 0");
       const std::size_t cells = counts.triangles + counts.quads;
-      whole.cells = read_foam_fields(time, cells);
-      put_wall_values(time, own + "/constant/polyMesh", whole.cells);
+      whole.cells = io::read_foam_fields(time, cells);
+      io::put_wall_values(time, own + "/constant/polyMesh", whole.cells);
       if (whole.cells.names.empty()) throw InputError(time + ": contains no cell field");
     } catch (const InputError& fault) {
       throw SolverError(flow::solver_message(command, files,
@@ -130,10 +130,11 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
 
 /// *Collective.*
 void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string& folder) {
-  OutputSet outputs(comm);
-  const ExtrudedMesh one_thick = extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr);
-  write_foam(outputs, MeshStream(comm, one_thick),
-             folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
+  io::OutputSet outputs(comm);
+  const io::ExtrudedMesh one_thick =
+      io::extruded(mesh, io::even_heights(1, 1), io::ExtrusionAxis::z, nullptr);
+  io::write_foam(outputs, io::MeshStream(comm, one_thick),
+                 folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
   outputs.commit();
 }
 

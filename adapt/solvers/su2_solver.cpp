@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* history_name = "history";
 
-flow::Su2Config read_config(const std::string& path) { return {read_input(path), path}; }
+flow::Su2Config read_config(const std::string& path) { return {io::read_input(path), path}; }
 
 /// Returns the name of the restart file that SU2 will write.
 std::string restart_name(const flow::Su2Config& config, const std::string& path) {
@@ -58,8 +58,8 @@ std::string config_text(const Su2Solver& solver, bool restarts) {
 /// *Collective.*
 void write_config(const Communicator& comm, const Su2Solver& solver, const std::string& folder,
                   bool restarts) {
-  OutputSet outputs(comm);
-  TextOutput file(outputs, (std::filesystem::path(folder) / su2_config_name).string());
+  io::OutputSet outputs(comm);
+  io::TextOutput file(outputs, (std::filesystem::path(folder) / su2_config_name).string());
   std::string text;
   comm.together([&] {
     if (comm.is_root()) text = config_text(solver, restarts);
@@ -75,7 +75,7 @@ void add_end(const Communicator& comm, const std::string& folder, flow::SolvedFl
   comm.together([&] {
     const std::string path = (std::filesystem::path(folder) / history_name).string() + ".csv";
     if (comm.is_root() && std::filesystem::is_regular_file(path))
-      end = flow::end_of_history(read_input(path));
+      end = flow::end_of_history(io::read_input(path));
   });
   const auto from_root = [&](const std::optional<double>& value) {
     std::vector<double> own;

@@ -11,7 +11,7 @@ namespace quadloop::app {
 
 namespace {
 
-CellBlocks blocks_of(const LoadedMesh& loaded) {
+CellBlocks blocks_of(const io::LoadedMesh& loaded) {
   return {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
 }
 
@@ -51,7 +51,7 @@ void refuse_invalid(const std::string& file, const std::vector<MeshFault>& fault
                                cure));
 }
 
-std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file) {
+std::vector<std::string> doubts_about(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
   if (faults.empty()) return {};
   const MeshFault& first = faults.front();
@@ -60,17 +60,17 @@ std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::strin
                       more_faults(std::ssize(faults) - 1))};
 }
 
-void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
+void require_sound_topology(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate_topology(loaded.mesh, blocks_of(loaded));
   if (!faults.empty()) refuse_invalid(file, faults);
 }
 
-void require_valid_input(const LoadedMesh& loaded, const std::string& file) {
+void require_valid_input(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
   if (!faults.empty()) refuse_invalid(file, faults);
 }
 
-void require_valid(const LoadedMesh& smoothed, const std::string& file) {
+void require_valid(const io::LoadedMesh& smoothed, const std::string& file) {
   const std::vector<MeshFault> faults = validate(smoothed.mesh, blocks_of(smoothed));
   if (faults.empty()) return;
   const auto inverted = std::count_if(

@@ -17,7 +17,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -145,7 +145,7 @@ void OutputSet::bring_to_disk() {
   comm_.together([&] {
     bring_written_to_disk();
     for (const Output& output : outputs_)
-      quadloop::bring_to_disk(output.staged.temporary, output.staged.path);
+      quadloop::io::bring_to_disk(output.staged.temporary, output.staged.path);
   });
 }
 
@@ -204,4 +204,4 @@ void OutputFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) refuse_output(staged_.path, errno);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -35,6 +35,6 @@ const KeyTable<AdaptKeys>& adapt_keys();
 const KeyTable<UntilKeys>& until_keys();
 
 /// Reads the table [adapt] of a case; empty if it has none. Throws InputError that names key and line.
-std::optional<adapt::AdaptOptions> read_adapt_table(const CaseTable& root);
+std::optional<adapt::AdaptOptions> read_adapt_table(const io::CaseTable& root);
 
 }  // namespace quadloop

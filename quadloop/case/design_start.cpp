@@ -54,7 +54,7 @@ std::string cycle_folder(const std::string& from, std::vector<std::string>& warn
 /// Returns the settings in a cycle's record; empty if there is no record or it is incomplete.
 adapt::CaseSettings settings_of_cycle(const adapt::CyclePaths& paths) {
   if (!is_there(paths.record())) return {};
-  const auto recorded = adapt::recorded_case(read_input(paths.record()));
+  const auto recorded = adapt::recorded_case(io::read_input(paths.record()));
   return recorded ? recorded->settings : adapt::CaseSettings{};
 }
 
@@ -80,10 +80,10 @@ FormerMesh files_of(const std::string& from) {
     former.outline_file = paths.outline();
     former.settings = settings_of_cycle(paths);
   } else {
-    require_readable_suffix(from);
+    io::require_readable_suffix(from);
     const std::string stem = fs::path(from).replace_extension().string();
     former.mesh_file = from;
-    former.tree_file = stem + tree_suffix;
+    former.tree_file = stem + io::tree_suffix;
     former.outline_file = stem + ".geom";
   }
   if (!is_there(former.tree_file))
@@ -102,18 +102,18 @@ FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
     former = files_of(from);
     std::vector<std::string> told_when_it_was_meshed;
     if (!former.outline_file.empty())
-      former.outline = read_outline(former.outline_file, told_when_it_was_meshed);
+      former.outline = io::read_outline(former.outline_file, told_when_it_was_meshed);
   });
-  former.tree = read_tree(comm, former.tree_file);
+  former.tree = io::read_tree(comm, former.tree_file);
   return former;
 }
 
 adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
                               const std::string& file, const adapt::CaseSettings& settings) {
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   comm.together([&] {
     if (!comm.is_root()) return;
-    whole = read_mesh(former.mesh_file);
+    whole = io::read_mesh(former.mesh_file);
     const auto count = [](const auto& rows) { return std::ssize(rows); };
     adapt::require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
                           former.tree.attributes, former.mesh_file, former.tree_file);

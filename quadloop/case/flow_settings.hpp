@@ -29,6 +29,6 @@ struct FlowSettings {
 const KeyTable<FlowSettings>& flow_keys();
 
 /// Reads the table; empty if the case has none. Throws InputError that names key and line.
-std::optional<FlowSettings> read_flow_table(const CaseTable& root);
+std::optional<FlowSettings> read_flow_table(const io::CaseTable& root);
 
 }  // namespace quadloop

@@ -12,14 +12,15 @@ namespace quadloop {
 namespace {
 
 /// Reads a word, a list of words, or a table of words with error weights.
-GoalWeights read_quantities(const CaseTable& table, const std::string& key) {
+GoalWeights read_quantities(const io::CaseTable& table, const std::string& key) {
   const std::vector<std::string> words = words_of(flow::Goal::words);
   GoalWeights goals;
   if (table.is_table(key)) {
-    const CaseTable weights = *table.table(key);
+    const io::CaseTable weights = *table.table(key);
     refuse_unknown_keys(weights, words);
     for (const auto& [word, quantity] : flow::Goal::words) {
-      if (const auto weight = weights.number(word, Range::positive())) goals.emplace_back(quantity, *weight);
+      if (const auto weight = weights.number(word, io::Range::positive()))
+        goals.emplace_back(quantity, *weight);
     }
   } else {
     for (const std::string& word : texts(words).read(table, key)) {
@@ -62,7 +63,7 @@ std::vector<Key<SolverSettings>> goal_keys() {
           {.needs = {{"goal"}}})};
 }
 
-void place_goals(const CaseTable& table, SolverSettings& settings) {
+void place_goals(const io::CaseTable& table, SolverSettings& settings) {
   const Point about = settings.goal_about.value_or(Point{});
   for (const auto& [quantity, weight] : settings.goals)
     settings.euler.goals.push_back({quantity, settings.goal_on, about, weight});

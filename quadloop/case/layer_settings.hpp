@@ -55,9 +55,9 @@ const KeyTable<LayerLineKeys>& layer_line_keys();
 const KeyTable<BoundaryKeys>& boundary_keys();
 
 /// Read all [boundary.NAME], a [[wake]], a [[layer_line]]. Throw InputError that names key and line.
-void read_boundary_tables(const CaseTable& boundaries, Settings& settings);
-LayerLine read_wake(const CaseTable& table);
-LayerLine read_layer_line(const CaseTable& table, Settings& settings);
+void read_boundary_tables(const io::CaseTable& boundaries, Settings& settings);
+LayerLine read_wake(const io::CaseTable& table);
+LayerLine read_layer_line(const io::CaseTable& table, Settings& settings);
 
 /// Returns the flow that converts a solution's wall shear to wall units, if the layers of a wall specify a
 /// y+. The viscosity is that of a laminar flow, else that of [flow].

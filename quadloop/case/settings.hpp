@@ -43,7 +43,7 @@ struct Placement {
 struct FileExtent {
   std::string path;
   Box box;
-  FileUnit declared;
+  io::FileUnit declared;
   double metres = 0;  ///< metres per unit of its coordinates; 0: no conversion
 };
 
@@ -88,7 +88,7 @@ struct Settings {
   /// Least quality of the worst cell outside layers for which cells are kept on a changed geometry.
   std::optional<double> morph_to;
   std::string output_prefix;
-  std::vector<std::string> formats = default_formats();
+  std::vector<std::string> formats = io::default_formats();
   std::vector<std::string> fields;  ///< of quantity_names(), written in addition to a solution
   /// Number of parts for a solver's ranks, written in addition to the whole mesh; 0: none.
   std::int32_t partitions = 0;

@@ -31,14 +31,14 @@ const KeyTable<SmoothKeys>& smooth_keys() {
   return keys;
 }
 
-void read_smooth_table(const CaseTable& table, Settings& settings) {
+void read_smooth_table(const io::CaseTable& table, Settings& settings) {
   SmoothKeys keys;
   smooth_keys().read(table, keys);
   settings.smooth = keys.options;
   if (keys.follows_solution) settings.stretch = keys.stretch;
 }
 
-void require_variables_of_targets(const CaseTable& root, const Settings& settings) {
+void require_variables_of_targets(const io::CaseTable& root, const Settings& settings) {
   if (!settings.stretch || !settings.adapt ||
       settings.adapt->source == adapt::AdaptOptions::Source::variables)
     return;

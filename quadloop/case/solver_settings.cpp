@@ -21,7 +21,7 @@ namespace {
 /// The name of a file in the cycle's folder.
 ValueForm<std::string> file_name() {
   ValueForm<std::string> form = text();
-  form.read = [](const CaseTable& table, const std::string& key) {
+  form.read = [](const io::CaseTable& table, const std::string& key) {
     const std::string name = *table.text(key);
     if (name.empty() || name.find('/') != std::string::npos)
       table.refuse(key, "must be the name of a file in the cycle's folder");
@@ -44,10 +44,11 @@ std::vector<Key<EulerOptions>> model_keys() {
       key<&EulerOptions::viscosity>("viscosity", number({0}),
                                     "Dynamic viscosity in units of free-stream density, speed of sound and "
                                     "length. Above 0: laminar flow, no-slip walls."),
-      key<&EulerOptions::prandtl>("prandtl", number(Range::positive()), "Prandtl number of a viscous flow.",
+      key<&EulerOptions::prandtl>("prandtl", number(io::Range::positive()),
+                                  "Prandtl number of a viscous flow.",
                                   {.needs = {only_with("viscosity > 0 or reynolds")}}),
       key<&EulerOptions::reference_length>(
-          "reference_length", number(Range::positive()),
+          "reference_length", number(io::Range::positive()),
           "Reference length of the force coefficients, which include all walls and are in wind axes.",
           {.unit = "length"}),
       key<&EulerOptions::limiter>(
@@ -103,12 +104,12 @@ std::vector<Key<EulerOptions>> march_keys() {
           "than ten million steps in total are rejected.",
           {.needs = {{carries_on}}}),
       key<&EulerOptions::time_step>(
-          "time_step", number(Range::positive()),
+          "time_step", number(io::Range::positive()),
           "Size of second-order implicit steps, in units of length over speed of sound. Default: explicit "
           "steps.",
           {.fallback = "none", .needs = {{"time = \"accurate\" or " + carries_on}}}),
       key<&EulerOptions::cfl>(
-          "cfl", number(Range::positive()),
+          "cfl", number(io::Range::positive()),
           "Steady: initial CFL number; it grows as the residual falls. Explicit time steps use at most 0.8."),
       key<&EulerOptions::iterations>(
           "iterations", whole({0, std::numeric_limits<int>::max()}),
@@ -141,7 +142,7 @@ std::vector<Key<SolverSettings>> command_keys() {
               "solution", file_name(), "Output file of the program.",
               {.example = "\"s.cgns\"", .needs = {of_command, {runs, own_names}}}),
           key<&SolverSettings::command, &adapt::CommandSolver::command, &flow::SolverCommand::timeout>(
-              "timeout", number(Range::positive()), "Time limit of the program.",
+              "timeout", number(io::Range::positive()), "Time limit of the program.",
               {.unit = "seconds", .needs = {of_all}}),
           key<&SolverSettings::case_template>(
               "template", text(),
@@ -156,7 +157,7 @@ std::vector<Key<SolverSettings>> command_keys() {
 }
 
 /// Checks the time steps, and combinations of several keys.
-void check_times(const CaseTable& table, const EulerOptions& options) {
+void check_times(const io::CaseTable& table, const EulerOptions& options) {
   const bool accurate = options.time == EulerOptions::Time::accurate;
   if (accurate && options.time_step && options.end_time / *options.time_step > flow::most_steps_in_time)
     table.refuse(
@@ -170,7 +171,7 @@ void check_times(const CaseTable& table, const EulerOptions& options) {
 }
 
 /// Requires something that drives the flow if the free stream is at rest.
-void require_driven_flow(const CaseTable& table, const SolverSettings& settings) {
+void require_driven_flow(const io::CaseTable& table, const SolverSettings& settings) {
   const EulerOptions& options = settings.euler;
   if (settings.kind != SolverSettings::Kind::euler || options.mach > 0) return;
   const bool is_heated = options.viscosity > 0 && !settings.wall_temperatures.empty();
@@ -194,7 +195,7 @@ const KeyTable<SolverSettings>& solver_keys() {
   std::vector<Key<SolverSettings>> of_euler = joined<SolverSettings>(
       {KeyTable("", model_keys()).keys_of<&SolverSettings::euler>(),
        {key<&SolverSettings::reynolds>(
-           "reynolds", number(Range::positive()),
+           "reynolds", number(io::Range::positive()),
            "Alternative to `viscosity`, which becomes `mach` times `reference_length` / "
            "`reynolds`.",
            {.fallback = "none",
@@ -207,7 +208,7 @@ const KeyTable<SolverSettings>& solver_keys() {
   return keys;
 }
 
-void read_solver_table(const CaseTable& table, SolverSettings& settings) {
+void read_solver_table(const io::CaseTable& table, SolverSettings& settings) {
   settings.given = true;
   solver_keys().read(table, settings);
   EulerOptions& euler = settings.euler;

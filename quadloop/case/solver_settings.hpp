@@ -50,7 +50,7 @@ struct SolverSettings {
 const KeyTable<SolverSettings>& solver_keys();
 
 /// Reads [solver]. Throws InputError that names key and line.
-void read_solver_table(const CaseTable& table, SolverSettings& settings);
+void read_solver_table(const io::CaseTable& table, SolverSettings& settings);
 
 /// Returns a warning if the free stream is at rest, so that forces have no coefficients.
 std::vector<std::string> forces_without_stream(const SolverSettings& settings);

@@ -67,7 +67,7 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
                              "mesh.history.csv", "log.txt", "record.json"})
       EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
     EXPECT_EQ(test::files_in(folder.file(cycle)), 8U);
-    EXPECT_TRUE(read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
+    EXPECT_TRUE(io::read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
   }
   const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
   EXPECT_TRUE(log.starts_with("cycle 1: "));
@@ -177,7 +177,7 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
   EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
   world().barrier();
   const auto tree = [&](const std::string& cycle) {
-    return read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
+    return io::read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
   };
   EXPECT_TRUE(tree("cycle_00").measured_wall.empty());
   EXPECT_FALSE(tree("cycle_01").measured_wall.empty());
@@ -224,7 +224,7 @@ TEST(RunInFolder, ASolutionWithAnotherValueIsNotGoneOnFrom) {
   const std::string mesh = folder.file("run/cycle_00/mesh.mesh");
   if (world().is_root()) change_a_digit(mesh);
   world().barrier();
-  ASSERT_TRUE(read_native(mesh).solution.has_value()) << "the file is whole";
+  ASSERT_TRUE(io::read_native(mesh).solution.has_value()) << "the file is whole";
   try {
     heard.run(vortex_case(1), folder.file("run"), true);
     FAIL() << "the run goes on from a damaged solution";

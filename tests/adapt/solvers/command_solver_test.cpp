@@ -28,8 +28,8 @@ TEST(CommandSolver, WhatItLeavesIsTheSolution) {
   const Mesh part = scatter_mesh(world(), whole, own_order(whole));
   Field flow{{"density"}, {}, {}};
   for (std::int32_t i = 0; i < part.owned_nodes; ++i) flow.values.push_back(part.points[i].x + 3);
-  OutputSet outputs(world());
-  write_mesh(outputs, part, folder.file("mesh.mesh"), &flow);
+  io::OutputSet outputs(world());
+  io::write_mesh(outputs, part, folder.file("mesh.mesh"), &flow);
   outputs.commit();
   const auto folder_of = [&](int) { return folder.file("."); };
   const auto solve = [&](const std::string& script) {

@@ -17,7 +17,7 @@ using adapt::AdaptOptions;
 struct Case : testing::Test {
   Case() { folder.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
   std::optional<AdaptOptions> adapt(const std::string& text) const {
-    return read_adapt_table(read_case(folder.write("case.toml", text)));
+    return read_adapt_table(io::read_case(folder.write("case.toml", text)));
   }
   std::string refused(const std::string& text) const {
     return test::refusal(folder, [&] { adapt("[adapt]\n" + text); });

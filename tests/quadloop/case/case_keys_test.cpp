@@ -189,7 +189,7 @@ class CaseKeys : public ::testing::Test {
     for (const std::string& warning : settings.warnings)
       EXPECT_EQ(warning.find("nothing: it needs"), std::string::npos) << name << ": " << warning;
     expect_other_settings(path, accepted, name, place_of(table.text().name) + "." + key.text.name, settings);
-    CaseTable below = read_case(path, accepted.assignments());
+    io::CaseTable below = io::read_case(path, accepted.assignments());
     for (std::string rest = place_of(table.text().name); !rest.empty();) {
       const std::string first = rest.substr(0, rest.find('.'));
       rest.erase(0, first.size() + 1);

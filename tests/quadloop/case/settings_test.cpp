@@ -62,7 +62,7 @@ TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
   folder_.write("map.geojson",
                 R"({"type":"FeatureCollection","name":"shore","features":[{"type":"Feature","properties":{},)"
                 R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}}]})");
-  add_gis_formats();
+  io::add_gis_formats();
   const auto load_layers = [&](const std::string& layers) {
     const std::string text = "[geometry]\nfile = \"map.geojson\"\nlayers = " + layers + "\n";
     return load(read_settings(folder_.write("map.toml", text), {}));
