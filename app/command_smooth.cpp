@@ -53,8 +53,8 @@ struct Loaded {
 bool is_delaunay_outside_layers(const io::LoadedMesh& loaded) {
   const Communicator alone(MPI_COMM_SELF);
   const Mesh& mesh = loaded.mesh;
-  return is_delaunay(mesh,
-                     blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
+  return is_delaunay(
+      mesh, smoother::blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
 }
 
 constexpr double most_stretched = 20;  // longest over shortest edge
@@ -100,8 +100,8 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     require_sound_topology(loaded.whole, arguments.input);
     append(warnings, loaded.whole.warnings);
     if (loaded.geometry) {
-      append(warnings, require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
-      turned = loops_against(*loaded.geometry, loaded.whole.mesh);
+      append(warnings, smoother::require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
+      turned = smoother::loops_against(*loaded.geometry, loaded.whole.mesh);
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
     loaded.pinned = io::nodes_that_stay(loaded.whole);
@@ -116,17 +116,17 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
     append(warnings, io::losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
-  if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
+  if (loaded.geometry) loaded.geometry = smoother::with_loops_turned(*loaded.geometry, turned);
   loaded.delaunay = context.comm.any(loaded.delaunay);
   return loaded;
 }
 
-SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded,
-                         const Mesh& part) {
-  SmoothOptions options;
+smoother::SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments,
+                                   const Loaded& loaded, const Mesh& part) {
+  smoother::SmoothOptions options;
   options.sweeps = arguments.sweeps;
-  options.method = *value_of(method_words, arguments.method);
-  options.objective = *value_of(objective_words, arguments.objective);
+  options.method = *value_of(smoother::method_words, arguments.method);
+  options.objective = *value_of(smoother::objective_words, arguments.objective);
   options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (loaded.delaunay) {
@@ -135,7 +135,7 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
       return tie_rank(centre, p);
     };
   }
-  keep_layers(comm, part, options);
+  smoother::keep_layers(comm, part, options);
   return options;
 }
 
@@ -165,12 +165,12 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
   const bool parallel =
       comm.any(!part.quads.empty()) && solver_statistics(comm, part).parallelogram_share() == 1;
-  SmoothOptions options = options_of(comm, arguments, loaded, part);
-  if (parallel) options = sparing_parallelograms(options);
+  smoother::SmoothOptions options = options_of(comm, arguments, loaded, part);
+  if (parallel) options = smoother::sparing_parallelograms(options);
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
-  const SmoothReport smoothed = smooth_mesh(comm, part, options);
+  const smoother::SmoothReport smoothed = smoother::smooth_mesh(comm, part, options);
   times.begin("check");
   if (parallel) warn_of_skew_quads(context, arguments.output, solver_statistics(comm, part));
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
@@ -228,12 +228,12 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
       .between(0, 100000);
   command.add_option("--method", arguments->method, "optimisation method: perturb (the default) or nlopt")
       .value_name("METHOD")
-      .one_of(words_of(method_words));
+      .one_of(words_of(smoother::method_words));
   command
       .add_option("--objective", arguments->objective,
                   "objective function: power (the default) or thesis (Eq. 3.4)")
       .value_name("COST")
-      .one_of(words_of(objective_words));
+      .one_of(words_of(smoother::objective_words));
   command
       .add_option("--geometry", arguments->geometry,
                   "geometry along which boundary nodes may slide, as written by `mesh --geometry-out`")

@@ -40,7 +40,8 @@ bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   if (!comm.is_root()) return comm.any(false);
   const Communicator alone(MPI_COMM_SELF);
-  return comm.any(is_delaunay(whole, blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
+  return comm.any(
+      is_delaunay(whole, smoother::blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
 }
 
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
@@ -86,10 +87,10 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
   const MeshInput& input = mesh_input(of);
   const TreeGrid grid = input.grid();
-  SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
+  smoother::SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
   if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
-  keep_layers(comm, mesh, options);
-  smooth_mesh(comm, mesh, options);
+  smoother::keep_layers(comm, mesh, options);
+  smoother::smooth_mesh(comm, mesh, options);
 }
 
 FlowSolver built_in_solver(const Communicator& comm, const Case& of) {

@@ -256,7 +256,7 @@ class Stretching {
   const Communicator& comm_;
   const Mesh& solved_;
   const MetricDemand& demand_;
-  OutlinePath outline_;
+  smoother::OutlinePath outline_;
   Walls walls_;
   TargetMetric metric_;
   std::int64_t wanted_;

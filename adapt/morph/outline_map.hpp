@@ -84,7 +84,7 @@ class OutlineMap {
                                    const std::vector<Anchor>& standing) const;
 
   const Geometry &from_, &to_;
-  OutlinePath old_path_, new_path_;
+  smoother::OutlinePath old_path_, new_path_;
   std::vector<LoopMap> loops_;
 };
 

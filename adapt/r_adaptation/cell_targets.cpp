@@ -45,9 +45,10 @@ std::vector<double> ShapesOfTree::thinning(const Mesh& now, const std::vector<Lo
   return thinning;
 }
 
-std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector<LogMetric>& metrics,
-                                              double stretch) const {
-  std::vector<CellTarget> targets;
+std::vector<smoother::CellTarget> ShapesOfTree::targets(const Mesh& now,
+                                                        const std::vector<LogMetric>& metrics,
+                                                        double stretch) const {
+  std::vector<smoother::CellTarget> targets;
   targets.reserve(shapes_.size());
   const auto add = [&](const auto& nodes) {
     const Shape& shape = shapes_[targets.size()];

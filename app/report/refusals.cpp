@@ -26,7 +26,7 @@ Point worst_place(const Mesh& mesh) {
       corners[k] = mesh.point(nodes[k]);
       sum = sum + corners[k];
     }
-    const double cost = cell_cost(corners, ideal_targets<width>());
+    const double cost = smoother::cell_cost(corners, smoother::ideal_targets<width>());
     if (cost <= worst) return;
     worst = cost;
     place = 1.0 / size32(nodes) * sum;

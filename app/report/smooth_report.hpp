@@ -15,7 +15,7 @@ namespace quadloop::app {
 struct ShapeReport {
   QualitySummary quality;
   std::optional<QualitySummary> outside;  ///< of the cells outside layers, if there are layers
-  std::vector<Histogram> histograms;
+  std::vector<smoother::Histogram> histograms;
   AreaRatios areas;  ///< on the root rank only
 };
 

@@ -144,8 +144,7 @@ void OutputSet::commit_together(const Communicator& comm, std::initializer_list<
 void OutputSet::bring_to_disk() {
   comm_.together([&] {
     bring_written_to_disk();
-    for (const Output& output : outputs_)
-      quadloop::io::bring_to_disk(output.staged.temporary, output.staged.path);
+    for (const Output& output : outputs_) io::bring_to_disk(output.staged.temporary, output.staged.path);
   });
 }
 

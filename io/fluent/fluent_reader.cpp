@@ -79,10 +79,9 @@ class FluentReader {
       if (!closes) nodes[k + 1] = next;
     }
     if (own.size() == 3) {
-      quadloop::io::add_cell<CellKind::triangle>(mesh_, std::array{nodes[0], nodes[1], nodes[2]},
-                                                 block_of_[cell]);
+      io::add_cell<CellKind::triangle>(mesh_, std::array{nodes[0], nodes[1], nodes[2]}, block_of_[cell]);
     } else {
-      quadloop::io::add_cell<CellKind::quad>(mesh_, nodes, block_of_[cell]);
+      io::add_cell<CellKind::quad>(mesh_, nodes, block_of_[cell]);
     }
   }
 

@@ -77,7 +77,7 @@ struct Settings {
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max, which may follow from the geometry
-  SmoothOptions smooth;            ///< without the geometry
+  smoother::SmoothOptions smooth;  ///< without the geometry
   std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   std::optional<FlowSettings> flow;

@@ -6,14 +6,14 @@ const KeyTable<SmoothKeys>& smooth_keys() {
   const std::string follows = "targets = \"solution\"";
   static const KeyTable<SmoothKeys> keys{
       "smooth",
-      {key<&SmoothKeys::options, &SmoothOptions::sweeps>(
+      {key<&SmoothKeys::options, &smoother::SmoothOptions::sweeps>(
            "sweeps", whole({0, 100000}), "Largest number of visits to each node; 0 disables smoothing."),
-       key<&SmoothKeys::options, &SmoothOptions::objective>(
-           "objective", choice(objective_words),
+       key<&SmoothKeys::options, &smoother::SmoothOptions::objective>(
+           "objective", choice(smoother::objective_words),
            "Objective function around each node: `power`, or `thesis` for Eq. 3.4; see "
            "[smoothing](../explanation/smoothing.md)."),
-       key<&SmoothKeys::options, &SmoothOptions::method>("method", choice(method_words),
-                                                         "Optimisation method."),
+       key<&SmoothKeys::options, &smoother::SmoothOptions::method>("method", choice(smoother::method_words),
+                                                                   "Optimisation method."),
        key<&SmoothKeys::follows_solution>(
            "targets", choice<bool>({{"ideal", false}, {"solution", true}}),
            "Target shapes: squares and equilateral triangles, or thin cells where `adapt.variable` has a "

@@ -7,7 +7,7 @@ namespace quadloop {
 
 /// The table [smooth].
 struct SmoothKeys {
-  SmoothOptions options;
+  smoother::SmoothOptions options;
   bool follows_solution = false;  ///< whether cells follow the solution
   double stretch = 8;             ///< as MeshInput::stretch, if they do
 };

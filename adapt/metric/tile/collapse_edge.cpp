@@ -34,7 +34,7 @@ bool may_go(const TileMesh& mesh, std::int32_t gone, const TileMesh::Edge& edge)
   if (on_rim(mesh, before) && on_rim(mesh, after)) return false;
   const Walls& walls = mesh.walls();
   Walls::Chord whole = mesh.chord(before, after, edge.side.boundary);
-  const OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);
+  const smoother::OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);
   return at.valid() && walls.may_change(whole) && walls.may_join(whole, at, mesh.point(gone));
 }
 
