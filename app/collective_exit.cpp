@@ -13,7 +13,7 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/base/utf8.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -111,4 +111,4 @@ ExitStatus close_together(MPI_Comm comm, const Outcome& outcome) {
   return static_cast<ExitStatus>(*first);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -8,7 +8,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Result of one rank's work.
 struct Outcome {
@@ -28,4 +28,4 @@ struct Outcome {
 /// `output_failed`. *Collective* as far as the ranks still can; `comm` must not be used for anything else.
 ExitStatus close_together(MPI_Comm comm, const Outcome& outcome);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -5,7 +5,7 @@
 
 #include "mesher/base/log.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 std::string record_text(const CommandRecord& record, const Outcome& outcome) {
   JsonObject json;
@@ -47,4 +47,4 @@ std::vector<std::string> CommandContext::warnings_before_error() const {
   return recorded(*this, std::exchange(record.noted, {}));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -8,7 +8,7 @@
 #include "mesher/base/json.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Output of `--json` for a command: one object on one line. Also printed on failure, with what is known by
 /// then.
@@ -62,4 +62,4 @@ void add_convert_command(CommandLine& line, CommandContext& context);
 void add_extrude_command(CommandLine& line, CommandContext& context);
 void add_help_command(CommandLine& line, CommandContext& context);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -23,7 +23,7 @@
 #include "quadloop/case/design_start.hpp"
 #include "quadloop/case/solver_settings.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -36,20 +36,21 @@ struct AdaptArguments {
 };
 
 /// Checks for errors that would stop the loop after the initial mesh.
-void require_solver_files(const AdaptArguments& arguments, const CommandSolver& solver) {
-  const CaseTable table = *read_case(arguments.case_path, arguments.assignments).table("solver");
-  const auto is_for = [](const std::string& path, Content content) {
-    const FileFormat* format = format_of(path);
+void require_solver_files(const AdaptArguments& arguments, const adapt::CommandSolver& solver) {
+  const io::CaseTable table = *io::read_case(arguments.case_path, arguments.assignments).table("solver");
+  const auto is_for = [](const std::string& path, io::Content content) {
+    const io::FileFormat* format = io::format_of(path);
     return format != nullptr && format->holds(content);
   };
-  if (!is_for(solver.mesh, Content::mesh))
+  if (!is_for(solver.mesh, io::Content::mesh))
     table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
-                             suffixes_for({Content::mesh}) + "; end the name in one of these");
-  if (!is_for(solver.solution, Content::solution))
+                             io::suffixes_for({io::Content::mesh}) + "; end the name in one of these");
+  if (!is_for(solver.solution, io::Content::solution))
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
-                                 suffixes_for({Content::solution}, "and") + "; end the name in one of these");
+                                 io::suffixes_for({io::Content::solution}, "and") +
+                                 "; end the name in one of these");
   if (solver.solution == solver.mesh ||
-      std::filesystem::path(solver.solution).stem() == CyclePaths::mesh_stem)
+      std::filesystem::path(solver.solution).stem() == adapt::CyclePaths::mesh_stem)
     table.refuse("solution",
                  "is '" + solver.solution + "', the name of a mesh file; give the solution another name");
   if (solver.solution == solver.state())
@@ -61,31 +62,33 @@ void require_solver_files(const AdaptArguments& arguments, const CommandSolver& 
 std::string outline_to_keep(const CaseInput& input) {
   if (!input.settings.morph_to) return {};
   MeshReport told_of_the_mesh;
-  return geom_text(without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
+  return io::geom_text(
+      without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
 }
 
-AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
-                           std::optional<double>& morph_to, Warnings& warnings, std::string& note,
-                           std::string& extents) {
+adapt::AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
+                                  std::optional<double>& morph_to, Warnings& warnings, std::string& note,
+                                  std::string& extents) {
   CaseInput input =
       load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
   const Settings& settings = input.settings;
-  const AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
+  const adapt::AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
   require_known_variables(settings.solver, adapt.variables, arguments.case_path);
-  const EulerOptions& flow = settings.solver.euler;
+  const flow::EulerOptions& flow = settings.solver.euler;
   if (!settings.solver.given)
     note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
                        flow.alpha);
   for (const std::string& line : extent_lines(input.extents)) extents += "  " + line + "\n";
   morph_to = settings.morph_to;
   const std::string outline = outline_to_keep(input);
-  ChosenSolver solver =
+  adapt::ChosenSolver solver =
       chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
-  if (const CommandSolver* const command = command_of(solver)) require_solver_files(arguments, *command);
-  if (const auto* openfoam = std::get_if<OpenfoamSolver>(&solver))
-    read_openfoam_template(openfoam->case_template);  // rejects errors that would end the first cycle
-  AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
-                        settings.formats,       settings.values, settings.fields};
+  if (const adapt::CommandSolver* const command = adapt::command_of(solver))
+    require_solver_files(arguments, *command);
+  if (const auto* openfoam = std::get_if<adapt::OpenfoamSolver>(&solver))
+    adapt::read_openfoam_template(openfoam->case_template);  // rejects errors that would end the first cycle
+  adapt::AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
+                               settings.formats,       settings.values, settings.fields};
   adaptive.stream = settings.stream;
   adaptive.partitions = settings.partitions;
   adaptive.outline = outline;
@@ -93,9 +96,9 @@ AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<
   return adaptive;
 }
 
-std::string line_of(const CycleRecord& record) {
+std::string line_of(const adapt::CycleRecord& record) {
   std::string line =
-      fmt::format("cycle {:>2}  {:>8} nodes  {}", record.cycle, record.nodes, quality_text(record));
+      fmt::format("cycle {:>2}  {:>8} nodes  {}", record.cycle, record.nodes, adapt::quality_text(record));
   if (record.morphed) line += *record.morphed ? "  morphed" : "  remeshed";
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
@@ -111,34 +114,36 @@ std::string line_of(const CycleRecord& record) {
 }
 
 /// Adds a cycle's data and files to those of the run.
-void keep(const CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles,
+void keep(const adapt::CycleRecord& record, const std::string& folder, std::vector<JsonObject>& cycles,
           CommandRecord& of_run) {
-  cycles.push_back(statistics_of(record));
-  cycles.back().add("seconds", seconds_of(record));
+  cycles.push_back(adapt::statistics_of(record));
+  cycles.back().add("seconds", adapt::seconds_of(record));
   of_run.statistics = {};
   of_run.statistics.add("folder", folder);
   of_run.statistics.add("cycles", cycles);
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder + "/" + cycle_name(record.cycle)))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(folder + "/" + adapt::cycle_name(record.cycle)))
     files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   of_run.files.insert(of_run.files.end(), files.begin(), files.end());
 }
 
 /// Returns a line if the run ended before its last cycle; else empty.
-std::string why_ended(const LoopEnd& end) {
+std::string why_ended(const adapt::LoopEnd& end) {
   if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
   return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
                      end.left->plan.reason_for_no_change);
 }
 
-std::string closing_line(const std::string& folder, const LoopEnd& end) {
+std::string closing_line(const std::string& folder, const adapt::LoopEnd& end) {
   const int first = end.first, last = end.last;
   if (first > last)
-    return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, cycle_name(0), cycle_name(last));
-  if (first == last) return fmt::format("  wrote {}/{}\n", folder, cycle_name(last));
-  return fmt::format("  wrote {}/{} to {}\n", folder, cycle_name(first), cycle_name(last));
+    return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, adapt::cycle_name(0),
+                       adapt::cycle_name(last));
+  if (first == last) return fmt::format("  wrote {}/{}\n", folder, adapt::cycle_name(last));
+  return fmt::format("  wrote {}/{} to {}\n", folder, adapt::cycle_name(first), adapt::cycle_name(last));
 }
 
 std::string folder_of(const AdaptArguments& arguments) {
@@ -153,7 +158,7 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
-  std::optional<AdaptiveCase> adaptive;
+  std::optional<adapt::AdaptiveCase> adaptive;
   std::string note, extents;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
@@ -168,18 +173,18 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const std::string folder = folder_of(arguments);
   context.warn(former ? former->warnings : Warnings{});
   std::vector<JsonObject> cycles;
-  RunReport report;
+  adapt::RunReport report;
   report.warning = [&](const std::string& warning) { context.warn({warning}); };
-  report.cycle = [&](const CycleRecord& record, const std::vector<std::string>& of_cycle) {
+  report.cycle = [&](const adapt::CycleRecord& record, const std::vector<std::string>& of_cycle) {
     if (context.shows_table()) std::cout << std::exchange(extents, {}) << line_of(record) << std::endl;
     if (comm.is_root()) keep(record, folder, cycles, context.record);
     context.warn(of_cycle);
   };
   context.record.statistics.add("folder", folder);
   context.record.statistics.add("cycles", cycles);
-  std::optional<DesignStart> start;
+  std::optional<adapt::DesignStart> start;
   if (former) start = read_start(comm, *former, morph_to, outline_file(arguments), adaptive->settings);
-  const LoopEnd end = run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
+  const adapt::LoopEnd end = adapt::run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
   if (comm.is_root()) context.record.statistics.add("nothing_to_change", end.nothing_to_change);
   if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.statistics.add("settled", end.settled);
   if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end);
@@ -209,4 +214,4 @@ void add_adapt_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_adapt(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -17,7 +17,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -29,7 +29,7 @@ struct CheckArguments {
 /// it is not that of a single domain and is left unchanged.
 std::vector<Chain> load_chains(const CommandContext& context, const std::string& path, bool one_domain) {
   Warnings warnings;
-  std::vector<Chain> chains = read_geometry(path, warnings);
+  std::vector<Chain> chains = io::read_geometry(path, warnings);
   AssembleOptions options;
   options.domain_is_known = true;
   if (one_domain) chains = chains_of(assemble(std::move(chains), options, warnings));
@@ -38,7 +38,7 @@ std::vector<Chain> load_chains(const CommandContext& context, const std::string&
 }
 
 /// Checks a mesh whose connectivity is valid, as that of every mesh read from a file is.
-CheckReport examine(const LoadedMesh& loaded, const std::vector<Chain>* chains) {
+CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chains) {
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
   report.blocks = loaded.blocks;
@@ -76,19 +76,19 @@ std::string regions_warning(const CheckReport& report) {
 }
 
 void check_mesh3d_on_root(const CommandContext& context, const CheckArguments& arguments,
-                          const FileMesh& mesh) {
+                          const io::FileMesh& mesh) {
   if (!arguments.geometry.empty())
     throw UsageError(arguments.input +
                      ": is a 3D mesh, which cannot be compared with a geometry; remove --geometry");
   context.warn(mesh.warnings);
-  const Mesh3dStatistics statistics = check_mesh3d(mesh);
+  const io::Mesh3dStatistics statistics = io::check_mesh3d(mesh);
   context.record.statistics = mesh3d_record(arguments.input, mesh, statistics);
   if (context.shows_table()) std::cout << mesh3d_text(mesh, statistics, context.verbose) << std::flush;
   if (!statistics.faults.empty()) refuse_invalid_mesh3d(arguments.input, statistics);
 }
 
 void check_plane_on_root(const CommandContext& context, const CheckArguments& arguments,
-                         const LoadedMesh& loaded) {
+                         const io::LoadedMesh& loaded) {
   context.warn(loaded.warnings);
   std::vector<Chain> chains;
   if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded.blocks == 1);
@@ -101,11 +101,11 @@ void check_plane_on_root(const CommandContext& context, const CheckArguments& ar
 }
 
 void check_on_root(const CommandContext& context, const CheckArguments& arguments) {
-  const MeshOfFile mesh = read_mesh_file(arguments.input);
-  if (const LoadedMesh* plane = std::get_if<LoadedMesh>(&mesh))
+  const io::MeshOfFile mesh = io::read_mesh_file(arguments.input);
+  if (const io::LoadedMesh* plane = std::get_if<io::LoadedMesh>(&mesh))
     check_plane_on_root(context, arguments, *plane);
   else
-    check_mesh3d_on_root(context, arguments, std::get<FileMesh>(mesh));
+    check_mesh3d_on_root(context, arguments, std::get<io::FileMesh>(mesh));
 }
 
 }  // namespace
@@ -115,8 +115,8 @@ void add_check_command(CommandLine& line, CommandContext& context) {
   Command command = line.add_command("check", "check the validity and quality of a mesh");
   command
       .add_option("input", arguments->input,
-                  "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
-                      suffixes_for({Content::mesh3d}) + ", a folder)")
+                  "the mesh: 2D (" + io::suffixes_for({io::Content::mesh}) + ") or 3D (" +
+                      io::suffixes_for({io::Content::mesh3d}) + ", a folder)")
       .required()
       .value_name("IN");
   command
@@ -130,4 +130,4 @@ void add_check_command(CommandLine& line, CommandContext& context) {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -22,7 +22,9 @@
 #include "io/parts/part_output.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
+
+using io::Content;
 
 namespace {
 
@@ -33,40 +35,40 @@ struct ConvertArguments {
 
 std::vector<std::string> formats_of_meshes() {
   std::vector<std::string> names;
-  for (const FileFormat& format : file_formats()) {
+  for (const io::FileFormat& format : io::file_formats()) {
     if (format.holds(Content::mesh) || format.holds(Content::mesh3d)) names.push_back(format.name);
   }
   return names;
 }
 
-bool is_of_meshes(const FileFormat* format) {
+bool is_of_meshes(const io::FileFormat* format) {
   return format != nullptr && (format->holds(Content::mesh) || format->holds(Content::mesh3d));
 }
 
-const FileFormat& output_format(const ConvertArguments& arguments) {
-  const FileFormat* format =
-      arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
+const io::FileFormat& output_format(const ConvertArguments& arguments) {
+  const io::FileFormat* format =
+      arguments.format.empty() ? io::format_of(arguments.output) : io::format_named(arguments.format);
   if (is_of_meshes(format)) return *format;
   throw InputError(fmt::format(
       "{}: the suffix is not that of a mesh format that can be written; use .{}, or give --format NAME",
       arguments.output, fmt::join(formats_of_meshes(), ", .")));
 }
 
-[[noreturn]] void refuse_mesh3d(const ConvertArguments& arguments, const FileFormat& output) {
+[[noreturn]] void refuse_mesh3d(const ConvertArguments& arguments, const io::FileFormat& output) {
   throw InputError(fmt::format("{}: contains a 3D mesh, which the format {} cannot store; {} can",
-                               arguments.input, output.name, suffixes_for({Content::mesh3d}, "and")));
+                               arguments.input, output.name, io::suffixes_for({Content::mesh3d}, "and")));
 }
 
 /// A 3D mesh that is one cell thick is read as a plane mesh if the output format supports those.
-MeshOfFile read_convert_input(const ConvertArguments& arguments) {
-  const FileFormat& output = output_format(arguments);
-  const FileFormat* const format = format_of(arguments.input);
+io::MeshOfFile read_convert_input(const ConvertArguments& arguments) {
+  const io::FileFormat& output = output_format(arguments);
+  const io::FileFormat* const format = io::format_of(arguments.input);
   if (format != nullptr && !format->holds(Content::mesh) && !output.holds(Content::mesh3d))
     refuse_mesh3d(arguments, output);
-  MeshOfFile mesh = read_mesh_file(arguments.input);
-  const FileMesh* mesh3d = std::get_if<FileMesh>(&mesh);
-  if (mesh3d != nullptr && output.holds(Content::mesh) && is_one_cell_thick(*mesh3d))
-    return plane_of_mesh3d(*mesh3d, arguments.input);
+  io::MeshOfFile mesh = io::read_mesh_file(arguments.input);
+  const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&mesh);
+  if (mesh3d != nullptr && output.holds(Content::mesh) && io::is_one_cell_thick(*mesh3d))
+    return io::plane_of_mesh3d(*mesh3d, arguments.input);
   if (mesh3d != nullptr && !output.holds(Content::mesh3d)) refuse_mesh3d(arguments, output);
   if (mesh3d == nullptr && !output.holds(Content::mesh))
     throw InputError(fmt::format(
@@ -80,11 +82,11 @@ template <class AnyMesh>
 std::vector<std::string> warnings_of(const AnyMesh& mesh, const ConvertArguments& arguments) {
   std::vector<std::string> warnings = mesh.warnings;
   std::ranges::move(doubts_about(mesh, arguments.input), std::back_inserter(warnings));
-  std::ranges::move(losses_in(mesh, arguments.output, arguments.format), std::back_inserter(warnings));
+  std::ranges::move(io::losses_in(mesh, arguments.output, arguments.format), std::back_inserter(warnings));
   return warnings;
 }
 
-Statistics statistics_of(const FileMesh& mesh) {
+Statistics statistics_of(const io::FileMesh& mesh) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   Statistics statistics;
   statistics.add("nodes", count(mesh.points));
@@ -99,11 +101,11 @@ Statistics statistics_of(const FileMesh& mesh) {
 }
 
 /// Returns the request of --parts, which is known before the mesh is read.
-PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks) {
-  const FileFormat* format =
-      arguments.format.empty() ? format_of(arguments.output) : format_named(arguments.format);
-  PartRequest request{std::filesystem::path(arguments.output).replace_extension().string(), arguments.parts,
-                      part_formats({format->name}, blocks)};
+io::PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks) {
+  const io::FileFormat* format =
+      arguments.format.empty() ? io::format_of(arguments.output) : io::format_named(arguments.format);
+  io::PartRequest request{std::filesystem::path(arguments.output).replace_extension().string(),
+                          arguments.parts, io::part_formats({format->name}, blocks)};
   if (request.formats.empty())
     throw InputError(fmt::format(
         "{}: partitions can be written as .mesh, .vtu or, with one block, .cgns; use one of these",
@@ -111,7 +113,7 @@ PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks)
   return request;
 }
 
-Statistics statistics_of(const LoadedMesh& whole) {
+Statistics statistics_of(const io::LoadedMesh& whole) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
   Statistics statistics;
   statistics.add("nodes", count(whole.mesh.points));
@@ -126,43 +128,44 @@ Statistics statistics_of(const LoadedMesh& whole) {
 
 /// The parts that have been written, with the request.
 struct WrittenParts {
-  PartRequest request;
+  io::PartRequest request;
   PartStatistics statistics;
 };
 
 /// *Collective.*
-std::optional<WrittenParts> write_parts(const Communicator& comm, const MeshOfFile& input,
-                                        const ConvertArguments& arguments, PartFiles& files) {
+std::optional<WrittenParts> write_parts(const Communicator& comm, const io::MeshOfFile& input,
+                                        const ConvertArguments& arguments, io::PartFiles& files) {
   if (arguments.parts == 0) return std::nullopt;
-  const LoadedMesh* plane = std::get_if<LoadedMesh>(&input);
+  const io::LoadedMesh* plane = std::get_if<io::LoadedMesh>(&input);
   if (comm.any(plane == nullptr))
     throw InputError(arguments.input + ": contains a 3D mesh; only 2D meshes can be partitioned");
   const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{plane->blocks}));
-  const PartRequest request = part_request(arguments, blocks);
-  return WrittenParts{request, write_parts_of_root(files, comm, *plane, request)};
+  const io::PartRequest request = part_request(arguments, blocks);
+  return WrittenParts{request, io::write_parts_of_root(files, comm, *plane, request)};
 }
 
 /// Writes on the root rank only; `outputs` has a communicator of its own. *Collective.*
-void write_output(const Communicator& comm, const MeshOfFile& input, const ConvertArguments& arguments,
-                  OutputSet& outputs) {
+void write_output(const Communicator& comm, const io::MeshOfFile& input, const ConvertArguments& arguments,
+                  io::OutputSet& outputs) {
   comm.together([&] {
     if (!comm.is_root()) return;
-    std::visit([&](const auto& mesh) { write_mesh(outputs, mesh, arguments.output, arguments.format); },
+    std::visit([&](const auto& mesh) { io::write_mesh(outputs, mesh, arguments.output, arguments.format); },
                input);
   });
 }
 
 /// On the root rank.
-void report(const CommandContext& context, const MeshOfFile& input, const ConvertArguments& arguments,
+void report(const CommandContext& context, const io::MeshOfFile& input, const ConvertArguments& arguments,
             const std::optional<WrittenParts>& parts) {
   Statistics statistics = std::visit([](const auto& mesh) { return statistics_of(mesh); }, input);
   std::vector<std::string>& files = context.record.files;
-  files = with_files_beside({arguments.output}, arguments.format);
+  files = io::with_files_beside({arguments.output}, arguments.format);
   std::string wrote = fmt::format("  wrote {}\n", fmt::join(files, ", "));
   if (parts) {
-    const PartRequest& request = parts->request;
+    const io::PartRequest& request = parts->request;
     add_parts(statistics, parts->statistics);
-    const std::vector<std::string> of_parts = part_file_names(request.prefix, request.parts, request.formats);
+    const std::vector<std::string> of_parts =
+        io::part_file_names(request.prefix, request.parts, request.formats);
     files.insert(files.end(), of_parts.begin(), of_parts.end());
     wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
   }
@@ -172,17 +175,17 @@ void report(const CommandContext& context, const MeshOfFile& input, const Conver
 
 void run_convert(const CommandContext& context, const ConvertArguments& arguments) {
   const Communicator& comm = context.comm;
-  MeshOfFile input;  // on the root rank only
+  io::MeshOfFile input;  // on the root rank only
   comm.together([&] {
     output_format(arguments);
     if (!comm.is_root()) return;
     input = read_convert_input(arguments);
     context.record.noted = std::visit([&](const auto& mesh) { return warnings_of(mesh, arguments); }, input);
   });
-  PartFiles part_files(comm);
+  io::PartFiles part_files(comm);
   const std::optional<WrittenParts> parts = write_parts(comm, input, arguments, part_files);
   const Communicator alone(MPI_COMM_SELF);
-  OutputSet outputs(alone);
+  io::OutputSet outputs(alone);
   write_output(comm, input, arguments, outputs);
   part_files.commit(outputs);
   if (comm.is_root()) report(context, input, arguments, parts);
@@ -195,8 +198,8 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   Command command = line.add_command("convert", "write a mesh unchanged in another format");
   command
       .add_option("input", arguments->input,
-                  "the mesh: 2D (" + suffixes_for({Content::mesh}) + ") or 3D (" +
-                      suffixes_for({Content::mesh3d}) + "), with its solution if it has one")
+                  "the mesh: 2D (" + io::suffixes_for({Content::mesh}) + ") or 3D (" +
+                      io::suffixes_for({Content::mesh3d}) + "), with its solution if it has one")
       .required()
       .value_name("IN");
   command
@@ -216,4 +219,4 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_convert(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

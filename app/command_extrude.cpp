@@ -29,7 +29,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -44,7 +44,7 @@ struct ExtrudeArguments {
 
 /// Reads numbers from a text file with "#" comments: the coordinates of the levels, ascending.
 std::vector<double> read_heights(const std::string& path) {
-  TextScanner scan(path);
+  io::TextScanner scan(path);
   std::vector<double> heights;
   while (!scan.at_end()) {
     const double height = scan.real("the height of a level");
@@ -85,7 +85,7 @@ void require_in_range(const std::vector<double>& heights, const std::string& sou
 std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
   std::vector<double> heights;
   if (arguments.heights.empty()) {
-    heights = even_heights(arguments.layers, arguments.thickness);
+    heights = io::even_heights(arguments.layers, arguments.thickness);
     if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) != heights.end())
       throw UsageError(
           fmt::format("--thickness {} is too small for {} layers", arguments.thickness, arguments.layers));
@@ -105,32 +105,33 @@ std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments&
 struct Plane {
   Mesh mesh;
   std::optional<Field> solution;
-  std::optional<PlaneBlocks> blocks;  ///< if there are several
+  std::optional<io::PlaneBlocks> blocks;  ///< if there are several
 };
 
 /// Returns the mesh that the root has read, without its inner boundaries; an empty one on other ranks.
 /// *Collective.*
-LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments,
-                std::vector<std::string>& warnings) {
-  LoadedMesh whole;
+io::LoadedMesh load(const CommandContext& context, const ExtrudeArguments& arguments,
+                    std::vector<std::string>& warnings) {
+  io::LoadedMesh whole;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
-    require_mesh3d_suffix(arguments.output);
+    io::require_readable_suffix(arguments.input);
+    io::require_mesh3d_suffix(arguments.output);
     if (!context.comm.is_root()) return;
-    MeshOfFile input = read_mesh_file(arguments.input);
-    if (const FileMesh* mesh3d = std::get_if<FileMesh>(&input);
-        mesh3d != nullptr && !is_one_cell_thick(*mesh3d))
+    io::MeshOfFile input = io::read_mesh_file(arguments.input);
+    if (const io::FileMesh* mesh3d = std::get_if<io::FileMesh>(&input);
+        mesh3d != nullptr && !io::is_one_cell_thick(*mesh3d))
       throw InputError(arguments.input + ": is a 3D mesh already; give a 2D mesh");
-    whole = plane_of(std::move(input), arguments.input);
+    whole = io::plane_of(std::move(input), arguments.input);
     require_valid_input(whole, arguments.input);
     warnings = whole.warnings;
-    for (std::string& loss : drop_interfaces(whole, arguments.output)) warnings.push_back(std::move(loss));
+    for (std::string& loss : io::drop_interfaces(whole, arguments.output))
+      warnings.push_back(std::move(loss));
   });
   return whole;
 }
 
 /// Distributes blocks in the given order, as scatter_mesh() distributes cells. *Collective.*
-void spread_blocks(const Communicator& comm, PlaneBlocks& blocks, const MeshOrder& order) {
+void spread_blocks(const Communicator& comm, io::PlaneBlocks& blocks, const MeshOrder& order) {
   blocks.names = broadcast_words(comm, blocks.names);
   for (auto [of_cells, cells] :
        {std::pair{&blocks.of_triangles, &order.triangles}, std::pair{&blocks.of_quads, &order.quads}})
@@ -138,9 +139,9 @@ void spread_blocks(const Communicator& comm, PlaneBlocks& blocks, const MeshOrde
 }
 
 /// *Collective.*
-Plane spread(const Communicator& comm, LoadedMesh whole) {
-  std::optional<PlaneBlocks> blocks;
-  if (comm.any(whole.blocks > 1)) blocks = plane_blocks(whole);
+Plane spread(const Communicator& comm, io::LoadedMesh whole) {
+  std::optional<io::PlaneBlocks> blocks;
+  if (comm.any(whole.blocks > 1)) blocks = io::plane_blocks(whole);
   if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution), std::move(blocks)};
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
   Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt, std::move(blocks)};
@@ -152,7 +153,7 @@ Plane spread(const Communicator& comm, LoadedMesh whole) {
 }
 
 /// Least file size: the numbers of nodes and cells in the most compact formats.
-double least_bytes(const ExtrudedCounts& counts) {
+double least_bytes(const io::ExtrudedCounts& counts) {
   constexpr double of_node = 24, of_prism = 6 * 4, of_hexahedron = 8 * 4;
   return of_node * static_cast<double>(counts.nodes) + of_prism * static_cast<double>(counts.prisms) +
          of_hexahedron * static_cast<double>(counts.hexahedra);
@@ -160,14 +161,15 @@ double least_bytes(const ExtrudedCounts& counts) {
 
 /// Reports the size of a large mesh before it is written. Throws if it has more cells than allowed, or does
 /// not fit on the disk. Memory is not a limit, as no rank stores the mesh. *Collective.*
-void require_room(const Communicator& comm, const ExtrudedCounts& counts, const ExtrudeArguments& arguments) {
+void require_room(const Communicator& comm, const io::ExtrudedCounts& counts,
+                  const ExtrudeArguments& arguments) {
   constexpr double large = 1e6;
   const auto cells = static_cast<double>(counts.cells());
   const double bytes = least_bytes(counts);
   comm.together([&] {
     if (!comm.is_root()) return;
     std::error_code unknown;
-    const auto disk = std::filesystem::space(quadloop::folder_of(arguments.output), unknown);
+    const auto disk = std::filesystem::space(io::folder_of(arguments.output), unknown);
     const double free = unknown ? MeshLimit::none : static_cast<double>(disk.available);
     const bool allowed = arguments.max_cells ? cells <= *arguments.max_cells : bytes <= free;
     if (!allowed) {
@@ -189,7 +191,7 @@ void require_room(const Communicator& comm, const ExtrudedCounts& counts, const 
   });
 }
 
-Statistics statistics_of(const ExtrudedCounts& counts, const ExtrudedMesh& mesh, double area) {
+Statistics statistics_of(const io::ExtrudedCounts& counts, const io::ExtrudedMesh& mesh, double area) {
   Statistics statistics;
   statistics.add("nodes", counts.nodes);
   statistics.add("prisms", counts.prisms);
@@ -206,35 +208,35 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   require_one_way(arguments);
   std::vector<std::string>& warnings = context.record.noted;
   std::vector<double> heights = heights_of(comm, arguments);
-  LoadedMesh whole = load(context, arguments, warnings);
+  io::LoadedMesh whole = load(context, arguments, warnings);
   const double area = comm.is_root() ? area_of(whole.mesh) : 0;
   const Plane plane = spread(comm, std::move(whole));
-  ExtrudedMesh mesh =
-      extruded(plane.mesh, std::move(heights), arguments.axis == "y" ? ExtrusionAxis::y : ExtrusionAxis::z,
-               plane.solution ? &*plane.solution : nullptr);
+  io::ExtrudedMesh mesh = io::extruded(plane.mesh, std::move(heights),
+                                       arguments.axis == "y" ? io::ExtrusionAxis::y : io::ExtrusionAxis::z,
+                                       plane.solution ? &*plane.solution : nullptr);
   mesh.blocks = plane.blocks ? &*plane.blocks : nullptr;
-  const ExtrudedCounts counts(comm, mesh);
+  const io::ExtrudedCounts counts(comm, mesh);
   require_room(comm, counts, arguments);
-  for (std::string& loss : losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
-  OutputSet outputs(comm);
-  write_mesh(outputs, mesh, arguments.output);
+  for (std::string& loss : io::losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
+  io::OutputSet outputs(comm);
+  io::write_mesh(outputs, mesh, arguments.output);
   outputs.commit();
   if (!comm.is_root()) return;
   const Statistics statistics = statistics_of(counts, mesh, area);
   context.record.statistics = statistics.record();
-  context.record.files = with_files_beside({arguments.output});
+  context.record.files = io::with_files_beside({arguments.output});
   if (context.shows_table())
     std::cout << statistics.table() << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
 
 void add_options(Command& command, ExtrudeArguments& arguments) {
-  command.add_option("input", arguments.input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  command.add_option("input", arguments.input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command
-      .add_option(
-          "-o,--output", arguments.output,
-          "the 3D mesh, in the format of its suffix (" + suffixes_for({Content::mesh3d}) + ", a folder)")
+      .add_option("-o,--output", arguments.output,
+                  "the 3D mesh, in the format of its suffix (" + io::suffixes_for({io::Content::mesh3d}) +
+                      ", a folder)")
       .required()
       .value_name("OUT");
   command.add_option("--layers", arguments.layers, "number of cell layers, of equal thickness")
@@ -268,4 +270,4 @@ void add_extrude_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_extrude(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

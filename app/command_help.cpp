@@ -4,7 +4,7 @@
 #include "app/command.hpp"
 #include "quadloop/case/case_keys.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -32,4 +32,4 @@ void add_help_command(CommandLine& line, CommandContext& context) {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -68,7 +68,7 @@ std::vector<std::string> words_of(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const bool is_value = i > 1 && words.back() == "--set";
-    const bool is_one_more = in_assignments && !is_value && is_assignment(word) && !is_file(word);
+    const bool is_one_more = in_assignments && !is_value && io::is_assignment(word) && !is_file(word);
     if (is_one_more) words.emplace_back("--set");
     in_assignments = is_value || is_one_more || word.starts_with("--set=");
     words.push_back(word);
@@ -216,4 +216,4 @@ std::function<void()> CommandLine::parse(int argc, char** argv, const Communicat
   return chosen_;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

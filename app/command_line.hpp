@@ -14,7 +14,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// An option or a positional argument of a command. Only command_line.cpp includes CLI11, which is slow to
 /// compile.
@@ -87,4 +87,4 @@ class CommandLine {
   std::function<void()> chosen_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::app

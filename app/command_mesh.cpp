@@ -24,7 +24,7 @@
 #include "mesher/build/islands.hpp"
 #include "quadloop/case/case_input.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -58,7 +58,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   Settings& settings = prepared.input.settings;
   if (!arguments.prefix.empty()) settings.output_prefix = arguments.prefix;
   std::erase_if(settings.formats, [&](const std::string& format) {
-    if (format_named(format)->holds(Content::mesh)) return false;
+    if (io::format_named(format)->holds(io::Content::mesh)) return false;
     warnings.push_back(fmt::format(
         "output.formats: a .{} contains only a solution, which a new mesh does not have; it is not written",
         format));
@@ -66,14 +66,14 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   });
   for (const std::string& format : settings.formats)
     prepared.files.push_back(settings.output_prefix + "." + format);
-  prepared.files = with_files_beside(prepared.files);
+  prepared.files = io::with_files_beside(prepared.files);
   if (!arguments.geometry_out.empty()) prepared.files.push_back(arguments.geometry_out);
-  prepared.files.push_back(settings.output_prefix + tree_suffix);
+  prepared.files.push_back(settings.output_prefix + io::tree_suffix);
   if (settings.partitions > 0)
     prepared.part_files =
-        part_file_names(settings.output_prefix, settings.partitions, part_formats(settings.formats));
-  require_possible_outputs(prepared.files);
-  require_possible_outputs(prepared.part_files);
+        io::part_file_names(settings.output_prefix, settings.partitions, io::part_formats(settings.formats));
+  io::require_possible_outputs(prepared.files);
+  io::require_possible_outputs(prepared.part_files);
   return prepared;
 }
 
@@ -83,27 +83,28 @@ Geometry meshed_geometry(const MeshInput& input) {
   return without_small_islands(input.geometry, input.mesh.size.min, reported_already);
 }
 
-void write_geometry(OutputSet& outputs, const Geometry& geometry, const std::string& path) {
-  TextOutput file(outputs, path);
-  file.write(file.communicator().is_root() ? geom_text(geometry) : "");
+void write_geometry(io::OutputSet& outputs, const Geometry& geometry, const std::string& path) {
+  io::TextOutput file(outputs, path);
+  file.write(file.communicator().is_root() ? io::geom_text(geometry) : "");
   file.close();
 }
 
 /// Writes the outputs; returns the statistics of the partitions, if requested.
 std::optional<PartStatistics> write_outputs(const Communicator& comm, const MeshResult& result,
                                             const Prepared& prepared, const std::string& geometry_out) {
-  OutputSet outputs(comm);
-  PartFiles part_files(comm);
+  io::OutputSet outputs(comm);
+  io::PartFiles part_files(comm);
   std::optional<PartStatistics> parts;
   const Settings& settings = prepared.input.settings;
   for (const std::string& format : settings.formats) {
-    write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
+    io::write_mesh(outputs, result.mesh, settings.output_prefix + "." + format);
   }
   if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
-  write_tree(outputs, result.tree, settings.output_prefix + tree_suffix);
+  io::write_tree(outputs, result.tree, settings.output_prefix + io::tree_suffix);
   if (settings.partitions > 0)
-    parts = write_parts(part_files, comm, result.mesh, {},
-                        {settings.output_prefix, settings.partitions, part_formats(settings.formats)});
+    parts =
+        io::write_parts(part_files, comm, result.mesh, {},
+                        {settings.output_prefix, settings.partitions, io::part_formats(settings.formats)});
   part_files.commit(outputs);
   return parts;
 }
@@ -127,7 +128,7 @@ Warnings solver_warnings(const Settings& settings, const SolverStatistics& shape
 /// metric-based cells; r-adaptation is not recorded in a tree.
 Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& saved, const MeshInput& input,
                               const TreeAttributes& made) {
-  const char* setting = setting_that_follows(input);
+  const char* setting = adapt::setting_that_follows(input);
   const bool same =
       saved.nodes == made.nodes && saved.triangles == made.triangles && saved.quads == made.quads;
   if (!setting || (same && input.mesh.type == MeshType::metric)) return {};
@@ -139,7 +140,7 @@ Warnings unstretched_warnings(const std::string& tree, const TreeAttributes& sav
 
 /// Without a tree this command generates the initial mesh of a case whose cells follow a solution.
 Warnings first_mesh_warnings(const MeshInput& input) {
-  const char* setting = setting_that_follows(input);
+  const char* setting = adapt::setting_that_follows(input);
   if (!setting) return {};
   return {fmt::format(
       "{}: there is no solution yet: this is the first mesh of \"adapt\", that of the quadtree", setting)};
@@ -152,12 +153,13 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   StageTimes times;
   times.begin("read");
   std::optional<TreeRecord> saved;
-  if (!arguments.tree.empty()) saved = read_tree(comm, arguments.tree);
+  if (!arguments.tree.empty()) saved = io::read_tree(comm, arguments.tree);
   Prepared prepared;
   comm.together([&] { prepared = prepare(arguments, saved, context.record.noted); });
   MeshInput& input = *prepared.input.mesh;
   input.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  const DemandedSplits demanded(comm, saved ? unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
+  const DemandedSplits demanded(comm,
+                                saved ? adapt::unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
   const GeneratedMesh generated =
@@ -172,7 +174,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   context.warn(
       saved ? unstretched_warnings(arguments.tree, saved->attributes, input, generated.result.tree.attributes)
             : first_mesh_warnings(input));
-  for (const std::string& file : prepared.files) context.warn(changes_in(generated.result.mesh, file));
+  for (const std::string& file : prepared.files) context.warn(io::changes_in(generated.result.mesh, file));
   MeshSummary summary = summarise(comm, generated, times.stages(), prepared.files);
   if (comm.is_root()) add_extents(summary.statistics, prepared.input.extents);
   if (parts) add_parts(summary, *parts, prepared.part_files);
@@ -208,4 +210,4 @@ void add_mesh_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_mesh(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -31,7 +31,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/outline/outline_match.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -49,7 +49,7 @@ const std::vector<std::string> velocity_names{"dx_ds", "dy_ds"};
 
 /// Input: the geometries on every rank, the mesh on the root.
 struct MorphInput {
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   MeshOrder order;
   std::optional<Geometry> to, from;
   std::vector<Point> direction;  ///< for each point of `to`
@@ -66,10 +66,10 @@ void require_outputs(const MorphArguments& arguments) {
   if (arguments.output.empty() && (arguments.outline_gradient.empty() || !arguments.direction.empty()))
     throw UsageError("-o is required: the mesh on the new geometry; see 'quadloop morph --help'");
   if (arguments.direction.empty()) return;
-  require_writable_suffix(arguments.output);
-  if (!format_of(arguments.output)->holds(Content::solution))
+  io::require_writable_suffix(arguments.output);
+  if (!io::format_of(arguments.output)->holds(io::Content::solution))
     throw InputError(arguments.output + ": this format cannot store the nodal velocities; use a " +
-                     suffixes_for({Content::mesh, Content::solution}) + " file");
+                     io::suffixes_for({io::Content::mesh, io::Content::solution}) + " file");
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -87,7 +87,7 @@ void require_other_outputs(const MorphArguments& arguments) {
                        "used for two files, one of which would be overwritten; give the output another name");
   };
   for (const std::string& output : {mesh, table}) {
-    if (!output.empty()) require_possible_outputs({output});
+    if (!output.empty()) io::require_possible_outputs({output});
     for (const std::string& input :
          {arguments.geometry, arguments.from, arguments.direction, arguments.nodal_gradient})
       require_other(output, input);
@@ -101,30 +101,30 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
   MorphInput input;
   Warnings& warnings = context.record.noted;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
+    io::require_readable_suffix(arguments.input);
     require_outputs(arguments);
-    if (!arguments.output.empty()) require_writable_suffix(arguments.output);
-    if (!arguments.nodal_gradient.empty()) require_solution_suffix(arguments.nodal_gradient);
-    input.to = read_outline(arguments.geometry, warnings);
-    if (!arguments.from.empty()) input.from = read_outline(arguments.from, warnings);
+    if (!arguments.output.empty()) io::require_writable_suffix(arguments.output);
+    if (!arguments.nodal_gradient.empty()) io::require_solution_suffix(arguments.nodal_gradient);
+    input.to = io::read_outline(arguments.geometry, warnings);
+    if (!arguments.from.empty()) input.from = io::read_outline(arguments.from, warnings);
     if (!arguments.direction.empty())
-      input.direction = read_point_table(arguments.direction, *input.to, {"dx", "dy"});
+      input.direction = io::read_point_table(arguments.direction, *input.to, {"dx", "dy"});
     if (!context.comm.is_root()) return;
     require_other_outputs(arguments);
-    input.whole = read_mesh(arguments.input);
-    tidy_mesh(input.whole, arguments.input);
+    input.whole = io::read_mesh(arguments.input);
+    io::tidy_mesh(input.whole, arguments.input);
     require_valid_input(input.whole, arguments.input);
     const auto append = [&](const Warnings& more) {
       warnings.insert(warnings.end(), more.begin(), more.end());
     };
     append(input.whole.warnings);
-    if (!arguments.output.empty()) append(losses_in(input.whole, arguments.output));
+    if (!arguments.output.empty()) append(io::losses_in(input.whole, arguments.output));
     input.order = space_filling_order(input.whole.mesh);
   });
   return input;
 }
 
-[[noreturn]] void refuse_way(const MorphArguments& arguments, const MorphReport& report) {
+[[noreturn]] void refuse_way(const MorphArguments& arguments, const adapt::MorphReport& report) {
   throw InputError(
       fmt::format("{}: cannot morph to {}: cells near ({:g}, {:g}) become inverted after {:.0f} % of the "
                   "movement; use smaller steps, or generate a new mesh",
@@ -132,7 +132,7 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
                   100 * report.possible_way));
 }
 
-void require_derivative(const MorphArguments& arguments, const MorphReport& report) {
+void require_derivative(const MorphArguments& arguments, const adapt::MorphReport& report) {
   if (report.smoothed)
     throw InputError(fmt::format(
         "{}: the mesh had to be smoothed on {}, so the node positions have no derivative; start from a mesh "
@@ -158,12 +158,13 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the geometry. *Collective.*
 void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
-                            const MorphInput& input, const Mesh& part, const MorphDerivative& derivative) {
+                            const MorphInput& input, const Mesh& part,
+                            const adapt::MorphDerivative& derivative) {
   Field of_whole;
   comm.together([&] {
     if (!comm.is_root()) return;
-    const LoadedSolution solution = read_solution(arguments.nodal_gradient);
-    require_same_mesh(solution, input.whole.mesh);
+    const io::LoadedSolution solution = io::read_solution(arguments.nodal_gradient);
+    io::require_same_mesh(solution, input.whole.mesh);
     of_whole = selected(solution.solution, arguments.fields, arguments.nodal_gradient);
     of_whole.constants.clear();
   });
@@ -172,11 +173,11 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
   for (const NodeId node : ids_below(NodeId{part.owned_nodes}))
     of_nodes.push_back({field.row(node)[0], field.row(node)[1]});
   const std::vector<Point> gradient = derivative.gradient(of_nodes);
-  OutputSet outputs(comm);
-  TextOutput file(outputs, arguments.outline_gradient);
+  io::OutputSet outputs(comm);
+  io::TextOutput file(outputs, arguments.outline_gradient);
   std::string text;
   comm.together([&] {
-    if (comm.is_root()) text = point_table(*input.to, arguments.geometry, gradient, "dJ_dx,dJ_dy");
+    if (comm.is_root()) text = io::point_table(*input.to, arguments.geometry, gradient, "dJ_dx,dJ_dy");
   });
   file.write(text);
   file.close();
@@ -185,12 +186,12 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
 
 /// *Collective.*
 void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Mesh& part,
-                    const MorphDerivative& derivative, MorphInput& input) {
+                    const adapt::MorphDerivative& derivative, MorphInput& input) {
   if (!arguments.direction.empty()) add_velocities(comm, part, derivative.velocity(input.direction), input);
   if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, part, derivative);
 }
 
-Statistics statistics_of(const MorphReport& report) {
+Statistics statistics_of(const adapt::MorphReport& report) {
   Statistics statistics;
   statistics.add("nodes moved", report.moved);
   statistics.add("largest move", report.largest_move, "{:.4g}");
@@ -207,14 +208,14 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   MorphInput input = load(context, arguments);
   Mesh part = scatter_mesh(comm, input.whole.mesh, input.order);
   NodeFlags interfaces;
-  if (comm.is_root() && input.whole.blocks > 1) interfaces = interface_nodes(input.whole);
+  if (comm.is_root() && input.whole.blocks > 1) interfaces = io::interface_nodes(input.whole);
   interfaces = NodeFlags(scatter_nodes(comm, interfaces, input.order));
   times.begin("morph");
-  const OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
-                             arguments.from};
-  std::optional<MorphDerivative> derivative;
+  const adapt::OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
+                                    arguments.from};
+  std::optional<adapt::MorphDerivative> derivative;
   if (arguments.wants_derivative()) derivative.emplace(comm, part, change);
-  const MorphReport report = morph_mesh(comm, part, change, interfaces);
+  const adapt::MorphReport report = adapt::morph_mesh(comm, part, change, interfaces);
   if (!report.valid()) refuse_way(arguments, report);
   gather_mesh(comm, part, input.order, input.whole.mesh);
   comm.together([&] {
@@ -227,10 +228,10 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
     use_derivative(comm, arguments, part, *derivative, input);
   }
   times.begin("write");
-  if (!arguments.output.empty()) write_mesh_of_root(comm, input.whole, arguments.output);
+  if (!arguments.output.empty()) io::write_mesh_of_root(comm, input.whole, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
-  if (!arguments.output.empty()) context.record.files = with_files_beside({arguments.output});
+  if (!arguments.output.empty()) context.record.files = io::with_files_beside({arguments.output});
   if (!arguments.outline_gradient.empty()) context.record.files.push_back(arguments.outline_gradient);
   if (!comm.is_root()) return;
   const Statistics statistics = statistics_of(report);
@@ -266,7 +267,7 @@ void add_derivative_options(Command& command, MorphArguments& arguments) {
 void add_morph_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MorphArguments>();
   Command command = line.add_command("morph", "move the nodes of a mesh to a changed geometry");
-  command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  command.add_option("input", arguments->input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command
@@ -287,4 +288,4 @@ void add_morph_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_morph(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

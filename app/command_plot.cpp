@@ -25,7 +25,7 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -41,15 +41,15 @@ enum class Subject { mesh, walls, history };
 /// What to plot, and how.
 struct PlotTask {
   Subject subject = Subject::mesh;
-  PlotFormat format = PlotFormat::png;
-  PlotOptions options;
+  io::PlotFormat format = io::PlotFormat::png;
+  io::PlotOptions options;
 };
 
-PlotFormat picture_format_of(const std::string& path) {
+io::PlotFormat picture_format_of(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  if (suffix == ".png") return PlotFormat::png;
-  if (suffix == ".svg") return PlotFormat::svg;
-  if (suffix == ".pdf") return PlotFormat::pdf;
+  if (suffix == ".png") return io::PlotFormat::png;
+  if (suffix == ".svg") return io::PlotFormat::svg;
+  if (suffix == ".pdf") return io::PlotFormat::pdf;
   throw InputError(path + ": a picture cannot be written in the format '" + suffix +
                    "'; end its name in .png, .svg or .pdf");
 }
@@ -77,7 +77,7 @@ Box window_of(const std::string& text) {
 }
 
 /// Pixels, or WIDTHxHEIGHT in cm.
-void read_size(const std::string& text, PlotOptions& options) {
+void read_size(const std::string& text, io::PlotOptions& options) {
   const std::string refusal =
       "--size takes pixels along the longer side, from 400 to 20000, or WIDTHxHEIGHT in cm, from 5 to 200 "
       "each";
@@ -94,22 +94,22 @@ void read_size(const std::string& text, PlotOptions& options) {
   options.centimetres = Point{width, height};
 }
 
-PlotOptions options_of(const PlotArguments& arguments) {
-  PlotOptions options;
+io::PlotOptions options_of(const PlotArguments& arguments) {
+  io::PlotOptions options;
   if (!arguments.window.empty()) options.window = window_of(arguments.window);
   options.field = arguments.field;
   read_size(arguments.size, options);
   if (arguments.colouring == "rank")
     throw UsageError("--colour-by rank: a mesh file contains no ranks; use block, quality or type");
-  if (arguments.colouring == "quality") options.colouring = PlotColouring::quality;
-  if (arguments.colouring == "block") options.colouring = PlotColouring::block;
+  if (arguments.colouring == "quality") options.colouring = io::PlotColouring::quality;
+  if (arguments.colouring == "block") options.colouring = io::PlotColouring::block;
   if (!arguments.range.empty()) {
     const std::string refusal = "--range takes two numbers A,B, the first below the second";
     options.range = numbers_in<2>(arguments.range, ',', refusal);
     if (!((*options.range)[0] < (*options.range)[1]))
       throw UsageError(refusal + ", not '" + arguments.range + "'");
   }
-  options.map = colour_map_named(arguments.map);
+  options.map = io::colour_map_named(arguments.map);
   options.smooth = arguments.shading == "smooth";
   if (!arguments.lines.empty()) options.lines = arguments.lines == "on";
   options.contours = arguments.contours;
@@ -118,17 +118,17 @@ PlotOptions options_of(const PlotArguments& arguments) {
 }
 
 Subject subject_of(const PlotArguments& arguments) {
-  if (arguments.walls || arguments.input.ends_with(wall_table_suffix)) return Subject::walls;
-  if (arguments.history || arguments.input.ends_with(history_suffix)) return Subject::history;
+  if (arguments.walls || arguments.input.ends_with(flow::wall_table_suffix)) return Subject::walls;
+  if (arguments.history || arguments.input.ends_with(flow::history_suffix)) return Subject::history;
   return Subject::mesh;
 }
 
 PlotTask task_of(const PlotArguments& arguments) {
-  PlotTask task{subject_of(arguments), PlotFormat::png, {}};
-  if (task.subject == Subject::mesh) require_readable_suffix(arguments.input);
+  PlotTask task{subject_of(arguments), io::PlotFormat::png, {}};
+  if (task.subject == Subject::mesh) io::require_readable_suffix(arguments.input);
   task.format = picture_format_of(arguments.output);
   task.options = options_of(arguments);
-  const PlotOptions& options = task.options;
+  const io::PlotOptions& options = task.options;
   const bool is_of_field = options.range || options.contours > 0 || arguments.shading != "smooth";
   if (task.subject == Subject::mesh && is_of_field && options.field.empty())
     throw UsageError("--range, --contours and --shading require a field; name it with --field");
@@ -136,41 +136,42 @@ PlotTask task_of(const PlotArguments& arguments) {
 }
 
 /// Computes Mach number or pressure coefficient if the file lacks them.
-void add_quantity(LoadedMesh& loaded, const std::string& field) {
-  if (!loaded.solution || std::ranges::find(quantity_names(), field) == quantity_names().end()) return;
+void add_quantity(io::LoadedMesh& loaded, const std::string& field) {
+  if (!loaded.solution || std::ranges::find(flow::quantity_names(), field) == flow::quantity_names().end())
+    return;
   Field& solution = *loaded.solution;
   if (std::ranges::find(solution.names, field) != solution.names.end()) return;
-  for (const char* name : euler_names) {
+  for (const char* name : flow::euler_names) {
     if (variables_like(solution.names, name).size() != 1) return;
   }
-  FreeStream stream;
-  if (field == pressure_coefficient_name) {
-    const std::optional<RunConstants> run = RunConstants::of(solution.constants);
+  flow::FreeStream stream;
+  if (field == flow::pressure_coefficient_name) {
+    const std::optional<flow::RunConstants> run = flow::RunConstants::of(solution.constants);
     if (!run) return;
     stream.speed = run->mach;
   }
-  solution = with_quantities(solution, {field}, stream);
+  solution = flow::with_quantities(solution, {field}, stream);
 }
 
 std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {
-  LoadedMesh loaded = read_mesh(arguments.input);
+  io::LoadedMesh loaded = io::read_mesh(arguments.input);
   try {
     add_quantity(loaded, task.options.field);
-    return draw_mesh(loaded, task.options, task.format);
+    return io::draw_mesh(loaded, task.options, task.format);
   } catch (const InputError& error) {
     throw InputError(arguments.input + ": " + error.what());
   }
 }
 
 std::string picture(const PlotArguments& arguments, const PlotTask& task) {
-  const PlotOptions& options = task.options;
+  const io::PlotOptions& options = task.options;
   if (task.subject == Subject::mesh) return picture_of_mesh(arguments, task);
   if (task.subject == Subject::history)
-    return draw_chart(chart_of_history(arguments.input), options.size, options.centimetres, task.format);
-  const PlotTable walls = wall_table_for(arguments.input);
+    return io::draw_chart(chart_of_history(arguments.input), options.size, options.centimetres, task.format);
+  const io::PlotTable walls = wall_table_for(arguments.input);
   const std::string column = options.field.empty() ? "Cp" : options.field;
-  return draw_chart(wall_chart(walls, column, options.window), options.size, options.centimetres,
-                    task.format);
+  return io::draw_chart(io::wall_chart(walls, column, options.window), options.size, options.centimetres,
+                        task.format);
 }
 
 /// Only the root rank reads and plots; an error there is thrown on all ranks.
@@ -178,13 +179,13 @@ void run_plot(const CommandContext& context, const PlotArguments& arguments) {
   const Communicator& comm = context.comm;
   PlotTask task;
   comm.together([&] { task = task_of(arguments); });
-  OutputSet outputs(comm);
-  const StagedFile staged = outputs.stage(arguments.output);
+  io::OutputSet outputs(comm);
+  const io::StagedFile staged = outputs.stage(arguments.output);
   comm.together([&] {
     if (!comm.is_root()) return;
     const std::string bytes = picture(arguments, task);
     log::detail("writing " + arguments.output);
-    OutputFile file(staged);
+    io::OutputFile file(staged);
     file.write(bytes);
     file.close();
   });
@@ -209,7 +210,7 @@ void add_field_options(Command& command, PlotArguments& arguments) {
       .value_name("A,B");
   command.add_option("--map", arguments.map, "colour map of a field: viridis, coolwarm, grey or plasma")
       .value_name("NAME")
-      .one_of(colour_map_names());
+      .one_of(io::colour_map_names());
   command
       .add_option("--shading", arguments.shading,
                   "shading of a field: smooth (linear over triangles, bilinear over quads) or flat")
@@ -245,8 +246,9 @@ void add_plot_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   Command command = line.add_command("plot", "plot a mesh, a field, the flow along walls, or a history");
   command
-      .add_option("input", arguments->input,
-                  "the mesh (" + suffixes_for({Content::mesh}) + "); or a table .walls.csv or .history.csv")
+      .add_option(
+          "input", arguments->input,
+          "the mesh (" + io::suffixes_for({io::Content::mesh}) + "); or a table .walls.csv or .history.csv")
       .required()
       .value_name("IN");
   command.add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")
@@ -263,4 +265,4 @@ void add_plot_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_plot(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -25,7 +25,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "quadloop/case/case_input.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -37,11 +37,11 @@ struct RemeshArguments {
 
 /// Returns possible mesh files of a tree: next to it, with the same name.
 std::vector<std::string> files_beside(const std::string& tree) {
-  const std::string ending = tree_suffix;
+  const std::string ending = io::tree_suffix;
   const bool named = tree.size() > ending.size() && tree.ends_with(ending);
   const std::string prefix = named ? tree.substr(0, tree.size() - ending.size()) : tree;
   std::vector<std::string> files;
-  for (const std::string& format : default_formats()) files.push_back(prefix + "." + format);
+  for (const std::string& format : io::default_formats()) files.push_back(prefix + "." + format);
   return files;
 }
 
@@ -51,9 +51,9 @@ MeshCounts counts_of(const Mesh& whole) {
 
 /// Returns the mesh of --mesh. It is accepted as the tree's mesh, with moved nodes, if it has the same counts
 /// and valid cells.
-LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  LoadedMesh named = read_mesh(arguments.mesh);
-  require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
+io::LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  io::LoadedMesh named = io::read_mesh(arguments.mesh);
+  adapt::require_counts(counts_of(named.mesh), tree, arguments.mesh, arguments.tree);
   for (const MeshFault& fault : validate(named.mesh)) {
     if (fault.rule != MeshRule::indices && fault.rule != MeshRule::positive &&
         fault.rule != MeshRule::coincident)
@@ -67,14 +67,14 @@ LoadedMesh named_mesh(const RemeshArguments& arguments, const TreeAttributes& tr
 
 /// Returns the mesh of the solution if the solution's file has another or none: that of --mesh, else the
 /// first file next to the tree that is bitwise the tree's mesh.
-LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
+io::LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& tree) {
   if (!arguments.mesh.empty()) return named_mesh(arguments, tree);
   const std::vector<std::string> files = files_beside(arguments.tree);
   for (const std::string& file : files) {
     if (!std::filesystem::exists(file)) continue;
     try {
-      LoadedMesh loaded = read_mesh(file);
-      if (is_mesh_of_tree(loaded.mesh, tree)) return loaded;
+      io::LoadedMesh loaded = io::read_mesh(file);
+      if (adapt::is_mesh_of_tree(loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
     }
@@ -87,16 +87,17 @@ LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttributes& 
 
 /// Returns the mesh of the solution, with the solution. Its nodes are those of the tree: bitwise, or else
 /// within 1e-6 of a local edge of those of mesh_of_tree(), which replace them. On the calling rank only.
-LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
-  LoadedSolution solution = read_solution(arguments.solution);
-  if (solution.mesh) require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
-  LoadedMesh whole;
-  if (solution.mesh && is_mesh_of_tree(solution.mesh->mesh, tree)) {
+io::LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& tree) {
+  io::LoadedSolution solution = io::read_solution(arguments.solution);
+  if (solution.mesh)
+    adapt::require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
+  io::LoadedMesh whole;
+  if (solution.mesh && adapt::is_mesh_of_tree(solution.mesh->mesh, tree)) {
     whole = std::move(*solution.mesh);
   } else {
     whole = mesh_of_tree(arguments, tree);
     try {
-      require_same_mesh(solution, whole.mesh);
+      io::require_same_mesh(solution, whole.mesh);
     } catch (const InputError& fault) {
       if (!arguments.mesh.empty()) throw;
       throw InputError(std::string(fault.what()) + ", or name the mesh that was solved on with --mesh");
@@ -110,7 +111,7 @@ LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttributes& t
   return whole;
 }
 
-Statistics transfer_statistics(const RemeshedSolution& remeshed) {
+Statistics transfer_statistics(const adapt::RemeshedSolution& remeshed) {
   Statistics statistics;
   statistics.add_raw("nodes outside the old mesh", std::to_string(remeshed.report.outside),
                      json_of(remeshed.report.outside), "outside");
@@ -122,27 +123,27 @@ Statistics transfer_statistics(const RemeshedSolution& remeshed) {
 struct RemeshProblem {
   TreeRecord tree;
   CaseInput input;
-  LoadedMesh whole;                     ///< until it is distributed
+  io::LoadedMesh whole;                 ///< until it is distributed
   std::vector<std::string> files;       ///< output files
   std::vector<std::string> part_files;  ///< and those of partitions, if requested
-  PartRequest parts;
+  io::PartRequest parts;
 };
 
 /// Writes the outputs; returns the statistics of the partitions, if requested. *Collective.*
-std::optional<PartStatistics> write(const Communicator& comm, const RemeshedSolution& remeshed,
+std::optional<PartStatistics> write(const Communicator& comm, const adapt::RemeshedSolution& remeshed,
                                     const RemeshProblem& problem) {
-  OutputSet outputs(comm);
-  PartFiles part_files(comm);
+  io::OutputSet outputs(comm);
+  io::PartFiles part_files(comm);
   std::optional<PartStatistics> parts;
   const MeshResult& result = remeshed.generated.result;
   for (const std::string& file : problem.files) {
-    if (file.ends_with(tree_suffix))
-      write_tree(outputs, result.tree, file);
+    if (file.ends_with(io::tree_suffix))
+      io::write_tree(outputs, result.tree, file);
     else
-      write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
+      io::write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
   }
   if (!problem.part_files.empty())
-    parts = write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
+    parts = io::write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
   part_files.commit(outputs);
   return parts;
 }
@@ -155,7 +156,7 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
         "remesh --help'");
   }
   RemeshProblem problem;
-  problem.tree = read_tree(comm, arguments.tree);
+  problem.tree = io::read_tree(comm, arguments.tree);
   comm.together([&] {
     const TreeAttributes& tree = problem.tree.attributes;
     problem.input =
@@ -163,41 +164,41 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
     const Settings& settings = problem.input.settings;
     const std::string prefix = arguments.prefix.empty() ? settings.output_prefix : arguments.prefix;
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
-    problem.files.push_back(prefix + tree_suffix);
+    problem.files.push_back(prefix + io::tree_suffix);
     if (settings.partitions > 0) {
-      problem.parts = {prefix, settings.partitions, part_formats(settings.formats)};
-      problem.part_files = part_file_names(prefix, settings.partitions, problem.parts.formats);
+      problem.parts = {prefix, settings.partitions, io::part_formats(settings.formats)};
+      problem.part_files = io::part_file_names(prefix, settings.partitions, problem.parts.formats);
     }
-    require_possible_outputs(with_files_beside(problem.files));
-    require_possible_outputs(problem.part_files);
+    io::require_possible_outputs(io::with_files_beside(problem.files));
+    io::require_possible_outputs(problem.part_files);
     if (comm.is_root()) problem.whole = solved_mesh(arguments, tree);
   });
   return problem;
 }
 
 /// Distributes the solved mesh. *Collective.*
-SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
-  const LoadedMesh whole = std::exchange(problem.whole, {});
-  SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
+adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
+  const io::LoadedMesh whole = std::exchange(problem.whole, {});
+  adapt::SolvedMesh solved =
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
-  require_own_mesh(comm, solved, arguments.solution, arguments.tree);
+  adapt::require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;
 }
 
-void report(const CommandContext& context, const RemeshedSolution& remeshed, const StageTimes& times,
+void report(const CommandContext& context, const adapt::RemeshedSolution& remeshed, const StageTimes& times,
             const RemeshProblem& problem, const std::optional<PartStatistics>& parts) {
   for (const std::string& file : problem.files)
-    context.warn(changes_in(remeshed.generated.result.mesh, file));
-  const std::vector<std::string> files = with_files_beside(problem.files);
+    context.warn(io::changes_in(remeshed.generated.result.mesh, file));
+  const std::vector<std::string> files = io::with_files_beside(problem.files);
   MeshSummary summary = summarise(context.comm, remeshed.generated, times.stages(), files);
   if (context.comm.is_root()) add_extents(summary.statistics, problem.input.extents);
   if (parts) add_parts(summary, *parts, problem.part_files);
   Statistics of_transfer = transfer_statistics(remeshed);
   if (remeshed.estimate) of_transfer.add("interpolation error", *remeshed.estimate, "{:.3e}");
   if (remeshed.stretched) {
-    of_transfer.add_member("metric", record_of(*remeshed.stretched).text());
-    of_transfer.add_lines(lines_of(*remeshed.stretched));
+    of_transfer.add_member("metric", adapt::record_of(*remeshed.stretched).text());
+    of_transfer.add_lines(adapt::lines_of(*remeshed.stretched));
   }
   if (problem.input.settings.morph_to)
     of_transfer.add_raw("morphed", remeshed.morphed ? "yes" : "no", remeshed.morphed ? "true" : "false");
@@ -211,28 +212,28 @@ void report(const CommandContext& context, const RemeshedSolution& remeshed, con
 
 /// Returns the old cells on the changed geometry, if the case requests it and they are good enough; otherwise
 /// adds to `doubts` why the mesh is generated again. *Collective.*
-std::optional<RemeshedSolution> morph(const Communicator& comm, const RemeshArguments& arguments,
-                                      const RemeshProblem& problem, const SolvedMesh& solved,
-                                      Warnings& doubts) {
+std::optional<adapt::RemeshedSolution> morph(const Communicator& comm, const RemeshArguments& arguments,
+                                             const RemeshProblem& problem, const adapt::SolvedMesh& solved,
+                                             Warnings& doubts) {
   const std::optional<double>& least = problem.input.settings.morph_to;
   if (!least) return {};
   const std::string& file = arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
-  const MorphWish wish{*least, file};
-  MorphedMesh morphed = morph_solved(comm, *problem.input.mesh, solved, wish);
-  if (!morphed.refusal.empty()) doubts.push_back(why_anew(wish, morphed.refusal));
+  const adapt::MorphWish wish{*least, file};
+  adapt::MorphedMesh morphed = adapt::morph_solved(comm, *problem.input.mesh, solved, wish);
+  if (!morphed.refusal.empty()) doubts.push_back(adapt::why_anew(wish, morphed.refusal));
   return std::move(morphed.remeshed);
 }
 
 /// Flags cells by the solution, generates the mesh, and transfers the solution. *Collective.*
-RemeshedSolution remesh(const Communicator& comm, const RemeshProblem& problem, const SolvedMesh& solved,
-                        StageTimes& times, Warnings& warnings) {
+adapt::RemeshedSolution remesh(const Communicator& comm, const RemeshProblem& problem,
+                               const adapt::SolvedMesh& solved, StageTimes& times, Warnings& warnings) {
   times.begin("adapt");
   const MeshInput& mesh = *problem.input.mesh;
-  const std::optional<AdaptOptions>& adapt = problem.input.settings.adapt;
-  const AdaptationPlan plan =
-      adapt ? plan_adaptation(comm, mesh, *adapt, solved) : unchanged_plan(solved.tree, mesh);
+  const std::optional<adapt::AdaptOptions>& adapt = problem.input.settings.adapt;
+  const adapt::AdaptationPlan plan =
+      adapt ? adapt::plan_adaptation(comm, mesh, *adapt, solved) : adapt::unchanged_plan(solved.tree, mesh);
   times.end();
-  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh, plan, solved);
+  adapt::RemeshedSolution remeshed = adapt::remesh_and_transfer(comm, mesh, plan, solved);
   remeshed.estimate = plan.estimate;
   const Warnings& of_mesh = remeshed.generated.result.report.warnings;
   warnings.insert(warnings.end(), of_mesh.begin(), of_mesh.end());
@@ -247,10 +248,10 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
   Warnings& warnings = context.record.noted;
   RemeshProblem problem = load(comm, arguments, warnings);
   times.begin("compare");
-  const SolvedMesh solved = spread(comm, arguments, problem);
+  const adapt::SolvedMesh solved = spread(comm, arguments, problem);
   times.end();
   problem.input.mesh->mesh.limit = mesh_limit(comm, arguments.max_cells);
-  std::optional<RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);
+  std::optional<adapt::RemeshedSolution> remeshed = morph(comm, arguments, problem, solved, warnings);
   if (!remeshed) remeshed = remesh(comm, problem, solved, times, warnings);
   times.append(remeshed->times);
   times.begin("write");
@@ -261,9 +262,9 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
 
 std::string solution_help() {
   std::string with_mesh, alone;
-  for (const FileFormat& format : file_formats()) {
-    if (!format.holds(Content::solution)) continue;
-    if (format.holds(Content::mesh)) {
+  for (const io::FileFormat& format : io::file_formats()) {
+    if (!format.holds(io::Content::solution)) continue;
+    if (format.holds(io::Content::mesh)) {
       with_mesh += "." + format.name + ", ";
     } else {
       alone += fmt::format("{}.{} ({})", alone.empty() ? "" : ", ", format.name, format.program);
@@ -298,4 +299,4 @@ void add_remesh_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_remesh(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -30,7 +30,7 @@
 #include "smoother/outline/outline_match.hpp"
 #include "smoother/smooth_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -42,7 +42,7 @@ struct SmoothArguments {
 
 /// Input on the root rank; on the others only the geometry.
 struct Loaded {
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   MeshOrder order;
   NodeFlags pinned;  ///< nodes_that_stay(), and fix_nodes()
   std::optional<Geometry> geometry;
@@ -50,11 +50,11 @@ struct Loaded {
 };
 
 /// Cells of layers are split by the shorter diagonals, which may not be Delaunay.
-bool is_delaunay_outside_layers(const LoadedMesh& loaded) {
+bool is_delaunay_outside_layers(const io::LoadedMesh& loaded) {
   const Communicator alone(MPI_COMM_SELF);
   const Mesh& mesh = loaded.mesh;
-  return is_delaunay(mesh,
-                     blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
+  return is_delaunay(
+      mesh, smoother::blocks_for_flips(alone, mesh, layer_places(alone, mesh), loaded.triangle_to_block));
 }
 
 constexpr double most_stretched = 20;  // longest over shortest edge
@@ -90,43 +90,43 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Warnings& warnings = context.record.noted;
   std::vector<char> turned;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
-    require_writable_suffix(arguments.output);
-    if (!arguments.geometry.empty()) loaded.geometry = read_outline(arguments.geometry, warnings);
+    io::require_readable_suffix(arguments.input);
+    io::require_writable_suffix(arguments.output);
+    if (!arguments.geometry.empty()) loaded.geometry = io::read_outline(arguments.geometry, warnings);
     if (!context.comm.is_root()) return;
-    require_possible_outputs({arguments.output});
-    loaded.whole = read_mesh(arguments.input);
-    tidy_mesh(loaded.whole, arguments.input);
+    io::require_possible_outputs({arguments.output});
+    loaded.whole = io::read_mesh(arguments.input);
+    io::tidy_mesh(loaded.whole, arguments.input);
     require_sound_topology(loaded.whole, arguments.input);
     append(warnings, loaded.whole.warnings);
     if (loaded.geometry) {
-      append(warnings, require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
-      turned = loops_against(*loaded.geometry, loaded.whole.mesh);
+      append(warnings, smoother::require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
+      turned = smoother::loops_against(*loaded.geometry, loaded.whole.mesh);
     }
     loaded.order = space_filling_order(loaded.whole.mesh);
-    loaded.pinned = nodes_that_stay(loaded.whole);
+    loaded.pinned = io::nodes_that_stay(loaded.whole);
     if (arguments.sweeps > 0)
-      append(warnings, fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
+      append(warnings, io::fix_nodes(loaded.whole, arguments.fix, arguments.input, loaded.pinned));
     loaded.delaunay = loaded.whole.inner_curves.empty() && is_delaunay_outside_layers(loaded.whole);
     append(warnings, doubts_about_stretched(loaded.whole.mesh, arguments.input));
     if (loaded.whole.solution && arguments.sweeps > 0)
       warnings.push_back(
           arguments.input +
           ": the solution keeps its values at the nodes, which move; it is that of the old mesh");
-    append(warnings, losses_in(loaded.whole, arguments.output));
+    append(warnings, io::losses_in(loaded.whole, arguments.output));
   });
   context.comm.broadcast(turned);
-  if (loaded.geometry) loaded.geometry = with_loops_turned(*loaded.geometry, turned);
+  if (loaded.geometry) loaded.geometry = smoother::with_loops_turned(*loaded.geometry, turned);
   loaded.delaunay = context.comm.any(loaded.delaunay);
   return loaded;
 }
 
-SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments, const Loaded& loaded,
-                         const Mesh& part) {
-  SmoothOptions options;
+smoother::SmoothOptions options_of(const Communicator& comm, const SmoothArguments& arguments,
+                                   const Loaded& loaded, const Mesh& part) {
+  smoother::SmoothOptions options;
   options.sweeps = arguments.sweeps;
-  options.method = *value_of(method_words, arguments.method);
-  options.objective = *value_of(objective_words, arguments.objective);
+  options.method = *value_of(smoother::method_words, arguments.method);
+  options.objective = *value_of(smoother::objective_words, arguments.objective);
   options.pinned = NodeFlags(scatter_nodes(comm, loaded.pinned, loaded.order));
   options.geometry = loaded.geometry ? &*loaded.geometry : nullptr;
   if (loaded.delaunay) {
@@ -135,7 +135,7 @@ SmoothOptions options_of(const Communicator& comm, const SmoothArguments& argume
       return tie_rank(centre, p);
     };
   }
-  keep_layers(comm, part, options);
+  smoother::keep_layers(comm, part, options);
   return options;
 }
 
@@ -165,18 +165,18 @@ std::string smooth_and_write(const CommandContext& context, const SmoothArgument
   Mesh part = scatter_mesh(comm, loaded.whole.mesh, loaded.order);
   const bool parallel =
       comm.any(!part.quads.empty()) && solver_statistics(comm, part).parallelogram_share() == 1;
-  SmoothOptions options = options_of(comm, arguments, loaded, part);
-  if (parallel) options = sparing_parallelograms(options);
+  smoother::SmoothOptions options = options_of(comm, arguments, loaded, part);
+  if (parallel) options = smoother::sparing_parallelograms(options);
   times.begin("report");
   const ShapeReport before = report_shapes(comm, part, loaded.whole.mesh);
   times.begin("smooth");
-  const SmoothReport smoothed = smooth_mesh(comm, part, options);
+  const smoother::SmoothReport smoothed = smoother::smooth_mesh(comm, part, options);
   times.begin("check");
   if (parallel) warn_of_skew_quads(context, arguments.output, solver_statistics(comm, part));
   gather_mesh(comm, part, loaded.order, loaded.whole.mesh);
   require_valid_result(comm, loaded, arguments.input);
   times.begin("write");
-  write_mesh_of_root(comm, loaded.whole, arguments.output);
+  io::write_mesh_of_root(comm, loaded.whole, arguments.output);
   times.begin("report");
   const ShapeReport after = report_shapes(comm, part, loaded.whole.mesh);
   times.end();
@@ -201,11 +201,11 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
   std::string text;
   if (arguments.sweeps == 0) {
     require_valid_result(context.comm, loaded, arguments.input);
-    write_mesh_of_root(context.comm, loaded.whole, arguments.output);
+    io::write_mesh_of_root(context.comm, loaded.whole, arguments.output);
   } else {
     text = smooth_and_write(context, arguments, loaded, times);
   }
-  context.record.files = with_files_beside({arguments.output});
+  context.record.files = io::with_files_beside({arguments.output});
   if (context.shows_table())
     std::cout << text << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
 }
@@ -215,7 +215,7 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   Command command = line.add_command("smooth", "improve the cell shapes of a mesh by moving its nodes");
-  command.add_option("input", arguments->input, "the mesh (" + suffixes_for({Content::mesh}) + ")")
+  command.add_option("input", arguments->input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command
@@ -228,12 +228,12 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
       .between(0, 100000);
   command.add_option("--method", arguments->method, "optimisation method: perturb (the default) or nlopt")
       .value_name("METHOD")
-      .one_of(words_of(method_words));
+      .one_of(words_of(smoother::method_words));
   command
       .add_option("--objective", arguments->objective,
                   "objective function: power (the default) or thesis (Eq. 3.4)")
       .value_name("COST")
-      .one_of(words_of(objective_words));
+      .one_of(words_of(smoother::objective_words));
   command
       .add_option("--geometry", arguments->geometry,
                   "geometry along which boundary nodes may slide, as written by `mesh --geometry-out`")
@@ -246,4 +246,4 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
   command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

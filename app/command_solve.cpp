@@ -26,7 +26,7 @@
 #include "mesher/mesh/variable_names.hpp"
 #include "quadloop/case/settings.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -38,23 +38,23 @@ struct SolveArguments {
 /// The settings and, on the root rank only, the mesh with the initial state.
 struct SolveProblem {
   Settings settings;
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   MeshOrder order;
   Field start;  ///< without variables: the initial state follows from the case
 };
 
 void require_outputs(const std::string& output) {
-  require_writable_suffix(output);
-  if (!format_of(output)->holds(Content::solution))
+  io::require_writable_suffix(output);
+  if (!io::format_of(output)->holds(io::Content::solution))
     throw InputError(output + ": this format cannot store the flow; use a " +
-                     suffixes_for({Content::mesh, Content::solution}) + " file");
+                     io::suffixes_for({io::Content::mesh, io::Content::solution}) + " file");
 }
 
 /// Returns the initial state if the mesh file has density, velocity and pressure.
-Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warnings) {
+Field start_of(const io::LoadedMesh& whole, const std::string& path, Warnings& warnings) {
   if (!whole.solution || whole.solution->names.empty()) return {};
   const std::vector<std::string>& names = whole.solution->names;
-  std::vector<std::string> wanted(euler_names.begin(), euler_names.end());
+  std::vector<std::string> wanted(flow::euler_names.begin(), flow::euler_names.end());
   for (const std::string& name : wanted) {
     if (variables_like(names, name).size() == 1) continue;
     warnings.push_back(fmt::format(
@@ -62,7 +62,7 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
         path, name));
     return {};
   }
-  for (const char* const name : at_end_names) {
+  for (const char* const name : flow::at_end_names) {
     if (std::ranges::find(names, name) != names.end()) wanted.emplace_back(name);
   }
   Field start = selected(*whole.solution, wanted, path);
@@ -81,7 +81,7 @@ Field start_of(const LoadedMesh& whole, const std::string& path, Warnings& warni
 SolveProblem load(const CommandContext& context, const SolveArguments& arguments) {
   SolveProblem problem;
   context.comm.together([&] {
-    require_readable_suffix(arguments.input);
+    io::require_readable_suffix(arguments.input);
     require_outputs(arguments.output);
     problem.settings = read_settings(arguments.case_path, arguments.assignments);
     if (problem.settings.solver.kind != SolverSettings::Kind::euler) {
@@ -90,8 +90,8 @@ SolveProblem load(const CommandContext& context, const SolveArguments& arguments
                        "set kind = \"euler\"");
     }
     if (!context.comm.is_root()) return;
-    require_possible_outputs({arguments.output});
-    problem.whole = read_mesh(arguments.input);
+    io::require_possible_outputs({arguments.output});
+    problem.whole = io::read_mesh(arguments.input);
     context.record.noted = problem.whole.warnings;
     problem.order = order_for_parts(problem.whole.mesh);
     problem.start = start_of(problem.whole, arguments.input, context.record.noted);
@@ -106,55 +106,58 @@ struct TableFiles {
 
 TableFiles tables_beside(const std::string& output) {
   const std::string prefix = std::filesystem::path(output).replace_extension().string();
-  return {prefix + wall_table_suffix, prefix + history_suffix};
+  return {prefix + flow::wall_table_suffix, prefix + flow::history_suffix};
 }
 
-void write_text(OutputSet& outputs, const std::string& path, const std::string& text) {
-  TextOutput file(outputs, path);
+void write_text(io::OutputSet& outputs, const std::string& path, const std::string& text) {
+  io::TextOutput file(outputs, path);
   file.write(text);
   file.close();
 }
 
 /// Adds the solution to the whole mesh on the root and writes it, with the tables. *Collective.*
-void write(const CommandContext& context, SolveProblem& problem, const Mesh& part, const EulerResult& result,
-           const std::string& path) {
+void write(const CommandContext& context, SolveProblem& problem, const Mesh& part,
+           const flow::EulerResult& result, const std::string& path) {
   const Communicator& comm = context.comm;
-  const EulerOptions& options = problem.settings.solver.euler;
-  const FreeStream stream = free_stream_of(options);
+  const flow::EulerOptions& options = problem.settings.solver.euler;
+  const flow::FreeStream stream = flow::free_stream_of(options);
   std::vector<std::string> wall_names;
-  for (const BoundaryForce& force : result.forces) wall_names.push_back(force.boundary);
-  const std::string walls = wall_table(comm, part, result.flow, stream, wall_names);
-  const Field flow = with_quantities(flow_with_constants(result, options), problem.settings.fields, stream);
+  for (const flow::BoundaryForce& force : result.forces) wall_names.push_back(force.boundary);
+  const std::string walls = flow::wall_table(comm, part, result.flow, stream, wall_names);
+  const Field flow =
+      flow::with_quantities(flow::flow_with_constants(result, options), problem.settings.fields, stream);
   Field solution = gather_field(comm, flow, part, problem.order);
   comm.together([&] {
     if (!comm.is_root()) return;
-    if (!format_of(path)->holds(Content::constants)) solution.constants.clear();
+    if (!io::format_of(path)->holds(io::Content::constants)) solution.constants.clear();
     problem.whole.solution = std::move(solution);
-    for (std::string& loss : losses_in(problem.whole, path)) context.record.noted.push_back(std::move(loss));
+    for (std::string& loss : io::losses_in(problem.whole, path))
+      context.record.noted.push_back(std::move(loss));
     const Communicator alone(MPI_COMM_SELF);
-    OutputSet outputs(alone);
-    write_mesh(outputs, problem.whole, path);
+    io::OutputSet outputs(alone);
+    io::write_mesh(outputs, problem.whole, path);
     write_text(outputs, tables_beside(path).walls, walls);
-    write_text(outputs, tables_beside(path).history, history_table(result.history));
+    write_text(outputs, tables_beside(path).history, flow::history_table(result.history));
     outputs.commit();
   });
 }
 
-EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
-  EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
-  const bool in_time = options.time == EulerOptions::Time::accurate;
-  options.progress = [&comm, in_time](const EulerProgress& progress) {
-    if (comm.is_root()) log::information(line_of(progress, in_time));
+flow::EulerResult solve(const Communicator& comm, const SolveProblem& problem, const Mesh& part) {
+  flow::EulerOptions options = euler_options(problem.settings.solver, problem.settings.outline.rules, part);
+  const bool in_time = options.time == flow::EulerOptions::Time::accurate;
+  options.progress = [&comm, in_time](const flow::EulerProgress& progress) {
+    if (comm.is_root()) log::information(flow::line_of(progress, in_time));
   };
-  return solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
-                     estimate_goals(options));
+  return flow::solve_euler(comm, part, options, scatter_field(comm, problem.start, part, problem.order),
+                           flow::estimate_goals(options));
 }
 
-Statistics result_statistics(std::int64_t nodes, const EulerResult& result, const EulerOptions& options) {
+Statistics result_statistics(std::int64_t nodes, const flow::EulerResult& result,
+                             const flow::EulerOptions& options) {
   Statistics statistics;
   statistics.add("nodes", nodes);
   statistics.add("steps", result.iterations);
-  if (options.time == EulerOptions::Time::accurate || result.unsteady)
+  if (options.time == flow::EulerOptions::Time::accurate || result.unsteady)
     statistics.add("time", result.time, "{:.6g}");
   statistics.add("residual", result.residual, "{:.3e}");
   statistics.add("cl", result.cl, "{:.6f}");
@@ -165,18 +168,18 @@ Statistics result_statistics(std::int64_t nodes, const EulerResult& result, cons
     statistics.add("cl friction", result.cl_friction, "{:.6f}");
   }
   std::string lines;
-  for (const GoalValue& goal : result.goals) lines += "  " + line_of(goal) + "\n";
-  for (const BoundaryForce& force : result.forces) {
+  for (const flow::GoalValue& goal : result.goals) lines += "  " + adapt::line_of(goal) + "\n";
+  for (const flow::BoundaryForce& force : result.forces) {
     const auto& [name, cl, cd, cl_friction, cd_friction] = force;
     lines += fmt::format("  forces on {}: cl {:.6f}, cd {:.6f}", name, cl, cd);
     lines += options.viscosity > 0 ? fmt::format(", cd friction {:.6f}\n", cd_friction) : "\n";
   }
   if (result.unsteady) {
-    lines += "  " + line_of(*result.unsteady) + "\n";
-    statistics.add_member("unsteady", record_of(*result.unsteady).text());
+    lines += "  " + flow::line_of(*result.unsteady) + "\n";
+    statistics.add_member("unsteady", adapt::record_of(*result.unsteady).text());
   }
-  if (!result.goals.empty()) statistics.add_member("goals", record_of(result.goals).text());
-  statistics.add_member("forces", record_of(result.forces).text());
+  if (!result.goals.empty()) statistics.add_member("goals", adapt::record_of(result.goals).text());
+  statistics.add_member("forces", adapt::record_of(result.forces).text());
   statistics.add_lines(lines);
   return statistics;
 }
@@ -188,20 +191,20 @@ void run_solve(const CommandContext& context, const SolveArguments& arguments) {
   SolveProblem problem = load(context, arguments);
   const Mesh part = scatter_mesh(comm, problem.whole.mesh, problem.order);
   times.begin("solve");
-  const EulerResult result = solve(comm, problem, part);
+  const flow::EulerResult result = solve(comm, problem, part);
   times.begin("write");
   write(context, problem, part, result, arguments.output);
   times.end();
   const std::vector<StageRow> stages = stage_rows(comm, times.stages());
   const std::int64_t nodes = comm.sum(part.owned_nodes);
   if (!comm.is_root()) return;
-  context.warn(shortfalls(result, problem.settings.solver.euler));
+  context.warn(flow::shortfalls(result, problem.settings.solver.euler));
   const Statistics statistics = result_statistics(nodes, result, problem.settings.solver.euler);
   context.record.statistics = statistics.record();
   context.record.statistics.add("converged", result.converged);
   context.record.statistics.add("seconds", record_of(stages));
   const TableFiles tables = tables_beside(arguments.output);
-  context.record.files = with_files_beside({arguments.output, tables.walls, tables.history});
+  context.record.files = io::with_files_beside({arguments.output, tables.walls, tables.history});
   if (context.shows_table())
     std::cout << statistics.table() << stage_table(stages)
               << fmt::format("  wrote {}\n", fmt::join(context.record.files, ", "));
@@ -215,17 +218,19 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
       line.add_command("solve", "run the built-in flow solver (2D Euler equations, laminar flow) on a mesh");
   command.add_case_argument(arguments->case_path);
   command
-      .add_option("input", arguments->input,
-                  "the mesh (" + suffixes_for({Content::mesh}) + "); a flow in it is the initial state")
+      .add_option(
+          "input", arguments->input,
+          "the mesh (" + io::suffixes_for({io::Content::mesh}) + "); a flow in it is the initial state")
       .required()
       .value_name("IN");
   command
-      .add_option("-o,--output", arguments->output,
-                  "the mesh with the flow (" + suffixes_for({Content::mesh, Content::solution}) + ")")
+      .add_option(
+          "-o,--output", arguments->output,
+          "the mesh with the flow (" + io::suffixes_for({io::Content::mesh, io::Content::solution}) + ")")
       .required()
       .value_name("OUT");
   command.add_set_option(arguments->assignments, "solver.mach=0.5");
   command.set_work([&context, arguments] { run_solve(context, *arguments); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -23,7 +23,7 @@
 #include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -87,7 +87,7 @@ void run(int argc, char** argv, CommandContext& context) {
   add_commands(line, context);
   const auto work = line.parse(argc, argv, comm, context.record.command);
   if (!work) return;
-  allow_piped_input(comm.size() == 1);
+  io::allow_piped_input(comm.size() == 1);
   log::configure({comm.rank(), comm.size(), context.quiet, context.verbose});
   if (comm.is_root() && !context.quiet) progress::show();
   work();
@@ -134,13 +134,14 @@ void keep_freed_memory() {
 
 }  // namespace
 
-}  // namespace quadloop
+}  // namespace quadloop::app
 
 int main(int argc, char** argv) {
-  quadloop::keep_freed_memory();
-  const quadloop::MpiGuard mpi(argc, argv);
-  quadloop::remove_temporaries_when_killed();
-  quadloop::add_gis_formats();
+  quadloop::app::keep_freed_memory();
+  const quadloop::app::MpiGuard mpi(argc, argv);
+  quadloop::io::remove_temporaries_when_killed();
+  quadloop::io::add_gis_formats();
   const quadloop::Communicator comm(MPI_COMM_WORLD), closing(MPI_COMM_WORLD);
-  return static_cast<int>(close_together(closing.raw(), quadloop::recorded_run(argc, argv, comm)));
+  return static_cast<int>(
+      quadloop::app::close_together(closing.raw(), quadloop::app::recorded_run(argc, argv, comm)));
 }

@@ -6,7 +6,7 @@
 
 #include "flow/command/environment.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 5> settings{
 }  // namespace
 
 MpiSingleton::MpiSingleton() {
-  if (started_by_launcher()) return;
+  if (flow::started_by_launcher()) return;
   for (const auto& [name, value] : settings) {
     if (std::getenv(name) != nullptr) continue;
     setenv(name, value, 1);
@@ -35,4 +35,4 @@ MpiSingleton::~MpiSingleton() {
   for (const char* name : set_) unsetenv(name);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

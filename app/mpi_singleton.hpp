@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// To be constructed around MPI_Init: in a process without a launcher Open MPI (4) would start a daemon for
 /// spawning further processes and probe every network, which takes a third of a second. The user's own
@@ -19,4 +19,4 @@ class MpiSingleton {
   std::vector<const char*> set_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct WholeCycle {
   int number;
-  CyclePaths paths;
+  adapt::CyclePaths paths;
 };
 
 /// Returns the cycles of an adaptive run, in order.
@@ -52,16 +52,16 @@ std::string table_of(const std::string& input, const char* suffix) {
   return table;
 }
 
-Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cycles) {
-  std::vector<CycleStatistics> statistics;
+io::Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cycles) {
+  std::vector<io::CycleStatistics> statistics;
   for (const auto& [number, paths] : cycles) {
     if (!fs::exists(paths.record())) continue;
-    const std::string json = read_input(paths.record());
-    statistics.push_back({static_cast<double>(number), recorded_number(json, "residual"),
-                          recorded_number(json, "cl"), recorded_number(json, "cd")});
+    const std::string json = io::read_input(paths.record());
+    statistics.push_back({static_cast<double>(number), adapt::recorded_number(json, "residual"),
+                          adapt::recorded_number(json, "cl"), adapt::recorded_number(json, "cd")});
   }
   try {
-    return cycles_chart(statistics);
+    return io::cycles_chart(statistics);
   } catch (const InputError& error) {
     throw InputError(run + ": " + error.what() + cure);
   }
@@ -69,21 +69,22 @@ Chart chart_of_records(const std::string& run, const std::vector<WholeCycle>& cy
 
 }  // namespace
 
-PlotTable wall_table_for(const std::string& input) {
-  if (!fs::is_directory(input)) return read_plot_table(table_of(input, wall_table_suffix));
+io::PlotTable wall_table_for(const std::string& input) {
+  if (!fs::is_directory(input)) return io::read_plot_table(table_of(input, flow::wall_table_suffix));
   const std::string table = cycles_in(input).back().paths.walls();
   if (!fs::exists(table)) throw InputError(table + ": does not exist" + cure);
-  return read_plot_table(table);
+  return io::read_plot_table(table);
 }
 
-Chart chart_of_history(const std::string& input) {
-  if (!fs::is_directory(input)) return history_chart({read_plot_table(table_of(input, history_suffix))});
+io::Chart chart_of_history(const std::string& input) {
+  if (!fs::is_directory(input))
+    return io::history_chart({io::read_plot_table(table_of(input, flow::history_suffix))});
   const std::vector<WholeCycle> cycles = cycles_in(input);
-  std::vector<PlotTable> histories;
+  std::vector<io::PlotTable> histories;
   for (const WholeCycle& cycle : cycles) {
-    if (fs::exists(cycle.paths.history())) histories.push_back(read_plot_table(cycle.paths.history()));
+    if (fs::exists(cycle.paths.history())) histories.push_back(io::read_plot_table(cycle.paths.history()));
   }
-  return histories.empty() ? chart_of_records(input, cycles) : history_chart(histories);
+  return histories.empty() ? chart_of_records(input, cycles) : io::history_chart(histories);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

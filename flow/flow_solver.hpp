@@ -12,7 +12,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// The solution of a flow solver, with its report.
 struct SolvedFlow : FlowStatistics {
@@ -30,4 +30,4 @@ struct SolvedFlow : FlowStatistics {
 using FlowSolver =
     std::function<SolvedFlow(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle)>;
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

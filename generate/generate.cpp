@@ -70,10 +70,10 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
             MeshResult& result) {
   if (input.smooth.sweeps == 0) return;
   const int finest = result.report.finest_allowed;
-  SmoothOptions options = smooth_options_for(input, finest);
+  smoother::SmoothOptions options = smooth_options_for(input, finest);
   if (!pinned.empty()) options.pinned = owned_among(pinned, result.mesh);
   options.keep_slots = !has_triangles_alone(input.mesh.type);
-  const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+  const smoother::SmoothReport report = smoother::smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   if (keeps_parallelograms(input.mesh)) {  // moved nodes make some skew; these are split too
     split_skew_quads(result.mesh, result.tree.leaves, order_of_nodes(input, finest));
@@ -105,7 +105,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
 
 /// Moves the boundary nodes onto the geometry's curves; a Delaunay mesh stays Delaunay. *Collective.*
 void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult& result) {
-  const NodeFlags moved = move_nodes_to_curves(comm, input.geometry, result.mesh);
+  const NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, result.mesh);
   if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
   count_triangles(restore_delaunay_nearby(comm, result.mesh, moved,
                                           order_of_nodes(input, result.report.finest_allowed)),
@@ -264,11 +264,11 @@ GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, c
 
 }  // namespace
 
-SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
-  SmoothOptions options = input.smooth;
+smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_level) {
+  smoother::SmoothOptions options = input.smooth;
   options.geometry = &input.geometry;
   options.mirror = input.mesh.mirror;
-  if (keeps_parallelograms(input.mesh)) options = sparing_parallelograms(options);
+  if (keeps_parallelograms(input.mesh)) options = smoother::sparing_parallelograms(options);
   if (has_triangles_alone(input.mesh.type)) options.delaunay = order_of_nodes(input, finest_level);
   return options;
 }

@@ -21,8 +21,8 @@ namespace quadloop {
 struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
-  SmoothOptions smooth;      ///< without the geometry
-  std::uint64_t digest = 0;  ///< case_digest() of the case's own mesh options and lines
+  smoother::SmoothOptions smooth;  ///< without the geometry
+  std::uint64_t digest = 0;        ///< case_digest() of the case's own mesh options and lines
   std::vector<LayerLine> lines = {};
   /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/r_adaptation); empty: no
   /// r-adaptation.
@@ -42,7 +42,7 @@ struct GeneratedMesh {
 /// Returns the smoothing options for meshes of this input: nodes slide along its geometry, which must outlive
 /// the options; parallelograms are preserved if no other quads are kept. Delaunay-type meshes end with flips,
 /// with the node order of quadtree cells down to `finest_level`.
-SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
+smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
 /// Callback on the smoothed mesh before the layers are generated. `input` is that of the mesh (of the domain
 /// outside layers, if there are any). Nodes on the outer edge of the layers must not move, and the tree must

@@ -30,7 +30,7 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -326,4 +326,4 @@ std::string suffixes_for(std::initializer_list<Content> contents, const std::str
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Data that a format may support.
 enum class Content {
@@ -108,4 +108,4 @@ std::vector<std::string> formats_for(std::initializer_list<Content> contents);
 /// Returns the same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
 std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last = "or");
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -22,7 +22,7 @@
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -367,4 +367,4 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
   return {path + ": " + loss};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

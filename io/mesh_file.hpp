@@ -7,7 +7,7 @@
 #include "io/model/extruded_mesh.hpp"
 #include "io/model/mesh_of_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads a mesh in the format (formats.hpp) of the file's suffix, or a complete set of partitions from its
 /// index (.parts), on the calling rank only. Throws InputError.
@@ -66,4 +66,4 @@ std::vector<std::string> losses_in(const FileMesh& mesh, const std::string& path
 std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& path);
 std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

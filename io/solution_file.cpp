@@ -13,7 +13,7 @@
 #include "mesher/mesh/check/compare_meshes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -74,4 +74,4 @@ void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {
   if (!found.empty()) throw InputError(solution.path + ": " + found);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

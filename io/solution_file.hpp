@@ -5,7 +5,7 @@
 
 #include "io/model/loaded_solution.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads a file of any format that supports solutions, with or without a mesh (.csv, the restart file of
 /// SU2), on the calling rank only. Throws InputError, also if the file has no solution, two variables of the
@@ -20,4 +20,4 @@ void require_solution_suffix(const std::string& path);
 /// file contains these. The message names the file, and the differing count, node (from 1) or cell.
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

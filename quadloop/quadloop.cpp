@@ -40,7 +40,8 @@ bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   if (!comm.is_root()) return comm.any(false);
   const Communicator alone(MPI_COMM_SELF);
-  return comm.any(is_delaunay(whole, blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
+  return comm.any(
+      is_delaunay(whole, smoother::blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
 }
 
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
@@ -86,26 +87,26 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
   const MeshInput& input = mesh_input(of);
   const TreeGrid grid = input.grid();
-  SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
+  smoother::SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
   if (options.delaunay && !all_delaunay(comm, mesh)) options.delaunay = nullptr;
-  keep_layers(comm, mesh, options);
-  smooth_mesh(comm, mesh, options);
+  smoother::keep_layers(comm, mesh, options);
+  smoother::smooth_mesh(comm, mesh, options);
 }
 
 FlowSolver built_in_solver(const Communicator& comm, const Case& of) {
   const CaseInput& input = of.parts().input;
   const std::string& path = of.parts().path;
-  std::optional<ChosenSolver> chosen;
+  std::optional<adapt::ChosenSolver> chosen;
   comm.together([&] {
     chosen = chosen_solver(input.settings.solver, input.settings.outline.rules, input.mesh->geometry, path);
-    if (!std::holds_alternative<EulerOptions>(*chosen))
+    if (!std::holds_alternative<flow::EulerOptions>(*chosen))
       throw InputError(path + ": 'solver.kind' is not the built-in solver; set kind = \"euler\"");
   });
-  const auto& options = std::get<EulerOptions>(*chosen);
-  return euler_solver(options, estimate_goals(options));
+  const auto& options = std::get<flow::EulerOptions>(*chosen);
+  return flow::euler_solver(options, flow::estimate_goals(options));
 }
 
-RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan)
+RefinementFlags::RefinementFlags(const SolvedMesh& of, std::shared_ptr<const adapt::AdaptationPlan> plan)
     : case_digest_{of.tree.attributes.case_digest},
       coordinate_digest_{of.tree.attributes.coordinate_digest},
       plan_{std::move(plan)} {}
@@ -117,8 +118,9 @@ const std::vector<std::string>& RefinementFlags::warnings() const { return plan_
 
 RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved) {
   require_rows(comm, solved.mesh, solved.solution);
-  const AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
-  auto plan = std::make_shared<const AdaptationPlan>(plan_adaptation(comm, mesh_input(of), options, solved));
+  const adapt::AdaptOptions& options = adapt_options(of.parts().input.settings, of.parts().path);
+  auto plan = std::make_shared<const adapt::AdaptationPlan>(
+      adapt::plan_adaptation(comm, mesh_input(of), options, solved));
   return {solved, std::move(plan)};
 }
 
@@ -130,7 +132,7 @@ NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& 
     if (flags.case_digest_ != tree.case_digest || flags.coordinate_digest_ != tree.coordinate_digest)
       throw InputError("the flags belong to another mesh than the one to be changed; call sense() again");
   });
-  RemeshedSolution remeshed = remesh_and_transfer(comm, mesh_input(of), *flags.plan_, before);
+  adapt::RemeshedSolution remeshed = adapt::remesh_and_transfer(comm, mesh_input(of), *flags.plan_, before);
   MeshResult& made = remeshed.generated.result;
   return {{std::move(made.mesh), std::move(made.tree), std::move(remeshed.start), {}},
           std::move(remeshed.report),
@@ -147,11 +149,11 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
 }
 
 MeshFile read(const Communicator& comm, const std::string& path) {
-  LoadedMesh loaded;
+  io::LoadedMesh loaded;
   MeshOrder order;
   comm.together([&] {
     if (!comm.is_root()) return;
-    loaded = read_mesh(path);
+    loaded = io::read_mesh(path);
     order = space_filling_order(loaded.mesh);
   });
   MeshFile file;
@@ -163,31 +165,31 @@ MeshFile read(const Communicator& comm, const std::string& path) {
 
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field) {
-  require_writable_suffix(path);
+  io::require_writable_suffix(path);
   require_rows(comm, mesh, field);
-  OutputSet outputs(comm);
+  io::OutputSet outputs(comm);
   const Field* solution = !field.empty() ? &field : nullptr;
-  write_mesh(outputs, mesh, path, solution);
+  io::write_mesh(outputs, mesh, path, solution);
   outputs.commit();
-  return losses_in(mesh, solution, path);
+  return io::losses_in(mesh, solution, path);
 }
 
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem) {
   require_rows(comm, solved.mesh, solved.solution);
-  OutputSet outputs(comm);
-  write_mesh(outputs, solved.mesh, stem + ".mesh", !solved.solution.empty() ? &solved.solution : nullptr);
-  write_tree(outputs, solved.tree, stem + tree_suffix);
+  io::OutputSet outputs(comm);
+  io::write_mesh(outputs, solved.mesh, stem + ".mesh", !solved.solution.empty() ? &solved.solution : nullptr);
+  io::write_tree(outputs, solved.tree, stem + io::tree_suffix);
   outputs.commit();
 }
 
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem) {
-  const std::string mesh = stem + ".mesh", tree = stem + tree_suffix;
-  LoadedMesh whole;
+  const std::string mesh = stem + ".mesh", tree = stem + io::tree_suffix;
+  io::LoadedMesh whole;
   comm.together([&] {
-    if (comm.is_root()) whole = read_mesh(mesh);
+    if (comm.is_root()) whole = io::read_mesh(mesh);
   });
   SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, tree));
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {
@@ -195,7 +197,7 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
       throw InputError(tree + ": belongs to another case than " + of.parts().path +
                        ", or to another geometry");
   });
-  require_own_mesh(comm, solved, mesh, tree);
+  adapt::require_own_mesh(comm, solved, mesh, tree);
   return solved;
 }
 

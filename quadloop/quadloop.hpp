@@ -46,8 +46,13 @@
 ///     now = remesh(comm, wing, sense(comm, wing, now), now).solved;
 namespace quadloop {
 
+using adapt::SolvedMesh, adapt::TransferReport;
+using flow::FlowSolver, flow::SolvedFlow;
+
 struct CaseParts;
+namespace adapt {
 struct AdaptationPlan;
+}
 
 /// A case file with its geometry: sizes, smoothing, adaptation, solver. Copies of the object share the data.
 class Case {
@@ -106,13 +111,13 @@ class RefinementFlags {
   bool changes_mesh() const;
 
  private:
-  RefinementFlags(const SolvedMesh& of, std::shared_ptr<const AdaptationPlan> plan);
+  RefinementFlags(const SolvedMesh& of, std::shared_ptr<const adapt::AdaptationPlan> plan);
   friend RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
   friend NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
                         const SolvedMesh& before);
 
   std::uint64_t case_digest_, coordinate_digest_;  ///< digests of the mesh's tree
-  std::shared_ptr<const AdaptationPlan> plan_;
+  std::shared_ptr<const adapt::AdaptationPlan> plan_;
 };
 
 /// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` was returned by

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 BinaryUnit::BinaryUnit(const Communicator& comm, const Mesh& mesh) {
   const auto [low, high] = box_over_ranks(comm, mesh.points);
@@ -32,4 +32,4 @@ Geometry BinaryUnit::into(const Geometry& geometry) const {
   return std::move(builder).geometry(std::move(boundaries));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -6,7 +6,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// A power of two used as the unit of length, so that products of four lengths of the mesh neither underflow
 /// nor overflow. It is 1 for ordinary meshes, else near the mesh's extent. Conversion in both directions is
@@ -26,4 +26,4 @@ class BinaryUnit {
   int exponent_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

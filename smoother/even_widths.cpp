@@ -4,7 +4,7 @@
 
 #include "smoother/sweeps/coloured_sweeps.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 bool even_widths(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                  std::span<const double> heights, int sweeps) {
@@ -29,4 +29,4 @@ bool even_widths(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
   return comm.any(moves > 0);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

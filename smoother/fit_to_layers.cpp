@@ -9,7 +9,7 @@
 #include "smoother/sweeps/coloured_sweeps.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -230,4 +230,4 @@ bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slid
   return LayerFit(comm, mesh, slide, heights).run();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

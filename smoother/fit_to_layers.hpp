@@ -5,7 +5,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/outline/boundary_slide.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Moves nodes beside the front of layers where the cells there are much lower or higher than the layers'
 /// last one, or where widths jump along the front: a few rings of nodes outside follow the front's own, which
@@ -15,4 +15,4 @@ namespace quadloop {
 bool fit_to_layers(const Communicator& comm, HaloMesh& mesh, BoundarySlide& slide,
                    std::span<const double> heights);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

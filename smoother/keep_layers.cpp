@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/node_exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -74,4 +74,4 @@ void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& opti
     options.triangle_to_block = blocks_for_flips(comm, mesh, places, options.triangle_to_block);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -7,7 +7,7 @@
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "smoother/smooth_options.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// A cell whose longest edge is more than this many times its shortest edge is taken for a layer cell, in a
 /// mesh with layers on walls but without named strips (a file of an earlier version).
@@ -24,4 +24,4 @@ void keep_layers(const Communicator& comm, const Mesh& mesh, SmoothOptions& opti
 std::vector<std::int32_t> blocks_for_flips(const Communicator& comm, const Mesh& mesh,
                                            const LayerPlaces& places, const std::vector<std::int32_t>& given);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

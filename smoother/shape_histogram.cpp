@@ -7,7 +7,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& me
   return histograms;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Counts of values between limits: counts[i] counts values from limits[i-1] up to limits[i]; the first entry
 /// those below limits[0], the last those of limits.back() and above.
@@ -24,4 +24,4 @@ struct Histogram {
 /// number (Eq. 3.3; infinite if inverted). *Collective.*
 std::vector<Histogram> shape_histograms(const Communicator& comm, const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

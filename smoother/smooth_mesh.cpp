@@ -18,7 +18,7 @@
 #include "smoother/sweeps/rings.hpp"
 #include "smoother/sweeps/sweeper.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -413,4 +413,4 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
   return report;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

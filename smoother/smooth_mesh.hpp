@@ -7,7 +7,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "smoother/smooth_options.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Options for a mesh most of whose quadrilaterals are parallelograms that should be kept: level lines are
 /// not moved, as that skews quadrilaterals at their ends, and cells as bad as those at hanging nodes (right
@@ -31,4 +31,4 @@ struct SmoothReport {
 /// report counts the inverted cells that remain. Lengths may have any magnitude of a double. *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -5,7 +5,7 @@
 
 #include "smoother/mirror/half_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -38,4 +38,4 @@ SmoothReport smooth_mirrored(
   return report;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

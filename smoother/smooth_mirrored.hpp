@@ -4,7 +4,7 @@
 
 #include "smoother/smooth_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Smooths a mesh that is mirror-symmetric in the axis `options.mirror` and keeps it exactly symmetric:
 /// `smooth_half` smooths one side, whose nodes slide along the axis, and the other side becomes its image.
@@ -14,4 +14,4 @@ SmoothReport smooth_mirrored(
     const Communicator& comm, Mesh& mesh, const SmoothOptions& options,
     const std::function<SmoothReport(Mesh& half, const SmoothOptions& options)>& smooth_half);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

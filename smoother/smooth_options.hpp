@@ -13,7 +13,7 @@
 #include "smoother/objective/condition_number.hpp"
 #include "smoother/objective/objective.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Options of smoothing.
 struct SmoothOptions {
@@ -50,4 +50,4 @@ struct SmoothOptions {
   std::vector<CellTarget> targets;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -8,7 +8,7 @@
 
 #include "generate/digests.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string text_of(const std::vector<ChangedSetting>& changes) {
   return changes.size() > most ? text + fmt::format(", and {} more", changes.size() - most) : text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

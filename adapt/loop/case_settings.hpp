@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The keys of a case that a run's files depend on: dotted names in ascending order, each with its value as
 /// JSON on one line.
@@ -39,4 +39,4 @@ std::uint64_t run_digest(const CaseSettings& settings, std::uint64_t geometry_di
 /// Returns "was a, is now b" for each change; for a template file that it has changed.
 std::string text_of(const std::vector<ChangedSetting>& changes);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

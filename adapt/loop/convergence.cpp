@@ -4,7 +4,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 CycleValues values_of(const CycleRecord& record) {
   return {record.nodes, record.cl, record.cd, record.estimate};
@@ -43,4 +43,4 @@ void require_reported(const AdaptOptions::Until& until, const CycleValues& now) 
                    "an external solver, a pressure in [flow]");
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

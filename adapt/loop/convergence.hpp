@@ -7,7 +7,7 @@
 #include "adapt/loop/record.hpp"
 #include "adapt/remesh/demands/adapt_options.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Values that decide whether the loop has converged.
 struct CycleValues {
@@ -29,4 +29,4 @@ bool have_settled(const AdaptOptions::Until& until, const CycleValues& before, c
 /// Throws InputError if `until` names a force that the solver does not provide.
 void require_reported(const AdaptOptions::Until& until, const CycleValues& now);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

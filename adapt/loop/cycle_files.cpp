@@ -13,29 +13,29 @@
 #include "io/text/text_output.hpp"
 #include "io/tree/tree_file.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
 /// Writes a text from the root rank. *Collective.*
 void write_text(const Communicator& comm, const std::string& path, const std::string& text) {
-  OutputSet outputs(comm);
-  TextOutput file(outputs, path);
+  io::OutputSet outputs(comm);
+  io::TextOutput file(outputs, path);
   file.write(text);
   file.close();
   outputs.commit();
 }
 
 /// Writes the tables of walls and history, if the solver provides them. *Collective.*
-void write_tables(const Communicator& comm, const Mesh& mesh, const SolvedFlow& flow,
+void write_tables(const Communicator& comm, const Mesh& mesh, const flow::SolvedFlow& flow,
                   const CyclePaths& paths) {
   if (flow.stream) {
     std::vector<std::string> walls;
-    for (const BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
+    for (const flow::BoundaryForce& force : flow.forces) walls.push_back(force.boundary);
     const Field& at_walls = flow.at_walls.empty() ? flow.solution : flow.at_walls;
-    write_text(comm, paths.walls(), wall_table(comm, mesh, at_walls, *flow.stream, walls));
+    write_text(comm, paths.walls(), flow::wall_table(comm, mesh, at_walls, *flow.stream, walls));
   }
-  if (!flow.history.empty()) write_text(comm, paths.history(), history_table(flow.history));
+  if (!flow.history.empty()) write_text(comm, paths.history(), flow::history_table(flow.history));
 }
 
 std::string log_text(const CycleRecord& record, const std::vector<std::string>& notes,
@@ -46,7 +46,7 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
     text += fmt::format("target first heights on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   if (record.metric) text += lines_of(*record.metric);
   for (const std::string& line : notes) text += line + "\n";
-  for (const GoalValue& goal : record.goals) text += line_of(goal) + "\n";
+  for (const flow::GoalValue& goal : record.goals) text += line_of(goal) + "\n";
   for (const std::string& line : warnings) text += "warning: " + line + "\n";
   if (record.estimate) text += fmt::format("error {:.4g}", *record.estimate);
   if (record.order) text += fmt::format(", order {:.2f}", *record.order);
@@ -71,9 +71,9 @@ void CycleFiles::begin(int cycle) {
 void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
   starts_afresh_ = start.empty();
   const CyclePaths paths{folders_.under_way(cycle_)};
-  OutputSet outputs(comm_);
-  write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
-  write_tree(outputs, mesh.tree, paths.tree());
+  io::OutputSet outputs(comm_);
+  io::write_mesh(outputs, mesh.mesh, paths.native_mesh(), starts_afresh_ ? nullptr : &start);
+  io::write_tree(outputs, mesh.tree, paths.tree());
   outputs.commit();
   if (!options_.outline.empty()) write_text(comm_, paths.outline(), options_.outline);
   if (options_.partitions == 0) return;
@@ -84,24 +84,24 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
 /// Writes the partitions of the mesh, with the names of CyclePaths::mesh().
 void CycleFiles::write_parts_of(const Mesh& mesh, const Field* field) const {
   if (options_.partitions == 0) return;
-  PartFiles files(comm_);
-  write_parts(
-      files, comm_, mesh, cell_parts_, {.field = field},
-      {CyclePaths{folders_.under_way(cycle_)}.stem(), options_.partitions, part_formats(options_.formats)});
+  io::PartFiles files(comm_);
+  io::write_parts(files, comm_, mesh, cell_parts_, {.field = field},
+                  {CyclePaths{folders_.under_way(cycle_)}.stem(), options_.partitions,
+                   io::part_formats(options_.formats)});
   files.commit();
 }
 
-std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const SolvedFlow& flow) {
+std::vector<std::string> CycleFiles::solved(const Mesh& mesh, const flow::SolvedFlow& flow) {
   const CyclePaths paths{folders_.under_way(cycle_)};
   Field shown;
   if (flow.stream && !options_.fields.empty()) {
-    comm_.together([&] { shown = with_quantities(flow.solution, options_.fields, *flow.stream); });
+    comm_.together([&] { shown = flow::with_quantities(flow.solution, options_.fields, *flow.stream); });
   }
-  OutputSet outputs(comm_);
+  io::OutputSet outputs(comm_);
   for (const std::string& format : options_.formats) {
-    const bool is_gone_on_from = format == native_format().name;
-    write_mesh(outputs, mesh, paths.mesh(format), shown.empty() || is_gone_on_from ? &flow.solution : &shown,
-               options_.gamma);
+    const bool is_gone_on_from = format == io::native_format().name;
+    io::write_mesh(outputs, mesh, paths.mesh(format),
+                   shown.empty() || is_gone_on_from ? &flow.solution : &shown, options_.gamma);
   }
   outputs.commit();
   write_parts_of(mesh, &flow.solution);
@@ -117,7 +117,7 @@ std::vector<std::string> CycleFiles::renames(const Mesh& mesh) const {
   files.erase(std::unique(files.begin(), files.end()), files.end());
   std::vector<std::string> lines;
   for (const std::string& file : files) {
-    for (std::string& line : changes_in(mesh, file)) lines.push_back(std::move(line));
+    for (std::string& line : io::changes_in(mesh, file)) lines.push_back(std::move(line));
   }
   return lines;
 }
@@ -126,8 +126,8 @@ void CycleFiles::planned(const CycleEnd& end) {
   if (!end.plan.estimate) return;
   Field estimates;
   estimates.cells = end.plan.estimates_of_cells;
-  OutputSet outputs(comm_);
-  write_mesh(outputs, end.solved.mesh, CyclePaths{folders_.under_way(cycle_)}.estimate(), &estimates);
+  io::OutputSet outputs(comm_);
+  io::write_mesh(outputs, end.solved.mesh, CyclePaths{folders_.under_way(cycle_)}.estimate(), &estimates);
   outputs.commit();
 }
 
@@ -148,4 +148,4 @@ std::string CycleFiles::place_of_solution(int cycle) const {
   return CyclePaths{folders_.under_way(cycle)}.native_mesh();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

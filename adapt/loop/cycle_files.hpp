@@ -8,7 +8,7 @@
 #include "adapt/loop/loop.hpp"
 #include "mesher/partition/partition.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The files of a cycle, and the case data in its record.
 struct CycleFileOptions {
@@ -35,7 +35,7 @@ class CycleFiles final : public CycleObserver {
 
   void begin(int cycle) override;
   void meshed(const MeshResult& mesh, const Field& start) override;
-  std::vector<std::string> solved(const Mesh& mesh, const SolvedFlow& flow) override;
+  std::vector<std::string> solved(const Mesh& mesh, const flow::SolvedFlow& flow) override;
   void planned(const CycleEnd& end) override;
   void finished(CycleRecord record, const std::vector<std::string>& notes,
                 const std::vector<std::string>& warnings) override;
@@ -55,4 +55,4 @@ class CycleFiles final : public CycleObserver {
   CellParts cell_parts_;  ///< of the current mesh
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -15,7 +15,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -27,7 +27,7 @@ void on_disk(const std::string& path, const Work& work) {
   try {
     work();
   } catch (const fs::filesystem_error& fault) {
-    refuse_output(path, fault.code().value());
+    io::refuse_output(path, fault.code().value());
   }
 }
 
@@ -56,7 +56,7 @@ std::string CycleFolders::whole(int cycle) const { return folder_ + "/" + cycle_
 
 void CycleFolders::lock() {
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ < 0) refuse_output(folder_, errno);
+  if (lock_ < 0) io::refuse_output(folder_, errno);
   // Some network file systems do not support such locks; the run then proceeds without one.
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   throw InputError(
@@ -100,8 +100,8 @@ void CycleFolders::settle_start(bool resume, const std::string& start) const {
   std::ofstream file(start_file());
   file << start << "\n";
   file.close();
-  if (!file) refuse_output(start_file(), EIO);
-  bring_to_disk(start_file(), start_file());
+  if (!file) io::refuse_output(start_file(), EIO);
+  io::bring_to_disk(start_file(), start_file());
 }
 
 int CycleFolders::open(bool resume, const std::string& start) {
@@ -130,7 +130,7 @@ void CycleFolders::begin(int cycle) {
     if (!comm_.is_root()) return;
     on_disk(under_way(cycle), [&] {
       fs::remove_all(under_way(cycle));
-      if (!fs::create_directory(under_way(cycle))) refuse_output(under_way(cycle), EEXIST);
+      if (!fs::create_directory(under_way(cycle))) io::refuse_output(under_way(cycle), EEXIST);
     });
   });
 }
@@ -140,13 +140,13 @@ void CycleFolders::finish(int cycle) {
     if (!comm_.is_root()) return;
     on_disk(whole(cycle), [&] {
       for (const fs::directory_entry& entry : fs::directory_iterator(under_way(cycle))) {
-        if (entry.is_regular_file()) bring_to_disk(entry.path(), entry.path());
+        if (entry.is_regular_file()) io::bring_to_disk(entry.path(), entry.path());
       }
-      bring_to_disk(under_way(cycle), whole(cycle));
+      io::bring_to_disk(under_way(cycle), whole(cycle));
       fs::rename(under_way(cycle), whole(cycle));
-      bring_to_disk(folder_, whole(cycle));
+      io::bring_to_disk(folder_, whole(cycle));
     });
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The folder of an adaptive run: DIR/cycle_00, cycle_01, ..., each renamed into place when complete. The
 /// current cycle is written to DIR/cycle_K.part. Only rank 0 accesses the disk. All functions except the
@@ -45,4 +45,4 @@ class CycleFolders {
   int lock_ = -1;  ///< file descriptor, on the root
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -29,8 +29,8 @@ StageSeconds seconds_of(const Communicator& comm, const StageTimes& times) {
 
 class Loop {
  public:
-  Loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt, const FlowSolver& solver,
-       CycleObserver& observer, const FirstMesh& start)
+  Loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
+       const flow::FlowSolver& solver, CycleObserver& observer, const FirstMesh& start)
       : comm_{comm}, mesh_{mesh}, adapt_{adapt}, solver_{solver}, observer_{observer}, start_{start} {}
 
   CycleEnd run_cycle(int cycle, const CycleEnd* before) const {
@@ -43,7 +43,7 @@ class Loop {
     times.begin("write");
     observer_.meshed(result, remeshed.start);
     times.begin("solve");
-    SolvedFlow flow = solver_(comm_, result.mesh, remeshed.start, cycle);
+    flow::SolvedFlow flow = solver_(comm_, result.mesh, remeshed.start, cycle);
     times.begin("write");
     std::vector<std::string> warnings = result.report.warnings;
     append(warnings, observer_.solved(result.mesh, flow));
@@ -93,7 +93,7 @@ class Loop {
                         faces.non_orthogonality, faces.skewness};
   }
 
-  CycleRecord record_of(int cycle, const RemeshedSolution& remeshed, const SolvedFlow& flow,
+  CycleRecord record_of(int cycle, const RemeshedSolution& remeshed, const flow::SolvedFlow& flow,
                         const CycleEnd& end, const StageTimes& times) const {
     const QualitySummary quality = summarise_quality(comm_, end.solved.mesh);
     CycleRecord record;
@@ -114,7 +114,7 @@ class Loop {
     record.passes = remeshed.passes;
     record.outside = remeshed.report.outside;
     record.drift = remeshed.drifts();
-    static_cast<FlowStatistics&>(record) = flow;
+    static_cast<flow::FlowStatistics&>(record) = flow;
     for (const BoundaryLayerReport& row : remeshed.generated.layers) {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});
@@ -127,7 +127,7 @@ class Loop {
   const Communicator& comm_;
   const MeshInput& mesh_;
   const AdaptOptions& adapt_;
-  const FlowSolver& solver_;
+  const flow::FlowSolver& solver_;
   CycleObserver& observer_;
   const FirstMesh& start_;
 };
@@ -135,8 +135,8 @@ class Loop {
 }  // namespace
 
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                 const FlowSolver& solver, CycleObserver& observer, int first, std::optional<CycleEnd> before,
-                 const FirstMesh& start) {
+                 const flow::FlowSolver& solver, CycleObserver& observer, int first,
+                 std::optional<CycleEnd> before, const FirstMesh& start) {
   const Loop loop(comm, mesh, adapt, solver, observer, start);
   LoopEnd end{first, first - 1, false, false, std::move(before)};
   for (int cycle = first; cycle <= adapt.cycles; ++cycle) {
@@ -149,4 +149,4 @@ LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOpt
   return end;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Result of a cycle: a mesh with its solution, and the splits of the next mesh.
 struct CycleEnd {
@@ -33,7 +33,9 @@ class CycleObserver {
   /// Called with the mesh and the initial state, which has no variables in the first cycle.
   virtual void meshed(const MeshResult& /*mesh*/, const Field& /*start*/) {}
   /// Called with the solution. The result is added to the cycle's warnings.
-  virtual std::vector<std::string> solved(const Mesh& /*mesh*/, const SolvedFlow& /*flow*/) { return {}; }
+  virtual std::vector<std::string> solved(const Mesh& /*mesh*/, const flow::SolvedFlow& /*flow*/) {
+    return {};
+  }
   /// Called with the plan of the next mesh, `end.values` and `end.settled`.
   virtual void planned(const CycleEnd& /*end*/) {}
   /// Called at the end of a cycle with its data, notes of the solver, and warnings.
@@ -62,7 +64,7 @@ struct LoopEnd {
 /// files. `start` replaces the case's own initial mesh by that of another run, with its solution. Throws what
 /// meshing, solver and observer throw. *Collective.*
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                 const FlowSolver& solver, CycleObserver& observer, int first = 0,
+                 const flow::FlowSolver& solver, CycleObserver& observer, int first = 0,
                  std::optional<CycleEnd> before = {}, const FirstMesh& start = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

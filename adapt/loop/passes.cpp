@@ -6,7 +6,7 @@
 
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -17,7 +17,7 @@ void add_warnings(int pass, const std::vector<std::string>& from, std::vector<st
 }  // namespace
 
 RemeshedSolution mesh_after_passes(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                                   const FlowSolver& rough_solver) {
+                                   const flow::FlowSolver& rough_solver) {
   std::vector<PassRecord> passes;
   std::vector<std::string> warnings;
   RemeshedSolution remeshed{generate_mesh(comm, mesh), {}, {}, {}};
@@ -25,7 +25,7 @@ RemeshedSolution mesh_after_passes(const Communicator& comm, const MeshInput& me
   for (int pass = 0; pass < adapt.passes; ++pass) {
     progress::set_prefix(fmt::format("pass {} of {}", pass + 1, adapt.passes));
     MeshResult& result = remeshed.generated.result;
-    SolvedFlow flow = rough_solver(comm, result.mesh, remeshed.start, 0);
+    flow::SolvedFlow flow = rough_solver(comm, result.mesh, remeshed.start, 0);
     passes.push_back({result.tree.attributes.nodes, flow.cl, flow.cd, flow.residual});
     SolvedMesh solved{std::move(result.mesh), std::move(result.tree), std::move(flow.solution), {}};
     const AdaptationPlan plan = plan_adaptation(comm, mesh, adapt, solved);
@@ -46,4 +46,4 @@ RemeshedSolution mesh_after_passes(const Communicator& comm, const MeshInput& me
   return remeshed;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

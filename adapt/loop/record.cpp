@@ -5,7 +5,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -107,9 +107,9 @@ JsonObject statistics_of(const CycleRecord& record) {
   return json;
 }
 
-JsonObject record_of(const std::vector<GoalValue>& goals) {
+JsonObject record_of(const std::vector<flow::GoalValue>& goals) {
   JsonObject json;
-  for (const GoalValue& goal : goals) {
+  for (const flow::GoalValue& goal : goals) {
     json.add(goal.name, object({{"value", goal.value},
                                 {"corrected", goal.corrected},
                                 {"error", goal.error},
@@ -120,7 +120,7 @@ JsonObject record_of(const std::vector<GoalValue>& goals) {
   return json;
 }
 
-JsonObject record_of(const UnsteadyFlow& flow) {
+JsonObject record_of(const flow::UnsteadyFlow& flow) {
   JsonObject json;
   json.add("from", flow.from);
   json.add("to", flow.to);
@@ -137,15 +137,15 @@ JsonObject record_of(const UnsteadyFlow& flow) {
   return json;
 }
 
-std::string line_of(const GoalValue& goal) {
+std::string line_of(const flow::GoalValue& goal) {
   return fmt::format(
       "{} {:.6f}, corrected {:.6f}, error without signs {:.2e}; by alpha {:.5g}, by mach {:.5g}", goal.name,
       goal.value, goal.corrected, goal.error, goal.by_alpha, goal.by_mach);
 }
 
-JsonObject record_of(const std::vector<BoundaryForce>& forces) {
+JsonObject record_of(const std::vector<flow::BoundaryForce>& forces) {
   JsonObject json;
-  for (const BoundaryForce& force : forces) {
+  for (const flow::BoundaryForce& force : forces) {
     json.add(force.boundary, object({{"cl", force.cl},
                                      {"cd", force.cd},
                                      {"cl_friction", force.cl_friction},
@@ -188,4 +188,4 @@ std::optional<RecordedCase> recorded_case(const std::string& text) {
   return RecordedCase{*of_case, *of_geometry, digest_in(json, "solution_digest"), settings_in(json)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

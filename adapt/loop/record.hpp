@@ -12,7 +12,7 @@
 #include "flow/postprocess/flow_statistics.hpp"
 #include "mesher/base/json.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// First heights of one boundary's layers, in the geometry's unit of length.
 struct FirstHeights {
@@ -28,7 +28,7 @@ struct LayerQuality {
 };
 
 /// Contents of record.json for a cycle.
-struct CycleRecord : FlowStatistics {
+struct CycleRecord : flow::FlowStatistics {
   int cycle = 0;
   std::uint64_t case_digest = 0;      ///< digest of all that the run depends on
   std::uint64_t geometry_digest = 0;  ///< digest of the geometry alone
@@ -62,16 +62,16 @@ std::string quality_text(const CycleRecord& record);
 
 /// {goal: {"value": ..., "corrected": ..., "error": ..., "by_alpha": ..., "by_mach": ..., "adjoint_residual":
 /// ...}}
-JsonObject record_of(const std::vector<GoalValue>& goals);
+JsonObject record_of(const std::vector<flow::GoalValue>& goals);
 /// Returns one line for the log.
-std::string line_of(const GoalValue& goal);
+std::string line_of(const flow::GoalValue& goal);
 
 /// {"from": ..., "to": ..., "steps": ..., "implicit": ..., "cl": {"mean": ..., "smallest": ..., "largest":
 /// ...}, "cd": the same, "period": ..., "strouhal": ..., "steady_steps": ..., "steady_residual": ...}
-JsonObject record_of(const UnsteadyFlow& flow);
+JsonObject record_of(const flow::UnsteadyFlow& flow);
 
 /// {boundary: {"cl": ..., "cd": ..., "cl_friction": ..., "cd_friction": ...}}
-JsonObject record_of(const std::vector<BoundaryForce>& forces);
+JsonObject record_of(const std::vector<flow::BoundaryForce>& forces);
 
 /// Returns one JSON object with one member per line; numbers are the shortest that read back bitwise.
 std::string json_text(const CycleRecord& record);
@@ -89,4 +89,4 @@ std::optional<double> recorded_number(const std::string& text, const std::string
 /// Returns the case data of a record; empty if the text is not a complete record.
 std::optional<RecordedCase> recorded_case(const std::string& text);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

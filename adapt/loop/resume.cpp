@@ -13,7 +13,7 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string cure_of(const std::string& folder) {
 
 std::string text_of_record(const std::string& path, const std::string& folder) {
   try {
-    return read_input(path);
+    return io::read_input(path);
   } catch (const InputError&) {
     throw InputError(path + ": is missing or cannot be read" + cure_of(folder));
   }
@@ -49,7 +49,7 @@ RecordedCase record_in(const std::string& folder) {
 
 /// Checks a further file of the mesh, for viewers.
 void require_copy(const std::string& path, std::int64_t nodes) {
-  const LoadedMesh loaded = read_mesh(path);
+  const io::LoadedMesh loaded = io::read_mesh(path);
   if (std::ssize(loaded.mesh.points) == nodes && loaded.solution) return;
   throw InputError(path + ": does not hold the mesh and the solution of the files beside it");
 }
@@ -57,14 +57,14 @@ void require_copy(const std::string& path, std::int64_t nodes) {
 /// Reads a cycle. Throws InputError if a file is incomplete. *Collective.*
 SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
   const std::string path = paths.native_mesh();
-  LoadedMesh whole;
+  io::LoadedMesh whole;
   comm.together([&] {
     if (!comm.is_root()) return;
-    whole = read_mesh(path);
+    whole = io::read_mesh(path);
     if (!whole.solution) throw InputError(path + ": contains no solution; a complete cycle has one");
   });
   SolvedMesh solved =
-      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), read_tree(comm, paths.tree()));
+      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, paths.tree()));
   solved.file = path;
   return solved;
 }
@@ -110,8 +110,9 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
     require_untouched_solution(comm, solved, paths, folder);
     comm.together([&] {
       if (!comm.is_root()) return;
-      for (const std::string& format : default_formats()) {
-        if (format != native_format().name) require_copy(paths.mesh(format), solved.tree.attributes.nodes);
+      for (const std::string& format : io::default_formats()) {
+        if (format != io::native_format().name)
+          require_copy(paths.mesh(format), solved.tree.attributes.nodes);
       }
     });
     return solved;
@@ -126,4 +127,4 @@ CycleValues read_earlier_values(const Communicator& comm, const std::string& fol
   return values;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "adapt/loop/record.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Checks, before any work, whether a run can be resumed after the complete cycle in `folder`. Throws
 /// InputError that names the file and the remedy if its record is incomplete, or is of a case with another
@@ -24,4 +24,4 @@ SolvedMesh read_earlier_cycle(const Communicator& comm, const std::string& folde
 /// be read. *Collective.*
 CycleValues read_earlier_values(const Communicator& comm, const std::string& folder);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -16,7 +16,7 @@
 #include "io/formats.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -34,7 +34,7 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
 
 /// Returns the default formats, then the others of the case.
 std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
-  std::vector<std::string> formats = default_formats();
+  std::vector<std::string> formats = io::default_formats();
   for (const std::string& format : of_case) {
     if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
   }
@@ -51,13 +51,13 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   if (const CommandSolver* const command = command_of(adaptive.solver)) {
     options.read_by_solver = {command->mesh};
     options.gamma = command->gamma;
-  } else if (const auto* euler = std::get_if<EulerOptions>(&adaptive.solver)) {
+  } else if (const auto* euler = std::get_if<flow::EulerOptions>(&adaptive.solver)) {
     options.gamma = euler->gamma;
   }
   return options;
 }
 
-FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
+flow::FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
   if (const auto* su2 = std::get_if<Su2Solver>(&chosen)) return su2_solver(*su2, folder_of);
   if (const auto* openfoam = std::get_if<OpenfoamSolver>(&chosen))
@@ -65,24 +65,24 @@ FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chos
   return command_solver(std::get<CommandSolver>(chosen), folder_of);
 }
 
-FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
-  if (const auto* options = std::get_if<EulerOptions>(&adaptive.solver))
-    return euler_solver(*options, estimate_goals(*options));
-  FlowSolver solver = outer_solver_in(folders, adaptive.solver);
+flow::FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
+  if (const auto* options = std::get_if<flow::EulerOptions>(&adaptive.solver))
+    return flow::euler_solver(*options, flow::estimate_goals(*options));
+  flow::FlowSolver solver = outer_solver_in(folders, adaptive.solver);
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }
 
 /// Returns the built-in solver with a loose convergence tolerance, at which shocks and edges are already in
 /// position. Output functionals are estimated only if the meshes follow them.
-FlowSolver rough_solver(const AdaptiveCase& adaptive) {
+flow::FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   constexpr double enough = 1e-2;
-  const auto* options = std::get_if<EulerOptions>(&adaptive.solver);
+  const auto* options = std::get_if<flow::EulerOptions>(&adaptive.solver);
   QUADLOOP_REQUIRE(options != nullptr, "passes are for the built-in solver");
-  EulerOptions rough = *options;
+  flow::EulerOptions rough = *options;
   rough.tolerance = std::max(rough.tolerance, enough);
-  rough.unsteady = EulerOptions::Unsteady::stop;
+  rough.unsteady = flow::EulerOptions::Unsteady::stop;
   if (adaptive.adapt.source != AdaptOptions::Source::error) rough.goals.clear();
-  return euler_solver(rough, estimate_goals(rough));
+  return flow::euler_solver(rough, flow::estimate_goals(rough));
 }
 
 /// Returns the result of the last complete cycle of an earlier run, from its files. The files of a finished
@@ -136,4 +136,4 @@ LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, co
                   first_mesh);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

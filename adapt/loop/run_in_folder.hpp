@@ -10,7 +10,7 @@
 #include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/solvers/chosen_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A case for the adaptive loop.
 struct AdaptiveCase {
@@ -22,7 +22,7 @@ struct AdaptiveCase {
   /// Names of quantity_names() written to the mesh files of the cycles, but not to the restart file.
   std::vector<std::string> fields = {};
   /// Reference state for the forces of an external solver; empty: forces are not computed.
-  std::optional<FreeStream> stream = {};
+  std::optional<flow::FreeStream> stream = {};
   std::int32_t partitions = 0;  ///< partitions of each cycle's mesh for a solver's ranks; 0: none
   std::string outline = {};     ///< text of the geometry file that each cycle stores; empty: none
 };
@@ -47,4 +47,4 @@ struct RunReport {
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void add_file(const fs::path& path, const std::string& name, CaseSettings& files) {
   try {
     files.emplace_back(template_key(name),
-                       fmt::format("\"{:016x}\"", text_digest(read_input(path.string()))));
+                       fmt::format("\"{:016x}\"", text_digest(io::read_input(path.string()))));
   } catch (const InputError&) {  // reported by the solver that needs the file
   }
 }
@@ -50,4 +50,4 @@ std::uint64_t template_digest(const CaseSettings& files) {
   return text_digest(text);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::optional<CrossingWalls> crossing_walls(const std::vector<WallSpan>& edges,
   return {};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// An edge of a mesh's boundary.
 struct WallSpan {
@@ -33,4 +33,4 @@ struct CrossingWalls {
 std::optional<CrossingWalls> crossing_walls(const std::vector<WallSpan>& edges,
                                             const std::vector<WallSpan>& known);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -61,4 +61,4 @@ void limit_growth(const Communicator& comm, const Mesh& mesh, double slope, std:
   std::copy_n(all.begin(), metrics.size(), metrics.begin());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/base/morton.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -125,4 +125,4 @@ void share_among_leaves(const Communicator& comm, const TreeGrid& grid, const Me
   count_entries(comm, result);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

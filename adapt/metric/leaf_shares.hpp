@@ -6,7 +6,7 @@
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/grid/tree_grid.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Assigns each triangle of the adapted `mesh` to the leaf of the tree that contains its centroid, on the
 /// rank that has the leaf. Replaces the result's mesh, its leaves' counts and its boundary edges' leaves by
@@ -14,4 +14,4 @@ namespace quadloop {
 /// `mesh`. *Collective.*
 void share_among_leaves(const Communicator& comm, const TreeGrid& grid, const Mesh& mesh, MeshResult& result);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

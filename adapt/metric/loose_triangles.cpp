@@ -8,7 +8,7 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 Point LooseTriangle::centroid() const {
   std::array<Point, 3> p{nodes[0].point, nodes[1].point, nodes[2].point};
@@ -162,4 +162,4 @@ Mesh joined(const Communicator& comm, const std::vector<LooseTriangle>& triangle
   return mesh;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A triangle with the data of its nodes, for messages between ranks.
 struct LooseTriangle {
@@ -31,4 +31,4 @@ std::vector<LooseTriangle> loosened(const Communicator& comm, const Mesh& mesh,
 Mesh joined(const Communicator& comm, const std::vector<LooseTriangle>& triangles,
             const std::vector<BoundaryEdges>& boundaries);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

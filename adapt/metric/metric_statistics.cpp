@@ -7,7 +7,7 @@
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string lines_of(const MetricStatistics& statistics) {
       shares(MetricStatistics::quality_limits, statistics.triangles), statistics.worst_quality);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

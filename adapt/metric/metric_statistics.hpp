@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Statistics of how a mesh of triangles conforms to a metric; the same on every rank.
 struct MetricStatistics {
@@ -35,4 +35,4 @@ std::string lines_of(const MetricStatistics& statistics);
 MetricStatistics metric_statistics(const Communicator& comm, const Mesh& mesh,
                                    const std::vector<LogMetric>& metrics);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

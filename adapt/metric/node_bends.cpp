@@ -8,7 +8,7 @@
 #include "adapt/sensor/solver_error.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::vector<Symmetric> error_bends(const Communicator& comm, const Mesh& mesh, c
   return bends;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

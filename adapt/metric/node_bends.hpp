@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The absolute Hessians, 1 / length^2, of the variables at owned nodes and ghost copies, each variable
 /// scaled to its range; for several variables their intersection. Each keeps its determinant but has the mean
@@ -24,4 +24,4 @@ std::vector<Symmetric> variable_bends(const Communicator& comm, const Mesh& mesh
 std::vector<Symmetric> error_bends(const Communicator& comm, const Mesh& mesh, const Field& error,
                                    std::vector<Symmetric> bends);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -17,7 +17,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -256,7 +256,7 @@ class Stretching {
   const Communicator& comm_;
   const Mesh& solved_;
   const MetricDemand& demand_;
-  OutlinePath outline_;
+  smoother::OutlinePath outline_;
   Walls walls_;
   TargetMetric metric_;
   std::int64_t wanted_;
@@ -285,4 +285,4 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
   return std::move(stretching.report);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Data from which the metric of the next mesh is computed.
 struct MetricDemand {
@@ -44,4 +44,4 @@ StretchReport stretch_mesh(const Communicator& comm, const MeshInput& input, con
 std::int64_t least_nodes_of_metric(const Communicator& comm, const MeshInput& input, double min,
                                    const MeshResult& result);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

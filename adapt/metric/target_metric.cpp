@@ -8,7 +8,7 @@
 #include "mesher/geometry/facets.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::vector<LogMetric> TargetMetric::before_bounds(double complexity) const {
   return logs_of(bounded(complexity / total_));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Limits of a metric's sizes.
 struct SizeBounds {
@@ -57,4 +57,4 @@ class TargetMetric {
   double total_ = 0;            ///< integral of the shapes' density
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -194,4 +194,4 @@ TileChanges adapt_in_tiles(const Communicator& comm, const TileCut& cut, const W
   return all;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "adapt/metric/loose_triangles.hpp"
 #include "adapt/metric/tile/tile_passes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Division of a mesh into tiles; depends on its triangles and these parameters only, not on the number of
 /// ranks.
@@ -21,4 +21,4 @@ struct TileCut {
 TileChanges adapt_in_tiles(const Communicator& comm, const TileCut& cut, const Walls& walls,
                            std::int64_t first_new, std::vector<LooseTriangle>& triangles);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

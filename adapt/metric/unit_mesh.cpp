@@ -4,7 +4,7 @@
 
 #include "mesher/base/log.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -31,4 +31,4 @@ TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt
   return changes;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

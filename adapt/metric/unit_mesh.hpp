@@ -5,7 +5,7 @@
 
 #include "adapt/metric/tiles.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The logarithm of the target metric at the owned nodes and ghost copies of a mesh. *Collective.*
 using MetricAt = std::function<std::vector<LogMetric>(const Mesh&)>;
@@ -25,4 +25,4 @@ struct UnitMeshOptions {
 TileChanges adapt_to_metric(const Communicator& comm, Mesh& mesh, const MetricAt& metric_at,
                             const Walls& walls, const UnitMeshOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "adapt/morph/outline_map.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -18,7 +18,7 @@ namespace {
 std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& change) {
   const Geometry to = with_bases_as_in(outline, walked_as(outline, change.to));
   const OutlineMap map(outline, to, false, {change.file, "the mesh"});
-  const OutlinePath path(outline);
+  const smoother::OutlinePath path(outline);
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
     const std::int32_t loop = outline.loop_of(v);
@@ -36,11 +36,11 @@ class PlacesOnOutline {
   const Geometry& from() const { return from_; }
 
   /// Invalid if that geometry lacks the boundary.
-  OutlinePlace of(std::int32_t v) const {
+  smoother::OutlinePlace of(std::int32_t v) const {
     const Point p = outline_.point(v);
     const std::string& name = outline_.boundary(outline_.boundary_of(v)).name;
     if (!path_.has(name)) return {};
-    const OutlinePlace place = path_.locate(p, name);
+    const smoother::OutlinePlace place = path_.locate(p, name);
     if (place.valid()) return place;
     throw InputError(
         fmt::format("{}: the mesh's node ({:.12g}, {:.12g}) is not on boundary '{}' of this geometry; omit "
@@ -52,7 +52,7 @@ class PlacesOnOutline {
   const Geometry& outline_;
   const OutlineChange& change_;
   Geometry from_;
-  OutlinePath path_;
+  smoother::OutlinePath path_;
 };
 
 std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChange& change) {
@@ -61,7 +61,7 @@ std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChang
   const OutlineMap map(places.from(), to, true, {change.file, change.from_file});
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
-    const OutlinePlace place = places.of(v);
+    const smoother::OutlinePlace place = places.of(v);
     const bool stays = !place.valid() || !map.maps(place.loop);
     images.push_back(stays ? outline.point(v) : map.image(place.loop, place.arc));
   }
@@ -130,7 +130,7 @@ std::vector<PointShares> image_shares(const BoundaryOutline& outline, const Outl
   std::vector<PointShares> all;
   for (std::int32_t v = 0; v < before.size(); ++v) {
     all.emplace_back();
-    const OutlinePlace place = places.of(v);
+    const smoother::OutlinePlace place = places.of(v);
     if (!place.valid() || !map.maps(place.loop)) continue;
     const auto shares = map.shares(place.loop, place.arc);
     if (!shares) refuse_shares(change);
@@ -156,4 +156,4 @@ std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, 
   return each_once(std::move(motions), change.file);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "adapt/morph/boundary_outline.hpp"
 #include "adapt/morph/outline_map.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A rotation about one point followed by a translation of that point to another.
 struct RigidMotion {
@@ -50,4 +50,4 @@ std::vector<Point> images_of(const BoundaryOutline& outline, const OutlineChange
 /// `change.from`.
 std::vector<PointShares> image_shares(const BoundaryOutline& outline, const OutlineChange& change);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

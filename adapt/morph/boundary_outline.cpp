@@ -9,7 +9,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -98,4 +98,4 @@ BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh) {
   return Loops(all_edges(comm, mesh)).outline(boundaries);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The boundary of a mesh as a geometry, the same on every rank: vertex v is a node, segment v the boundary
 /// edge that starts there.
@@ -19,4 +19,4 @@ struct BoundaryOutline {
 /// `mesh` must have a closed boundary (MeshRule::closed). Each rank stores all boundary edges. *Collective.*
 BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -110,4 +110,4 @@ std::vector<LinearMotion> InverseDistance::gradient_of_sources(std::span<const L
   return gradient;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

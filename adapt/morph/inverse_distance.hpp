@@ -8,7 +8,7 @@
 
 #include "adapt/morph/boundary_motion.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Rigid motion of a body about one of its points, as a function linear in its members; `arm` is the position
 /// relative to that point. For a rotation by a they are 1 - cos a and sin a. Its displacement is the new
@@ -108,4 +108,4 @@ void InverseDistance::add_gradient(Point p, Point g, const Add& add) const {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -49,4 +49,4 @@ void find_feet(const Communicator& comm, const HaloMesh& mesh, const LayerPlaces
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each node the number of the boundary node with which it moves rigidly; negative: none.
 using NodeFeet = IdVector<NodeId, std::int32_t>;
@@ -15,4 +15,4 @@ using NodeFeet = IdVector<NodeId, std::int32_t>;
 /// other nodes in layers on walls. Nodes of strips get none. *Collective.*
 void find_feet(const Communicator& comm, const HaloMesh& mesh, const LayerPlaces& places, NodeFeet& feet);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/build/short_edges.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -35,7 +35,7 @@ class MergedBases {
   /// Whether the point is a vertex of the mesh boundary, on a boundary that meets at vertex v.
   bool is_node(std::int32_t v, Point p) const {
     for (const std::int32_t s : std::array{g_.previous(v), v}) {
-      const OutlinePlace place = path_.locate(p, g_.boundary(g_.boundary_of(s)).name);
+      const smoother::OutlinePlace place = path_.locate(p, g_.boundary(g_.boundary_of(s)).name);
       if (!place.valid()) continue;
       for (const std::int32_t node : {place.segment, outline_.next(place.segment)}) {
         if (length(outline_.point(node) - p) <= path_.tolerance()) return true;
@@ -45,9 +45,9 @@ class MergedBases {
   }
 
   const Geometry& outline_;
-  OutlinePath path_;
+  smoother::OutlinePath path_;
   const Geometry& g_;
-  OutlinePath own_path_;
+  smoother::OutlinePath own_path_;
 };
 
 }  // namespace
@@ -61,4 +61,4 @@ Geometry with_bases_as_in(const Geometry& outline, const Geometry& geometry) {
   return bases.empty() ? geometry : with_merged(geometry, bases);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -100,4 +100,4 @@ void MeshMotion::gather_sources(const Communicator& comm, const LayerPlaces& pla
   sources_ = comm.all_gather_values(std::span<const Source>(own));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Motion of each node of a mesh whose boundary changes: its boundary nodes, on every rank; the nodes that
 /// move rigidly with one of them; and the lines that all others follow.
@@ -67,4 +67,4 @@ class MeshMotion {
   double reach_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

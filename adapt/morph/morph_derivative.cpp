@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::vector<Point> MorphDerivative::gradient(std::span<const Point> of_nodes) co
   return of_points;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include "adapt/morph/mesh_motion.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Derivative of morph_mesh(), without smoothing, with respect to the points of the new geometry: a matrix
 /// with two rows per node and two columns per point, which is never formed, only multiplied. Exact: the same
@@ -39,4 +39,4 @@ class MorphDerivative {
   double reach_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -11,7 +11,7 @@
 #include "smoother/smooth_mesh.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -74,7 +74,7 @@ class Morph {
     mesh.for_each_cell(look_at);
     NodeFlags near(halo_.points().size(), 0);
     flag_at_owners(comm_, NodeOwners(comm_, mesh.first_node), nodes, near);
-    grow(halo_, near, smoothed_rings);
+    smoother::grow(halo_, near, smoothed_rings);
     near.resize(halo_.owned_nodes());
     return near;
   }
@@ -116,7 +116,7 @@ class Morph {
 /// Smooths the cells outside layers whose quality has decreased too much, and those near them; boundary and
 /// layers do not move. *Collective.*
 void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& interfaces) {
-  SmoothOptions options;
+  smoother::SmoothOptions options;
   options.pinned = morph.boundary_nodes();
   for (const NodeId node : interfaces.ids()) options.pinned[node] |= interfaces[node];
   const NodeFlags near = morph.nodes_near_suffering(mesh);
@@ -124,8 +124,8 @@ void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, con
     if (near[node] == 0) options.pinned[node] = 1;
   }
   options.level_transitions = false;
-  keep_layers(comm, mesh, options);
-  smooth_mesh(comm, mesh, options);
+  smoother::keep_layers(comm, mesh, options);
+  smoother::smooth_mesh(comm, mesh, options);
 }
 
 /// Returns the largest fraction of the motion, to 1 in 2^bisections, after which no cell is inverted; leaves
@@ -172,4 +172,4 @@ MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange
   return report;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "adapt/morph/boundary_motion.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Result of a morph, over all ranks.
 struct MorphReport {
@@ -29,4 +29,4 @@ struct MorphReport {
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
                        const NodeFlags& interfaces = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

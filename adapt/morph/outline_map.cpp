@@ -14,7 +14,7 @@
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "smoother/outline/outline_match.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -148,7 +148,7 @@ std::vector<std::size_t> turns_of_kept(const Geometry& old_outline, const Vertic
 }
 
 /// Returns the arc length along a loop of its point closest to p.
-double nearest_arc(const Geometry& geometry, const OutlinePath& path, std::int32_t loop, Point p) {
+double nearest_arc(const Geometry& geometry, const smoother::OutlinePath& path, std::int32_t loop, Point p) {
   double arc = 0, least = std::numeric_limits<double>::infinity();
   for_each_vertex(geometry, loop, [&](std::int32_t v) {
     const Point a = geometry.point(v), b = geometry.point(geometry.next(v));
@@ -172,7 +172,7 @@ std::vector<char> loops_against(const Geometry& like, const Geometry& outline) {
 }
 
 Geometry walked_as(const Geometry& like, const Geometry& outline) {
-  return with_loops_turned(outline, loops_against(like, outline));
+  return smoother::with_loops_turned(outline, loops_against(like, outline));
 }
 
 OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names)
@@ -247,7 +247,7 @@ std::optional<OutlineMap::LoopMap> OutlineMap::point_by_point(std::int32_t loop,
 std::vector<OutlineMap::Anchor> OutlineMap::fixed_vertices(std::int32_t loop, std::int32_t image) const {
   std::vector<Anchor> standing;
   for_each_vertex(from_, loop, [&](std::int32_t v) {
-    const OutlinePlace place = new_path_.locate(from_.point(v), name_of_segment(from_, v));
+    const smoother::OutlinePlace place = new_path_.locate(from_.point(v), name_of_segment(from_, v));
     if (place.loop == image) standing.push_back({old_path_.arc_of(v), place.arc});
   });
   return standing;
@@ -367,4 +367,4 @@ Point OutlineMap::image(std::int32_t loop, double arc) const {
   return new_path_.point_at(new_path_.place_at(map.image, on_new));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns an outline whose loops have the direction of those of the same names in `like`. A single outline,
 /// e.g. of an airfoil without far field, does not define the side of the domain.
@@ -84,8 +84,8 @@ class OutlineMap {
                                    const std::vector<Anchor>& standing) const;
 
   const Geometry &from_, &to_;
-  OutlinePath old_path_, new_path_;
+  smoother::OutlinePath old_path_, new_path_;
   std::vector<LoopMap> loops_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

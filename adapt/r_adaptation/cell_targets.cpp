@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 ShapesOfTree::ShapesOfTree(const Mesh& mesh) {
   const std::vector<CellShape> cells = cell_shapes(mesh);
@@ -45,9 +45,10 @@ std::vector<double> ShapesOfTree::thinning(const Mesh& now, const std::vector<Lo
   return thinning;
 }
 
-std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector<LogMetric>& metrics,
-                                              double stretch) const {
-  std::vector<CellTarget> targets;
+std::vector<smoother::CellTarget> ShapesOfTree::targets(const Mesh& now,
+                                                        const std::vector<LogMetric>& metrics,
+                                                        double stretch) const {
+  std::vector<smoother::CellTarget> targets;
   targets.reserve(shapes_.size());
   const auto add = [&](const auto& nodes) {
     const Shape& shape = shapes_[targets.size()];
@@ -66,4 +67,4 @@ std::vector<CellTarget> ShapesOfTree::targets(const Mesh& now, const std::vector
   return targets;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The original shapes of a mesh's cells, on which targets are based, so that cells without requirements are
 /// at their target.
@@ -19,8 +19,8 @@ class ShapesOfTree {
   /// `metrics` are at the owned nodes and ghost copies of `now`, the same mesh with its present node
   /// positions; a cell uses the mean of the logarithms at its nodes (Knupp, Eng. Comput. 28, 2012: targets
   /// from a metric). Not collective.
-  std::vector<CellTarget> targets(const Mesh& now, const std::vector<LogMetric>& metrics,
-                                  double stretch) const;
+  std::vector<smoother::CellTarget> targets(const Mesh& now, const std::vector<LogMetric>& metrics,
+                                            double stretch) const;
 
   /// For each local cell the ratio of its size to the requested size along the axis with the smallest
   /// requested size. Not collective.
@@ -34,4 +34,4 @@ class ShapesOfTree {
   std::vector<Shape> shapes_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

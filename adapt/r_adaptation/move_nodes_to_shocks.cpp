@@ -13,7 +13,7 @@
 #include "smoother/smooth_mesh.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -53,10 +53,10 @@ Asked asked_of(const Communicator& comm, const MeshInput& input, const Mesh& sol
 NodeFlags nodes_of_front(const Communicator& comm, const MeshInput& input, const Mesh& mesh) {
   const std::vector<double>& heights = input.smooth.front_heights;
   if (heights.empty()) return {};
-  const OutlinePath outline(input.geometry);
+  const smoother::OutlinePath outline(input.geometry);
   const HaloMesh halo(comm, mesh);
   const NodeFlags none;
-  BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
+  smoother::BoundarySlide slide(comm, halo, mesh.boundaries, &outline, none);
   NodeFlags flags(mesh.owned_nodes, 0);
   for (const HaloEdge& edge : halo.boundary_edges()) {
     if (!(slide.height_at(edge, heights) > 0)) continue;
@@ -79,7 +79,7 @@ void pin_far_from_fronts(const Communicator& comm, const Mesh& mesh, const std::
   halo.for_each_cell([&](const auto& nodes) {
     if (of_cells[cell++] >= half_as_thin) flag_all(nodes, near);
   });
-  grow(halo, near, reach);
+  smoother::grow(halo, near, reach);
   pinned.resize(mesh.owned_nodes, 0);
   for (const NodeId node : pinned.ids()) {
     if (near[node] == 0) pinned[node] = 1;
@@ -87,8 +87,9 @@ void pin_far_from_fronts(const Communicator& comm, const Mesh& mesh, const std::
 }
 
 /// Cells keep their places in the tree, so edges are not flipped.
-SmoothOptions options_for(const Communicator& comm, const MeshInput& input, const MeshResult& result) {
-  SmoothOptions options = smooth_options_for(input, result.report.finest_allowed);
+smoother::SmoothOptions options_for(const Communicator& comm, const MeshInput& input,
+                                    const MeshResult& result) {
+  smoother::SmoothOptions options = smooth_options_for(input, result.report.finest_allowed);
   options.pinned = nodes_of_front(comm, input, result.mesh);
   options.front_heights.clear();
   options.delaunay = nullptr;
@@ -106,7 +107,7 @@ void move_nodes_to_shocks(const Communicator& comm, const MeshInput& input, cons
         "smooth.targets = \"solution\": no variable has a second derivative, no node is moved");
     return;
   }
-  SmoothOptions options = options_for(comm, input, result);
+  smoother::SmoothOptions options = options_for(comm, input, result);
   const ShapesOfTree shapes(result.mesh);
   BestPlaces best(comm, solved, asked.bends, demand.norm, result.mesh);
   for (int round = 0; round < rounds; ++round) {
@@ -114,7 +115,7 @@ void move_nodes_to_shocks(const Communicator& comm, const MeshInput& input, cons
     if (round == 0)
       pin_far_from_fronts(comm, result.mesh, shapes.thinning(result.mesh, metrics), options.pinned);
     options.targets = shapes.targets(result.mesh, metrics, demand.stretch);
-    const SmoothReport report = smooth_mesh(comm, result.mesh, options);
+    const smoother::SmoothReport report = smoother::smooth_mesh(comm, result.mesh, options);
     best.look_at(result.mesh);
     log::detail(fmt::format("targets: {} moves of {} nodes in {} sweeps; largest cost {:.4f}, before {:.4f}",
                             report.moves, report.free_nodes, report.sweeps, report.worst_cost_after,
@@ -130,4 +131,4 @@ void move_nodes_to_shocks(const Communicator& comm, const MeshInput& input, cons
   result.mesh.points = best.places();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Parameters of r-adaptation.
 struct TargetDemand {
@@ -28,4 +28,4 @@ struct TargetDemand {
 void move_nodes_to_shocks(const Communicator& comm, const MeshInput& input, const Mesh& solved,
                           const Field& solution, const TargetDemand& demand, MeshResult& result);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 Field rows_of(const std::vector<Symmetric>& matrices, std::int32_t owned_nodes) {
   Field rows{{"xx", "xy", "yy"}, {}, {}};
@@ -57,4 +57,4 @@ double BestPlaces::norm_on(const Mesh& mesh) const {
   return norm_by_bends(comm_, mesh, transferred<Symmetric>(comm_, solved_, bends_, mesh), p_);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Symmetric matrices as field variables xx, xy, yy, one row per node.
 Field rows_of(const std::vector<Symmetric>& matrices, std::int32_t owned_nodes);
@@ -56,4 +56,4 @@ class BestPlaces {
   decltype(Mesh::points) places_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

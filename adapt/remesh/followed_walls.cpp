@@ -5,7 +5,7 @@
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "generate/outside_layers.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                             const SolvedMesh& solved) {
@@ -32,4 +32,4 @@ bool other_heights(const MeshInput& input, const MeasuredWall& before, const Mea
   return false;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "generate/generate.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the wall friction for the first heights of the next mesh, for walls that specify a y+: that of the
 /// solution, or, where it has none, that which the tree was made with. *Collective.*
@@ -17,4 +17,4 @@ MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, co
 /// Whether any first height of the input's walls differs by more than 5 %.
 bool other_heights(const MeshInput& input, const MeasuredWall& before, const MeasuredWall& now);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -14,7 +14,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -169,4 +169,4 @@ RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input
   return remeshed;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

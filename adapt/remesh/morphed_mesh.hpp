@@ -6,7 +6,7 @@
 #include "adapt/morph/morph_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Result of morphing a mesh to a changed geometry.
 struct MorphedMesh {
@@ -42,4 +42,4 @@ std::string why_anew(const MorphWish& wish, const std::string& refusal);
 RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input, const SolvedMesh& old,
                                 const std::optional<MorphWish>& wish, TransferKind transfer);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

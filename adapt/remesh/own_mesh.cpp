@@ -13,7 +13,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -101,4 +101,4 @@ void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, 
   throw InputError(fmt::format("{}: its nodes differ in position from those of the mesh of {}", shown, tree));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

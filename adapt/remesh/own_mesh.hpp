@@ -4,7 +4,7 @@
 
 #include "adapt/remesh/demands/solved_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Throws InputError unless the mesh has as many nodes and cells as the tree records. `shown` names the mesh,
 /// `tree` the tree.
@@ -26,4 +26,4 @@ void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const 
 void require_untouched_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,
                             const std::string& tree);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -19,7 +19,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -334,4 +334,4 @@ void require_room_for_metric(const Communicator& comm, const MeshInput& input, c
       *options.max_nodes, least, least));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

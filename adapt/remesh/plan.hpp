@@ -14,7 +14,7 @@
 #include "generate/generate.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Splits of the next tree, and how they were found.
 struct AdaptationPlan {
@@ -60,4 +60,4 @@ void require_min_in_tree(const MeshInput& input, const AdaptOptions& options);
 void require_room_for_metric(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                              const MeshResult& first);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
                          TreeRecord tree) {
@@ -102,4 +102,4 @@ const char* setting_that_follows(const MeshInput& input) {
   return input.stretch ? "smooth.targets = \"solution\"" : nullptr;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

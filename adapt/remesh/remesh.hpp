@@ -8,7 +8,7 @@
 #include "adapt/remesh/plan.hpp"
 #include "adapt/transfer/transfer.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Distributes a whole mesh on the root, whose cells are in the order of the quadtree cells, with its
 /// solution and tree. *Collective.*
@@ -50,4 +50,4 @@ const char* setting_that_follows(const MeshInput& input);
 /// Returns a plan without flags: the tree is kept, except for what case and geometry now request.
 AdaptationPlan unchanged_plan(const TreeRecord& tree, const MeshInput& input);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

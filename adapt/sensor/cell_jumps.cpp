@@ -7,7 +7,7 @@
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -64,4 +64,4 @@ void CellJumps::raise_by_bends(const ScaledField& field, std::vector<double>& of
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Indicators from cell values: jumps across the edges between cells, or changes of gradients along edges.
 class CellJumps {
@@ -41,4 +41,4 @@ class CellJumps {
   std::vector<Pair> pairs_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

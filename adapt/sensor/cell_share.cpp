@@ -5,7 +5,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -38,4 +38,4 @@ std::vector<double> CellShare::bring(const Communicator& comm, std::span<const d
   return Exchange(comm, ranks).deliver(held);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Two partitions of one global row of cells among the ranks, each with one contiguous part per rank in rank
 /// order. Moves values from one partition to the other.
@@ -26,4 +26,4 @@ class CellShare {
   std::vector<std::int64_t> first_held_, first_wanted_;  ///< for each rank, then the total
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::vector<double> CellsOfLeaves::smallest(const Communicator& comm,
   return best(comm, of_cells, std::less<>());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Assigns cells to leaves: along the curve each leaf has the next triangles and the next quadrilaterals of
 /// the mesh, as many as its record states. The partitions of leaves and of cells may differ.
@@ -34,4 +34,4 @@ class CellsOfLeaves {
   CellShare triangles_, quads_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "adapt/sensor/recovery/node_gradients.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
   return cells_of_leaves.largest(comm, of_cells);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Indicator of a variable q, divided by its range, along a mesh edge dx (g: gradient at the nodes). For cell
 /// variables dq is the jump across the edge between two cells, and dx connects their centroids; g is a
@@ -41,4 +41,4 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
 std::vector<double> leaf_errors(const Communicator& comm, const Mesh& mesh,
                                 std::span<const LeafRecord> leaves, const Field& error);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

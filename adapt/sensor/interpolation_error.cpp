@@ -9,7 +9,7 @@
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -58,4 +58,4 @@ std::vector<double> cell_densities(const InterpolationError& error, double p) {
   return densities;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

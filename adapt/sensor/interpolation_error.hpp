@@ -6,7 +6,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Interpolation error in each local cell (triangles, then quadrilaterals) for linear (bilinear)
 /// interpolation of variables scaled to their range; the largest of several variables.
@@ -32,4 +32,4 @@ double norm_of(const Communicator& comm, const InterpolationError& error, double
 /// Numer. Anal. 49, 2011) among isotropic meshes.
 std::vector<double> cell_densities(const InterpolationError& error, double p);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

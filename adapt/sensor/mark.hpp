@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Refinement flag of a leaf.
 enum class RefinementFlag : std::int8_t { coarsen = -1, keep = 0, refine = 1 };
@@ -15,4 +15,4 @@ struct Thresholds {
   double coarsen = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

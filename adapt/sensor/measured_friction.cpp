@@ -15,7 +15,7 @@
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -231,4 +231,4 @@ MeasuredWall measured_friction(const Communicator& comm, const Mesh& mesh, const
   return measured;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

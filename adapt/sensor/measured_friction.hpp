@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Data that convert wall shear to wall units, in the solver's units except for lengths, which are in the
 /// geometry's unit.
@@ -30,4 +30,4 @@ MeasuredWall measured_friction(const Communicator& comm, const Mesh& mesh, const
                                std::span<const std::string> walls, const WallFlow& flow,
                                const std::string& where);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -92,4 +92,4 @@ double OrderedValues::coarsen_threshold(double share) const {
   return k == 0 ? 0 : std::nextafter(kth_smallest(k), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// All ranks' indicators of leaves with cells, for queries of the k-th smallest. Results do not depend on the
 /// order or the partition of the leaves. Values are kept in parts of similar values; a part is sorted when a
@@ -51,4 +51,4 @@ class OrderedValues {
   double smallest_ = 0, largest_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -63,4 +63,4 @@ InterpolationError solver_error(const Communicator& comm, const Mesh& mesh, cons
   return error;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

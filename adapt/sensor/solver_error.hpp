@@ -4,7 +4,7 @@
 
 #include "adapt/sensor/interpolation_error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A solver's own error estimate (the field's only variable) in the form used by size fields: each cell's
 /// contribution to a total error, as a mean over the cell. A nodal estimate is distributed to the cells
@@ -17,4 +17,4 @@ InterpolationError solver_error(const Communicator& comm, const Mesh& mesh, cons
 /// equally among its nodes. *Collective.*
 std::vector<double> error_densities(const Communicator& comm, const Mesh& mesh, const Field& field);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/grid/tree_grid.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 std::vector<double> leaf_sizes(const Communicator& comm, const Mesh& mesh, std::span<const LeafRecord> leaves,
                                const Field& size) {
@@ -44,4 +44,4 @@ std::vector<RefinementFlag> mark_by_size(const TreeRecord& tree, std::span<const
   return flags;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

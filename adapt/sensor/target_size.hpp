@@ -9,7 +9,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each local leaf the smallest edge length that the solver requests (the field's only variable) at the
 /// nodes of its cells; 0 for leaves without cells. Throws InputError on all ranks for a size that is not
@@ -24,4 +24,4 @@ int level_for_size(double tree_edge, double size);
 /// leaves without cells are kept. Local.
 std::vector<RefinementFlag> mark_by_size(const TreeRecord& tree, std::span<const double> sizes);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,7 +2,7 @@
 
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The edges relevant for refinement: excludes edges across layers, whose heights do not change when their
 /// columns get narrower, and all edges within strips, whose columns do not change.
@@ -33,4 +33,4 @@ class TellingEdges {
   LayerPlaces places_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::int64_t count_of(const Communicator& comm, std::span<const RefinementFlag> 
   return comm.sum(std::int64_t{std::count(flags.begin(), flags.end(), mark)});
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Refines where log10 e is more than `refine` standard deviations above the mean, coarsens where it is more
 /// than `coarsen` below.
@@ -54,4 +54,4 @@ std::vector<RefinementFlag> flags_above(std::span<const LeafRecord> leaves, std:
 /// The number of leaves with the mark, over all ranks. *Collective.*
 std::int64_t count_of(const Communicator& comm, std::span<const RefinementFlag> flags, RefinementFlag mark);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

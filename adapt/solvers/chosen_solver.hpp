@@ -7,10 +7,10 @@
 #include "adapt/solvers/su2_solver.hpp"
 #include "flow/euler/model/euler_options.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The solver chosen by a case: built-in, an external command, SU2 or OpenFOAM.
-using ChosenSolver = std::variant<EulerOptions, CommandSolver, Su2Solver, OpenfoamSolver>;
+using ChosenSolver = std::variant<flow::EulerOptions, CommandSolver, Su2Solver, OpenfoamSolver>;
 
 /// Returns the external program and its files; null for the built-in solver and for OpenFOAM.
 inline const CommandSolver* command_of(const ChosenSolver& solver) {
@@ -18,4 +18,4 @@ inline const CommandSolver* command_of(const ChosenSolver& solver) {
   return std::get_if<CommandSolver>(&solver);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

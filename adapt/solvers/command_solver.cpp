@@ -11,13 +11,13 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
-SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
+flow::SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int ranks, int cycle) {
   const std::filesystem::path cycle_folder = std::filesystem::absolute(folder);
-  SolverFiles files;
+  flow::SolverFiles files;
   files.folder = cycle_folder;
   files.mesh = (cycle_folder / solver.mesh).string();
   files.solution = (cycle_folder / solver.solution).string();
@@ -30,31 +30,31 @@ SolverFiles files_in(const std::string& folder, const CommandSolver& solver, int
 
 /// Writes the mesh in the solver's format, and the initial state to a separate file if that format cannot
 /// store it. *Collective.*
-void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const SolverFiles& files,
+void write_for(const Communicator& comm, const Mesh& mesh, const Field& start, const flow::SolverFiles& files,
                double gamma) {
-  OutputSet outputs(comm);
+  io::OutputSet outputs(comm);
   const Field* state = !start.empty() ? &start : nullptr;
-  if (files.mesh != CyclePaths{files.folder}.native_mesh()) write_mesh(outputs, mesh, files.mesh, state);
-  if (files.state != files.mesh) write_mesh(outputs, mesh, files.state, state, gamma);
+  if (files.mesh != CyclePaths{files.folder}.native_mesh()) io::write_mesh(outputs, mesh, files.mesh, state);
+  if (files.state != files.mesh) io::write_mesh(outputs, mesh, files.state, state, gamma);
   outputs.commit();
 }
 
 /// Reads the solution of the command and distributes it. *Collective.*
-Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand& command,
-                const SolverFiles& files) {
+Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCommand& command,
+                const flow::SolverFiles& files) {
   Field whole;
   MeshOrder order;
   comm.together([&] {
     if (!comm.is_root()) return;
     try {
-      LoadedSolution left = read_solution(files.solution);
-      const LoadedMesh given = read_mesh(CyclePaths{files.folder}.native_mesh());
-      require_same_mesh(left, given.mesh);
+      io::LoadedSolution left = io::read_solution(files.solution);
+      const io::LoadedMesh given = io::read_mesh(CyclePaths{files.folder}.native_mesh());
+      io::require_same_mesh(left, given.mesh);
       order = own_order(given.mesh);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
-      throw SolverError(
-          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+      throw SolverError(flow::solver_message(command, files,
+                                             std::string("left no solution for its mesh: ") + fault.what()));
     }
   });
   return scatter_field(comm, whole, mesh, order);
@@ -63,26 +63,27 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const SolverCommand&
 }  // namespace
 
 std::string CommandSolver::state() const {
-  const FileFormat* format = format_of(mesh);
-  const bool holds_state = format != nullptr && format->holds(Content::solution);
+  const io::FileFormat* format = io::format_of(mesh);
+  const bool holds_state = format != nullptr && format->holds(io::Content::solution);
   if (holds_state) return mesh;
-  const auto writes_alone = [](const FileFormat& row) { return row.write_solution != nullptr; };
-  const FileFormat* const left = format_of(solution);
-  const FileFormat& alone =
-      left != nullptr && writes_alone(*left) ? *left : *std::ranges::find_if(file_formats(), writes_alone);
+  const auto writes_alone = [](const io::FileFormat& row) { return row.write_solution != nullptr; };
+  const io::FileFormat* const left = io::format_of(solution);
+  const io::FileFormat& alone = left != nullptr && writes_alone(*left)
+                                    ? *left
+                                    : *std::ranges::find_if(io::file_formats(), writes_alone);
   return std::filesystem::path(mesh).replace_extension(alone.name).string();
 }
 
-FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {
+flow::FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of) {
   return [solver = std::move(solver), folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-    const SolverFiles files = files_in(folder_of(cycle), solver, comm.size(), cycle);
+    const flow::SolverFiles files = files_in(folder_of(cycle), solver, comm.size(), cycle);
     write_for(comm, mesh, start, files, solver.gamma);
-    run_solver(comm, solver.command, files);
-    SolvedFlow flow;
+    flow::run_solver(comm, solver.command, files);
+    flow::SolvedFlow flow;
     flow.solution = read_left(comm, mesh, solver.command, files);
     return flow;
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

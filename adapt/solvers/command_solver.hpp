@@ -7,13 +7,13 @@
 #include "flow/command/solver_command.hpp"
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// An external solver, with the names of its files in the cycle's folder.
 struct CommandSolver {
-  SolverCommand command;
-  std::string mesh = CyclePaths::mesh_name(native_format().name),
-              solution = "solution." + native_format().name;
+  flow::SolverCommand command;
+  std::string mesh = CyclePaths::mesh_name(io::native_format().name),
+              solution = "solution." + io::native_format().name;
   int ranks = 0;  ///< 0: as many as quadloop uses
   std::string case_folder;
   double gamma = 1.4;  ///< ratio of specific heats of the initial state, if its format needs it
@@ -25,6 +25,6 @@ struct CommandSolver {
 
 /// Returns the command as a solver. It runs in folder_of(cycle), where native_mesh() must already exist, with
 /// the initial state if there is one. Throws SolverError if the command fails or its solution is unusable.
-FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
+flow::FlowSolver command_solver(CommandSolver solver, std::function<std::string(int cycle)> folder_of);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -19,7 +19,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -89,7 +89,7 @@ std::string make_case(const OpenfoamSolver& solver, const fs::path& folder, int 
   copy_openfoam_template(solver.case_template, given, own);
   if (!fs::exists(own / "0") && fs::exists(own / "0.orig")) fs::rename(own / "0.orig", own / "0");
   for (const char* const part : {"0", "constant"}) fs::create_directories(own / part);
-  if (start.width() > 0) set_foam_fields((own / "0").string(), start);
+  if (start.width() > 0) io::set_foam_fields((own / "0").string(), start);
   if (ranks > 1 && !fs::exists(own / "system/decomposeParDict"))
     write_text(own / "system/decomposeParDict", decompose_dict(ranks));
   write_text(folder / script_name, script(given.application, ranks));
@@ -108,21 +108,21 @@ MeshOrder order_of(const Communicator& comm, const MeshCounts& counts) {
 
 /// Reads the solver's last time step and distributes it. *Collective.*
 Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCounts& counts,
-                     const SolverCommand& command, const SolverFiles& files) {
+                     const flow::SolverCommand& command, const flow::SolverFiles& files) {
   Field whole;
   comm.together([&] {
     if (!comm.is_root()) return;
     try {
       const std::string own = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
-      const std::string time = latest_foam_time(own);
+      const std::string time = io::latest_foam_time(own);
       if (time.empty()) throw InputError(own + ": has no time folder above 0");
       const std::size_t cells = counts.triangles + counts.quads;
-      whole.cells = read_foam_fields(time, cells);
-      put_wall_values(time, own + "/constant/polyMesh", whole.cells);
+      whole.cells = io::read_foam_fields(time, cells);
+      io::put_wall_values(time, own + "/constant/polyMesh", whole.cells);
       if (whole.cells.names.empty()) throw InputError(time + ": contains no cell field");
     } catch (const InputError& fault) {
-      throw SolverError(
-          solver_message(command, files, std::string("left no solution for its mesh: ") + fault.what()));
+      throw SolverError(flow::solver_message(command, files,
+                                             std::string("left no solution for its mesh: ") + fault.what()));
     }
   });
   return scatter_field(comm, whole, mesh, order_of(comm, counts));
@@ -130,19 +130,20 @@ Field read_time_step(const Communicator& comm, const Mesh& mesh, const MeshCount
 
 /// *Collective.*
 void write_mesh_of(const Communicator& comm, const Mesh& mesh, const std::string& folder) {
-  OutputSet outputs(comm);
-  const ExtrudedMesh one_thick = extruded(mesh, even_heights(1, 1), ExtrusionAxis::z, nullptr);
-  write_foam(outputs, MeshStream(comm, one_thick),
-             folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
+  io::OutputSet outputs(comm);
+  const io::ExtrudedMesh one_thick =
+      io::extruded(mesh, io::even_heights(1, 1), io::ExtrusionAxis::z, nullptr);
+  io::write_foam(outputs, io::MeshStream(comm, one_thick),
+                 folder + "/" + OpenfoamSolver::folder_name + "/constant/polyMesh");
   outputs.commit();
 }
 
 }  // namespace
 
-FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
+flow::FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of) {
   return [solver = std::move(solver), folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-    SolverFiles files;
+    flow::SolverFiles files;
     files.folder = fs::absolute(folder_of(cycle)).string();
     files.mesh = (fs::path(files.folder) / OpenfoamSolver::folder_name).string();
     files.solution = (fs::path(files.folder) / done_name).string();
@@ -150,16 +151,16 @@ FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int 
     files.cycle = cycle;
     const MeshCounts counts = count(comm, mesh);
     const Field whole = gather_field(comm, {{}, {}, {}, start.cells}, mesh, order_of(comm, counts));
-    SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
+    flow::SolverCommand command{{"/bin/sh", script_name}, solver.timeout};
     comm.together([&] {
       if (comm.is_root()) command.name = make_case(solver, files.folder, files.ranks, whole.cells);
     });
     write_mesh_of(comm, mesh, files.folder);
-    run_solver(comm, command, files);
-    SolvedFlow flow;
+    flow::run_solver(comm, command, files);
+    flow::SolvedFlow flow;
     flow.solution = read_time_step(comm, mesh, counts, command, files);
     return flow;
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

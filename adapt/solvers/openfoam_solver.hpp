@@ -5,7 +5,7 @@
 
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// An OpenFOAM solver, specified by a case of the user.
 struct OpenfoamSolver {
@@ -25,6 +25,6 @@ struct OpenfoamSolver {
 /// slices along x); if the template has an executable Allrun, that is run with the number of ranks as its
 /// argument. The solution is read from the latest time: cell fields. Throws InputError for an invalid
 /// template, SolverError if the solver fails or its solution is unusable.
-FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of);
+flow::FlowSolver openfoam_solver(OpenfoamSolver solver, std::function<std::string(int cycle)> folder_of);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -78,15 +78,15 @@ class Listing {
 
 /// Returns the application named by controlDict; rejects settings that write unreadable fields.
 std::string read_control(const std::string& path, bool has_allrun) {
-  const std::string text = without_foam_comments(read_input(path));
-  const std::vector<FoamEntry> entries = foam_entries(text);
+  const std::string text = io::without_foam_comments(io::read_input(path));
+  const std::vector<io::FoamEntry> entries = io::foam_entries(text);
   const auto word = [&](const char* key) {
-    const auto entry = foam_entry(entries, key);
-    return entry ? foam_word(text, *entry) : std::string();
+    const auto entry = io::foam_entry(entries, key);
+    return entry ? io::foam_word(text, *entry) : std::string();
   };
   if (word("writeFormat") == "binary")
     throw InputError(path + ": writeFormat is binary; make it ascii, as quadloop reads the fields as text");
-  if (is_foam_true(word("writeCompression")))
+  if (io::is_foam_true(word("writeCompression")))
     throw InputError(path + ": writeCompression is on; make it off, as quadloop reads the fields as text");
   if (has_allrun) return "Allrun";
   std::string application = word("application");
@@ -129,7 +129,7 @@ OpenfoamTemplate read_openfoam_template(const std::string& folder) {
   OpenfoamTemplate given;
   given.application = read_control(control.string(), has_allrun);
   given.files = openfoam_template_files(folder);
-  require_foam_fields((path / (has_fields ? "0" : "0.orig")).string());
+  io::require_foam_fields((path / (has_fields ? "0" : "0.orig")).string());
   return given;
 }
 
@@ -145,4 +145,4 @@ void copy_openfoam_template(const std::string& from, const OpenfoamTemplate& giv
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A user's OpenFOAM case, which each cycle copies.
 struct OpenfoamTemplate {
@@ -30,4 +30,4 @@ std::vector<std::string> openfoam_template_files(const std::string& folder);
 /// Whether the name is that of an OpenFOAM result or an earlier mesh, which is not copied.
 bool is_left_by_openfoam(const std::filesystem::path& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

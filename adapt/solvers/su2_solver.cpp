@@ -12,16 +12,16 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
 constexpr const char* history_name = "history";
 
-Su2Config read_config(const std::string& path) { return {read_input(path), path}; }
+flow::Su2Config read_config(const std::string& path) { return {io::read_input(path), path}; }
 
 /// Returns the name of the restart file that SU2 will write.
-std::string restart_name(const Su2Config& config, const std::string& path) {
+std::string restart_name(const flow::Su2Config& config, const std::string& path) {
   const std::vector<std::string> files = config.words("OUTPUT_FILES");
   const auto has = [&](const char* word) { return std::ranges::find(files, word) != files.end(); };
   if (files.empty() || has("RESTART")) return "restart.dat";
@@ -31,7 +31,7 @@ std::string restart_name(const Su2Config& config, const std::string& path) {
                    "is read from there");
 }
 
-double gamma_of(const Su2Config& config, const std::string& path, double absent) {
+double gamma_of(const flow::Su2Config& config, const std::string& path, double absent) {
   const auto text = config.value("GAMMA_VALUE");
   if (!text) return absent;
   try {
@@ -43,7 +43,7 @@ double gamma_of(const Su2Config& config, const std::string& path, double absent)
 
 /// Returns the user's configuration with the settings of the cycle.
 std::string config_text(const Su2Solver& solver, bool restarts) {
-  Su2Config config = read_config(solver.config);
+  flow::Su2Config config = read_config(solver.config);
   const CommandSolver& command = solver.command;
   config.set("MESH_FILENAME", command.mesh);
   config.set("MESH_FORMAT", "SU2");
@@ -58,8 +58,8 @@ std::string config_text(const Su2Solver& solver, bool restarts) {
 /// *Collective.*
 void write_config(const Communicator& comm, const Su2Solver& solver, const std::string& folder,
                   bool restarts) {
-  OutputSet outputs(comm);
-  TextOutput file(outputs, (std::filesystem::path(folder) / su2_config_name).string());
+  io::OutputSet outputs(comm);
+  io::TextOutput file(outputs, (std::filesystem::path(folder) / su2_config_name).string());
   std::string text;
   comm.together([&] {
     if (comm.is_root()) text = config_text(solver, restarts);
@@ -70,11 +70,12 @@ void write_config(const Communicator& comm, const Su2Solver& solver, const std::
 }
 
 /// Adds how SU2 ended, if it reports this. *Collective.*
-void add_end(const Communicator& comm, const std::string& folder, SolvedFlow& flow) {
-  Su2End end;
+void add_end(const Communicator& comm, const std::string& folder, flow::SolvedFlow& flow) {
+  flow::Su2End end;
   comm.together([&] {
     const std::string path = (std::filesystem::path(folder) / history_name).string() + ".csv";
-    if (comm.is_root() && std::filesystem::is_regular_file(path)) end = end_of_history(read_input(path));
+    if (comm.is_root() && std::filesystem::is_regular_file(path))
+      end = flow::end_of_history(io::read_input(path));
   });
   const auto from_root = [&](const std::optional<double>& value) {
     std::vector<double> own;
@@ -90,7 +91,7 @@ void add_end(const Communicator& comm, const std::string& folder, SolvedFlow& fl
 }  // namespace
 
 Su2Solver su2_solver_of(const std::string& config, CommandSolver command) {
-  const Su2Config given = read_config(config);
+  const flow::Su2Config given = read_config(config);
   command.mesh = "mesh.su2";
   command.solution = restart_name(given, config);
   command.gamma = gamma_of(given, config, command.gamma);
@@ -105,17 +106,17 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command) {
   return {config, std::move(command)};
 }
 
-FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of) {
-  const FlowSolver command = command_solver(solver.command, folder_of);
+flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of) {
+  const flow::FlowSolver command = command_solver(solver.command, folder_of);
   return [solver = std::move(solver), command, folder_of = std::move(folder_of)](
              const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
     const std::string folder = folder_of(cycle);
     write_config(comm, solver, folder, start.width() > 0);
-    SolvedFlow flow = command(comm, mesh, without_primitive_variables(start), cycle);
-    flow.solution = with_primitive_variables(std::move(flow.solution), solver.command.gamma);
+    flow::SolvedFlow flow = command(comm, mesh, flow::without_primitive_variables(start), cycle);
+    flow.solution = flow::with_primitive_variables(std::move(flow.solution), solver.command.gamma);
     add_end(comm, folder, flow);
     return flow;
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "adapt/solvers/command_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// SU2 as solver of the loop: the user's configuration, and the command that runs it. The mesh is a .su2
 /// file, the solution a restart file, binary (.dat) or text (.csv).
@@ -25,6 +25,6 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command);
 /// MESH_FILENAME, MESH_FORMAT, RESTART_SOL, SOLUTION_FILENAME, RESTART_FILENAME, READ_BINARY_RESTART,
 /// CONV_FILENAME. The solution also has velocity, pressure and Mach number (with_primitive_variables()).
 /// Throws as command_solver() does.
-FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of);
+flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,19 +8,20 @@
 #include "flow/postprocess/wall_flow.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
 /// *Collective.*
-void add_forces(const Communicator& comm, const Mesh& mesh, const FreeStream& stream, SolvedFlow& flow) {
-  const std::vector<std::string> walls = walls_of(mesh);
-  flow.at_walls = wall_flow(comm, mesh, flow.solution, stream, walls, "the flow");
-  flow.forces = boundary_forces(comm, mesh, flow.at_walls, stream, walls);
+void add_forces(const Communicator& comm, const Mesh& mesh, const flow::FreeStream& stream,
+                flow::SolvedFlow& flow) {
+  const std::vector<std::string> walls = flow::walls_of(mesh);
+  flow.at_walls = flow::wall_flow(comm, mesh, flow.solution, stream, walls, "the flow");
+  flow.forces = flow::boundary_forces(comm, mesh, flow.at_walls, stream, walls);
   flow.stream = stream;
   if (flow.cl || flow.cd || flow.forces.empty()) return;
   flow.cl = flow.cd = 0;
-  for (const BoundaryForce& force : flow.forces) {
+  for (const flow::BoundaryForce& force : flow.forces) {
     *flow.cl += force.cl;
     *flow.cd += force.cd;
   }
@@ -28,10 +29,10 @@ void add_forces(const Communicator& comm, const Mesh& mesh, const FreeStream& st
 
 }  // namespace
 
-FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream) {
+flow::FlowSolver with_wall_quantities(flow::FlowSolver solver, flow::FreeStream stream) {
   return [solver = std::move(solver), stream](const Communicator& comm, const Mesh& mesh, const Field& start,
                                               int cycle) {
-    SolvedFlow flow = solver(comm, mesh, start, cycle);
+    flow::SolvedFlow flow = solver(comm, mesh, start, cycle);
     try {
       add_forces(comm, mesh, stream, flow);
     } catch (const InputError& fault) {  // a missing variable: the same on every rank
@@ -41,4 +42,4 @@ FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream) {
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,11 +2,11 @@
 
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the solver extended by what quadloop computes itself for any solver: the free stream, the flow
 /// along walls (wall_flow()), the force on each wall, and cl and cd, their sums, if the solver does not
 /// provide them. A solution without velocity and pressure gets none of these, and a warning.
-FlowSolver with_wall_quantities(FlowSolver solver, FreeStream stream);
+flow::FlowSolver with_wall_quantities(flow::FlowSolver solver, flow::FreeStream stream);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

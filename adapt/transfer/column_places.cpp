@@ -9,7 +9,7 @@
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "mesher/mesh/layers/layered_edges.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -73,4 +73,4 @@ std::vector<Point> column_places(const Communicator& comm, const Mesh& old_mesh,
   return places;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each owned node of a new mesh the point at which the old mesh is evaluated. It is the node's position,
 /// except in layers present in both meshes, where the point has the same height above the old wall as the
@@ -14,4 +14,4 @@ namespace quadloop {
 /// same bits on any number of ranks. *Collective.*
 std::vector<Point> column_places(const Communicator& comm, const Mesh& old_mesh, const Mesh& new_mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -182,4 +182,4 @@ void conserve_at_nodes(const Communicator& comm, const CurvePartition& shares, c
   for (std::size_t k = 0; k < width; ++k) set_column(comm, halo, sums.of(k), k, width, values);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

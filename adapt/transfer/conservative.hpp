@@ -5,7 +5,7 @@
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// One of the two meshes of a transfer, with its triangles (cell_triangles()). Nodes of the new mesh may be
 /// shifted relative to the old one (column_places()).
@@ -39,4 +39,4 @@ void conserve_at_nodes(const Communicator& comm, const CurvePartition& shares, c
                        const Field& old_field, const TransferSide& new_side, const Mesh& areas_of,
                        std::vector<double>& values);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "mesher/geometry/nearest_on_segment.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -69,4 +69,4 @@ void interpolate_in_triangle(const std::array<Point, 3>& corners,
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Values along a segment by its parameter: at an end exactly the end's values, otherwise within the range of
 /// both.
@@ -19,4 +19,4 @@ void interpolate_in_triangle(const std::array<Point, 3>& corners,
                              const std::array<std::span<const double>, 3>& at_corners, Point p,
                              std::span<double> values);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

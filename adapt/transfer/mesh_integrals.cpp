@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -140,4 +140,4 @@ double total_area(const Communicator& comm, const Mesh& mesh) {
   return reproducible_sum(comm, areas);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

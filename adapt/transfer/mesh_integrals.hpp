@@ -5,7 +5,7 @@
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each variable the sum of area times mean corner value over the triangles (parts_of()) of all ranks;
 /// the same bits on any number of ranks. The field has rows for ghost copies. *Collective.*
@@ -29,4 +29,4 @@ CellIntegrals integrate_cells(const Communicator& comm, const Mesh& mesh, const 
 /// Total area of the cells of all ranks; the same bits on any number of ranks. *Collective.*
 double total_area(const Communicator& comm, const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -20,7 +20,7 @@
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -288,4 +288,4 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   return transferred;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

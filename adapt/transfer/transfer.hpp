@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Transfer method for nodal values; cell values are always transferred conservatively.
 enum class TransferKind { linear, conservative };
@@ -61,4 +61,4 @@ struct Transferred {
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind = TransferKind::linear);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "app/report/layer_table.hpp"
 #include "app/report/statistics.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -163,4 +163,4 @@ JsonObject report_record(const CheckReport& report) {
   return json;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -13,7 +13,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/check/worst_places.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Results of `check` for one mesh.
 struct CheckReport {
@@ -41,4 +41,4 @@ std::string report_text(const CheckReport& report, bool verbose);
 /// Returns the members of the record that --json prints, with all errors.
 JsonObject report_record(const CheckReport& report);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -46,4 +46,4 @@ void add_extents(Statistics& statistics, const std::vector<FileExtent>& extents)
   statistics.add_member("geometry", json_of(json));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -6,7 +6,7 @@
 #include "app/report/statistics.hpp"
 #include "quadloop/case/settings.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Returns a line for each geometry file: the extent of its coordinates, their unit, and whether they are
 /// converted to metres; at most most_listed lines.
@@ -16,4 +16,4 @@ std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents);
 /// box, declared unit (null: none) and metres per unit (null: no conversion).
 void add_extents(Statistics& statistics, const std::vector<FileExtent>& extents);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

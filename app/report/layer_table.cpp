@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -170,4 +170,4 @@ void add_objections(Statistics& statistics, const FaceStatisticsByLayers& faces,
   statistics.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -9,7 +9,7 @@
 #include "mesher/mesh/check/solver_statistics.hpp"
 #include "mesher/mesh/check/worst_places.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Adds the results for the layers of a case: a line for each boundary in the table, at most `most`, and all
 /// as the member "layers" of the record.
@@ -28,4 +28,4 @@ void add_quality(Statistics& statistics, const QualitySummary& all, const Qualit
 void add_objections(Statistics& statistics, const FaceStatisticsByLayers& faces,
                     const SolverStatistics& shape);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -9,15 +9,15 @@
 #include "app/report/statistics.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
-std::vector<double> coordinates(Point3 p) { return {p.x, p.y, p.z}; }
+std::vector<double> coordinates(io::Point3 p) { return {p.x, p.y, p.z}; }
 
-std::string place_text(Point3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
+std::string place_text(io::Point3 p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x, p.y, p.z); }
 
-std::string patches_text(const std::vector<PatchStatistics>& patches, std::size_t most) {
+std::string patches_text(const std::vector<io::PatchStatistics>& patches, std::size_t most) {
   std::string text;
   for (std::size_t n = 0; n < std::min(patches.size(), most); ++n)
     text +=
@@ -27,7 +27,7 @@ std::string patches_text(const std::vector<PatchStatistics>& patches, std::size_
   return text;
 }
 
-std::string blocks_text(const std::vector<BlockStatistics>& blocks, std::size_t most) {
+std::string blocks_text(const std::vector<io::BlockStatistics>& blocks, std::size_t most) {
   std::string text;
   for (std::size_t n = 0; n < std::min(blocks.size(), most); ++n)
     text +=
@@ -51,7 +51,7 @@ std::string rows_json(const std::vector<Row>& rows, const char* count_key, Count
   return all.text();
 }
 
-Statistics statistics_of(const FileMesh& mesh, const Mesh3dStatistics& found, std::size_t most) {
+Statistics statistics_of(const io::FileMesh& mesh, const io::Mesh3dStatistics& found, std::size_t most) {
   Statistics statistics;
   statistics.add("nodes", std::ssize(mesh.points));
   statistics.add("prisms", std::ssize(mesh.prisms));
@@ -64,40 +64,41 @@ Statistics statistics_of(const FileMesh& mesh, const Mesh3dStatistics& found, st
   if (!found.blocks.empty()) {
     statistics.add("blocks", std::ssize(found.blocks));
     statistics.add_lines(blocks_text(found.blocks, most));
-    statistics.add_member("block_figures", rows_json(found.blocks, "cells", &BlockStatistics::cells, "volume",
-                                                     &BlockStatistics::volume));
+    statistics.add_member("block_figures", rows_json(found.blocks, "cells", &io::BlockStatistics::cells,
+                                                     "volume", &io::BlockStatistics::volume));
   }
   statistics.add("patches", std::ssize(mesh.boundaries));
   statistics.add_lines(patches_text(found.patches, most));
-  statistics.add_member("patch_figures", rows_json(found.patches, "faces", &PatchStatistics::faces, "area",
-                                                   &PatchStatistics::area));
+  statistics.add_member("patch_figures", rows_json(found.patches, "faces", &io::PatchStatistics::faces,
+                                                   "area", &io::PatchStatistics::area));
   return statistics;
 }
 
-std::string fault_text(const Mesh3dFault& fault) {
-  return fmt::format("{}: {} at {}", name_of(fault.rule), fault.what, place_text(fault.place));
+std::string fault_text(const io::Mesh3dFault& fault) {
+  return fmt::format("{}: {} at {}", io::name_of(fault.rule), fault.what, place_text(fault.place));
 }
 
 }  // namespace
 
-std::string mesh3d_text(const FileMesh& mesh, const Mesh3dStatistics& statistics, bool verbose) {
+std::string mesh3d_text(const io::FileMesh& mesh, const io::Mesh3dStatistics& statistics, bool verbose) {
   const std::size_t most = verbose ? std::numeric_limits<std::size_t>::max() : most_listed;
   std::string text = statistics_of(mesh, statistics, most).table(24, 16);
-  for (const Mesh3dFault& fault : statistics.faults) text += "  BROKEN " + fault_text(fault) + "\n";
+  for (const io::Mesh3dFault& fault : statistics.faults) text += "  BROKEN " + fault_text(fault) + "\n";
   const std::int64_t more = statistics.all_faults - std::ssize(statistics.faults);
   if (more > 0) text += fmt::format("  BROKEN: {} more faults\n", more);
   return text + (statistics.faults.empty() ? "  valid\n" : "  INVALID\n");
 }
 
-JsonObject mesh3d_record(const std::string& file, const FileMesh& mesh, const Mesh3dStatistics& statistics) {
+JsonObject mesh3d_record(const std::string& file, const io::FileMesh& mesh,
+                         const io::Mesh3dStatistics& statistics) {
   JsonObject json;
   json.add("valid", statistics.faults.empty());
   json.add("file", file);
   json.add("dimensions", std::int64_t{3});
   std::vector<JsonObject> faults;
-  for (const Mesh3dFault& fault : statistics.faults) {
+  for (const io::Mesh3dFault& fault : statistics.faults) {
     JsonObject& row = faults.emplace_back();
-    row.add("rule", name_of(fault.rule));
+    row.add("rule", io::name_of(fault.rule));
     row.add("what", fault.what);
     row.add("place", coordinates(fault.place));
   }
@@ -106,16 +107,16 @@ JsonObject mesh3d_record(const std::string& file, const FileMesh& mesh, const Me
   return json;
 }
 
-void refuse_invalid_mesh3d(const std::string& file, const Mesh3dStatistics& statistics) {
+void refuse_invalid_mesh3d(const std::string& file, const io::Mesh3dStatistics& statistics) {
   throw InputError(fmt::format("{}: invalid mesh: {}{}", file, fault_text(statistics.faults.front()),
                                more_faults(statistics.all_faults - 1)));
 }
 
-std::vector<std::string> doubts_about(const FileMesh& mesh, const std::string& file) {
-  const Mesh3dStatistics statistics = check_mesh3d(mesh);
+std::vector<std::string> doubts_about(const io::FileMesh& mesh, const std::string& file) {
+  const io::Mesh3dStatistics statistics = io::check_mesh3d(mesh);
   if (statistics.faults.empty()) return {};
   return {fmt::format("{}: is not valid, and is written unchanged: {}{}", file,
                       fault_text(statistics.faults.front()), more_faults(statistics.all_faults - 1))};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

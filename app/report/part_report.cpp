@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace quadloop {
+namespace quadloop::app {
 
 void add_parts(Statistics& statistics, const PartStatistics& parts) {
   statistics.add("parts", parts.parts);
@@ -20,4 +20,4 @@ void add_parts(MeshSummary& summary, const PartStatistics& parts, const std::vec
   summary.files.push_back(files.front() + fmt::format(" and {} files of parts", files.size() - 1));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

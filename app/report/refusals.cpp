@@ -7,11 +7,11 @@
 #include "mesher/base/error.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
-CellBlocks blocks_of(const LoadedMesh& loaded) {
+CellBlocks blocks_of(const io::LoadedMesh& loaded) {
   return {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
 }
 
@@ -26,7 +26,7 @@ Point worst_place(const Mesh& mesh) {
       corners[k] = mesh.point(nodes[k]);
       sum = sum + corners[k];
     }
-    const double cost = cell_cost(corners, ideal_targets<width>());
+    const double cost = smoother::cell_cost(corners, smoother::ideal_targets<width>());
     if (cost <= worst) return;
     worst = cost;
     place = 1.0 / size32(nodes) * sum;
@@ -51,7 +51,7 @@ void refuse_invalid(const std::string& file, const std::vector<MeshFault>& fault
                                cure));
 }
 
-std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::string& file) {
+std::vector<std::string> doubts_about(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
   if (faults.empty()) return {};
   const MeshFault& first = faults.front();
@@ -60,17 +60,17 @@ std::vector<std::string> doubts_about(const LoadedMesh& loaded, const std::strin
                       more_faults(std::ssize(faults) - 1))};
 }
 
-void require_sound_topology(const LoadedMesh& loaded, const std::string& file) {
+void require_sound_topology(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate_topology(loaded.mesh, blocks_of(loaded));
   if (!faults.empty()) refuse_invalid(file, faults);
 }
 
-void require_valid_input(const LoadedMesh& loaded, const std::string& file) {
+void require_valid_input(const io::LoadedMesh& loaded, const std::string& file) {
   const std::vector<MeshFault> faults = validate(loaded.mesh, blocks_of(loaded));
   if (!faults.empty()) refuse_invalid(file, faults);
 }
 
-void require_valid(const LoadedMesh& smoothed, const std::string& file) {
+void require_valid(const io::LoadedMesh& smoothed, const std::string& file) {
   const std::vector<MeshFault> faults = validate(smoothed.mesh, blocks_of(smoothed));
   if (faults.empty()) return;
   const auto inverted = std::count_if(
@@ -84,4 +84,4 @@ void require_valid(const LoadedMesh& smoothed, const std::string& file) {
                   file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

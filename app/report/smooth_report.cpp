@@ -6,7 +6,7 @@
 
 #include "mesher/mesh/check/layer_statistics.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -17,7 +17,7 @@ std::string row(const std::string& name, double before, double after) {
   return row(name, fmt::format("{:.3f}", before), fmt::format("{:.3f}", after));
 }
 
-std::string range_of(const Histogram& h, std::size_t i) {
+std::string range_of(const smoother::Histogram& h, std::size_t i) {
   if (i == 0) return fmt::format("    below {:g}", h.limits[0]);
   if (i == h.limits.size()) return fmt::format("    {:g} and more", h.limits.back());
   return fmt::format("    {:g} to {:g}", h.limits[i - 1], h.limits[i]);
@@ -28,7 +28,7 @@ std::string range_of(const Histogram& h, std::size_t i) {
 ShapeReport report_shapes(const Communicator& comm, const Mesh& mesh, const Mesh& whole) {
   std::optional<QualitySummary> outside;
   if (has_layers(mesh)) outside = quality_by_layers(comm, mesh, layer_places(comm, mesh)).others;
-  return {summarise_quality(comm, mesh), outside, shape_histograms(comm, mesh),
+  return {summarise_quality(comm, mesh), outside, smoother::shape_histograms(comm, mesh),
           comm.is_root() ? area_ratios(whole) : AreaRatios{}};
 }
 
@@ -40,7 +40,7 @@ JsonObject record_of(const ShapeReport& report) {
   json.add("max_angle", report.quality.largest_degrees);
   json.add("area_ratio_max", report.areas.largest);
   json.add("area_ratio_p99", report.areas.of_99_percent);
-  for (const Histogram& histogram : report.histograms) {
+  for (const smoother::Histogram& histogram : report.histograms) {
     JsonObject bins;
     bins.add("limits", histogram.limits);
     bins.add("counts", histogram.counts);
@@ -60,7 +60,7 @@ std::string comparison_table(const ShapeReport& before, const ShapeReport& after
   text += row("largest area ratio", before.areas.largest, after.areas.largest);
   text += row("area ratio, 99 %", before.areas.of_99_percent, after.areas.of_99_percent);
   for (std::size_t k = 0; k < before.histograms.size(); ++k) {
-    const Histogram &was = before.histograms[k], &is = after.histograms[k];
+    const smoother::Histogram &was = before.histograms[k], &is = after.histograms[k];
     text += fmt::format("  {}\n", was.name);
     for (std::size_t i = 0; i < was.counts.size(); ++i) {
       if (was.counts[i] == 0 && is.counts[i] == 0) continue;
@@ -70,4 +70,4 @@ std::string comparison_table(const ShapeReport& before, const ShapeReport& after
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

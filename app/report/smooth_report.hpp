@@ -9,13 +9,13 @@
 #include "mesher/mesh/check/shape_statistics.hpp"
 #include "smoother/shape_histogram.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Shape statistics of a mesh, over all ranks.
 struct ShapeReport {
   QualitySummary quality;
   std::optional<QualitySummary> outside;  ///< of the cells outside layers, if there are layers
-  std::vector<Histogram> histograms;
+  std::vector<smoother::Histogram> histograms;
   AreaRatios areas;  ///< on the root rank only
 };
 
@@ -29,4 +29,4 @@ JsonObject record_of(const ShapeReport& report);
 /// and histograms in two columns.
 std::string comparison_table(const ShapeReport& before, const ShapeReport& after);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

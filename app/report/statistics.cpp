@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::app {
 
 void Statistics::add(const std::string& name, std::int64_t count) {
   add_raw(name, std::to_string(count), json_of(count));
@@ -43,4 +43,4 @@ JsonObject Statistics::record() const {
   return json;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -8,7 +8,7 @@
 #include "mesher/base/json.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Format of a value without a unit.
 constexpr const char* number_pattern = "{:.6g}";
@@ -46,4 +46,4 @@ class Statistics {
   std::vector<Figure> statistics_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::app

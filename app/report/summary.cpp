@@ -12,7 +12,7 @@
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/solver_statistics.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 namespace {
 
@@ -144,4 +144,4 @@ JsonObject record_of(const std::vector<StageRow>& stages) {
   return json;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::app

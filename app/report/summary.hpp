@@ -9,7 +9,7 @@
 #include "mesher/base/timer.hpp"
 #include "mesher/mesh/check/solver_statistics.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 
 /// Seconds of one stage over all ranks.
 struct StageRow {
@@ -47,4 +47,4 @@ JsonObject record_of(const MeshSummary& summary);
 /// {stage: {"slowest": s, "mean": s}}
 JsonObject record_of(const std::vector<StageRow>& stages);
 
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -12,7 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -86,4 +86,4 @@ AtEnd estimate_goals(const EulerOptions& options) {
   return estimate;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -2,7 +2,7 @@
 
 #include "flow/euler/solve_euler.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns a callback for solve_euler() that estimates the errors of the options' output functionals for
 /// adaptation: for each an adjoint solution and an error estimate (GoalValue). error_name is added to the
@@ -10,4 +10,4 @@ namespace quadloop {
 /// run throws InputError for a functional that mesh or flow do not have, and for a viscous or unsteady flow.
 AtEnd estimate_goals(const EulerOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -9,7 +9,7 @@
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -221,4 +221,4 @@ GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const std::
   return sums.finish();
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

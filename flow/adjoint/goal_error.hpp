@@ -4,7 +4,7 @@
 
 #include "flow/adjoint/goal_functional.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Discretisation error of an output functional.
 struct GoalError {
@@ -26,4 +26,4 @@ struct GoalError {
 /// are not included. *Collective.*
 GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const std::vector<Flux>& adjoint);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -12,7 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -129,4 +129,4 @@ void GoalFunctional::add_place_derivative(const std::vector<State>& states, std:
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

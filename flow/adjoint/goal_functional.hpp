@@ -6,7 +6,7 @@
 #include "flow/euler/model/goal.hpp"
 #include "flow/euler/scheme/flow_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// An output functional of inviscid flow: a weighted sum of pressures at the halves of boundary faces. Lift
 /// and drag over all walls equal wall_forces() up to rounding.
@@ -46,4 +46,4 @@ class GoalFunctional {
   std::vector<Part> parts_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

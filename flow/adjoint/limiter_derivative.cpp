@@ -4,7 +4,7 @@
 
 #include "flow/euler/model/dual_number.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// For one side (up or down) of a node: the first edge, for each variable, with the extreme value and the
 /// extreme change.
@@ -195,4 +195,4 @@ void LimiterDerivative::add_place_weights(const std::vector<Gradient>& weights, 
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

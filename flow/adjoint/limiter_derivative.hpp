@@ -5,7 +5,7 @@
 
 #include "flow/euler/scheme/reconstruction.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Derivative of the limited gradients with respect to states and gradients. A factor that depends on the
 /// extreme value, or change, among a node's edges is differentiated for the first such edge only. Frozen
@@ -56,4 +56,4 @@ class LimiterDerivative {
   bool live_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

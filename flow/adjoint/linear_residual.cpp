@@ -5,7 +5,7 @@
 
 #include "flow/euler/model/dual_number.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -260,4 +260,4 @@ void LinearResidual::transpose_faces(const std::vector<Flux>& weights, std::vect
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

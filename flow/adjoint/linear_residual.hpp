@@ -8,7 +8,7 @@
 #include "flow/euler/model/flux_jacobian.hpp"
 #include "flow/euler/scheme/flow_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Derivative of the residual of inviscid flow with respect to the states (density, velocity, pressure), for
 /// the complete second-order scheme; fluxes are differentiated by the same functions with dual numbers.
@@ -71,4 +71,4 @@ class LinearResidual {
   std::vector<std::array<Matrix4, 2>> faces_;  ///< of the halves at both nodes
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

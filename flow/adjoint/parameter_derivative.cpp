@@ -3,7 +3,7 @@
 #include "flow/adjoint/goal_functional.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -56,4 +56,4 @@ ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<s
           (at(mach + d_mach, alpha) - at(mach - d_mach, alpha)) / (2 * d_mach)};
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

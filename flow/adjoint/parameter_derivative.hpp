@@ -5,7 +5,7 @@
 
 #include "flow/euler/scheme/flow_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Derivatives of an output functional of the converged flow with respect to the free stream.
 struct ParameterDerivative {
@@ -18,4 +18,4 @@ struct ParameterDerivative {
 ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
                                          const Goal& goal, const std::vector<Flux>& adjoint);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -8,7 +8,7 @@
 #include "flow/euler/model/flux.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -286,4 +286,4 @@ std::vector<Point> place_derivative(const LinearResidual& linear, const GoalFunc
   return of_goal;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

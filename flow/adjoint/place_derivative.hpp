@@ -5,7 +5,7 @@
 #include "flow/adjoint/goal_functional.hpp"
 #include "flow/adjoint/linear_residual.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Returns the total derivative of an output functional of the converged flow with respect to the position of
 /// each owned node, with the other nodes fixed: the derivative of the functional minus psi . (derivative of
@@ -17,4 +17,4 @@ namespace quadloop::euler {
 std::vector<Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
                                     const std::vector<Flux>& adjoint);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

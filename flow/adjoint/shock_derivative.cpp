@@ -4,7 +4,7 @@
 
 #include "flow/euler/model/dual_number.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 ShockDerivative::ShockDerivative(const Communicator& comm, const DualMesh& mesh, const ShockSensor& sensor,
                                  const std::vector<State>& states)
@@ -62,4 +62,4 @@ void ShockDerivative::add_transposed(const std::vector<double>& weights, std::ve
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 
 #include "flow/euler/scheme/shock_sensor.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Derivative of the shock sensor's shares with respect to the states: each depends on the pressures of its
 /// node and of the first neighbour with the largest jump. Frozen shares have zero derivative.
@@ -34,4 +34,4 @@ class ShockDerivative {
   bool acts_ = false;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 #include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/model/dual_number.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -75,4 +75,4 @@ Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of
   return adjoint;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 
 #include "flow/adjoint/linear_residual.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Parameters of the linear solver.
 struct AdjointSolve {
@@ -24,4 +24,4 @@ struct Adjoint {
 Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of_goal,
                       const AdjointSolve& how = {});
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -8,7 +8,7 @@
 #include "flow/command/solver_command.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<std::string> filled(const SolverCommand& command, const SolverFiles&
   return arguments;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::vector<std::string> environment_for(const std::string& folder, int ranks) {
   return environment;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

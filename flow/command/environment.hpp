@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Whether an MPI launcher sets this variable for the processes that it starts; a solver, or its own mpirun,
 /// would take itself for part of quadloop's run. User settings (OMPI_ALLOW_RUN_AS_ROOT, OMPI_MCA_btl...) do
@@ -23,4 +23,4 @@ bool started_by_mpirun();
 /// may run as root if this process does and, with `ranks` above 1, may oversubscribe the cores.
 std::vector<std::string> environment_for(const std::string& folder, int ranks = 1);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

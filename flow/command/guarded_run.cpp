@@ -18,7 +18,7 @@
 
 #include "flow/command/environment.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -217,4 +217,4 @@ Ending run_to_its_end(const Launch& launch) {
   return length == sizeof ending ? ending : Ending{};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

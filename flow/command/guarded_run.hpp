@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// A program with its parameters. Paths are absolute.
 struct Launch {
@@ -32,4 +32,4 @@ struct Ending {
 /// (PR_SET_PDEATHSIG), but not its children.
 Ending run_to_its_end(const Launch& launch);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

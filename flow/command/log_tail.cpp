@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::string foam_error(const std::string& path, std::size_t length) {
   return fit_for_message(message, length);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns the last line of a file with a letter or a digit in it, truncated to `length` bytes. For a Python
 /// traceback this is the error itself; separator lines, as printed by mpirun, are skipped. Only the end of
@@ -16,4 +16,4 @@ std::string last_line(const std::string& path, std::size_t length = 200);
 /// Empty if there is none, or the file cannot be read.
 std::string foam_error(const std::string& path, std::size_t length = 300);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

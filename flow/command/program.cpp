@@ -8,7 +8,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::string find_program(const std::string& name, const std::string& search, con
                      " for one beside the case file");
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

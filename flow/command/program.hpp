@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns the absolute path of the program `name`: searched in `search` (like PATH: folders separated by
 /// colons) if it contains no slash, else relative to `folder`. Throws an InputError that begins with `where`
@@ -10,4 +10,4 @@ namespace quadloop {
 std::string find_program(const std::string& name, const std::string& search, const std::string& folder,
                          const std::string& where = "[solver] command");
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

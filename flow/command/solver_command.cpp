@@ -19,7 +19,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -169,4 +169,4 @@ void run_solver(const Communicator& comm, const SolverCommand& command, const So
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

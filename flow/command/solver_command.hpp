@@ -5,7 +5,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// An external flow solver: a program and its arguments, run without a shell.
 struct SolverCommand {
@@ -44,4 +44,4 @@ std::string solver_message(const SolverCommand& command, const SolverFiles& file
 /// older than the run. The content of the solution is not checked. *Collective.*
 void run_solver(const Communicator& comm, const SolverCommand& command, const SolverFiles& files);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

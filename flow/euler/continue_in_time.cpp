@@ -9,7 +9,7 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -117,4 +117,4 @@ void continue_in_time(FlowRun& run, EulerResult& result, TimeAverage& average) {
   surround(run, far_field);
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

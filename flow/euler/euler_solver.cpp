@@ -7,7 +7,7 @@
 #include "flow/euler/shortfall.hpp"
 #include "flow/postprocess/run_constants.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options) {
   Field flow = result.flow;
@@ -61,4 +61,4 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
   };
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -3,7 +3,7 @@
 #include "flow/euler/solve_euler.hpp"
 #include "flow/flow_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns the solution with RunConstants.
 Field flow_with_constants(const EulerResult& result, const EulerOptions& options);
@@ -18,4 +18,4 @@ FreeStream free_stream_of(const EulerOptions& options);
 /// a warning if it does not converge.
 FlowSolver euler_solver(EulerOptions options, AtEnd at_end = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

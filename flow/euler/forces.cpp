@@ -6,7 +6,7 @@
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -128,4 +128,4 @@ std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
   return shear;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

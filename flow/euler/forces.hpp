@@ -6,7 +6,7 @@
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "flow/postprocess/boundary_forces.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Lift and drag per unit depth, divided by dynamic pressure and reference length.
 struct ForceCoefficients {
@@ -32,4 +32,4 @@ std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const 
 std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
                                const std::vector<Point>& friction);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

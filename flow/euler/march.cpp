@@ -11,7 +11,7 @@
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/base/progress.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
   std::vector<double> squares;
@@ -114,4 +114,4 @@ std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
       told[1], told[2], told[3], told[4], told[5]);
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

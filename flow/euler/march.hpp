@@ -7,7 +7,7 @@
 #include "flow/euler/scheme/flow_run.hpp"
 #include "flow/euler/solve_euler.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Returns the root mean square of the owned nodes' net mass fluxes; NaN if any is not finite. *Collective.*
 double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
@@ -60,4 +60,4 @@ std::vector<State> undisturbed(const FlowRun& run);
 /// Returns the mass residual of the undisturbed free stream. *Collective.*
 double free_stream_residual(FlowRun& run);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -7,7 +7,7 @@
 #include "flow/euler/march.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -122,4 +122,4 @@ void march_in_time(FlowRun& run, const TimePlan& plan, EulerResult& result, Time
   TimeMarch(run, plan, result, average).march();
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

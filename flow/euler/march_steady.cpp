@@ -16,7 +16,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -208,4 +208,4 @@ class SteadyMarch {
 
 EulerResult march_to_steady(FlowRun& run) { return SteadyMarch(run).march(); }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

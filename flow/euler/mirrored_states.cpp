@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -43,4 +43,4 @@ void MirroredStates::average(std::vector<State>& states) const {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

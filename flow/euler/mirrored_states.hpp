@@ -7,7 +7,7 @@
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "mesher/mesh/mirror_images.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Makes a flow mirror-symmetric, on a mirror-symmetric mesh.
 class MirroredStates {
@@ -29,4 +29,4 @@ class MirroredStates {
   NodeImages images_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

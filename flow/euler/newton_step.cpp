@@ -5,7 +5,7 @@
 #include "flow/euler/implicit/state_update.hpp"
 #include "flow/euler/steady_parameters.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -57,4 +57,4 @@ double NewtonStep::advance(double share) {
   return newton_.norm(run_.residual.evaluate(run_.states));
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -5,7 +5,7 @@
 #include "flow/euler/implicit/newton_system.hpp"
 #include "flow/euler/scheme/flow_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// A step of an inexact Newton method (Knoll and Keyes 2004): a NewtonSystem with -residual as its right
 /// side. The change is halved until the residual falls.
@@ -33,4 +33,4 @@ class NewtonStep {
   std::vector<State> start_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

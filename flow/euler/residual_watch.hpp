@@ -7,7 +7,7 @@
 
 #include "flow/euler/steady_parameters.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Detects slow convergence of the residual.
 class StallWatch {
@@ -111,4 +111,4 @@ struct BestFlow {
   }
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 std::string shortfall(const EulerResult& result, const EulerOptions& options) {
   if (options.time == EulerOptions::Time::accurate) {
@@ -57,4 +57,4 @@ std::vector<std::string> shortfalls(const EulerResult& result, const EulerOption
   return lines;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -5,7 +5,7 @@
 
 #include "flow/euler/solve_euler.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns one line for the user, without a full stop: the state of a run that did not converge, and a
 /// remedy.
@@ -16,4 +16,4 @@ std::string shortfall(const GoalValue& goal);
 /// report.
 std::vector<std::string> shortfalls(const EulerResult& result, const EulerOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

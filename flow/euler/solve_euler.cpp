@@ -12,7 +12,7 @@
 #include "mesher/base/progress.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -155,4 +155,4 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   return result;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

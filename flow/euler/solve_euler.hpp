@@ -12,7 +12,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Result of solve_euler().
 struct EulerResult : FlowTables {
@@ -63,4 +63,4 @@ using AtEnd = std::function<void(const Mesh& mesh, euler::FlowRun& run, EulerRes
 EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
                         const Field& start = {}, const AtEnd& at_end = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 SteadyControl::Decision SteadyControl::decide(const Flow& flow) {
   const double residual = flow.residual;
@@ -138,4 +138,4 @@ double SteadyControl::newton_cfl(double plain) {
   return newton_cfl_;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

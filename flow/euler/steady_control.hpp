@@ -5,7 +5,7 @@
 
 #include "flow/euler/residual_watch.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Control of a steady march, based on its residuals alone. Phases and transitions:
 ///
@@ -84,4 +84,4 @@ class SteadyControl {
   int rest_ = 0, pause_ = steady_parameters.newton.first_pause;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

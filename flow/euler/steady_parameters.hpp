@@ -1,6 +1,6 @@
 #pragma once
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Parameters of a steady march, with reasons. "By trial" means on the flows of docs/notes/flows.md.
 /// Residuals are relative, as EulerResult::residual.
@@ -91,4 +91,4 @@ struct SteadyParameters {
 
 inline constexpr SteadyParameters steady_parameters;
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

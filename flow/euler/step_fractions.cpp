@@ -4,7 +4,7 @@
 
 #include "flow/euler/steady_parameters.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -46,4 +46,4 @@ void StepFractions::forget() {
   std::fill(turns_.begin(), turns_.end(), std::int8_t{0});
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

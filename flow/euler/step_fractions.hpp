@@ -5,7 +5,7 @@
 
 #include "flow/euler/implicit/implicit_system.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Share of the CFL number for each node. The first-order matrix of an implicit step may be too weak by more
 /// than a half for the second-order fluxes at a single node, e.g. where cell sizes change abruptly: its
@@ -32,4 +32,4 @@ class StepFractions {
   std::vector<std::int8_t> turns_;  ///< number of consecutive reversals of the node's change
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 State Vortex::state(Point at, double time) const {
   const double strength =
@@ -17,4 +17,4 @@ State Vortex::state(Point at, double time) const {
           free_stream[3] * density / free_stream[0] * temperature};
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

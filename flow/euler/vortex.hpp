@@ -2,7 +2,7 @@
 
 #include "flow/euler/model/gas.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The isentropic vortex of strength 5, which the free stream convects unchanged (Yee, Sandham and Djomehri
 /// 1999), in a gas of density 1 and speed of sound 1 at infinity; counter-clockwise.
@@ -16,4 +16,4 @@ struct Vortex {
   State state(Point at, double time) const;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

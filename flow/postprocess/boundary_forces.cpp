@@ -6,7 +6,7 @@
 #include "flow/postprocess/flow_quantities.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::vector<BoundaryForce> boundary_forces(const Communicator& comm, const Mesh&
   return forces;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Force of the flow on one boundary: lift and drag per unit depth, divided by dynamic pressure and reference
 /// length.
@@ -24,4 +24,4 @@ struct BoundaryForce {
 std::vector<BoundaryForce> boundary_forces(const Communicator& comm, const Mesh& mesh, const Field& flow,
                                            const FreeStream& stream, const std::vector<std::string>& walls);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

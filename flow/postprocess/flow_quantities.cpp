@@ -7,7 +7,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -79,4 +79,4 @@ Field with_quantities(const Field& flow, const std::vector<std::string>& names, 
   return all;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -8,7 +8,7 @@
 #include "flow/postprocess/free_stream.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Names in files of quantities derived from the flow at each node: "mach", "pressure_coefficient".
 inline constexpr const char* mach_name = "mach";
@@ -49,4 +49,4 @@ double pressure_coefficient(double pressure, const FreeStream& stream);
 /// same name: at the nodes if velocity and pressure are nodal, else in the cells.
 Field with_quantities(const Field& flow, const std::vector<std::string>& names, const FreeStream& stream);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

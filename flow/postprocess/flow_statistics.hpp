@@ -7,7 +7,7 @@
 #include "flow/postprocess/goal_value.hpp"
 #include "flow/postprocess/unsteady_flow.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Results of a flow other than its coefficients.
 struct FlowTables {
@@ -21,4 +21,4 @@ struct FlowStatistics : FlowTables {
   std::optional<double> cl, cd, residual;  ///< if the solver provides them
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// The undisturbed flow, reference of the coefficients, in the units of the solution.
 struct FreeStream {
@@ -13,4 +13,4 @@ struct FreeStream {
   double dynamic_pressure() const { return 0.5 * density * speed * speed; }
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Value of an output functional, with its error estimate from an adjoint solution.
 struct GoalValue {
@@ -19,4 +19,4 @@ struct GoalValue {
 /// Name in files of the nodal error contributions, weighted by the functionals' weights.
 inline constexpr const char* error_name = "error";
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

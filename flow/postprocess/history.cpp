@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 std::string history_table(const std::vector<HistoryRow>& history) {
   const bool timed = std::ranges::any_of(history, [](const HistoryRow& row) { return row.time != 0; });
@@ -16,4 +16,4 @@ std::string history_table(const std::vector<HistoryRow>& history) {
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

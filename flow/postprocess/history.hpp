@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Suffix of the history file; it follows the prefix of the solution's file.
 inline constexpr const char* history_suffix = ".history.csv";
@@ -18,4 +18,4 @@ struct HistoryRow {
 /// Returns the history as the text of a table: columns step, residual, cl, cd, and time if any row has one.
 std::string history_table(const std::vector<HistoryRow>& history);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -1,6 +1,6 @@
 #include "flow/postprocess/nodes_above_walls.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 NodesAboveWalls nodes_above(const HaloMesh& mesh, const std::vector<char>& is_wall) {
   std::vector<Point> inward(mesh.points().size());
@@ -33,4 +33,4 @@ NodesAboveWalls nodes_above(const HaloMesh& mesh, const std::vector<char>& is_wa
   return above;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

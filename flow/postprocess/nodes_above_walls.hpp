@@ -4,7 +4,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// For each owned wall node the neighbour in the direction closest to the wall normal.
 struct NodesAboveWalls {
@@ -16,4 +16,4 @@ struct NodesAboveWalls {
 /// `is_wall` has an entry for each of the mesh's boundaries.
 NodesAboveWalls nodes_above(const HaloMesh& mesh, const std::vector<char>& is_wall);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

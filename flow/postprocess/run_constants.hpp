@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Constants of the run in a solution of the built-in solver, in this order.
 struct RunConstants {
@@ -20,4 +20,4 @@ struct RunConstants {
   }
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

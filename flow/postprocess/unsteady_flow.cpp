@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::string line_of(const UnsteadyFlow& flow) {
   return line;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -6,7 +6,7 @@
 
 #include "flow/postprocess/history.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Statistics of a coefficient over time.
 struct Swing {
@@ -37,4 +37,4 @@ UnsteadyFlow unsteady_flow(const std::vector<HistoryRow>& history, double from);
 /// Returns one line for the log, without a full stop.
 std::string line_of(const UnsteadyFlow& flow);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

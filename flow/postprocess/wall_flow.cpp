@@ -16,7 +16,7 @@
 #include "mesher/mesh/cells/edge_cells.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -229,4 +229,4 @@ Field wall_flow(const Communicator& comm, const Mesh& mesh, const Field& solutio
   return from_nodes(comm, mesh, solution, stream, which, where);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

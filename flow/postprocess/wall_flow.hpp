@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns the names of the boundaries with a wall condition, in the order of the mesh.
 std::vector<std::string> walls_of(const Mesh& mesh);
@@ -30,4 +30,4 @@ std::vector<std::string> walls_of(const Mesh& mesh);
 Field wall_flow(const Communicator& comm, const Mesh& mesh, const Field& solution, const FreeStream& stream,
                 const std::vector<std::string>& walls, const std::string& where);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -11,7 +11,7 @@
 #include "flow/postprocess/wall_walk.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::string wall_table(const Communicator& comm, const Mesh& mesh, const Field& 
   return comm.is_root() ? text : std::string();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -8,7 +8,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Suffix of the wall table; it follows the prefix of the solution's file.
 inline constexpr const char* wall_table_suffix = ".walls.csv";
@@ -23,4 +23,4 @@ inline constexpr const char* wall_table_suffix = ".walls.csv";
 std::string wall_table(const Communicator& comm, const Mesh& mesh, const Field& flow,
                        const FreeStream& stream, const std::vector<std::string>& walls);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::vector<std::vector<WallNode>> walk(const std::vector<WallEdge>& edges) {
   return walked;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// A node of a boundary, by its global number.
 struct WallNode {
@@ -22,4 +22,4 @@ struct WallEdge {
 /// the edges.
 std::vector<std::vector<WallNode>> walk(const std::vector<WallEdge>& edges);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -7,7 +7,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::string Su2Config::text() const {
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

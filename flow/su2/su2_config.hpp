@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// An SU2 configuration: lines "KEY= value", keys in any case, '%' begins a comment. A line that ends with a
 /// backslash continues on the next one. Everything that is not set remains as the user wrote it.
@@ -37,4 +37,4 @@ class Su2Config {
   std::vector<Line> lines_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

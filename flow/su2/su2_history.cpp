@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -67,4 +67,4 @@ Su2End end_of_history(const std::string& text) {
   return end;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

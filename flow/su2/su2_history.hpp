@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Final values in SU2's history, if it has the columns.
 struct Su2End {
@@ -15,4 +15,4 @@ struct Su2End {
 /// residuals are base-10 logarithms. Unreadable entries are omitted.
 Su2End end_of_history(const std::string& text);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -7,7 +7,7 @@
 
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -77,4 +77,4 @@ Field without_primitive_variables(const Field& flow) {
   return less;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -2,7 +2,7 @@
 
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// Returns an SU2 solution extended by the usual variables of sensors and users: x_velocity, y_velocity,
 /// pressure and mach, unless it has them under a usual name. They are computed from density, momentum and
@@ -13,4 +13,4 @@ Field with_primitive_variables(Field flow, double gamma);
 /// Returns the solution without the variables of with_primitive_variables(), from which SU2 restarts.
 Field without_primitive_variables(const Field& flow);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -6,7 +6,7 @@
 #include "io/cgns/cgns_handle.hpp"
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// CGNS element type of a kind of cells; the node order is that of FileMesh.
 template <CellKind kind>
@@ -33,4 +33,4 @@ inline CgnsShape shape_of_cgns(int type) {
   return shape;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::optional<CgnsExponents> cgns_exponents(std::string_view name) {
   return {};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

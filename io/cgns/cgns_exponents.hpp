@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Exponents of mass, length, time, temperature and angle.
 using CgnsExponents = std::array<float, 5>;
@@ -13,4 +13,4 @@ using CgnsExponents = std::array<float, 5>;
 /// for "Mach". Empty for names that are not in the standard, or are not flow quantities.
 std::optional<CgnsExponents> cgns_exponents(std::string_view name);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

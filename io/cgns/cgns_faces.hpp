@@ -8,7 +8,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The elements of a zone that may be on its boundary, BAR_2 or, in a 3D mesh, TRI_3 and QUAD_4, in the order
 /// of its sections. Boundaries take them by their element numbers.
@@ -78,4 +78,4 @@ class CgnsFaces {
   std::vector<std::size_t> by_element_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

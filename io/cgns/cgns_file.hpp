@@ -6,7 +6,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a 2D or 3D mesh as CGNS (HDF5) into the set: one zone "domain" with a section for each kind of
 /// cells and, for each boundary, a BAR_2 section, or one of quads and one of triangles, with BC and family.
@@ -22,4 +22,4 @@ void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& p
 /// else.
 MeshOfFile read_cgns(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// An open CGNS file; a failed call throws `Failure`. Serial: used by one rank. A file that could not be
 /// written is never closed, as the libraries may crash on it.
@@ -87,4 +87,4 @@ inline CgnsBase first_base(const CgnsFile<InputError>& file) {
   return base;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

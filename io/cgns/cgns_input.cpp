@@ -19,7 +19,7 @@
 #include "io/model/strip_text.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -396,4 +396,4 @@ FileMesh read_cgns_by_library(const std::string& path) {
   return mesh;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

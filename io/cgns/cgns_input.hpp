@@ -5,10 +5,10 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads the first base of a CGNS file as read_cgns() does, in this process, which libcgns may crash if the
 /// file is damaged. Edges between two zones of a plane mesh occur once for each zone. Throws InputError.
 FileMesh read_cgns_by_library(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/text/name_index.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -132,4 +132,4 @@ BoundaryCondition condition_of_cgns(int type) {
   return BoundaryCondition::none;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Name of the descriptor with the original name of a boundary or variable that CGNS cannot store.
 inline constexpr const char* full_name_descriptor = "FullName";
@@ -34,4 +34,4 @@ BoundaryCondition condition_of_cgns(int type);
 /// The same for the condition of a family, whose name may be one of our words.
 BoundaryCondition condition_of_cgns_family(int type, const std::string& name);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

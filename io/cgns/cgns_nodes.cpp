@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -143,4 +143,4 @@ void CgnsNodes::put_data(const Node& node, hid_t file_type, hid_t memory_type, s
   check(H5Dwrite(whole.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "io/files/hdf5_handle.hpp"
 #include "io/files/output_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns traverses all its
 /// siblings, so that its time is quadratic in the number of boundaries (40 s for 5000); this is linear. A
@@ -63,4 +63,4 @@ class CgnsNodes {
   Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include "io/model/layers_text.hpp"
 #include "io/model/strip_text.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -71,4 +71,4 @@ void CgnsPatches::close() {
   nodes_.close();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/files/output_file.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes the boundaries, on rank 0, after the rest of a CGNS file: for each one or more sections of bars or
 /// faces, a family with its condition, and a BC over all of them that refers to the family. VTK and ParaView
@@ -46,4 +46,4 @@ class CgnsPatches {
   cgsize_t first_ = 0, next_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

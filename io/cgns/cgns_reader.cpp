@@ -8,7 +8,7 @@
 #include "io/model/serialize_mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -41,4 +41,4 @@ MeshOfFile read_cgns(const std::string& path) {
   return loaded;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

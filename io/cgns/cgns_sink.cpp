@@ -6,7 +6,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void CgnsSink::begin_zone(std::int64_t nodes, std::int64_t cells) {
   const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
@@ -104,4 +104,4 @@ void CgnsSink::describe_variable(int field, const std::string& variable, const s
     file_->check(cg_exponents_write(RealSingle, exponents->data()));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,7 +12,7 @@
 #include "io/cgns/cgns_handle.hpp"
 #include "io/files/output_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Maximum number of entries of an array in the file.
 constexpr std::int64_t largest_cgns_size = std::numeric_limits<cgsize_t>::max();
@@ -59,4 +59,4 @@ class CgnsSink {
   std::vector<double> column_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

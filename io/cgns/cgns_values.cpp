@@ -6,7 +6,7 @@
 
 #include "io/cgns/cgns_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -88,4 +88,4 @@ Field read_cgns_values(const CgnsZone& from, std::span<const std::vector<std::in
   return result;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A zone of an open file, with its declared numbers of nodes and cells.
 struct CgnsZone {
@@ -23,4 +23,4 @@ struct CgnsZone {
 /// Throws InputError.
 Field read_cgns_values(const CgnsZone& zone, std::span<const std::vector<std::int64_t>> elements);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

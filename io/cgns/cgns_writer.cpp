@@ -12,7 +12,7 @@
 #include "io/stream/stream_cell_values.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -205,4 +205,4 @@ void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& p
   CgnsWriter(mesh, outputs, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 
 #include "io/files/output_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Converts a number to the byte order `order`.
 template <std::endian order, class Number>
@@ -32,4 +32,4 @@ std::string_view bytes_of(std::span<const T, extent> rows) {
   return {reinterpret_cast<const char*>(rows.data()), rows.size_bytes()};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

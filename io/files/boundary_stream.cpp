@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::vector<BoundaryStream::Edge> BoundaryStream::own_piece(std::int64_t first) 
   return piece;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Streams the edges of all boundaries through rank 0: boundary after boundary, in each first those of rank
 /// 0, then of rank 1, and so on. The communication does not grow with the number of boundaries: counts are
@@ -69,4 +69,4 @@ class BoundaryStream {
   std::vector<Edge> instead_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

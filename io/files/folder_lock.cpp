@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::optional<FolderLock> FolderLock::attempt(const std::string& folder) {
   FolderLock lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -19,4 +19,4 @@ FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

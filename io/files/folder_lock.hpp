@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A lock on a folder. It ends with the process, however that ends. On a file system without locks on folders
 /// (NFS) it silently has no effect. On one rank.
@@ -28,4 +28,4 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

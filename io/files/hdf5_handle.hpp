@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// An HDF5 id with the function that releases it.
 class Hdf5Handle {
@@ -104,4 +104,4 @@ hid_t file_type() {
   if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_STD_U64LE;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

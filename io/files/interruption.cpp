@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 struct Temporary::Entry {
   std::string path;
@@ -126,4 +126,4 @@ SignalsWait::~SignalsWait() {
   if (number != 0) ::raise(number);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

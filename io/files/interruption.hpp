@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// To be called once, at the start of a program, after MPI_Init: from then on a signal that ends this process
 /// (interrupt, termination, crash), and exit(), first remove the temporaries below; the process then ends as
@@ -39,4 +39,4 @@ class SignalsWait {
   static bool has_come();
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

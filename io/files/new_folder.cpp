@@ -10,7 +10,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::unique_ptr<Temporary> make_output_folder(const std::string& path,
   return nullptr;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

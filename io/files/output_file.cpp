@@ -17,7 +17,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -144,8 +144,7 @@ void OutputSet::commit_together(const Communicator& comm, std::initializer_list<
 void OutputSet::bring_to_disk() {
   comm_.together([&] {
     bring_written_to_disk();
-    for (const Output& output : outputs_)
-      quadloop::bring_to_disk(output.staged.temporary, output.staged.path);
+    for (const Output& output : outputs_) io::bring_to_disk(output.staged.temporary, output.staged.path);
   });
 }
 
@@ -204,4 +203,4 @@ void OutputFile::close() {
   if (::close(std::exchange(descriptor_, -1)) != 0) refuse_output(staged_.path, errno);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

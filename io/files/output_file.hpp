@@ -12,7 +12,7 @@
 #include "io/files/staging_folder.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// An output file written as `temporary` until its set is committed. `temporary` is known on rank 0 only.
 struct StagedFile {
@@ -103,4 +103,4 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -119,4 +119,4 @@ void bring_to_disk(const std::string& path, const std::string& shown) {
   if (reason != 0 && !unknown_here) refuse_output(shown, reason);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Throws OutputError for an output that cannot be written for `reason`, an errno, with a remedy.
 [[noreturn]] void refuse_output(const std::string& path, int reason);
@@ -25,4 +25,4 @@ std::string folder_of(const std::string& path);
 /// here. Throws OutputError that names `shown`.
 void bring_to_disk(const std::string& path, const std::string& shown);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

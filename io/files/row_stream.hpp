@@ -11,7 +11,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/progress.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Streams distributed rows through rank 0 in pieces: all of rank 0, then all of rank 1, and so on.
 struct RowStream {
@@ -98,4 +98,4 @@ struct RowStream {
   }
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -85,4 +85,4 @@ bool reached_by_all(const Communicator& comm, const StagedFile& staged) {
   return !comm.any(descriptor < 0);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

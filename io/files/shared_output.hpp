@@ -7,7 +7,7 @@
 #include "io/files/output_file.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A staged file that all ranks write concurrently, each at known offsets, without rank 0. The machines of
 /// the ranks must share the folder; otherwise rank 0 may write everything. Every failure is an OutputError
@@ -43,4 +43,4 @@ class SharedOutput {
 /// Whether all ranks can write the staged file, i.e. their machines share the folder. *Collective.*
 bool reached_by_all(const Communicator& comm, const StagedFile& staged);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 
 #include "io/files/output_path.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string StagingFolder::new_file(const std::string& shown) {
   return path;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

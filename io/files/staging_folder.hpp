@@ -9,7 +9,7 @@
 #include "io/files/folder_lock.hpp"
 #include "io/files/interruption.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Identifies a folder independently of its path: device and inode.
 using FolderId = std::pair<std::uint64_t, std::uint64_t>;
@@ -40,4 +40,4 @@ class StagingFolder {
   std::optional<FolderLock> lock_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

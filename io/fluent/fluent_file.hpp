@@ -7,7 +7,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a 2D or 3D Fluent mesh file, ASCII, into the set; the bytes are the same on any number of ranks.
 /// Nodes keep their numbers, and so do cells if there is one block; several blocks are written one after
@@ -29,4 +29,4 @@ bool is_fluent(const std::string& path);
 /// polygons and polyhedra.
 MeshOfFile read_fluent(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,7 +12,7 @@
 #include "io/model/clean_up.hpp"
 #include "io/stream/cell_of_sides.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -79,10 +79,9 @@ class FluentReader {
       if (!closes) nodes[k + 1] = next;
     }
     if (own.size() == 3) {
-      quadloop::add_cell<CellKind::triangle>(mesh_, std::array{nodes[0], nodes[1], nodes[2]},
-                                             block_of_[cell]);
+      io::add_cell<CellKind::triangle>(mesh_, std::array{nodes[0], nodes[1], nodes[2]}, block_of_[cell]);
     } else {
-      quadloop::add_cell<CellKind::quad>(mesh_, nodes, block_of_[cell]);
+      io::add_cell<CellKind::quad>(mesh_, nodes, block_of_[cell]);
     }
   }
 
@@ -145,4 +144,4 @@ bool is_fluent(const std::string& path) {
 
 MeshOfFile read_fluent(const std::string& path) { return FluentReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

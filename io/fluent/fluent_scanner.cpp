@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -80,4 +80,4 @@ void FluentScanner::skip_list() {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Tokens of a Fluent file: "(", ")", words, numbers, and quoted strings with their quotes. Errors are
 /// InputErrors "file:line: ...".
@@ -39,4 +39,4 @@ class FluentScanner {
   std::size_t at_ = 0, token_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

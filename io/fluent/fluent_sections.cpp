@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -213,4 +213,4 @@ std::vector<std::int64_t> FluentSections::zones_of_cells() const {
   return zones;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

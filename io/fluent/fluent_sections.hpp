@@ -11,7 +11,7 @@
 #include "io/fluent/fluent_scanner.hpp"
 #include "io/model/point3.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A face: an edge in 2D, a triangle or a quad in 3D.
 struct FluentFace {
@@ -82,4 +82,4 @@ class FluentSections {
   std::vector<std::int32_t> faces_of_cells_;  ///< faces of cell 0, which stands for no cell, come first
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -182,4 +182,4 @@ void write_fluent(OutputSet& outputs, const MeshStream& mesh, const std::string&
   FluentWriter(outputs, mesh, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

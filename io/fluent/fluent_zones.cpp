@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::string fluent_hexadecimal(std::int64_t number) {
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Fluent's number for inner faces.
 inline constexpr std::int64_t fluent_interior = 2;
@@ -31,4 +31,4 @@ void require_countable_in_fluent(const std::string& path, std::int64_t nodes, st
 /// Returns a number in the format of Fluent's sections.
 std::string fluent_hexadecimal(std::int64_t number);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/foam/foam_text.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -264,4 +264,4 @@ std::vector<std::string> set_foam_fields(const std::string& folder, const CellVa
   return changed;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

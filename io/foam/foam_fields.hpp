@@ -6,7 +6,7 @@
 
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Returns the folder of a case's latest time above 0: that with the largest number as its name. Empty if
 /// there is none.
@@ -32,4 +32,4 @@ void put_wall_values(const std::string& folder, const std::string& poly_mesh, Ce
 /// the changed files. On the calling rank only, for all cells. Throws InputError as above, OutputError.
 std::vector<std::string> set_foam_fields(const std::string& folder, const CellValues& cells);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

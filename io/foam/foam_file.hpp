@@ -7,7 +7,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes the mesh as an OpenFOAM polyMesh, ASCII: the folder `path`, created if missing, with points, faces,
 /// owner, neighbour and boundary, and cellZones if there are several blocks; the bytes are the same on any
@@ -25,4 +25,4 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
 /// pyramids, prisms or hexahedra. Cell zones become blocks. Throws InputError.
 MeshOfFile read_foam(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include "io/foam/foam_scanner.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -107,4 +107,4 @@ std::vector<FoamPatch> read_foam_patches(const std::string& folder, std::int64_t
   return patches;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A patch of a polyMesh.
 struct FoamPatch {
@@ -40,4 +40,4 @@ std::vector<FoamZone> read_foam_zones(const std::string& path, std::int64_t end)
 /// the calling rank only. Throws InputError.
 std::vector<FoamPatch> read_foam_patches(const std::string& folder, std::int64_t cells);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::vector<PolygonPiece> divide_polygon(std::span<const Point3> corners) {
   return PolygonDivision(corners).run();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

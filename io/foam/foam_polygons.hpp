@@ -7,7 +7,7 @@
 
 #include "io/model/point3.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A triangle, whose last corner is -1, or a quad, as indices of a polygon's corners, in their order.
 using PolygonPiece = std::array<std::int32_t, 4>;
@@ -19,4 +19,4 @@ std::vector<PolygonPiece> divide_polygon(std::span<const Point3> corners);
 
 inline constexpr std::size_t most_polygon_corners = 32;
 
-}  // namespace quadloop
+}  // namespace quadloop::io

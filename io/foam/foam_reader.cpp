@@ -15,7 +15,7 @@
 #include "io/stream/cell_of_sides.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -256,4 +256,4 @@ class FoamReader {
 
 MeshOfFile read_foam(const std::string& path) { return FoamReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

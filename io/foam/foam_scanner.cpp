@@ -10,7 +10,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -126,4 +126,4 @@ void FoamScanner::refuse(const std::string& message) const {
   throw InputError(path_ + ":" + std::to_string(line) + ": " + message);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

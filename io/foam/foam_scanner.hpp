@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Tokens of an OpenFOAM text file, in memory: words and numbers, and each of ( ) { } ; separately; comments
 /// are skipped. Errors are InputErrors "file:line: ...".
@@ -35,4 +35,4 @@ class FoamScanner {
   std::size_t at_ = 0, token_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

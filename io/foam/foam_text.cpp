@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -99,4 +99,4 @@ bool is_foam_true(const std::string& word) {
   return std::ranges::find(words, word) != std::end(words);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Replaces comments by blanks, so that positions do not change.
 std::string without_foam_comments(std::string text);
@@ -32,4 +32,4 @@ std::string foam_word(const std::string& text, const FoamEntry& entry);
 /// Whether a word switches something on in OpenFOAM.
 bool is_foam_true(const std::string& word);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "io/text/text_output.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -212,4 +212,4 @@ void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& p
   FoamWriter(outputs, MeshStream(outputs.communicator(), layer), path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

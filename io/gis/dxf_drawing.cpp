@@ -12,7 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -299,4 +299,4 @@ const DxfEntity* DxfDrawing::find(const std::string& handle) const {
   return found == entities_.end() ? nullptr : &found->second;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

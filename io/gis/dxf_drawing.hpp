@@ -8,7 +8,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A B-spline, rational if it has weights.
 struct DxfSpline {
@@ -57,4 +57,4 @@ class DxfDrawing {
   std::vector<std::pair<std::string, std::string>> missing_blocks_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

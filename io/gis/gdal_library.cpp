@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -35,4 +35,4 @@ GdalLibrary::GdalLibrary() {
 #undef QUADLOOP_LOAD
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

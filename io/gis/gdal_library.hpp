@@ -7,7 +7,7 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
-namespace quadloop {
+namespace quadloop::io {
 
 // The functions used of GDAL's C interface.
 // clang-format moves these lines about each time.
@@ -42,4 +42,4 @@ class GdalLibrary {
   GdalLibrary();
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -1,9 +1,9 @@
 #pragma once
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Enables geometry files in .dxf, .geojson, .shp and .gpkg formats, read by GDAL, for the whole process.
 /// Further calls have no effect.
 void add_gis_formats();
 
-}  // namespace quadloop
+}  // namespace quadloop::io

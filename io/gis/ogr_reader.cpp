@@ -24,7 +24,7 @@
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -353,4 +353,4 @@ void add_gis_formats() {
   for (const std::string& suffix : gis_suffixes) add_geometry_reader(suffix, read_ogr);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

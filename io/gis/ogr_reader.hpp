@@ -6,7 +6,7 @@
 #include "io/input/geometry_file.hpp"
 #include "mesher/geometry/geometry.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads the lines and polygons of every layer, or of the named layers, of a file supported by GDAL/OGR (DXF,
 /// GeoJSON, shapefile, GeoPackage), with unchanged coordinates. A line with coincident ends is a loop. The
@@ -17,4 +17,4 @@ namespace quadloop {
 std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
                             std::vector<std::string>& warnings, FileUnit& unit);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/input/line_reader.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -263,4 +263,4 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   return elements;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads airfoil coordinates: one row for the name, then either one list around the section from trailing
 /// edge to trailing edge (Selig), or two counts and the upper and the lower side from the leading edge
@@ -14,4 +14,4 @@ namespace quadloop {
 /// segment. Several elements, separated by a row "999. 999.", become loops "airfoil_1", "airfoil_2", ...
 std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string>& warnings);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -175,4 +175,4 @@ void assign(CaseTable::Data& data, const std::string& text) {
   data.assigned[fmt::format("{}", fmt::join(parts, "."))] = text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

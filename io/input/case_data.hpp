@@ -8,7 +8,7 @@
 
 #include "io/input/case_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The parsed file with its assignments. Private to io/input: the only header that exposes toml++.
 struct CaseTable::Data {
@@ -26,4 +26,4 @@ void parse_case(CaseTable::Data& data, const std::string& path);
 /// Applies one "key=value" to the tables.
 void assign(CaseTable::Data& data, const std::string& assignment);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -290,4 +290,4 @@ CaseTable read_case(const std::string& path, const std::vector<std::string>& ass
   return CaseTable(std::move(data), root, "");
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Valid range of a number. Values that are not finite are never in range.
 struct Range {
@@ -88,4 +88,4 @@ bool is_assignment(std::string_view word);
 /// is TOML, else plain text. On the calling rank only. Throws InputError "file:line: ...".
 CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments = {});
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/input/line_reader.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string geom_text(const Geometry& geometry) {
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads a `.geom` file. Throws InputError "file:line: ..." if it is invalid.
 std::vector<Chain> read_geom(const std::string& path);
@@ -15,4 +15,4 @@ std::vector<Chain> read_geom(const std::string& path);
 /// boundary.
 std::string geom_text(const Geometry& geometry);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -74,4 +74,4 @@ Geometry read_outline(const std::string& path, std::vector<std::string>& warning
   return assemble(read_geometry(path, warnings), options, warnings);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Names of layers of a drawing or map, with the wildcards * and ?. Empty: all layers; in a drawing the
 /// visible ones.
@@ -52,4 +52,4 @@ using GeometryReader = std::vector<Chain> (*)(const std::string& path, const Lay
 /// Registers `reader` for files of this suffix, in the whole process.
 void add_geometry_reader(const std::string& suffix, GeometryReader reader);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

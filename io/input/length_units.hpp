@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Units of length by name, with metres per unit.
 inline constexpr std::array<std::pair<const char*, double>, 17> length_units{{{"m", 1},
@@ -43,4 +43,4 @@ inline std::vector<std::string> length_unit_names() {
   return names;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

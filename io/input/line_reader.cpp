@@ -14,7 +14,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -194,4 +194,4 @@ bool LineReader::is_number(std::size_t word) const { return number_of(words_[wor
 
 void LineReader::refuse(const std::string& message) const { throw InputError(place() + ": " + message); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

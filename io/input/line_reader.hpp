@@ -8,7 +8,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads a text file row by row: comments (from a '#' to the end of its line) and blank lines are passed
 /// over; LF, CRLF and CR are line ends; UTF-16 is read, with a byte order mark or without. Every refusal is
@@ -65,4 +65,4 @@ class LineReader {
   std::vector<std::string_view> words_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

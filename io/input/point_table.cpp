@@ -16,7 +16,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::vector<Point> read_point_table(const std::string& path, const Geometry& out
   return values;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Vectors at the points of a geometry (velocities or gradients) as a text table: rows of boundary, x, y and
 /// two components. The geometry must be from read_outline(), which may have reversed loops; rows are in the
@@ -27,4 +27,4 @@ using ComponentNames = std::array<std::string, 2>;
 std::vector<Point> read_point_table(const std::string& path, const Geometry& outline,
                                     const ComponentNames& components);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

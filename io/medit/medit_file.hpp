@@ -7,7 +7,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Whether a regular file is in Medit's text format: it begins with MeshVersionFormatted.
 bool is_medit(const std::string& path);
@@ -27,4 +27,4 @@ void write_medit(OutputSet& outputs, const MeshStream& mesh, const std::string& 
 /// free references, from 1.
 std::vector<std::string> medit_boundary_names(const std::vector<std::string>& names);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

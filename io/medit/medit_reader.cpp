@@ -6,7 +6,7 @@
 #include "io/medit/medit_file.hpp"
 #include "io/model/clean_up.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -149,4 +149,4 @@ bool is_medit(const std::string& path) {
 
 MeshOfFile read_medit(const std::string& path) { return MeditReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

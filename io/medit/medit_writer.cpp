@@ -6,7 +6,7 @@
 #include "io/stream/stream_blocks.hpp"
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -104,4 +104,4 @@ void write_medit(OutputSet& outputs, const MeshStream& mesh, const std::string& 
   MeditWriter(outputs, mesh, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

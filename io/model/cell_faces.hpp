@@ -6,7 +6,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The faces of a cell as local node indices, each counter-clockwise as seen from outside; -1: a triangle.
 template <std::size_t nodes>
@@ -83,4 +83,4 @@ double cell_volume(const FileMesh& mesh, const std::array<std::int32_t, width>& 
   return sum / 6;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/model/cell_faces.hpp"
 #include "io/model/mesh3d_faces.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -191,4 +191,4 @@ const char* name_of(Mesh3dRule rule) {
 
 Mesh3dStatistics check_mesh3d(const FileMesh& mesh) { return Mesh3dCheck(mesh).run(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Rules that every 3D mesh satisfies.
 enum class Mesh3dRule {
@@ -49,4 +49,4 @@ struct Mesh3dStatistics {
 /// coordinates are invalid, the later rules are skipped. Linear in time and memory.
 Mesh3dStatistics check_mesh3d(const FileMesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -16,7 +16,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -384,4 +384,4 @@ FileMesh file_mesh_of(const LoadedMesh& loaded) {
   return file;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Number of members of the groups from which the boundaries and blocks of a mesh were made; groups beyond
 /// the end have none.
@@ -53,4 +53,4 @@ void order_by_blocks(LoadedMesh& loaded);
 /// belongs to no cell, with its location.
 LoadedMesh plane_mesh(FileMesh mesh, const TextScanner& scan);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::vector<ExtrudedVariable> extruded_variables(const std::vector<std::string>&
   return variables;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Direction of extrusion: along z, x and y are unchanged; along y, the plane's y becomes z, so that flow and
 /// angle of attack are in the x-z plane.
@@ -129,4 +129,4 @@ struct ExtrudedVariable {
 /// the third component, which is 0.
 std::vector<ExtrudedVariable> extruded_variables(const std::vector<std::string>& plane, ExtrusionAxis axis);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

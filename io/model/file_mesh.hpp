@@ -11,7 +11,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The boundary faces of one name: edges in a plane mesh, triangles and quads in a 3D mesh.
 struct FileBoundary {
@@ -146,4 +146,4 @@ inline std::vector<std::int32_t> blocks_of_cells(const FileMesh& mesh) {
   return all;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

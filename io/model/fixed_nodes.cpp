@@ -8,7 +8,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
   return notes;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

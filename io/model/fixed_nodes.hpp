@@ -6,7 +6,7 @@
 
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Flags further nodes that must not move when the mesh from the file `path` is smoothed: those on periodic
 /// sides and inner curves, and those of the named boundaries, inner curves and blocks. `flags` has a flag for
@@ -15,4 +15,4 @@ namespace quadloop {
 std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std::string> names,
                                    const std::string& path, NodeFlags& flags);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include "mesher/geometry/point_table.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 NodeFlags interface_nodes(const LoadedMesh& loaded) {
   const Mesh& mesh = loaded.mesh;
@@ -34,4 +34,4 @@ NodeFlags nodes_that_stay(const LoadedMesh& loaded) {
   return flags;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Flags the nodes shared by cells of two blocks.
 NodeFlags interface_nodes(const LoadedMesh& loaded);
@@ -11,4 +11,4 @@ NodeFlags interface_nodes(const LoadedMesh& loaded);
 /// none.
 NodeFlags nodes_that_stay(const LoadedMesh& loaded);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::string_view next_word(std::string_view& text) {
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
@@ -34,4 +34,4 @@ WallLayers layers_of_text(std::string_view text) {
   return is_thickness ? layers : WallLayers{};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Removes and returns the next word of the text; empty at its end.
 std::string_view next_word(std::string_view& text);
@@ -17,4 +17,4 @@ std::string text_of_layers(const WallLayers& layers);
 /// Inverse of text_of_layers(). The thickness may be missing. Returns no layers if the text is invalid.
 WallLayers layers_of_text(std::string_view text);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A whole mesh from a file, on one rank: every node is owned.
 struct LoadedMesh {
@@ -44,4 +44,4 @@ std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,
   return std::span(cells).subspan(first - cell_to_block.begin(), last - first);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

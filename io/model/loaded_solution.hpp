@@ -7,7 +7,7 @@
 
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A solution from a file, whole on one rank, with what the file contains of its mesh. Names are words
 /// (distinct_words()), to be found by variable().
@@ -19,4 +19,4 @@ struct LoadedSolution {
   std::vector<Point> points;       ///< of such a table, if it has coordinates
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh) {
   return nodes;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

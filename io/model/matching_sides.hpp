@@ -4,7 +4,7 @@
 
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Returns the nodes, ascending, of each two boundaries that are images of each other under a translation or
 /// a rotation, node by node to 1e-9 of the mesh's extent, with the domain on opposite sides: periodic sides
@@ -12,4 +12,4 @@ namespace quadloop {
 /// O(n log n) in the boundary edges.
 std::vector<NodeId> nodes_of_matching_sides(const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

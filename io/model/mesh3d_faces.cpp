@@ -6,7 +6,7 @@
 
 #include "io/model/cell_faces.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -59,4 +59,4 @@ void for_each_face(const FileMesh& mesh,
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

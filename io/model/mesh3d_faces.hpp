@@ -8,7 +8,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// An occurrence of a face in a cell or a patch; identified by its nodes in any order.
 struct FaceMention {
@@ -26,4 +26,4 @@ struct FaceMention {
 void for_each_face(const FileMesh& mesh,
                    const std::function<void(std::int32_t lowest, std::span<const FaceMention>)>& visit);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 #include "io/model/file_mesh.hpp"
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Result of the reader of a format: a cleaned-up plane mesh, or a 3D mesh.
 using MeshOfFile = std::variant<LoadedMesh, FileMesh>;
@@ -21,4 +21,4 @@ LoadedMesh loaded_mesh_of(FileMesh file);
 /// with `path`, for any other 3D mesh.
 LoadedMesh plane_of(MeshOfFile mesh, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/base/parity_sets.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::int64_t orient_cells(Mesh& mesh) {
   return turned;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Whether orient_cells() certainly has nothing to reverse: all cells are counter-clockwise, and no two have
 /// an edge in the same direction. Linear.
@@ -19,4 +19,4 @@ bool surely_oriented(const Mesh& mesh, const EdgeTable& table);
 /// number of reversed cells. The cells' nodes must exist. O(n log n).
 std::int64_t orient_cells(Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/model/mesh3d_faces.hpp"
 #include "mesher/base/parity_sets.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::int64_t orient_mesh3d(FileMesh& mesh) {
   return count;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -4,7 +4,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reverses inverted cells, e.g. from programs that number a prism's nodes in another order, such that two
 /// cells have a common face in opposite directions, and the signed volumes of each component (cells connected
@@ -14,4 +14,4 @@ namespace quadloop {
 /// cells and patches must exist. O(n log n); linear if all volumes are positive.
 std::int64_t orient_mesh3d(FileMesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -247,4 +247,4 @@ LoadedMesh plane_of(MeshOfFile mesh, const std::string& path) {
                    "one cell thick between patches of type empty)");
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

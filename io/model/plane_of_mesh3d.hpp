@@ -7,7 +7,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Whether a patch marks the mesh as a plane one that is one cell thick.
 bool is_one_cell_thick(const FileMesh& mesh);
@@ -20,4 +20,4 @@ bool is_one_cell_thick(const FileMesh& mesh);
 /// other edges parallel to the axis to a millionth of its thickness. The cells' nodes must exist.
 LoadedMesh plane_of_mesh3d(const FileMesh& mesh3d, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

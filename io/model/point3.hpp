@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A position or a vector in space, in the geometry's unit of length.
 struct Point3 {
@@ -20,4 +20,4 @@ constexpr Point3 cross(Point3 a, Point3 b) {
 }
 inline double length(Point3 a) { return std::sqrt(dot(a, a)); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

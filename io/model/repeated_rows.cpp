@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace quadloop {
+namespace quadloop::io {
 
 void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
                       std::vector<std::string>& warnings) {
@@ -37,4 +37,4 @@ std::string some_names(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// For each row, returns which one of those with the same nodes, in any order, is kept: the smallest by
 /// `size_of(i)`, else the first.
@@ -52,4 +52,4 @@ void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
 /// Returns "'inlet', 'wall' and 3 more" for a warning, with at most five names.
 std::string some_names(const std::vector<std::string>& names);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

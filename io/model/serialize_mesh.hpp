@@ -5,7 +5,7 @@
 #include "io/files/reading/value_pipe.hpp"
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, StripLayers& strip) {
@@ -37,4 +37,4 @@ void pass_fields(Pipe& pipe, FileMesh& mesh) {
 /// that read it.
 void require_consistent(const FileMesh& mesh, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/model/layers_text.hpp"
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -127,4 +127,4 @@ bool is_sound(const StripLayers& strip, std::int64_t nodes_of_mesh) {
          std::ranges::adjacent_find(sorted) == sorted.end();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

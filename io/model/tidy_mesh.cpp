@@ -8,7 +8,7 @@
 #include "io/model/orient_cells.hpp"
 #include "mesher/mesh/topology.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -134,4 +134,4 @@ void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
                             mesh.boundaries.back().name));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

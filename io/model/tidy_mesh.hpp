@@ -4,7 +4,7 @@
 
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Repairs errors of a mesh from a file that have a unique remedy. Each change is added to its warnings, with
 /// `path`: nodes without cells are removed, with their rows of the solution; clockwise cells are reversed
@@ -15,4 +15,4 @@ namespace quadloop {
 /// and edges must exist. O(n log n).
 void tidy_mesh(LoadedMesh& loaded, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

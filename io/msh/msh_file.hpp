@@ -6,7 +6,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Version of the MSH text that is written.
 enum class MshVersion { msh_2_2, msh_4_1 };
@@ -29,4 +29,4 @@ std::string msh_group_name(std::string boundary);
 /// including inverted cells, are left to validate() and check_mesh3d().
 MeshOfFile read_msh(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 
 #include "io/model/repeated_rows.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void MshGroups::name_physical(int dimension, std::int64_t physical, std::string name) {
   names_[{dimension, std::abs(physical)}] = std::move(name);
@@ -69,4 +69,4 @@ std::string MshGroups::name_of(int dimension, std::int64_t physical) const {
                                                         : found->second;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

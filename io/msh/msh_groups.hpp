@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The physical groups of an MSH file: their names, and their points, curves, surfaces and volumes.
 class MshGroups {
@@ -39,4 +39,4 @@ class MshGroups {
   std::map<Key, std::int64_t> members_;  ///< number of members of groups, by dimension and tag
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::int64_t NodeTags::sort() {
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.tag < b.tag; });
@@ -20,4 +20,4 @@ NodeId NodeTags::node_of(std::int64_t tag) const {
   return found->tag == tag ? NodeId{found->node} : NodeId{};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Finds nodes by their tags in a file; tags may have gaps and be in any order.
 class NodeTags {
@@ -28,4 +28,4 @@ class NodeTags {
   std::vector<Entry> entries_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

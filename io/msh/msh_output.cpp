@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::string MshOutput::new_nodes_head(std::int64_t all) const {
          std::to_string(groups_.size()) + " 0 " + count + "\n";
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

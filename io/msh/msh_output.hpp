@@ -12,7 +12,7 @@
 #include "io/msh/msh_file.hpp"
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A physical group with its only curve, surface or volume, which has the same number.
 struct MshOutputGroup {
@@ -146,4 +146,4 @@ class MshOutput {
   std::int64_t next_ = 1;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/msh/msh_text.hpp"
 #include "io/msh/msh_values.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -221,4 +221,4 @@ class MshReader {
 
 MeshOfFile read_msh(const std::string& path) { return MshReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

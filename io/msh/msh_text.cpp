@@ -6,7 +6,7 @@
 
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -339,4 +339,4 @@ std::size_t MshText::read_element_block() {
   return count;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

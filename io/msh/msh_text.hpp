@@ -13,7 +13,7 @@
 #include "io/msh/msh_values.hpp"
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Gmsh's numbers of element types.
 enum MshType : std::uint8_t {
@@ -114,4 +114,4 @@ class MshText {
   const PutElement* put_element_ = nullptr;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

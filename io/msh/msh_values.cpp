@@ -7,7 +7,7 @@
 
 #include "io/msh/msh_text.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -129,4 +129,4 @@ CellValues msh_columns(const std::vector<MshValues>& sections, std::span<const s
   return result;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

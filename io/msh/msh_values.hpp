@@ -9,7 +9,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A section $NodeData or $ElementData: rows of `width` values by the tags of nodes or elements.
 struct MshValues {
@@ -37,4 +37,4 @@ MshSolution read_msh_values(TextScanner& scan);
 CellValues msh_columns(const std::vector<MshValues>& sections, std::span<const std::int64_t> tags,
                        const char* of, std::vector<std::string>& losses);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include "io/msh/msh_text.hpp"
 #include "io/stream/stream_blocks.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -103,4 +103,4 @@ void write_msh(OutputSet& outputs, const MeshStream& mesh, const std::string& pa
   MshWriter(mesh, outputs, path, version).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

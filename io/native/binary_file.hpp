@@ -6,7 +6,7 @@
 #include "io/model/loaded_mesh.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a plane mesh as a .qmesh file (docs/reference/formats.md) into the set, with its blocks and its
 /// solution: a text header, then nodes, cells, boundary edges and the solution as raw bytes, written by all
@@ -18,4 +18,4 @@ void write_binary(OutputSet& outputs, const MeshStream& mesh, const std::string&
 /// anything else; geometric errors are left to validate().
 LoadedMesh read_binary(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -193,4 +193,4 @@ BinaryHeader header_of_text(const std::string& text, std::int64_t size, const st
   return header;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The header of a .qmesh file, lines of text, which is followed by numbers as raw bytes.
 struct BinaryHeader {
@@ -51,4 +51,4 @@ std::string text_of(const BinaryHeader& header);
 /// the size of the numbers does not match that of the file.
 BinaryHeader header_of_text(const std::string& text, std::int64_t size, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -16,7 +16,7 @@
 #include "io/text/name_index.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -181,4 +181,4 @@ class BinaryReader {
 
 LoadedMesh read_binary(const std::string& path) { return BinaryReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

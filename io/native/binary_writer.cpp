@@ -10,7 +10,7 @@
 #include "io/native/binary_header.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -150,4 +150,4 @@ void write_binary(OutputSet& outputs, const MeshStream& mesh, const std::string&
   BinaryWriter(outputs, mesh, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

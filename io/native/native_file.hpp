@@ -6,7 +6,7 @@
 #include "io/model/loaded_mesh.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a plane mesh as native text into the set, block by block, with its solution; the bytes are the same
 /// on any number of ranks. Boundaries without edges are omitted. The solution must have a row for each owned
@@ -18,4 +18,4 @@ void write_native(OutputSet& outputs, const MeshStream& mesh, const std::string&
 /// validate().
 LoadedMesh read_native(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -203,4 +203,4 @@ class NativeReader {
 
 LoadedMesh read_native(const std::string& path) { return NativeReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

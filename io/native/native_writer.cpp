@@ -6,7 +6,7 @@
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -130,4 +130,4 @@ void write_native(OutputSet& outputs, const MeshStream& mesh, const std::string&
   writer.close();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/cgns/cgns_sink.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int32_t parts) {
   constexpr const char *data = "UserDefinedData_t", *array = "DataArray_t";
@@ -44,4 +44,4 @@ void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int
   nodes.close();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

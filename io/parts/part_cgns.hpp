@@ -3,7 +3,7 @@
 #include "io/files/output_file.hpp"
 #include "mesher/partition/mesh_part.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Adds to the completed CGNS file of a partition a UserDefinedData_t "Part" under its zone: DataArray_t
 /// "Number" (part, parts), "GlobalNodeNumber", "NodeOwner", "GlobalTriangleNumber", "GlobalQuadNumber", and
@@ -11,4 +11,4 @@ namespace quadloop {
 /// rank. Throws OutputError.
 void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int32_t parts);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -103,4 +103,4 @@ PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t pa
   return index;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

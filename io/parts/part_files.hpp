@@ -7,7 +7,7 @@
 #include "io/parts/part_index.hpp"
 #include "mesher/partition/mesh_part.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Returns the formats, by suffix, in which partitions are written: those of `formats` that support it. CGNS
 /// files of partitions have one zone, so they are excluded if there are several blocks.
@@ -47,4 +47,4 @@ class PartFiles {
 PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t parts,
                      const std::vector<std::string>& formats, const std::vector<std::string>& blocks);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

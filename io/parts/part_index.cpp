@@ -10,7 +10,7 @@
 #include "mesher/base/suffix.hpp"
 #include "mesher/partition/mesh_part.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -105,4 +105,4 @@ PartIndex read_part_index(const std::string& path) {
   return index;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

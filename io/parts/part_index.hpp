@@ -7,7 +7,7 @@
 #include "io/files/output_file.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Contents of PREFIX.parts: a set of partitions and the whole mesh.
 struct PartIndex {
@@ -35,4 +35,4 @@ void write_part_index(OutputSet& outputs, const PartIndex& index, const std::str
 /// On the calling rank only. Throws InputError.
 PartIndex read_part_index(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include "io/text/text_output.hpp"
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -115,4 +115,4 @@ MeshPart read_part_links(const std::string& path, std::int32_t part, std::int32_
   return LinksReader(path).read(part, parts);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

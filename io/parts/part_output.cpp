@@ -6,7 +6,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "mesher/partition/partition.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mesh& mesh, const PartData& data,
                            const PartRequest& request) {
@@ -38,4 +38,4 @@ PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, c
                      request);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

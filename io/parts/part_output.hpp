@@ -8,7 +8,7 @@
 #include "io/parts/part_files.hpp"
 #include "mesher/partition/mesh_part.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Request to write partitions of a mesh.
 struct PartRequest {
@@ -32,4 +32,4 @@ PartStatistics write_parts(PartFiles& files, const Communicator& comm, const Mes
 PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, const LoadedMesh& whole,
                                    PartRequest request);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

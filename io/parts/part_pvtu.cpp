@@ -6,7 +6,7 @@
 #include "io/vtu/pvtu_text.hpp"
 #include "io/vtu/vtu_layers.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const Field& field,
                      const std::string& prefix) {
@@ -23,4 +23,4 @@ void write_part_pvtu(OutputSet& outputs, const PartIndex& index, const Field& fi
   file.close();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/partition/join_parts.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -134,4 +134,4 @@ class PartReader {
 
 LoadedMesh read_parts(const std::string& path) { return PartReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/mesh/check/quality.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -182,4 +182,4 @@ CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& 
   return options.colouring == PlotColouring::block ? paint_blocks(loaded, cells) : paint_types(loaded, cells);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

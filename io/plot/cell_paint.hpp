@@ -10,7 +10,7 @@
 #include "io/plot/mesh_plot.hpp"
 #include "io/plot/plot_view.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Number of cells, and nodes of a cell; triangles come before quads.
 std::size_t cell_count(const Mesh& mesh);
@@ -36,4 +36,4 @@ FieldValues field_values(const LoadedMesh& loaded, const std::string& field);
 CellPaint paint_cells(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::vector<double> contour_levels(double low, double high, int count) {
   std::vector<double> levels;
@@ -30,4 +30,4 @@ void append_contours(const LinearPiece& piece, const std::vector<double>& levels
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

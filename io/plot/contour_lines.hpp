@@ -5,7 +5,7 @@
 
 #include "io/plot/value_raster.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Returns `count` equidistant values between low and high, exclusively.
 std::vector<double> contour_levels(double low, double high, int count);
@@ -14,4 +14,4 @@ std::vector<double> contour_levels(double low, double high, int count);
 void append_contours(const LinearPiece& piece, const std::vector<double>& levels,
                      std::vector<std::array<Point, 2>>& lines);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/plot/streamlines.hpp"
 #include "io/plot/value_raster.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -175,4 +175,4 @@ void FieldPainter::stroke_streamlines(const std::vector<double>& x_velocity,
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

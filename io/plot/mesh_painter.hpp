@@ -7,7 +7,7 @@
 #include "io/plot/plot_view.hpp"
 #include "io/plot/value_raster.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Draws a mesh on a canvas, layer by layer.
 class MeshPainter {
@@ -59,4 +59,4 @@ class FieldPainter {
   double resolution_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -15,7 +15,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -179,4 +179,4 @@ std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, Plot
   return Picture(loaded, options, format).draw();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 enum class PlotColouring { type, block, quality };
 
@@ -37,4 +37,4 @@ struct PlotOptions {
 /// cells, or a field that does not exist.
 std::string draw_mesh(const LoadedMesh& loaded, const PlotOptions& options, PlotFormat format);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/plot/canvas/ticks.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -177,4 +177,4 @@ void PlotView::draw_bar(Canvas& canvas, const ColourBar& bar) const {
   canvas.text({std::min(x, width_ - 8 - title), 0.5 * top}, bar.title);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 struct LegendEntry {
   Colour colour;
@@ -62,4 +62,4 @@ class PlotView {
   double scale_ = 1, width_ = 0, height_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <optional>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::vector<std::vector<Point>> streamlines(const ValueRaster& x_velocity, const
   return Tracer(x_velocity, y_velocity, distance).trace();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

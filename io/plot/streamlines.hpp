@@ -4,7 +4,7 @@
 
 #include "io/plot/value_raster.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Returns streamlines in coordinates of the sheet: about `count` of them across its shorter side, evenly
 /// distributed (Jobard and Lefer 1997: each starts beside an earlier one, and ends where it approaches one).
@@ -13,4 +13,4 @@ namespace quadloop {
 std::vector<std::vector<Point>> streamlines(const ValueRaster& x_velocity, const ValueRaster& y_velocity,
                                             int count);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/plot/cell_paint.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -164,4 +164,4 @@ Image ValueRaster::image(const ColourBar& bar) const {
   return image;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "mesher/geometry/point.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A triangle on the sheet with a linear value.
 struct LinearPiece {
@@ -50,4 +50,4 @@ class ValueRaster {
   std::vector<float> values_;  ///< NaN: no value; infinity: a value that is not finite
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

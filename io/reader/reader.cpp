@@ -18,7 +18,7 @@
 #include "io/tree/tree_share.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -82,7 +82,7 @@ void answer_to(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-}  // namespace quadloop
+}  // namespace quadloop::io
 
 int main(int count, char** texts) {
   const std::vector<std::string> arguments(texts + 1, texts + count);
@@ -91,7 +91,7 @@ int main(int count, char** texts) {
   std::atexit([] {
     ::_exit(EXIT_FAILURE);
   });  // libcgns calls exit() when memory runs out; exit handlers of libraries could crash on the data read
-  quadloop::limit_costs(std::stoull(arguments[0]), std::stoull(arguments[1]));
-  quadloop::answer_to(arguments);
+  quadloop::io::limit_costs(std::stoull(arguments[0]), std::stoull(arguments[1]));
+  quadloop::io::answer_to(arguments);
   ::_exit(EXIT_SUCCESS);
 }

@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -69,4 +69,4 @@ std::string add_cell_of_sides(FileMesh& mesh, std::span<const CellSide> sides, s
   return add<CellKind::hexahedron>(mesh, nodes, block);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A face of a cell, and whether its normal points out of the cell.
 struct CellSide {
@@ -22,4 +22,4 @@ std::int32_t opposite_node(std::span<const CellSide> sides, std::span<const std:
 /// Returns an error message if it is none of these, else an empty string.
 std::string add_cell_of_sides(FileMesh& mesh, std::span<const CellSide> sides, std::int32_t block);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "io/model/mesh3d_faces.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 HeldFaces::HeldFaces(const FileMesh& mesh, const std::string& path) : mesh_{mesh}, path_{path} {
   for (const FileBoundary& patch : mesh.boundaries) {
@@ -54,4 +54,4 @@ void HeldFaces::refuse() const {
                     "others; `quadloop check` says where");
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

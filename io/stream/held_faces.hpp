@@ -6,7 +6,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The faces of a mesh stored on one rank, for face-based formats: inner faces ordered by owner and
 /// neighbour, where the owner has the lower number (OpenFOAM's upper-triangular order); then those of each
@@ -44,4 +44,4 @@ class HeldFaces {
   std::vector<std::vector<std::int32_t>> of_patch_, local_of_patch_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "io/stream/stream_blocks.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::int64_t StreamCounts::largest_array() const {
   std::int64_t largest = nodes;
@@ -99,4 +99,4 @@ std::int64_t MeshStream::patch_quads() const {
   return sum;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

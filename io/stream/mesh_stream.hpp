@@ -14,7 +14,7 @@
 #include "io/model/file_mesh.hpp"
 #include "io/model/loaded_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A boundary of a mesh that is written to a file.
 struct StreamedPatch {
@@ -231,4 +231,4 @@ std::array<Number, width> as(const std::array<NodeNumber, width>& nodes, NodeNum
   return result;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::io {
 
 StreamBlocks::StreamBlocks(const MeshStream& stream)
     : stream_{stream}, layers_{std::max<std::int64_t>(1, stream.layers())} {
@@ -43,4 +43,4 @@ std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const Plane
   return numbers;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

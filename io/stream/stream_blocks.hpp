@@ -9,7 +9,7 @@
 #include "io/model/loaded_mesh.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Rows of a stream's cells.
 class BlockRows {
@@ -67,4 +67,4 @@ PlaneBlocks plane_blocks(const LoadedMesh& whole);
 /// a block are contiguous: block by block, in each triangles before quads, each in their order. *Collective.*
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 StreamCellValues::StreamCellValues(const MeshStream& stream)
     : stream_{stream}, held_{stream.held()}, layers_{std::max<std::int64_t>(1, stream.layers())} {
@@ -78,4 +78,4 @@ void StreamCellValues::find_cells_beside() {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The cell values of a mesh that is written to a file: each cell of an extruded mesh has the values of the
 /// plane cell below it. Rows are those of the stream. Faces of patches have the values of the adjacent cell,
@@ -80,4 +80,4 @@ class StreamCellValues {
   std::vector<std::vector<std::int32_t>> of_triangles_, of_quads_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

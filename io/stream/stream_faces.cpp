@@ -10,7 +10,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 StreamFaces::StreamFaces(const MeshStream& stream, CellNumbers numbers, const std::string& path)
     : stream_{stream} {
@@ -136,4 +136,4 @@ std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, co
   return edge_cells(comm, turned).of_boundary;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

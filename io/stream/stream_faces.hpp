@@ -15,7 +15,7 @@
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The faces of a mesh that is written to a file, for face-based formats, with the cells on both sides: edges
 /// of a plane mesh, faces of three or four nodes of a 3D mesh. An inner face is listed with its cell of lower
@@ -223,4 +223,4 @@ class StreamFaces {
 /// if there is none. *Collective.*
 std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -1,6 +1,6 @@
 #include "io/stream/vtk_cell.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string vtk_cell_name(std::int64_t type) {
   return number;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

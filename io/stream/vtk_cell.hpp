@@ -6,7 +6,7 @@
 
 #include "io/model/file_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// VTK's numbers of cell types.
 enum VtkCell : std::uint8_t {
@@ -51,4 +51,4 @@ std::array<Node, width> in_vtk_order(const std::array<Node, width>& nodes) {
 /// order 3)" for SU2's numbers of those.
 std::string vtk_cell_name(std::int64_t type);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

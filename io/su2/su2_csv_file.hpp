@@ -5,7 +5,7 @@
 #include "io/files/output_file.hpp"
 #include "io/model/loaded_solution.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads a table of nodal values in the format of SU2's restart file: a first line of names, optionally in
 /// double quotes, then one line per node, in the order of the mesh; a column "PointID", from 0, sorts the
@@ -22,4 +22,4 @@ LoadedSolution read_su2_csv(const std::string& path);
 void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma = 1.4);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

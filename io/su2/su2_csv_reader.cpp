@@ -7,7 +7,7 @@
 #include "io/su2/su2_csv_file.hpp"
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -164,4 +164,4 @@ class Su2CsvReader {
 
 LoadedSolution read_su2_csv(const std::string& path) { return Su2CsvReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

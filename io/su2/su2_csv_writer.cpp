@@ -2,7 +2,7 @@
 #include "io/su2/su2_restart_table.hpp"
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma) {
@@ -23,4 +23,4 @@ void write_su2_csv(OutputSet& outputs, const Mesh& mesh, const std::string& path
   file.close();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

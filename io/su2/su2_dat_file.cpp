@@ -14,7 +14,7 @@
 #include "io/su2/su2_restart_table.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -155,4 +155,4 @@ void write_su2_dat(OutputSet& outputs, const Mesh& mesh, const std::string& path
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include "io/files/output_file.hpp"
 #include "io/model/loaded_solution.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads SU2's binary restart file (SU2, CSU2BinaryFileWriter): five 32-bit integers (535532, the numbers of
 /// variables and of nodes, two unused), the variables' names in 33 bytes each, then a row of doubles for each
@@ -19,4 +19,4 @@ LoadedSolution read_su2_dat(const std::string& path);
 void write_su2_dat(OutputSet& outputs, const Mesh& mesh, const std::string& path, const Field& solution,
                    double gamma = 1.4);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a 2D or 3D mesh as SU2 text into the set; the bytes are the same on any number of ranks. Each
 /// boundary becomes a marker with its name in su2_marker_names(); prisms have the node order of a VTK wedge.
@@ -27,4 +27,4 @@ std::vector<std::string> su2_marker_names(const std::vector<std::string>& bounda
 /// cells, are left to validate() and check_mesh3d().
 MeshOfFile read_su2(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

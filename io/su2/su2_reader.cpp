@@ -6,7 +6,7 @@
 #include "io/su2/su2_file.hpp"
 #include "io/su2/su2_text.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -132,4 +132,4 @@ class Su2Reader {
 
 MeshOfFile read_su2(const std::string& path) { return Su2Reader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

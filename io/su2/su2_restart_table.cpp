@@ -5,7 +5,7 @@
 #include "io/text/text_scanner.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -72,4 +72,4 @@ std::array<double, 4> Su2RestartTable::conserved(std::span<const double> row) co
   return {density, density * u, density * v, pressure / (gamma_ - 1) + 0.5 * density * (u * u + v * v)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The columns of SU2's restart files after the coordinates: first its four conservative variables, if the
 /// solution has them or density, velocity and pressure from which they follow, then all other variables
@@ -44,4 +44,4 @@ class Su2RestartTable {
   std::vector<std::string> names_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::vector<std::string> Su2Text::warnings() const {
   return lines;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A line "KEY= value", by positions in the text; it is followed by the rows of the key.
 struct Su2Key {
@@ -80,4 +80,4 @@ class Su2Text {
   std::size_t first_odd_row_ = 0;  ///< its position
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

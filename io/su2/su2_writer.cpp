@@ -4,7 +4,7 @@
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -122,4 +122,4 @@ void write_su2(OutputSet& outputs, const MeshStream& mesh, const std::string& pa
   Su2Writer(outputs, mesh, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

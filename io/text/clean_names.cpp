@@ -7,7 +7,7 @@
 #include "io/text/name_index.hpp"
 #include "mesher/base/utf8.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::vector<std::string> clean_names(std::span<std::string* const> names, const 
       changed.begin()->second)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <cctype>
 #include <charconv>
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::string decimal_comma_in(std::string_view word) {
   const std::size_t comma = word.find(',');
@@ -22,4 +22,4 @@ std::string decimal_comma_in(std::string_view word) {
   return std::string(word) + ": a decimal comma; write " + number;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Numbers names in the order of their first occurrence and finds them in constant time: a file may have
 /// hundreds of thousands of boundaries.
@@ -54,4 +54,4 @@ class DistinctNames {
   std::unordered_map<std::string, std::int64_t> next_suffix_;  ///< by the wanted name
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

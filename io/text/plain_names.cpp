@@ -4,7 +4,7 @@
 
 #include "io/text/name_index.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -43,4 +43,4 @@ std::vector<std::string> plain_words(const std::vector<std::string>& names) {
   return distinct(names, plain_word);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -1,6 +1,6 @@
 #include "io/text/text_output.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 TextOutput::TextOutput(OutputSet& outputs, const std::string& path)
     : TextOutput(outputs.communicator(), outputs.stage(path)) {}
@@ -23,4 +23,4 @@ void TextOutput::close() {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,7 +12,7 @@
 #include "io/files/row_stream.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Appends numbers to a text in preallocated memory. Numbers are the shortest that read back bitwise.
 class TextRows {
@@ -127,4 +127,4 @@ class TextOutput {
   std::unique_ptr<OutputFile> file_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "io/text/decimal_comma.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -164,4 +164,4 @@ void TextScanner::refuse_at(std::size_t place, const std::string& message) const
   throw InputError(place_text(place) + ": " + message);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

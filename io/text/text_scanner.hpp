@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Whether a token is a number as a whole, also with a Fortran exponent (1.0D-3), in any locale; includes
 /// "nan" and "inf". Values outside the range of doubles become 0 or infinity.
@@ -66,4 +66,4 @@ class TextScanner {
   const char* comments_begin_ = nullptr;  ///< start of the range up to at_ that is searched for comments
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

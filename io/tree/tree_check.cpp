@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/morton.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -135,4 +135,4 @@ void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
   require_sum(comm, quads, tree.attributes.quads, "quadrilaterals", path);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

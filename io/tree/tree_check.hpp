@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Throws InputError if the attributes are impossible for this number of leaves; `path` begins the message.
 /// Not collective.
@@ -23,4 +23,4 @@ void require_possible_wall(const MeasuredWall& wall, const std::string& path);
 void require_whole_tree(const Communicator& comm, const TreeRecord& tree,
                         const std::optional<LeafRecord>& before, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

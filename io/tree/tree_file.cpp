@@ -14,7 +14,7 @@
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -200,4 +200,4 @@ void write_tree(const Communicator& comm, const TreeRecord& tree, const std::str
   outputs.commit();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Suffix of tree files.
 inline constexpr const char* tree_suffix = ".tree.h5";
@@ -25,4 +25,4 @@ void write_tree(const Communicator& comm, const TreeRecord& tree, const std::str
 /// truncated. *Collective.*
 TreeRecord read_tree(const Communicator& comm, const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Format name and version in a saved tree.
 inline constexpr const char* tree_format_name = "quadloop tree";
@@ -53,4 +53,4 @@ void for_each_tree_dataset(const Visit& visit) {
   visit("adapted", std::array{&LeafRecord::adapted});
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

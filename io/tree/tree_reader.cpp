@@ -5,7 +5,7 @@
 #include "io/tree/tree_file.hpp"
 #include "io/tree/tree_share.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 TreeRecord read_tree(const Communicator& comm, const std::string& path) {
   TreeShare share;
@@ -17,4 +17,4 @@ TreeRecord read_tree(const Communicator& comm, const std::string& path) {
   return std::move(share.tree);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

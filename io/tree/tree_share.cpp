@@ -9,7 +9,7 @@
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -161,4 +161,4 @@ TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64
   return share;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "io/files/reading/value_pipe.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The part of a tree file read by one rank.
 struct TreeShare {
@@ -25,4 +25,4 @@ void pass_fields(Pipe& pipe, TreeShare& share) {
 /// damaged. Throws InputError.
 TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64_t ranks);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes the mesh as UGRID with the byte order `order` (.b8.ugrid: big-endian; .lb8.ugrid: little-endian),
 /// and a .mapbc file with number, condition and name of each patch. Faces are counter-clockwise as seen from
@@ -48,4 +48,4 @@ BoundaryCondition condition_of_mapbc(int number);
 template <std::endian order>
 MeshOfFile read_ugrid(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

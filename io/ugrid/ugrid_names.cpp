@@ -7,7 +7,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -79,4 +79,4 @@ BoundaryCondition condition_of_mapbc(int number) {
   return BoundaryCondition::none;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

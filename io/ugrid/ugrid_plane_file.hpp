@@ -6,7 +6,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes the mesh as a 2D UGRID text file in the format of AFLR2 (SimCenter, Mississippi State University:
 /// UG_IO, 2D grid file types): seven counts, the last four 0; x, y and z = 0 of the nodes; the nodes of
@@ -19,4 +19,4 @@ void write_ugrid_plane(OutputSet& outputs, const MeshStream& mesh, const std::st
 /// .mapbc are "boundary_1" and so on. Data after the edges are ignored. Throws InputError "file:line: ...".
 MeshOfFile read_ugrid_plane(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -81,4 +81,4 @@ class UgridPlaneReader {
 
 MeshOfFile read_ugrid_plane(const std::string& path) { return UgridPlaneReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

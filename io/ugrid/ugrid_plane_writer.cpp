@@ -4,7 +4,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -65,4 +65,4 @@ void write_ugrid_plane(OutputSet& outputs, const MeshStream& mesh, const std::st
   UgridPlaneWriter(outputs, mesh, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -126,4 +126,4 @@ MeshOfFile read_ugrid(const std::string& path) {
 template MeshOfFile read_ugrid<std::endian::little>(const std::string&);
 template MeshOfFile read_ugrid<std::endian::big>(const std::string&);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -122,4 +122,4 @@ void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& 
 template void write_ugrid<std::endian::little>(OutputSet&, const MeshStream&, const std::string&);
 template void write_ugrid<std::endian::big>(OutputSet&, const MeshStream&, const std::string&);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a mesh as a parallel VTK file with one piece: "NAME_0.vtu", written as by write_vtu(), and
 /// "NAME.pvtu", which lists its arrays. Throws OutputError on all ranks. *Collective.*
@@ -17,4 +17,4 @@ void write_pvtu(OutputSet& outputs, const MeshStream& mesh, const std::string& p
 /// once. Throws InputError.
 MeshOfFile read_pvtu(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

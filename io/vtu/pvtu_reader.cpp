@@ -14,7 +14,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/mesh/part_names.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -172,4 +172,4 @@ class PvtuReader {
 
 MeshOfFile read_pvtu(const std::string& path) { return PvtuReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

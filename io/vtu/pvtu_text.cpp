@@ -5,7 +5,7 @@
 #include "io/vtu/vtu_text.hpp"
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::string pvtu_text(const PvtuList& list) {
   const auto arrays = [](const char* type, const std::vector<std::string>& names) {
@@ -31,4 +31,4 @@ std::string pvtu_piece_path(const std::string& path) {
   return piece.replace_filename(stem + "_0.vtu").string();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Contents of a parallel VTK file: arrays of each piece, and the pieces' files.
 struct PvtuList {
@@ -19,4 +19,4 @@ std::string pvtu_text(const PvtuList& list);
 /// Returns the piece of a .pvtu file with one piece: "NAME_0.vtu" for "NAME.pvtu".
 std::string pvtu_piece_path(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

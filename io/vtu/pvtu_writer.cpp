@@ -9,7 +9,7 @@
 #include "io/vtu/vtu_layers.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 void write_pvtu(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
   PvtuList list;
@@ -26,4 +26,4 @@ void write_pvtu(OutputSet& outputs, const MeshStream& mesh, const std::string& p
   write_vtu(outputs, mesh, pvtu_piece_path(path));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

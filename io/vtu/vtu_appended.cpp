@@ -4,7 +4,7 @@
 
 #include "io/vtu/vtu_text.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -55,4 +55,4 @@ void VtuAppended::write(const std::string& head) {
   });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "io/files/boundary_stream.hpp"
 #include "io/files/row_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A VTK XML file whose arrays are appended as raw little-endian bytes after the XML; all ranks write it
 /// together, through rank 0, and the bytes are the same on any number of ranks. Arrays must be declared
@@ -100,4 +100,4 @@ class VtuAppended {
   std::unique_ptr<OutputFile> file_;  ///< on rank 0 only
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

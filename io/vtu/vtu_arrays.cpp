@@ -11,7 +11,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -245,4 +245,4 @@ std::vector<std::string> VtuNumbers::texts(const VtuArray& array) const {
   return texts;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/vtu/vtu_document.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Reads the numbers of a document's arrays in any encoding. Errors name the line of the array.
 class VtuNumbers {
@@ -35,4 +35,4 @@ class VtuNumbers {
   const VtuDocument& document_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

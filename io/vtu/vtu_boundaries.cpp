@@ -7,7 +7,7 @@
 #include "io/model/repeated_rows.hpp"
 #include "io/stream/vtk_cell.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -77,4 +77,4 @@ std::string VtuBoundaryNumbers::name_of(std::int64_t number) const {
   return found == names.end() ? fmt::format("boundary_{}", number) : found->second;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

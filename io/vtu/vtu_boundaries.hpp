@@ -10,7 +10,7 @@
 #include "io/vtu/vtu_arrays.hpp"
 #include "io/vtu/vtu_document.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A number for each cell that assigns boundary elements to boundaries.
 struct VtuBoundaryNumbers {
@@ -31,4 +31,4 @@ VtuBoundaryNumbers find_boundary_numbers(const VtuDocument& document, const VtuN
                                          const std::vector<std::int64_t>& types, std::int64_t first_type,
                                          std::int64_t last_type);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -242,4 +242,4 @@ VtuDocument parse_vtu(const TextScanner& scan) {
   return document;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

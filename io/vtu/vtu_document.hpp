@@ -7,7 +7,7 @@
 
 #include "io/text/text_scanner.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A DataArray of a VTK XML file, by positions in the text.
 struct VtuArray {
@@ -40,4 +40,4 @@ std::vector<std::string> parse_pvtu(const TextScanner& scan);
 /// with exactly one piece.
 VtuDocument parse_vtu(const TextScanner& scan);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

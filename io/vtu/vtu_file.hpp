@@ -6,7 +6,7 @@
 #include "io/model/mesh_of_file.hpp"
 #include "io/stream/mesh_stream.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Writes a mesh as a VTK XML unstructured grid, raw appended, into the set; the bytes are the same on any
 /// number of ranks. Cells are ordered by kind, then boundary by boundary follow its edges as lines or, in a
@@ -30,4 +30,4 @@ void write_vtu(OutputSet& outputs, const MeshStream& mesh, const std::string& pa
 /// anything else.
 MeshOfFile read_vtu(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Names of field data with a number for each boundary: its number of layers, and their requested thickness.
 inline constexpr const char *vtu_layer_counts = "boundary_layers",
@@ -14,4 +14,4 @@ inline constexpr const char *vtu_strips = "strips";
 inline constexpr const char *vtu_layer_height_asked = "layer_height_asked",
                             *vtu_layer_height = "layer_height";
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,7 +12,7 @@
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -298,4 +298,4 @@ class VtuReader {
 
 MeshOfFile read_vtu(const std::string& path) { return VtuReader(path).read(); }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

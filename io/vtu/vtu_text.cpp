@@ -6,7 +6,7 @@
 
 #include "io/vtu/vtu_layers.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 std::string xml_escaped(const std::string& text) {
   std::string result;
@@ -47,4 +47,4 @@ std::string vtu_text_array(const std::string& name, const std::vector<std::strin
          "\" format=\"ascii\">\n" + codes + "</DataArray>\n";
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Escapes a text for an XML attribute; control characters become "_".
 std::string xml_escaped(const std::string& text);
@@ -16,4 +16,4 @@ std::string vtu_text_array(const std::string& name, const std::vector<std::strin
 /// dimension of its edges or faces. Names used by our own field data are omitted.
 std::string vtu_name_arrays(const std::vector<std::string>& names, int dimension);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

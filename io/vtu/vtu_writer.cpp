@@ -10,7 +10,7 @@
 #include "io/vtu/vtu_text.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -246,4 +246,4 @@ void write_vtu(OutputSet& outputs, const MeshStream& mesh, const std::string& pa
   VtuWriter(mesh, outputs, path).write();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,10 +2,12 @@
 
 namespace quadloop {
 
+using adapt::AdaptOptions;
+
 namespace {
 
 /// Reads a name, a list of names, { size = "h" } or { error = "e" }.
-SensorFields read_sensor_fields(const CaseTable& table, const std::string& key) {
+SensorFields read_sensor_fields(const io::CaseTable& table, const std::string& key) {
   using enum AdaptOptions::Source;
   if (!table.is_table(key)) {
     const std::vector<std::string> names = table.texts(key);
@@ -13,7 +15,7 @@ SensorFields read_sensor_fields(const CaseTable& table, const std::string& key) 
       table.refuse(key, "is empty; name what the marks are made from, as in variable = \"density\"");
     return {variables, names};
   }
-  const CaseTable field = *table.table(key);
+  const io::CaseTable field = *table.table(key);
   refuse_unknown_keys(field, {"size", "error"});
   const auto size_name = field.text("size"), error_name = field.text("error");
   if (size_name.has_value() == error_name.has_value())
@@ -26,7 +28,7 @@ ValueForm<SensorFields> sensor_fields() {
 }
 
 ValueForm<UntilKeys> until() {
-  return {"table", "{ cl = 1e-3 }", [](const CaseTable& table, const std::string& key) {
+  return {"table", "{ cl = 1e-3 }", [](const io::CaseTable& table, const std::string& key) {
             UntilKeys changes;
             until_keys().read(*table.table(key), changes);
             if (changes == UntilKeys{})
@@ -36,11 +38,11 @@ ValueForm<UntilKeys> until() {
 }
 
 /// These keys have other defaults and limits if they are fractions of the quadtree cells.
-void read_thresholds(const CaseTable& table, AdaptOptions& options) {
+void read_thresholds(const io::CaseTable& table, AdaptOptions& options) {
   const bool shares = options.threshold == AdaptOptions::Threshold::fraction;
   if (shares) {
-    options.refine = table.number("refine", {0, 1}).value_or(FractionRule{}.refine);
-    options.coarsen = table.number("coarsen", {0, 1}).value_or(FractionRule{}.coarsen);
+    options.refine = table.number("refine", {0, 1}).value_or(adapt::FractionRule{}.refine);
+    options.coarsen = table.number("coarsen", {0, 1}).value_or(adapt::FractionRule{}.coarsen);
     if (options.refine + options.coarsen > 1)
       table.refuse("coarsen", "with refine must be 1 at most: they are shares of the same leaves");
   } else if (-options.coarsen > options.refine) {
@@ -49,15 +51,15 @@ void read_thresholds(const CaseTable& table, AdaptOptions& options) {
 }
 
 /// Options of adaptation by a target size field instead of refinement flags.
-void take_norm(const CaseTable& table, AdaptOptions& options) {
+void take_norm(const io::CaseTable& table, AdaptOptions& options) {
   if (!options.norm) return;
   if (options.source == AdaptOptions::Source::size)
     table.refuse("norm", "makes sizes from variables or an error; name these in variable, or leave norm out");
-  if (table.has("indicator") && options.indicator != Indicator::hessian)
+  if (table.has("indicator") && options.indicator != adapt::Indicator::hessian)
     table.refuse("indicator", "must be \"hessian\" with norm, or left out");
   if (table.has("threshold") && options.threshold != AdaptOptions::Threshold::nodes)
     table.refuse("threshold", "must be \"nodes\" with norm, or left out");
-  options.indicator = Indicator::hessian;
+  options.indicator = adapt::Indicator::hessian;
   options.threshold = AdaptOptions::Threshold::nodes;
 }
 
@@ -66,11 +68,11 @@ void take_norm(const CaseTable& table, AdaptOptions& options) {
 const KeyTable<UntilKeys>& until_keys() {
   static const KeyTable<UntilKeys> keys{
       "adapt.until",
-      {key<&UntilKeys::cl>("cl", number(Range::positive()), "Change of the lift coefficient.",
+      {key<&UntilKeys::cl>("cl", number(io::Range::positive()), "Change of the lift coefficient.",
                            {.fallback = "none"}),
-       key<&UntilKeys::cd>("cd", number(Range::positive()), "Change of the drag coefficient.",
+       key<&UntilKeys::cd>("cd", number(io::Range::positive()), "Change of the drag coefficient.",
                            {.fallback = "none"}),
-       key<&UntilKeys::estimate>("estimate", number(Range::positive()),
+       key<&UntilKeys::estimate>("estimate", number(io::Range::positive()),
                                  "Change of the estimated error, relative to the cycle before.",
                                  {.fallback = "none", .needs = {{"adapt.norm"}}})}};
   return keys;
@@ -96,7 +98,7 @@ const KeyTable<AdaptKeys>& adapt_keys() {
                                "}` for an error estimate, written by the solver.",
                                {.fallback = "`\"density\"`"}),
        key<&AdaptKeys::options, &AdaptOptions::indicator>(
-           "indicator", choice(indicator_words),
+           "indicator", choice(adapt::indicator_words),
            "[Indicator](../explanation/adaptation.md) of the cells to refine."),
        key<&AdaptKeys::options, &AdaptOptions::threshold>(
            "threshold", choice(AdaptOptions::threshold_words),
@@ -132,20 +134,20 @@ const KeyTable<AdaptKeys>& adapt_keys() {
                               "End the run when the changes between cycles are below these ([stopping "
                               "criteria](../explanation/adaptation.md#stopping-criteria)).",
                               {.fallback = "none"}),
-       key<&AdaptKeys::options, &AdaptOptions::min>("min", number(Range::positive()),
+       key<&AdaptKeys::options, &AdaptOptions::min>("min", number(io::Range::positive()),
                                                     "Smallest cell size of adaptation.",
                                                     {.unit = "length", .fallback = "`spacing.min`"}),
        key<&AdaptKeys::options, &AdaptOptions::facets>("facets", flag(),
                                                        "Let cells at the points of a polygonal boundary "
                                                        "become smaller than half of the adjacent segments."),
        key<&AdaptKeys::options, &AdaptOptions::transfer>(
-           "transfer", choice(transfer_words),
+           "transfer", choice(adapt::transfer_words),
            "Transfer of node values; cell values are always transferred "
            "[conservatively](../explanation/adaptation.md#solution-transfer).")}};
   return keys;
 }
 
-std::optional<AdaptOptions> read_adapt_table(const CaseTable& root) {
+std::optional<AdaptOptions> read_adapt_table(const io::CaseTable& root) {
   const auto table = root.table("adapt");
   if (!table) return {};
   AdaptKeys keys;

@@ -11,8 +11,8 @@ namespace quadloop {
 
 /// The key `variable` of [adapt].
 struct SensorFields {
-  AdaptOptions::Source source = AdaptOptions::Source::variables;
-  std::vector<std::string> names = AdaptOptions{}.variables;
+  adapt::AdaptOptions::Source source = adapt::AdaptOptions::Source::variables;
+  std::vector<std::string> names = adapt::AdaptOptions{}.variables;
 
   friend bool operator==(const SensorFields&, const SensorFields&) = default;
 };
@@ -26,7 +26,7 @@ struct UntilKeys {
 
 /// The table [adapt].
 struct AdaptKeys {
-  AdaptOptions options;
+  adapt::AdaptOptions options;
   SensorFields fields;
   UntilKeys until;
 };
@@ -35,6 +35,6 @@ const KeyTable<AdaptKeys>& adapt_keys();
 const KeyTable<UntilKeys>& until_keys();
 
 /// Reads the table [adapt] of a case; empty if it has none. Throws InputError that names key and line.
-std::optional<AdaptOptions> read_adapt_table(const CaseTable& root);
+std::optional<adapt::AdaptOptions> read_adapt_table(const io::CaseTable& root);
 
 }  // namespace quadloop

@@ -19,7 +19,7 @@ namespace {
 
 /// Rejects a geometry file given in place of a case file, a likely slip.
 void require_case_file(const std::string& path) {
-  if (std::ranges::count(geometry_suffixes(), suffix_of(path)) > 0) {
+  if (std::ranges::count(io::geometry_suffixes(), suffix_of(path)) > 0) {
     throw InputError(path + ": is an outline, not a case file; write a case file with file = \"" + path +
                      "\" in its table [geometry]");
   }
@@ -30,7 +30,7 @@ void require_case_file(const std::string& path) {
 void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
   settings.files = {{path, path, settings.files.front().transform, {}, settings.files.front().unit}};
   if (!settings.far_field) return;
-  for (const Chain& chain : read_geometry(path, warnings)) {
+  for (const Chain& chain : io::read_geometry(path, warnings)) {
     if (chain.name == "farfield") settings.far_field.reset();
     if (!settings.far_field) return;
   }
@@ -56,7 +56,7 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
                                case_digest(options, settings.lines), settings.lines, settings.stretch});
-  if (arguments.saved) keep_root(*arguments.saved, *input.mesh);
+  if (arguments.saved) adapt::keep_root(*arguments.saved, *input.mesh);
   return input;
 }
 

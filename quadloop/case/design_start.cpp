@@ -34,8 +34,8 @@ constexpr const char* what_from_takes =
 std::string cycle_folder(const std::string& from, std::vector<std::string>& warnings) {
   std::string last;
   for (int cycle = 0;; ++cycle) {
-    const std::string folder = from + "/" + cycle_name(cycle);
-    if (is_there(CyclePaths{folder}.record())) {
+    const std::string folder = from + "/" + adapt::cycle_name(cycle);
+    if (is_there(adapt::CyclePaths{folder}.record())) {
       last = folder;
       continue;
     }
@@ -47,24 +47,25 @@ std::string cycle_folder(const std::string& from, std::vector<std::string>& warn
     break;
   }
   if (!last.empty()) return last;
-  if (is_there(CyclePaths{from}.native_mesh())) return from;
+  if (is_there(adapt::CyclePaths{from}.native_mesh())) return from;
   throw InputError(fmt::format("{}: holds no whole cycle to begin with; {}", from, what_from_takes));
 }
 
 /// Returns the settings in a cycle's record; empty if there is no record or it is incomplete.
-CaseSettings settings_of_cycle(const CyclePaths& paths) {
+adapt::CaseSettings settings_of_cycle(const adapt::CyclePaths& paths) {
   if (!is_there(paths.record())) return {};
-  const auto recorded = recorded_case(read_input(paths.record()));
-  return recorded ? recorded->settings : CaseSettings{};
+  const auto recorded = adapt::recorded_case(io::read_input(paths.record()));
+  return recorded ? recorded->settings : adapt::CaseSettings{};
 }
 
 /// Returns the settings of boundaries that have changed; empty if the former settings are not known.
-std::string changes_at_boundaries(const CaseSettings& before, const CaseSettings& now) {
+std::string changes_at_boundaries(const adapt::CaseSettings& before, const adapt::CaseSettings& now) {
   if (before.empty()) return {};
-  std::vector<ChangedSetting> changed = changed_settings(before, now);
-  std::erase_if(changed,
-                [](const ChangedSetting& change) { return !shapes_cells_at_boundaries(change.key); });
-  return text_of(changed);
+  std::vector<adapt::ChangedSetting> changed = adapt::changed_settings(before, now);
+  std::erase_if(changed, [](const adapt::ChangedSetting& change) {
+    return !adapt::shapes_cells_at_boundaries(change.key);
+  });
+  return adapt::text_of(changed);
 }
 
 /// Finds the files without reading them.
@@ -73,16 +74,16 @@ FormerMesh files_of(const std::string& from) {
   if (!is_there(from)) throw InputError(fmt::format("{}: is not there; {}", from, what_from_takes));
   std::error_code unreadable;
   if (fs::is_directory(from, unreadable)) {
-    const CyclePaths paths{cycle_folder(from, former.warnings)};
+    const adapt::CyclePaths paths{cycle_folder(from, former.warnings)};
     former.mesh_file = paths.native_mesh();
     former.tree_file = paths.tree();
     former.outline_file = paths.outline();
     former.settings = settings_of_cycle(paths);
   } else {
-    require_readable_suffix(from);
+    io::require_readable_suffix(from);
     const std::string stem = fs::path(from).replace_extension().string();
     former.mesh_file = from;
-    former.tree_file = stem + tree_suffix;
+    former.tree_file = stem + io::tree_suffix;
     former.outline_file = stem + ".geom";
   }
   if (!is_there(former.tree_file))
@@ -101,29 +102,29 @@ FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
     former = files_of(from);
     std::vector<std::string> told_when_it_was_meshed;
     if (!former.outline_file.empty())
-      former.outline = read_outline(former.outline_file, told_when_it_was_meshed);
+      former.outline = io::read_outline(former.outline_file, told_when_it_was_meshed);
   });
-  former.tree = read_tree(comm, former.tree_file);
+  former.tree = io::read_tree(comm, former.tree_file);
   return former;
 }
 
-DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
-                       const std::string& file, const CaseSettings& settings) {
-  LoadedMesh whole;
+adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
+                              const std::string& file, const adapt::CaseSettings& settings) {
+  io::LoadedMesh whole;
   comm.together([&] {
     if (!comm.is_root()) return;
-    whole = read_mesh(former.mesh_file);
+    whole = io::read_mesh(former.mesh_file);
     const auto count = [](const auto& rows) { return std::ssize(rows); };
-    require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
-                   former.tree.attributes, former.mesh_file, former.tree_file);
+    adapt::require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
+                          former.tree.attributes, former.mesh_file, former.tree_file);
   });
-  DesignStart start{spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)),
-                    {}};
+  adapt::DesignStart start{
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)), {}};
   start.solved.file = former.mesh_file;
-  require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
+  adapt::require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)
-    start.wish = MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr, former.outline_file,
-                           changes_at_boundaries(former.settings, settings)};
+    start.wish = adapt::MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr,
+                                  former.outline_file, changes_at_boundaries(former.settings, settings)};
   return start;
 }
 

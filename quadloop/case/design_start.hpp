@@ -13,10 +13,10 @@ namespace quadloop {
 /// Start of `adapt --from`: a solved mesh with its tree, and the geometry stored with them.
 struct FormerMesh {
   std::string mesh_file, tree_file;
-  std::string outline_file;         ///< empty if there is none
-  TreeRecord tree;                  ///< this rank's part
-  std::optional<Geometry> outline;  ///< on every rank
-  CaseSettings settings = {};       ///< of the case that the mesh was made for; empty: not known
+  std::string outline_file;           ///< empty if there is none
+  TreeRecord tree;                    ///< this rank's part
+  std::optional<Geometry> outline;    ///< on every rank
+  adapt::CaseSettings settings = {};  ///< of the case that the mesh was made for; empty: not known
   std::vector<std::string> warnings = {};
 };
 
@@ -27,7 +27,7 @@ FormerMesh find_former_mesh(const Communicator& comm, const std::string& from);
 /// Reads the mesh and its solution. `former` must outlive the result; its tree is moved out. With `morph_to`,
 /// the cells are to be kept on the changed geometry (`file`, for messages) by a case with these settings.
 /// Throws InputError if mesh and tree do not belong together. *Collective.*
-DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
-                       const std::string& file, const CaseSettings& settings);
+adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std::optional<double> morph_to,
+                              const std::string& file, const adapt::CaseSettings& settings);
 
 }  // namespace quadloop

@@ -6,26 +6,26 @@
 
 namespace quadloop {
 
-std::optional<FreeStream> FlowSettings::stream() const {
+std::optional<flow::FreeStream> FlowSettings::stream() const {
   if (!pressure) return {};
-  return FreeStream{density, *pressure, speed, alpha, gamma, viscosity(), reference_length};
+  return flow::FreeStream{density, *pressure, speed, alpha, gamma, viscosity(), reference_length};
 }
 
 const KeyTable<FlowSettings>& flow_keys() {
   static const KeyTable<FlowSettings> keys{
       "flow",
       {key<&FlowSettings::reynolds>(
-           "reynolds", number(Range::positive()),
+           "reynolds", number(io::Range::positive()),
            "Reynolds number based on `reference_length`, at least 1000. With `pressure` any number above 0 "
            "is "
            "allowed; without `reynolds` the walls then have no friction.",
            {.example = "5000",
             .required = {{"speed times reference length over kinematic viscosity", "no pressure"}}}),
-       key<&FlowSettings::reference_length>("reference_length", number(Range::positive()),
+       key<&FlowSettings::reference_length>("reference_length", number(io::Range::positive()),
                                             "Reference length of `reynolds`.", {.unit = "length"}),
-       key<&FlowSettings::density>("density", number(Range::positive()),
+       key<&FlowSettings::density>("density", number(io::Range::positive()),
                                    "Free-stream density in the units of the solver."),
-       key<&FlowSettings::speed>("speed", number(Range::positive()),
+       key<&FlowSettings::speed>("speed", number(io::Range::positive()),
                                  "Free-stream speed in the units of the solver. Viscosity is density times "
                                  "speed times `reference_length` / `reynolds`."),
        key<&FlowSettings::pressure>("pressure", number(),
@@ -48,7 +48,7 @@ const KeyTable<FlowSettings>& flow_keys() {
 
 namespace {
 
-void take_mach(const CaseTable& table, FlowSettings& flow) {
+void take_mach(const io::CaseTable& table, FlowSettings& flow) {
   if (!flow.mach) return;
   const double sound = flow.pressure ? std::sqrt(flow.gamma * *flow.pressure / flow.density) : 1;
   if (!table.has("speed")) flow.speed = *flow.mach * sound;
@@ -61,7 +61,7 @@ void take_mach(const CaseTable& table, FlowSettings& flow) {
 
 }  // namespace
 
-std::optional<FlowSettings> read_flow_table(const CaseTable& root) {
+std::optional<FlowSettings> read_flow_table(const io::CaseTable& root) {
   const auto table = root.table("flow");
   if (!table) return {};
   FlowSettings flow;

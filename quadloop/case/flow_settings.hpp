@@ -23,12 +23,12 @@ struct FlowSettings {
   /// Dynamic viscosity; 0 if no Reynolds number is given.
   double viscosity() const { return reynolds ? density * speed * reference_length / *reynolds : 0; }
   /// Returns the free stream; empty without a pressure, as coefficients need one.
-  std::optional<FreeStream> stream() const;
+  std::optional<flow::FreeStream> stream() const;
 };
 
 const KeyTable<FlowSettings>& flow_keys();
 
 /// Reads the table; empty if the case has none. Throws InputError that names key and line.
-std::optional<FlowSettings> read_flow_table(const CaseTable& root);
+std::optional<FlowSettings> read_flow_table(const io::CaseTable& root);
 
 }  // namespace quadloop

@@ -12,18 +12,19 @@ namespace quadloop {
 namespace {
 
 /// Reads a word, a list of words, or a table of words with error weights.
-GoalWeights read_quantities(const CaseTable& table, const std::string& key) {
-  const std::vector<std::string> words = words_of(Goal::words);
+GoalWeights read_quantities(const io::CaseTable& table, const std::string& key) {
+  const std::vector<std::string> words = words_of(flow::Goal::words);
   GoalWeights goals;
   if (table.is_table(key)) {
-    const CaseTable weights = *table.table(key);
+    const io::CaseTable weights = *table.table(key);
     refuse_unknown_keys(weights, words);
-    for (const auto& [word, quantity] : Goal::words) {
-      if (const auto weight = weights.number(word, Range::positive())) goals.emplace_back(quantity, *weight);
+    for (const auto& [word, quantity] : flow::Goal::words) {
+      if (const auto weight = weights.number(word, io::Range::positive()))
+        goals.emplace_back(quantity, *weight);
     }
   } else {
     for (const std::string& word : texts(words).read(table, key)) {
-      const std::pair goal{*value_of(Goal::words, word), 1.0};
+      const std::pair goal{*value_of(flow::Goal::words, word), 1.0};
       if (std::ranges::count(goals, goal) > 0) table.refuse(key, fmt::format("names '{}' twice", word));
       goals.push_back(goal);
     }
@@ -55,25 +56,26 @@ std::vector<Key<SolverSettings>> goal_keys() {
                                     {.fallback = "all walls", .needs = {{"goal"}}}),
       key<&SolverSettings::goal_about>("goal_about", point(), "Reference point of a moment.",
                                        {.fallback = "`[0, 0]`", .needs = {{"goal"}}}),
-      key<&SolverSettings::euler, &EulerOptions::adjoint_fields>(
+      key<&SolverSettings::euler, &flow::EulerOptions::adjoint_fields>(
           "goal_adjoint", choice<bool>({{"none", false}, {"write", true}}),
           "`write`: the adjoint solution and the derivatives of the functional with respect to node "
           "positions are added to the variables of the flow.",
           {.needs = {{"goal"}}})};
 }
 
-void place_goals(const CaseTable& table, SolverSettings& settings) {
+void place_goals(const io::CaseTable& table, SolverSettings& settings) {
   const Point about = settings.goal_about.value_or(Point{});
   for (const auto& [quantity, weight] : settings.goals)
     settings.euler.goals.push_back({quantity, settings.goal_on, about, weight});
   if (settings.goal_about &&
-      std::ranges::count(settings.euler.goals, Goal::Quantity::moment, &Goal::quantity) == 0)
+      std::ranges::count(settings.euler.goals, flow::Goal::Quantity::moment, &flow::Goal::quantity) == 0)
     table.refuse("goal_about", "is the point of a moment; add \"moment\" to goal");
 }
 
-std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries) {
-  std::vector<Goal> result = goals;
-  for (Goal& goal : result) {
+std::vector<flow::Goal> goals_on(const std::vector<flow::Goal>& goals,
+                                 const std::vector<std::string>& boundaries) {
+  std::vector<flow::Goal> result = goals;
+  for (flow::Goal& goal : result) {
     const std::vector<std::string> patterns = goal.boundaries;
     goal.boundaries.clear();
     for (const std::string& name : boundaries) {

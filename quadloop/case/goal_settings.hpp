@@ -13,10 +13,11 @@ std::vector<Key<SolverSettings>> goal_keys();
 
 /// Creates the functionals with their boundaries, which are still patterns, and the reference point of
 /// moments. Throws InputError that names key and line.
-void place_goals(const CaseTable& table, SolverSettings& settings);
+void place_goals(const io::CaseTable& table, SolverSettings& settings);
 
 /// Replaces the patterns of the functionals by the names of the matching boundaries. Throws InputError for a
 /// pattern that matches none.
-std::vector<Goal> goals_on(const std::vector<Goal>& goals, const std::vector<std::string>& boundaries);
+std::vector<flow::Goal> goals_on(const std::vector<flow::Goal>& goals,
+                                 const std::vector<std::string>& boundaries);
 
 }  // namespace quadloop

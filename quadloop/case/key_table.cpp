@@ -14,15 +14,17 @@
 
 namespace quadloop {
 
+using io::CaseTable;
+
 namespace {
 
-std::string text_of(const Range& range) {
+std::string text_of(const io::Range& range) {
   const std::string text = range.text();
   return text == "finite" ? "" : ", " + text;
 }
 
 /// Returns a number inside the range that is neither a limit nor a usual default.
-double inside(const Range& range) {
+double inside(const io::Range& range) {
   const double low = std::isfinite(range.low) ? range.low : 0;
   return std::isfinite(range.high) ? low + 0.3 * (range.high - low) : low + 3;
 }
@@ -122,13 +124,13 @@ std::string words_in_text(const std::vector<std::string>& words) {
   return text;
 }
 
-ValueForm<double> number(const Range& range) {
+ValueForm<double> number(const io::Range& range) {
   return {"number" + text_of(range), fmt::format("{}", inside(range)),
           [range](const CaseTable& table, const std::string& key) { return *table.number(key, range); },
           [](double value) { return json_of(value); }};
 }
 
-ValueForm<std::int64_t> whole(const Range& range) {
+ValueForm<std::int64_t> whole(const io::Range& range) {
   return {"whole number" + text_of(range), fmt::format("{}", std::ceil(inside(range))),
           [range](const CaseTable& table, const std::string& key) { return *table.whole(key, range); },
           [](std::int64_t value) { return json_of(value); }};

@@ -60,15 +60,15 @@ struct TableText {
 /// How the value of a key is read, described and printed.
 template <class Value>
 struct ValueForm {
-  std::string text;                                                     ///< "number, above 0"
-  std::string example;                                                  ///< as KeyText::example
-  std::function<Value(const CaseTable&, const std::string& key)> read;  ///< throws InputError
+  std::string text;                                                         ///< "number, above 0"
+  std::string example;                                                      ///< as KeyText::example
+  std::function<Value(const io::CaseTable&, const std::string& key)> read;  ///< throws InputError
   /// As JSON, empty for none; if not set, there is no default to print.
   std::function<std::string(const Value&)> show = {};
 };
 
-ValueForm<double> number(const Range& range = {});
-ValueForm<std::int64_t> whole(const Range& range);
+ValueForm<double> number(const io::Range& range = {});
+ValueForm<std::int64_t> whole(const io::Range& range);
 ValueForm<bool> flag();
 ValueForm<std::string> text();
 /// One string or a list of them; restricted to `words`, if there are any.
@@ -83,7 +83,7 @@ template <class Value>
 ValueForm<Value> choice(std::vector<std::pair<const char*, Value>> values) {
   std::vector<std::string> words;
   for (const auto& [word, value] : values) words.emplace_back(word);
-  const auto read = [values, words](const CaseTable& table, const std::string& key) {
+  const auto read = [values, words](const io::CaseTable& table, const std::string& key) {
     const std::string chosen = table.known_word(key, *table.text(key), words);
     return values[std::ranges::find(words, chosen) - words.begin()].second;
   };
@@ -104,7 +104,7 @@ ValueForm<Value> choice(const WordTable<Value, count>& values) {
 template <class Target>
 struct Key {
   KeyText text;
-  std::function<void(const CaseTable&, Target&)> read;        ///< called if the table has the key
+  std::function<void(const io::CaseTable&, Target&)> read;    ///< called if the table has the key
   std::function<bool(const Target&, const Target&)> differs;  ///< whether the member differs
 };
 
@@ -145,7 +145,7 @@ auto key(const std::string& name, ValueForm<Value> form, const std::string& mean
     const std::optional<Taken> initial = member;
     if (form.show && initial) text.initial = form.show(static_cast<Value>(*initial));
   }
-  const auto read = [name, form](const CaseTable& table, Target& target) {
+  const auto read = [name, form](const io::CaseTable& table, Target& target) {
     member_of<first, path...>(target) = static_cast<Taken>(form.read(table, name));
   };
   const auto differs = [](const Target& a, const Target& b) {
@@ -155,11 +155,11 @@ auto key(const std::string& name, ValueForm<Value> form, const std::string& mean
 }
 
 /// Throws InputError, with the nearest known key, for the first key of the table that is not in `names`.
-void refuse_unknown_keys(const CaseTable& table, const std::vector<std::string>& names);
+void refuse_unknown_keys(const io::CaseTable& table, const std::vector<std::string>& names);
 
 /// Throws InputError for a missing required key, and for a key whose requirements are not met, or warns of
 /// it.
-void require_needs(const CaseTable& table, const TableText& text);
+void require_needs(const io::CaseTable& table, const TableText& text);
 
 /// The keys of one table, with the options that they set.
 template <class Target>
@@ -174,7 +174,7 @@ class KeyTable {
   const std::vector<Key<Target>>& keys() const { return keys_; }
 
   /// Throws InputError with location, key and remedy.
-  void read(const CaseTable& table, Target& target) const {
+  void read(const io::CaseTable& table, Target& target) const {
     std::vector<std::string> names;
     for (const KeyText& key : text_.keys) names.push_back(key.name);
     refuse_unknown_keys(table, names);
@@ -191,7 +191,7 @@ class KeyTable {
     std::vector<Key<Whole>> lifted;
     for (const Key<Target>& key : keys_) {
       lifted.push_back({key.text,
-                        [read = key.read](const CaseTable& t, Whole& whole) { read(t, whole.*member); },
+                        [read = key.read](const io::CaseTable& t, Whole& whole) { read(t, whole.*member); },
                         [differs = key.differs](const Whole& a, const Whole& b) {
                           return differs(a.*member, b.*member);
                         }});

@@ -20,7 +20,8 @@ namespace {
 constexpr int most_layers = 1000;
 
 /// Returns the flow conditions for a y+.
-FlowConditions conditions_of_y_plus(const CaseTable& table, const std::string& key, const std::string& text) {
+FlowConditions conditions_of_y_plus(const io::CaseTable& table, const std::string& key,
+                                    const std::string& text) {
   const auto flow = read_flow_table(table.root());
   if (!flow)
     table.refuse(key, fmt::format("is '{}', which needs a Reynolds number: write a table [flow] with "
@@ -33,13 +34,13 @@ FlowConditions conditions_of_y_plus(const CaseTable& table, const std::string& k
   return {*flow->reynolds, flow->reference_length};
 }
 
-FirstHeight read_first_height(const CaseTable& table, const std::string& key) {
-  if (!table.is_text(key)) return {*table.number(key, Range::positive())};
+FirstHeight read_first_height(const io::CaseTable& table, const std::string& key) {
+  if (!table.is_text(key)) return {*table.number(key, io::Range::positive())};
   constexpr std::string_view head = "yplus:";
   const std::string text = *table.text(key);
   double y_plus = 0;
   const bool is_y_plus = text.starts_with(head) &&
-                         parse_real(std::string_view(text).substr(head.size()), y_plus) &&
+                         io::parse_real(std::string_view(text).substr(head.size()), y_plus) &&
                          std::isfinite(y_plus) && y_plus > 0;
   if (!is_y_plus)
     table.refuse(key,
@@ -49,14 +50,14 @@ FirstHeight read_first_height(const CaseTable& table, const std::string& key) {
   return {height_of_y_plus(y_plus, conditions_of_y_plus(table, key, text)), y_plus};
 }
 
-GrowthRange read_growth(const CaseTable& table, const std::string& key) {
+GrowthRange read_growth(const io::CaseTable& table, const std::string& key) {
   const std::vector<double> growth = table.numbers_or_one(key, {1, 2, true, false});
   if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
     table.refuse(key, "must be a number, or two of which the second is not less");
   return {growth.front(), growth.back()};
 }
 
-std::vector<Point> read_path(const CaseTable& table, const std::string& key) {
+std::vector<Point> read_path(const io::CaseTable& table, const std::string& key) {
   std::vector<Point> path;
   for (const std::vector<double>& point : table.pairs(key)) {
     path.push_back({point[0], point[1]});
@@ -69,7 +70,7 @@ std::vector<Point> read_path(const CaseTable& table, const std::string& key) {
 ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 2]]", read_path}; }
 
 /// Combines the keys read from a table to layers.
-LayerSpec layers_of(const CaseTable& table, const LayerKeys& keys) {
+LayerSpec layers_of(const io::CaseTable& table, const LayerKeys& keys) {
   LayerSpec spec{keys.first.height, keys.growth.low, keys.growth.high,
                  keys.count,        keys.equal,      keys.first.y_plus};
   if (keys.thickness) {
@@ -87,9 +88,9 @@ LayerSpec layers_of(const CaseTable& table, const LayerKeys& keys) {
 }
 
 ValueForm<LayerSpec> layers() {
-  return {"table", "{ first = 1e-3, count = 5 }", [](const CaseTable& table, const std::string& key) {
+  return {"table", "{ first = 1e-3, count = 5 }", [](const io::CaseTable& table, const std::string& key) {
             LayerKeys keys;
-            const CaseTable below = *table.table(key);
+            const io::CaseTable below = *table.table(key);
             layer_keys().read(below, keys);
             return layers_of(below, keys);
           }};
@@ -126,7 +127,7 @@ const KeyTable<LayerKeys>& layer_keys() {
                               {.required = {{"how many layers, or with thickness how thick they are together",
                                              "no thickness"}}}),
        key<&LayerKeys::thickness>(
-           "thickness", number(Range::positive()),
+           "thickness", number(io::Range::positive()),
            "Total thickness: the smallest number of layers that reaches it. The last layer may exceed it.",
            {.unit = "length", .needs = {{"no count", "give one of them"}}}),
        key<&LayerKeys::equal>("equal", whole({1, most_layers}),
@@ -150,13 +151,14 @@ const KeyTable<LayerLine>& wake_keys() {
                            "A point near the trailing edge, if `from` has several. The nearest edge is used, "
                            "at most 1/20 of the extent of the boundary away.",
                            {.fallback = "none"}),
-       key<&LayerLine::length>("length", number(Range::positive()),
+       key<&LayerLine::length>("length", number(io::Range::positive()),
                                "Length of a straight wake. Alternative to `path`.",
                                {.unit = "length",
                                 .needs = {{"no path"}},
                                 .required = {{"how far the wake goes on, or with path where", "no path"}}}),
        key<&LayerLine::path>("path", path(), "The points that the wake leads to."),
-       key<&LayerLine::spacing>("spacing", number(Range::positive()), "Target cell length along the line.",
+       key<&LayerLine::spacing>("spacing", number(io::Range::positive()),
+                                "Target cell length along the line.",
                                 {.unit = "length", .required = {{"the length of cells along the line"}}})}};
   return keys;
 }
@@ -168,7 +170,7 @@ const KeyTable<LayerLineKeys>& layer_line_keys() {
           {{key<&LayerLineKeys::line, &LayerLine::path>("path", path(), "The points of the line.",
                                                         {.required = {{"the points of the line"}}}),
             key<&LayerLineKeys::line, &LayerLine::spacing>(
-                "spacing", number(Range::positive()), "Target cell length along the line.",
+                "spacing", number(io::Range::positive()), "Target cell length along the line.",
                 {.unit = "length", .required = {{"the length of cells along the line"}}})},
            layer_keys().keys_of<&LayerLineKeys::layers>()})};
   return keys;
@@ -182,7 +184,7 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
   static const KeyTable<BoundaryKeys> keys{
       "boundary.NAME",
       {key<&BoundaryKeys::rule, &BoundaryRule::spacing>(
-           "spacing", number(Range::positive()),
+           "spacing", number(io::Range::positive()),
            "Largest cell size on this boundary. An edge between two feature points (a blunt trailing edge) "
            "also requests its own length, down to `spacing.min`.",
            {.unit = "length", .fallback = "point spacing of the geometry"}),
@@ -190,7 +192,7 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "corner", number({0, 180}), "Feature angle of this boundary.",
            {.unit = "degrees", .fallback = "`spacing.corner`"}),
        key<&BoundaryKeys::rule, &BoundaryRule::corner_spacing>(
-           "corner_spacing", number(Range::positive()),
+           "corner_spacing", number(io::Range::positive()),
            "Largest size of cells at a sharp corner of this boundary, where it turns by more than `corner`.",
            {.unit = "length", .fallback = "none"}),
        key<&BoundaryKeys::rule, &BoundaryRule::condition>(
@@ -205,10 +207,11 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "[layers](../explanation/layers.md).",
            {.fallback = "none"}),
        key<&BoundaryKeys::pressure>(
-           "pressure", number(Range::positive()), "Static back pressure divided by the free-stream pressure.",
+           "pressure", number(io::Range::positive()),
+           "Static back pressure divided by the free-stream pressure.",
            {.fallback = "none: supersonic outflow, choked where subsonic", .needs = {{"bc = \"outflow\""}}}),
        key<&BoundaryKeys::wall_temperature>(
-           "wall_temperature", number(Range::positive()),
+           "wall_temperature", number(io::Range::positive()),
            "Wall temperature divided by the free-stream temperature in a viscous flow.",
            {.fallback = "adiabatic",
             .needs = {{"bc = \"wall\""},
@@ -216,7 +219,7 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
   return keys;
 }
 
-void read_boundary_tables(const CaseTable& boundaries, Settings& settings) {
+void read_boundary_tables(const io::CaseTable& boundaries, Settings& settings) {
   for (const std::string& name : boundaries.keys()) {
     const auto table = *boundaries.table(name);
     BoundaryKeys keys;
@@ -232,7 +235,7 @@ void read_boundary_tables(const CaseTable& boundaries, Settings& settings) {
   }
 }
 
-LayerLine read_wake(const CaseTable& table) {
+LayerLine read_wake(const io::CaseTable& table) {
   LayerLine wake;
   wake.where = table.place();
   wake_keys().read(table, wake);
@@ -241,7 +244,7 @@ LayerLine read_wake(const CaseTable& table) {
   return wake;
 }
 
-LayerLine read_layer_line(const CaseTable& table, Settings& settings) {
+LayerLine read_layer_line(const io::CaseTable& table, Settings& settings) {
   LayerLineKeys keys;
   keys.line.where = table.place();
   layer_line_keys().read(table, keys);
@@ -252,12 +255,12 @@ LayerLine read_layer_line(const CaseTable& table, Settings& settings) {
   return keys.line;
 }
 
-std::optional<WallFlow> wall_flow(const Settings& settings) {
+std::optional<adapt::WallFlow> wall_flow(const Settings& settings) {
   const SolverSettings& solver = settings.solver;
   if (!settings.flow || !settings.wants_y_plus) return {};
   if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
-    return WallFlow{solver.euler.viscosity, 1};
-  return WallFlow{settings.flow->viscosity(), settings.flow->density};
+    return adapt::WallFlow{solver.euler.viscosity, 1};
+  return adapt::WallFlow{settings.flow->viscosity(), settings.flow->density};
 }
 
 Warnings unused_flow(const Settings& settings) {

@@ -55,13 +55,13 @@ const KeyTable<LayerLineKeys>& layer_line_keys();
 const KeyTable<BoundaryKeys>& boundary_keys();
 
 /// Read all [boundary.NAME], a [[wake]], a [[layer_line]]. Throw InputError that names key and line.
-void read_boundary_tables(const CaseTable& boundaries, Settings& settings);
-LayerLine read_wake(const CaseTable& table);
-LayerLine read_layer_line(const CaseTable& table, Settings& settings);
+void read_boundary_tables(const io::CaseTable& boundaries, Settings& settings);
+LayerLine read_wake(const io::CaseTable& table);
+LayerLine read_layer_line(const io::CaseTable& table, Settings& settings);
 
 /// Returns the flow that converts a solution's wall shear to wall units, if the layers of a wall specify a
 /// y+. The viscosity is that of a laminar flow, else that of [flow].
-std::optional<WallFlow> wall_flow(const Settings& settings);
+std::optional<adapt::WallFlow> wall_flow(const Settings& settings);
 
 /// Returns a warning if there is a table [flow] that is used neither by layers nor by an external solver.
 /// Call it after all tables have been read.

@@ -36,7 +36,7 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
     for (const Point p : chain.points) extent.box.include(p);
   }
   if (input.unit == "none") return;
-  extent.metres = input.unit == "file" ? extent.declared.metres : *metres_in(input.unit);
+  extent.metres = input.unit == "file" ? extent.declared.metres : *io::metres_in(input.unit);
   if (extent.metres > 0) return;
   throw InputError(fmt::format(
       "{}: geometry.unit = \"file\", but the file declares no unit of length{}; name its unit, as in unit = "
@@ -48,7 +48,7 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
 /// Throws InputError for an entry of geometry.layers that matches no layer of any file.
 void require_layers(const std::vector<GeometryInput>& files, const std::set<std::string>& known) {
   for (const std::string& pattern : files.front().layers) {
-    if (std::ranges::any_of(known, [&](const std::string& name) { return matches_layer(pattern, name); }))
+    if (std::ranges::any_of(known, [&](const std::string& name) { return io::matches_layer(pattern, name); }))
       continue;
     const std::vector<std::string> names(known.begin(), known.end());
     throw InputError(fmt::format("{}: geometry.layers: no layer matches '{}'; the layers are: {}{}",
@@ -93,7 +93,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
           input.where, input.path));
     }
     FileExtent extent;
-    std::vector<Chain> of_file = read_geometry(input.path, warnings, input.layers, &extent.declared);
+    std::vector<Chain> of_file = io::read_geometry(input.path, warnings, input.layers, &extent.declared);
     note_extent(input, of_file, extent);
     layers.insert(extent.declared.layers.begin(), extent.declared.layers.end());
     if (extents != nullptr) extents->push_back(extent);
@@ -102,7 +102,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
       for (Chain& chain : of_file) join_by_splines(chain, options.default_corner_degrees);
     }
     apply(transform, of_file);
-    if (!settings.inside && is_airfoil_file(input.path)) {
+    if (!settings.inside && io::is_airfoil_file(input.path)) {
       for (const Chain& chain : of_file) options.bodies.push_back(chain.name);
     }
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));

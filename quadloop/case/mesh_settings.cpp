@@ -16,7 +16,7 @@ namespace {
 
 /// Sets the value of one file, from one value for all files or a list with one per file.
 template <class Value, class Set>
-void share_out(const CaseTable& table, const std::string& key, const std::vector<Value>& values,
+void share_out(const io::CaseTable& table, const std::string& key, const std::vector<Value>& values,
                std::vector<GeometryInput>& files, const Set& set) {
   if (values.size() > 1 && values.size() != files.size())
     table.refuse(key,
@@ -26,14 +26,14 @@ void share_out(const CaseTable& table, const std::string& key, const std::vector
     set(files[i], values[values.size() == 1 ? 0 : i]);
 }
 
-ValueForm<std::vector<double>> one_or_several(const Range& range, const std::string& text) {
-  return {text, "2", [range](const CaseTable& table, const std::string& key) {
+ValueForm<std::vector<double>> one_or_several(const io::Range& range, const std::string& text) {
+  return {text, "2", [range](const io::CaseTable& table, const std::string& key) {
             return table.numbers_or_one(key, range);
           }};
 }
 
 ValueForm<std::vector<Point>> points_or_one() {
-  return {"`[x, y]`, or a list", "[3, 4]", [](const CaseTable& table, const std::string& key) {
+  return {"`[x, y]`, or a list", "[3, 4]", [](const io::CaseTable& table, const std::string& key) {
             std::vector<Point> points;
             for (const auto& pair : table.pairs(key)) points.push_back({pair[0], pair[1]});
             return points;
@@ -41,14 +41,14 @@ ValueForm<std::vector<Point>> points_or_one() {
 }
 
 std::vector<std::string> unit_words() {
-  std::vector<std::string> words = length_unit_names();
+  std::vector<std::string> words = io::length_unit_names();
   words.insert(words.begin(), {"none", "file"});
   return words;
 }
 
 ValueForm<FarField> far_field() {
-  return {"number, above 0", "20", [](const CaseTable& table, const std::string& key) {
-            return FarField{*table.number(key, Range::positive()),
+  return {"number, above 0", "20", [](const io::CaseTable& table, const std::string& key) {
+            return FarField{*table.number(key, io::Range::positive()),
                             fmt::format("{}: 'geometry.far_field'", table.place(key))};
           }};
 }
@@ -56,7 +56,7 @@ ValueForm<FarField> far_field() {
 /// The numbers of a shape, checked by `is_good`. No geometry extends beyond 1e100.
 ValueForm<std::vector<double>> shape(const std::string& text, const std::string& example, std::size_t count,
                                      const std::string& wanted, bool (*is_good)(const std::vector<double>&)) {
-  return {text, example, [=](const CaseTable& table, const std::string& key) {
+  return {text, example, [=](const io::CaseTable& table, const std::string& key) {
             const std::vector<double> numbers = *table.numbers(key, count, {-1e100, 1e100});
             if (!is_good(numbers)) table.refuse(key, "must be " + wanted);
             return numbers;
@@ -65,7 +65,7 @@ ValueForm<std::vector<double>> shape(const std::string& text, const std::string&
 
 /// The half above or beside the axis of mesh.mirror.
 ValueForm<HalfDomain> half_domain() {
-  return {"text", "\"axis\"", [](const CaseTable& table, const std::string& key) {
+  return {"text", "\"axis\"", [](const io::CaseTable& table, const std::string& key) {
             const std::string name = *table.text(key);
             const bool is_word =
                 std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != 127; });
@@ -88,7 +88,7 @@ const KeyTable<Settings>& geometry_keys() {
            "([formats](formats.md)).",
            {.example = "\"box.geom\"", .required = {{"name the outline, as in file = \"outline.geom\""}}}),
        key<&Settings::placement, &Placement::scale>(
-           "scale", one_or_several(Range::positive(), "number, above 0, or a list"),
+           "scale", one_or_several(io::Range::positive(), "number, above 0, or a list"),
            "Scale factor of the coordinates, about the origin.", {.fallback = "1"}),
        key<&Settings::placement, &Placement::rotate>(
            "rotate", one_or_several({}, "number, or a list"),
@@ -139,11 +139,11 @@ const KeyTable<Settings>& spacing_keys() {
   static const KeyTable<Settings> keys{
       "spacing",
       {key<&Settings::min>(
-           "min", number(Range::positive()),
+           "min", number(io::Range::positive()),
            "No quadtree cell is split into cells smaller than this; see [available sizes](#available-sizes).",
            {.unit = "length",
             .fallback = "half the smallest requested size; smaller where `gap` requires it"}),
-       key<&Settings::max>("max", number(Range::positive()), "Largest cell size.",
+       key<&Settings::max>("max", number(io::Range::positive()), "Largest cell size.",
                            {.unit = "length", .fallback = "a sixteenth of the domain"}),
        key<&Settings::mesh, &MeshOptions::size, &SizeOptions::gradation>(
            "gradation", number({1, 2, true, false}),
@@ -183,7 +183,8 @@ const KeyTable<SourceKeys>& source_keys() {
                                     [](const Numbers&) { return true; }),
                               "A line."),
        key<&SourceKeys::spacing>(
-           "spacing", number(Range::positive()), "Cells that intersect the shape are no larger than this.",
+           "spacing", number(io::Range::positive()),
+           "Cells that intersect the shape are no larger than this.",
            {.unit = "length", .required = {{"the size of cells that meet the shape"}}})}};
   return keys;
 }
@@ -235,7 +236,7 @@ const KeyTable<Settings>& mesh_keys() {
   return keys;
 }
 
-void read_geometry_table(const CaseTable& table, const std::string& case_path, Settings& settings) {
+void read_geometry_table(const io::CaseTable& table, const std::string& case_path, Settings& settings) {
   geometry_keys().read(table, settings);
   const Placement& given = settings.placement;
   std::vector<GeometryInput>& files = settings.files;
@@ -246,9 +247,9 @@ void read_geometry_table(const CaseTable& table, const std::string& case_path, S
                      {},
                      given.layers,
                      "none",
-                     given.spline.value_or(is_airfoil_file(file))});
+                     given.spline.value_or(io::is_airfoil_file(file))});
   if (files.empty()) table.refuse("file", "is empty; name the outline, as in file = \"outline.geom\"");
-  if (!given.layers.empty() && std::ranges::none_of(given.files, has_layers_of_drawings))
+  if (!given.layers.empty() && std::ranges::none_of(given.files, io::has_layers_of_drawings))
     table.refuse("layers", "chooses layers of drawings and maps, but no file is one");
   share_out(table, "scale", given.scale, files,
             [](auto& file, double scale) { file.transform.scale = scale; });
@@ -261,7 +262,7 @@ void read_geometry_table(const CaseTable& table, const std::string& case_path, S
   share_out(table, "unit", given.unit, files, [](auto& file, const std::string& unit) { file.unit = unit; });
 }
 
-void read_spacing_table(const CaseTable& table, Settings& settings) {
+void read_spacing_table(const io::CaseTable& table, Settings& settings) {
   constexpr double height_share = 1.0 / 16;  // of the smallest cells, by which boundary nodes may move
   spacing_keys().read(table, settings);
   if (settings.min) settings.outline.chord_height = height_share * *settings.min;
@@ -271,7 +272,7 @@ void read_spacing_table(const CaseTable& table, Settings& settings) {
                                     *settings.max));
 }
 
-SizeSource read_source(const CaseTable& table) {
+SizeSource read_source(const io::CaseTable& table) {
   SourceKeys keys;
   source_keys().read(table, keys);
   const auto& [box, disc, line, spacing] = keys;
@@ -284,7 +285,7 @@ SizeSource read_source(const CaseTable& table) {
   return {SizeSource::Line{{line[0], line[1]}, {line[2], line[3]}}, spacing, table.place()};
 }
 
-void read_mesh_table(const CaseTable& table, Settings& settings) {
+void read_mesh_table(const io::CaseTable& table, Settings& settings) {
   mesh_keys().read(table, settings);
   if (const std::vector<double>& r = settings.root; !r.empty())
     settings.mesh.size.root = RootOptions{{r[0], r[1]}, r[2], static_cast<int>(r[3]), static_cast<int>(r[4])};

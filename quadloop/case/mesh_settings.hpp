@@ -21,9 +21,9 @@ const KeyTable<SourceKeys>& source_keys();
 const KeyTable<Settings>& mesh_keys();
 
 /// Read them. All throw InputError that names key and line.
-void read_geometry_table(const CaseTable& table, const std::string& case_path, Settings& settings);
-void read_spacing_table(const CaseTable& table, Settings& settings);
-SizeSource read_source(const CaseTable& table);
-void read_mesh_table(const CaseTable& table, Settings& settings);
+void read_geometry_table(const io::CaseTable& table, const std::string& case_path, Settings& settings);
+void read_spacing_table(const io::CaseTable& table, Settings& settings);
+SizeSource read_source(const io::CaseTable& table);
+void read_mesh_table(const io::CaseTable& table, Settings& settings);
 
 }  // namespace quadloop

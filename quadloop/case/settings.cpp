@@ -21,6 +21,8 @@
 
 namespace quadloop {
 
+using io::CaseTable;
+
 namespace {
 
 ValueForm<std::string> prefix() {
@@ -50,7 +52,7 @@ ValueForm<std::vector<std::string>> words(const std::vector<std::string>& known)
 
 void read_output_table(const CaseTable& table, Settings& settings) {
   output_keys().read(table, settings);
-  if (settings.partitions > 0 && part_formats(settings.formats).empty())
+  if (settings.partitions > 0 && io::part_formats(settings.formats).empty())
     table.refuse("partitions",
                  "needs a format that parts are written in: \"mesh\", \"cgns\" or \"vtu\" in output.formats");
 }
@@ -136,15 +138,15 @@ const KeyTable<Settings>& output_keys() {
            "does not apply to `adapt`, whose folder `-o` sets.",
            {.fallback = "name of the case file"}),
        key<&Settings::formats>(
-           "formats", words(written_formats()),
-           "Mesh formats: " + words_in_text(written_formats()) +
+           "formats", words(io::written_formats()),
+           "Mesh formats: " + words_in_text(io::written_formats()) +
                "; `csv` and `dat` for the solution alone (the command `mesh` has none and reports this). "
                "`PREFIX.tree.h5` is always written. `adapt` writes the formats in each cycle, and `.mesh` "
                "and `.cgns` in any case.",
            {.example = "[\"vtu\", \"mesh\"]"}),
        key<&Settings::fields>(
-           "fields", words(quantity_names()),
-           "Derived fields: " + words_in_text(quantity_names()) +
+           "fields", words(flow::quantity_names()),
+           "Derived fields: " + words_in_text(flow::quantity_names()) +
                ". `solve` adds them to OUT. With the built-in solver, `adapt` adds them to all files of a "
                "cycle except `.mesh`, which is the restart file.",
            {.fallback = "none"}),
@@ -157,7 +159,7 @@ const KeyTable<Settings>& output_keys() {
 }
 
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
-  const CaseTable root = read_case(case_path, assignments);
+  const CaseTable root = io::read_case(case_path, assignments);
   refuse_unknown_keys(root, root_names());
   Settings settings;
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
@@ -176,14 +178,14 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   return settings;
 }
 
-const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
+const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
   if (settings.adapt) return *settings.adapt;
   throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
 }
 
 std::string format_suffix_of(const std::string& prefix) {
   const std::string suffix = std::filesystem::path(prefix).extension();
-  return format_of(prefix) != nullptr || suffix_of(prefix) == ".h5" ? suffix : std::string();
+  return io::format_of(prefix) != nullptr || suffix_of(prefix) == ".h5" ? suffix : std::string();
 }
 
 namespace {

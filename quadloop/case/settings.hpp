@@ -45,7 +45,7 @@ struct Placement {
 struct FileExtent {
   std::string path;
   Box box;
-  FileUnit declared;
+  io::FileUnit declared;
   double metres = 0;  ///< metres per unit of its coordinates; 0: no conversion
 };
 
@@ -79,18 +79,18 @@ struct Settings {
   AssembleOptions outline;
   std::optional<double> min, max;  ///< spacing.min and spacing.max, where given
   MeshOptions mesh;                ///< without the sizes min and max, which may follow from the geometry
-  SmoothOptions smooth;            ///< without the geometry
+  smoother::SmoothOptions smooth;  ///< without the geometry
   std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
   std::optional<FlowSettings> flow;
   bool wants_y_plus = false;  ///< whether some layers specify a y+, which needs [flow]
   SolverSettings solver;
-  std::optional<FreeStream> stream;   ///< of an external solver, if [flow] specifies it
-  std::optional<AdaptOptions> adapt;  ///< if the case has the table
+  std::optional<flow::FreeStream> stream;    ///< of an external solver, if [flow] specifies it
+  std::optional<adapt::AdaptOptions> adapt;  ///< if the case has the table
   /// Least quality of the worst cell outside layers for which cells are kept on a changed geometry.
   std::optional<double> morph_to;
   std::string output_prefix;
-  std::vector<std::string> formats = default_formats();
+  std::vector<std::string> formats = io::default_formats();
   std::vector<std::string> fields;  ///< of quantity_names(), written in addition to a solution
   /// Number of parts for a solver's ranks, written in addition to the whole mesh; 0: none.
   std::int32_t partitions = 0;
@@ -107,7 +107,7 @@ const KeyTable<Settings>& output_keys();
 Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
 
 /// Returns the case's table [adapt]. Throws InputError, which names the case, if it has none.
-const AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
+const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);
 
 /// Returns the suffix of a mesh or tree file at the end of a prefix of output files, if any. This is a user
 /// error, as suffixes are appended.

@@ -6,14 +6,14 @@ const KeyTable<SmoothKeys>& smooth_keys() {
   const std::string follows = "targets = \"solution\"";
   static const KeyTable<SmoothKeys> keys{
       "smooth",
-      {key<&SmoothKeys::options, &SmoothOptions::sweeps>(
+      {key<&SmoothKeys::options, &smoother::SmoothOptions::sweeps>(
            "sweeps", whole({0, 100000}), "Largest number of visits to each node; 0 disables smoothing."),
-       key<&SmoothKeys::options, &SmoothOptions::objective>(
-           "objective", choice(objective_words),
+       key<&SmoothKeys::options, &smoother::SmoothOptions::objective>(
+           "objective", choice(smoother::objective_words),
            "Objective function around each node: `power`, or `thesis` for Eq. 3.4; see "
            "[smoothing](../explanation/smoothing.md)."),
-       key<&SmoothKeys::options, &SmoothOptions::method>("method", choice(method_words),
-                                                         "Optimisation method."),
+       key<&SmoothKeys::options, &smoother::SmoothOptions::method>("method", choice(smoother::method_words),
+                                                                   "Optimisation method."),
        key<&SmoothKeys::follows_solution>(
            "targets", choice<bool>({{"ideal", false}, {"solution", true}}),
            "Target shapes: squares and equilateral triangles, or thin cells where `adapt.variable` has a "
@@ -31,15 +31,16 @@ const KeyTable<SmoothKeys>& smooth_keys() {
   return keys;
 }
 
-void read_smooth_table(const CaseTable& table, Settings& settings) {
+void read_smooth_table(const io::CaseTable& table, Settings& settings) {
   SmoothKeys keys;
   smooth_keys().read(table, keys);
   settings.smooth = keys.options;
   if (keys.follows_solution) settings.stretch = keys.stretch;
 }
 
-void require_variables_of_targets(const CaseTable& root, const Settings& settings) {
-  if (!settings.stretch || !settings.adapt || settings.adapt->source == AdaptOptions::Source::variables)
+void require_variables_of_targets(const io::CaseTable& root, const Settings& settings) {
+  if (!settings.stretch || !settings.adapt ||
+      settings.adapt->source == adapt::AdaptOptions::Source::variables)
     return;
   root.table("smooth")->refuse("targets",
                                "follows variables, and adapt.variable names a size or an error; name "

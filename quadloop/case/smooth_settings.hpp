@@ -7,7 +7,7 @@ namespace quadloop {
 
 /// The table [smooth].
 struct SmoothKeys {
-  SmoothOptions options;
+  smoother::SmoothOptions options;
   bool follows_solution = false;  ///< whether cells follow the solution
   double stretch = 8;             ///< as MeshInput::stretch, if they do
 };
@@ -15,10 +15,10 @@ struct SmoothKeys {
 const KeyTable<SmoothKeys>& smooth_keys();
 
 /// Reads sweeps, objective, method and targets. Throws InputError that names key and line.
-void read_smooth_table(const CaseTable& table, Settings& settings);
+void read_smooth_table(const io::CaseTable& table, Settings& settings);
 
 /// Targets from a solution need second derivatives of variables: requires that [adapt], which has been read,
 /// names some. Throws InputError that names key and line.
-void require_variables_of_targets(const CaseTable& root, const Settings& settings);
+void require_variables_of_targets(const io::CaseTable& root, const Settings& settings);
 
 }  // namespace quadloop

@@ -14,12 +14,14 @@
 
 namespace quadloop {
 
+using flow::EulerOptions;
+
 namespace {
 
 /// The name of a file in the cycle's folder.
 ValueForm<std::string> file_name() {
   ValueForm<std::string> form = text();
-  form.read = [](const CaseTable& table, const std::string& key) {
+  form.read = [](const io::CaseTable& table, const std::string& key) {
     const std::string name = *table.text(key);
     if (name.empty() || name.find('/') != std::string::npos)
       table.refuse(key, "must be the name of a file in the cycle's folder");
@@ -42,10 +44,11 @@ std::vector<Key<EulerOptions>> model_keys() {
       key<&EulerOptions::viscosity>("viscosity", number({0}),
                                     "Dynamic viscosity in units of free-stream density, speed of sound and "
                                     "length. Above 0: laminar flow, no-slip walls."),
-      key<&EulerOptions::prandtl>("prandtl", number(Range::positive()), "Prandtl number of a viscous flow.",
+      key<&EulerOptions::prandtl>("prandtl", number(io::Range::positive()),
+                                  "Prandtl number of a viscous flow.",
                                   {.needs = {only_with("viscosity > 0 or reynolds")}}),
       key<&EulerOptions::reference_length>(
-          "reference_length", number(Range::positive()),
+          "reference_length", number(io::Range::positive()),
           "Reference length of the force coefficients, which include all walls and are in wind axes.",
           {.unit = "length"}),
       key<&EulerOptions::limiter>(
@@ -101,12 +104,12 @@ std::vector<Key<EulerOptions>> march_keys() {
           "than ten million steps in total are rejected.",
           {.needs = {{carries_on}}}),
       key<&EulerOptions::time_step>(
-          "time_step", number(Range::positive()),
+          "time_step", number(io::Range::positive()),
           "Size of second-order implicit steps, in units of length over speed of sound. Default: explicit "
           "steps.",
           {.fallback = "none", .needs = {{"time = \"accurate\" or " + carries_on}}}),
       key<&EulerOptions::cfl>(
-          "cfl", number(Range::positive()),
+          "cfl", number(io::Range::positive()),
           "Steady: initial CFL number; it grows as the residual falls. Explicit time steps use at most 0.8."),
       key<&EulerOptions::iterations>(
           "iterations", whole({0, std::numeric_limits<int>::max()}),
@@ -122,24 +125,24 @@ std::vector<Key<SolverSettings>> command_keys() {
                 of_program = only_with("kind = \"command\" or kind = \"su2\""),
                 of_all = only_with("kind = \"command\" or kind = \"su2\" or kind = \"openfoam\"");
   const std::string own_names = "with the others both files have names of their own";
-  return {key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::arguments>(
+  return {key<&SolverSettings::command, &adapt::CommandSolver::command, &flow::SolverCommand::arguments>(
               "command", texts(), "Program and arguments ([interface](solver-interface.md)).",
               {.example = "[\"flow\", \"{mesh}\"]",
                .needs = {of_program},
                .required = {{"kind = \"command\" needs the program to run and its arguments, as in command = "
                              "[\"my_solver\", \"{mesh}\"]",
                              "kind = \"command\""}}}),
-          key<&SolverSettings::command, &CommandSolver::ranks>(
+          key<&SolverSettings::command, &adapt::CommandSolver::ranks>(
               "ranks", whole({0, std::numeric_limits<int>::max()}),
               "Number of ranks of the program; 0: as many as quadloop.", {.example = "3", .needs = {of_all}}),
-          key<&SolverSettings::command, &CommandSolver::mesh>(
+          key<&SolverSettings::command, &adapt::CommandSolver::mesh>(
               "mesh", file_name(), "Input file of the program.",
               {.example = "\"m.su2\"", .needs = {of_command, {runs, own_names}}}),
-          key<&SolverSettings::command, &CommandSolver::solution>(
+          key<&SolverSettings::command, &adapt::CommandSolver::solution>(
               "solution", file_name(), "Output file of the program.",
               {.example = "\"s.cgns\"", .needs = {of_command, {runs, own_names}}}),
-          key<&SolverSettings::command, &CommandSolver::command, &SolverCommand::timeout>(
-              "timeout", number(Range::positive()), "Time limit of the program.",
+          key<&SolverSettings::command, &adapt::CommandSolver::command, &flow::SolverCommand::timeout>(
+              "timeout", number(io::Range::positive()), "Time limit of the program.",
               {.unit = "seconds", .needs = {of_all}}),
           key<&SolverSettings::case_template>(
               "template", text(),
@@ -154,21 +157,21 @@ std::vector<Key<SolverSettings>> command_keys() {
 }
 
 /// Checks the time steps, and combinations of several keys.
-void check_times(const CaseTable& table, const EulerOptions& options) {
+void check_times(const io::CaseTable& table, const EulerOptions& options) {
   const bool accurate = options.time == EulerOptions::Time::accurate;
-  if (accurate && options.time_step && options.end_time / *options.time_step > most_steps_in_time)
+  if (accurate && options.time_step && options.end_time / *options.time_step > flow::most_steps_in_time)
     table.refuse(
         "time_step",
         fmt::format(
             "would take {:.2g} steps to the end_time {}, of which there may be {:.0f}; give {:.2g} or more",
-            options.end_time / *options.time_step, options.end_time, most_steps_in_time,
-            options.end_time / most_steps_in_time));
+            options.end_time / *options.time_step, options.end_time, flow::most_steps_in_time,
+            options.end_time / flow::most_steps_in_time));
   if (options.average_from && *options.average_from >= options.end_time)
     table.refuse("average_from", "must be below end_time, so that there is something to take means over");
 }
 
 /// Requires something that drives the flow if the free stream is at rest.
-void require_driven_flow(const CaseTable& table, const SolverSettings& settings) {
+void require_driven_flow(const io::CaseTable& table, const SolverSettings& settings) {
   const EulerOptions& options = settings.euler;
   if (settings.kind != SolverSettings::Kind::euler || options.mach > 0) return;
   const bool is_heated = options.viscosity > 0 && !settings.wall_temperatures.empty();
@@ -192,7 +195,7 @@ const KeyTable<SolverSettings>& solver_keys() {
   std::vector<Key<SolverSettings>> of_euler = joined<SolverSettings>(
       {KeyTable("", model_keys()).keys_of<&SolverSettings::euler>(),
        {key<&SolverSettings::reynolds>(
-           "reynolds", number(Range::positive()),
+           "reynolds", number(io::Range::positive()),
            "Alternative to `viscosity`, which becomes `mach` times `reference_length` / "
            "`reynolds`.",
            {.fallback = "none",
@@ -205,7 +208,7 @@ const KeyTable<SolverSettings>& solver_keys() {
   return keys;
 }
 
-void read_solver_table(const CaseTable& table, SolverSettings& settings) {
+void read_solver_table(const io::CaseTable& table, SolverSettings& settings) {
   settings.given = true;
   solver_keys().read(table, settings);
   EulerOptions& euler = settings.euler;
@@ -249,7 +252,7 @@ EulerOptions euler_options(const SolverSettings& settings, const std::vector<Bou
   for (BoundaryRule& rule : lenient) rule.must_match = false;  // the mesh may have dropped a small island
   EulerOptions options = settings.euler;
   for (const Boundary& boundary : boundaries_by_rules(names, lenient, 0)) {
-    BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
+    flow::BoundaryChoice choice{boundary.name, boundary.condition, {}, {}};
     for (const bool exact : {false, true}) {
       for (const OutflowPressure& outflow : settings.pressures) {
         if ((outflow.pattern == boundary.name) == exact && matches(outflow.pattern, boundary.name))
@@ -270,22 +273,23 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
                              const std::string& case_path) {
   if (settings.kind != SolverSettings::Kind::euler) return;
   for (const std::string& name : variables) {
-    if (std::find(euler_names.begin(), euler_names.end(), name) != euler_names.end()) continue;
-    if (name == error_name && !settings.euler.goals.empty()) continue;
-    if (name == error_name)
+    if (std::find(flow::euler_names.begin(), flow::euler_names.end(), name) != flow::euler_names.end())
+      continue;
+    if (name == flow::error_name && !settings.euler.goals.empty()) continue;
+    if (name == flow::error_name)
       throw InputError(fmt::format(
           "{}: 'adapt.variable' names '{}', which the built-in solver writes where it knows what of; set "
           "solver.goal, as in goal = \"drag\"",
           case_path, name));
     throw InputError(fmt::format(
         "{}: 'adapt.variable' names '{}', which the built-in solver does not write; it may be {}{}",
-        case_path, name, fmt::join(euler_names, ", "),
-        guess_for(name, {euler_names.begin(), euler_names.end()})));
+        case_path, name, fmt::join(flow::euler_names, ", "),
+        guess_for(name, {flow::euler_names.begin(), flow::euler_names.end()})));
   }
 }
 
-ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Geometry& geometry, const std::string& case_path) {
+adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                  const Geometry& geometry, const std::string& case_path) {
   if (settings.kind == SolverSettings::Kind::euler) {
     Mesh named;
     for (const Boundary& boundary : geometry.boundaries())
@@ -294,14 +298,14 @@ ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<Bou
   }
   const std::filesystem::path case_folder = std::filesystem::absolute(case_path).parent_path();
   if (settings.kind == SolverSettings::Kind::openfoam) {
-    return OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
-                          settings.command.ranks, settings.command.command.timeout};
+    return adapt::OpenfoamSolver{(case_folder / settings.case_template).lexically_normal().string(),
+                                 settings.command.ranks, settings.command.command.timeout};
   }
-  CommandSolver solver = settings.command;
+  adapt::CommandSolver solver = settings.command;
   solver.gamma = settings.euler.gamma;
   solver.case_folder = case_folder.string();
   if (settings.kind == SolverSettings::Kind::su2)
-    return su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
+    return adapt::su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
   return solver;
 }
 

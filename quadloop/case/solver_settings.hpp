@@ -26,7 +26,7 @@ struct WallTemperature {
 };
 
 /// Output functionals, each with the weight of its error.
-using GoalWeights = std::vector<std::pair<Goal::Quantity, double>>;
+using GoalWeights = std::vector<std::pair<flow::Goal::Quantity, double>>;
 
 /// The case's table [solver], and the solver's keys of its boundary tables.
 struct SolverSettings {
@@ -35,14 +35,14 @@ struct SolverSettings {
       {{"euler", Kind::euler}, {"command", Kind::command}, {"su2", Kind::su2}, {"openfoam", Kind::openfoam}}};
 
   Kind kind = Kind::euler;
-  bool given = false;  ///< whether the case has the table
-  EulerOptions euler;  ///< without the boundaries
+  bool given = false;        ///< whether the case has the table
+  flow::EulerOptions euler;  ///< without the boundaries
   std::optional<double> reynolds;
   GoalWeights goals = {};
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
   std::optional<Point> goal_about = {};
-  CommandSolver command;      ///< without the case's folder
-  std::string case_template;  ///< path of SU2's configuration or OpenFOAM's case, as written in the case
+  adapt::CommandSolver command;  ///< without the case's folder
+  std::string case_template;     ///< path of SU2's configuration or OpenFOAM's case, as written in the case
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };
@@ -50,7 +50,7 @@ struct SolverSettings {
 const KeyTable<SolverSettings>& solver_keys();
 
 /// Reads [solver]. Throws InputError that names key and line.
-void read_solver_table(const CaseTable& table, SolverSettings& settings);
+void read_solver_table(const io::CaseTable& table, SolverSettings& settings);
 
 /// Returns a warning if the free stream is at rest, so that forces have no coefficients.
 std::vector<std::string> forces_without_stream(const SolverSettings& settings);
@@ -62,8 +62,8 @@ std::vector<std::string> exits_into_vacuum(const SolverSettings& settings,
 
 /// Returns the options with the boundary conditions of the case's rules; the mesh's own conditions are the
 /// default.
-EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Mesh& mesh);
+flow::EulerOptions euler_options(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                 const Mesh& mesh);
 
 /// Rejects an adaptation variable that the built-in solver does not write. Throws InputError that names the
 /// case.
@@ -71,7 +71,7 @@ void require_known_variables(const SolverSettings& settings, const std::vector<s
                              const std::string& case_path);
 
 /// Returns the solver of an adaptive run on meshes of this geometry. `case_path` names the case file.
-ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
-                           const Geometry& geometry, const std::string& case_path);
+adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vector<BoundaryRule>& rules,
+                                  const Geometry& geometry, const std::string& case_path);
 
 }  // namespace quadloop

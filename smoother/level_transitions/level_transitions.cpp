@@ -12,7 +12,7 @@
 #include "smoother/objective/condition_number.hpp"
 #include "smoother/objective/cost_limit.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -109,4 +109,4 @@ NodeFlags move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const No
   return move_lines(comm, mesh, TriangleLines(mesh, near), pinned, limit);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -2,7 +2,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Where squares of two sizes meet, the larger ones are divided at their hanging nodes, which gives angles of
 /// 26.6 degrees. Moves the nodes of such a line together by a quarter of the smaller edge towards the larger
@@ -21,4 +21,4 @@ bool move_square_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags
 NodeFlags move_triangle_lines(const Communicator& comm, HaloMesh& mesh, const NodeFlags& near,
                               const NodeFlags& pinned, double limit);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -94,4 +94,4 @@ void SquareLines::look_at_triangles(const std::array<NodeId, 3>& nodes) {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

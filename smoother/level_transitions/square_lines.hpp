@@ -4,7 +4,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Finds the owned nodes on lines where squares of two sizes meet: the cells of such a node are two equal
 /// squares on one side of the line and triangles of a division at hanging nodes on the other.
@@ -40,4 +40,4 @@ class SquareLines {
   IdVector<NodeId, Surroundings> round_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <type_traits>
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -228,4 +228,4 @@ Point TriangleLines::move_of(NodeId node) const {
   return s.edge * move_for(s.sum);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

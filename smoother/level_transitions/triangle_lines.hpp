@@ -5,7 +5,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Finds, in a mesh of triangles, the nodes near lines where halved squares of two sizes meet. A node is
 /// recognised by the triangles around it.
@@ -35,4 +35,4 @@ class TriangleLines {
   IdVector<NodeId, Surroundings> round_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

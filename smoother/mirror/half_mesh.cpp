@@ -6,7 +6,7 @@
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 HalfMesh::HalfMesh(const Communicator& comm, const Mesh& whole, MirrorAxis axis, const std::string& axis_name,
                    bool flips)
@@ -211,4 +211,4 @@ std::vector<std::int32_t> HalfMesh::reflect_triangles(const std::vector<std::int
   return standing_in_whole;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -8,7 +8,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mirror_images.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// The half of a mirror-symmetric mesh: its cells on the side where the signed distance from the axis is
 /// positive, as a mesh of its own. Changes of the half are reflected to the whole mesh. Nodes, triangles and
@@ -88,4 +88,4 @@ std::vector<T> HalfMesh::of_cells(const std::vector<T>& values) const {
   return taken;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::optional<Point> Newton::improve(const Star& star, Point p, Objective object
   return found || !is_sharp ? found : perturbation_.improve(star, p, objective);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -2,7 +2,7 @@
 
 #include "smoother/node/perturbation.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Takes Newton steps towards the minimum of the 3-norm of the corners' defects, while the predicted gain
 /// justifies a move. Each step must pass Acceptance. If the first step is refused, it tries eight points
@@ -17,4 +17,4 @@ class Newton : public NodeSolver {
   Perturbation perturbation_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -5,7 +5,7 @@
 
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::optional<Point> NloptSolver::improve(const Star& star, Point p, Objective o
   return std::nullopt;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

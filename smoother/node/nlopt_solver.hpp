@@ -4,7 +4,7 @@
 
 #include "smoother/node/node_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Minimises the node's cost with NLopt; the result is used if Acceptance passes it.
 class NloptSolver : public NodeSolver {
@@ -18,4 +18,4 @@ class NloptSolver : public NodeSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -4,7 +4,7 @@
 #include "smoother/node/newton.hpp"
 #include "smoother/node/nlopt_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 std::unique_ptr<NodeSolver> make_node_solver(Method method) {
   switch (method) {
@@ -15,4 +15,4 @@ std::unique_ptr<NodeSolver> make_node_solver(Method method) {
   return nullptr;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -6,7 +6,7 @@
 #include "smoother/node/method.hpp"
 #include "smoother/objective/star.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// The present cost of a star and the rule for accepting a new position: the largest corner cost and the
 /// smallest angle must not get worse, and the node's cost must fall.
@@ -47,4 +47,4 @@ class NodeSolver {
 
 std::unique_ptr<NodeSolver> make_node_solver(Method method);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::optional<Point> Perturbation::improve(const Star& star, Point p, Objective 
   return found;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

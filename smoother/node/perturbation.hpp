@@ -2,7 +2,7 @@
 
 #include "smoother/node/node_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// The perturbations of Section 3.7 of the thesis: steps along the normals of the opposite edges, then along
 /// the node's own edges, then along the axes. If none improves the node, the step length is reduced.
@@ -11,4 +11,4 @@ class Perturbation : public NodeSolver {
   std::optional<Point> improve(const Star& star, Point p, Objective objective) override;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -213,4 +213,4 @@ std::vector<int> ranked_places(const Star& star, Point p, Objective objective, c
   return order;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

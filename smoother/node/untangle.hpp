@@ -5,7 +5,7 @@
 
 #include "smoother/node/node_solver.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Decides whether moving the node improves a star with inverted corners: no valid corner may become
 /// inverted, and the sum of -J over the inverted ones must fall. Of two accepted positions the one with the
@@ -44,4 +44,4 @@ Point deepest_point(const Star& star, Point p);
 std::vector<int> ranked_places(const Star& star, Point p, Objective objective, const Star::Batch& x,
                                const Star::Batch& y);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

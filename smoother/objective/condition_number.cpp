@@ -1,6 +1,6 @@
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 CornerTarget corner_target(Point w1, Point w2) {
   const double twice = 2 * cross(w1, w2);  // G = adj(W) adj(W)^T / (2 det W)
@@ -29,4 +29,4 @@ std::array<CornerTarget, 4> stretched_targets<4>(Point w1, Point w2) {
           corner_target(back2, w1)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

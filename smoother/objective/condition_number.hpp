@@ -7,7 +7,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// The target shape of the two edges e1, e2 leaving a corner, as the three numbers that the weighted
 /// condition number needs. W is the matrix with the target edges as columns. With V = W^-1 and G = V V^T
@@ -103,4 +103,4 @@ double cell_cost(const std::array<Point, width>& cell, const std::array<CornerTa
   return worst;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -5,7 +5,7 @@
 
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Decides for most cells, without divisions and roots, whether their cost is below or above a limit (Eq. 3.2
 /// with ideal targets).
@@ -45,4 +45,4 @@ class CostLimit {
   double share_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

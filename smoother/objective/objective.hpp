@@ -2,7 +2,7 @@
 
 #include "mesher/base/word_table.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// How the cost of a node follows from its corners' costs. thesis: Eq. 3.4, see nodal_cost. power: the sum of
 /// the squared costs if no corner is inverted, else the sum of -J. In a valid star an objective must not
@@ -12,4 +12,4 @@ enum class Objective { thesis, power };
 inline constexpr WordTable<Objective, 2> objective_words{
     {{"power", Objective::power}, {"thesis", Objective::thesis}}};
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

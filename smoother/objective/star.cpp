@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 double nodal_cost(double largest, double mean) {
   if (largest > 1) return largest * largest;
@@ -38,7 +38,7 @@ StarCost<places> Star::cost_of(const StarSums<places>& sums, Objective objective
     case Objective::power: cost.objective = Values(sums.squares.data()); return cost;
     case Objective::thesis:
       for (std::size_t k = 0; k < places; ++k)
-        cost.objective[k] = quadloop::nodal_cost(sums.defects[k] * sums.defects[k],
+        cost.objective[k] = smoother::nodal_cost(sums.defects[k] * sums.defects[k],
                                                  sums.costs[k] / static_cast<double>(corners_.size()));
       return cost;
   }
@@ -117,7 +117,7 @@ double Star::thesis_and_gradient(Point p, Point& gradient) const {
   const double blend_slope = 2.5 * (1 - t * t);
   gradient = (blend_slope * (largest - sum / count) + blend) * largest_gradient +
              ((1 - blend) / count) * sum_gradient;
-  return quadloop::nodal_cost(largest, sum / count);
+  return smoother::nodal_cost(largest, sum / count);
 }
 
 double Star::cost_and_gradient(Point p, Objective objective, Point& gradient) const {
@@ -144,7 +144,7 @@ double Star::nodal_cost(Point p, double reference) const {
     sum += cost;
     largest = std::max(largest, cost);
   }
-  return quadloop::nodal_cost(largest, sum / static_cast<double>(corners_.size()));
+  return smoother::nodal_cost(largest, sum / static_cast<double>(corners_.size()));
 }
 
 double Star::inversion(Point p, double reference) const {
@@ -168,4 +168,4 @@ double Star::reference(Point p) const {
   return sum / static_cast<double>(corners_.size());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -7,7 +7,7 @@
 #include "smoother/objective/objective.hpp"
 #include "smoother/objective/star_kernels.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Cotangent of 28 degrees: the lower limit of angles when cells are fitted to layers or nodes slide along
 /// the geometry.
@@ -85,4 +85,4 @@ class Star {
 /// inverted) (1 - J)^2 with the smallest J of all, which is the largest cost squared (Eq. 3.2).
 double nodal_cost(double largest, double mean);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -233,4 +233,4 @@ std::vector<StarKernels> star_kernels() {
   return kernels;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

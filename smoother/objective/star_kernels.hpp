@@ -8,7 +8,7 @@
 #include "mesher/geometry/point.hpp"
 #include "smoother/objective/condition_number.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Which angles of a triangle p, q, r are angles of the cell: all of a triangle cell, one per corner of a
 /// quadrilateral.
@@ -52,4 +52,4 @@ StarSums<1> star_sums(std::span<const StarCorner> corners, Point p);
 /// The kernels that this processor can run, the widest last.
 std::vector<StarKernels> star_kernels();
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

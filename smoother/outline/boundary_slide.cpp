@@ -7,7 +7,7 @@
 
 #include "smoother/node/untangle.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -315,4 +315,4 @@ std::optional<Point> BoundarySlide::towards_middle(NodeId node, const Star& star
   return to;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

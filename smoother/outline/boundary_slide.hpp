@@ -10,7 +10,7 @@
 #include "smoother/node/node_solver.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Whether a node may move, and how.
 enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
@@ -115,4 +115,4 @@ class BoundarySlide {
   std::vector<std::int32_t> tight_segments_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -3,7 +3,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -40,4 +40,4 @@ NodeFlags move_nodes_to_curves(const Communicator& comm, const Geometry& geometr
   return moved;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "smoother/outline/outline_path.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -134,4 +134,4 @@ Geometry with_loops_turned(const Geometry& outline, const std::vector<char>& tur
   return std::move(builder).geometry(outline.boundaries());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -6,7 +6,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Checks that a geometry from the file `path` belongs to a mesh that is whole on this rank. Throws
 /// InputError if no mesh boundary has its name in the geometry or if a boundary node is farther from its
@@ -21,4 +21,4 @@ std::vector<char> loops_against(const Geometry& outline, const Mesh& whole);
 /// The geometry with the flagged loops reversed.
 Geometry with_loops_turned(const Geometry& outline, const std::vector<char>& turned);
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -7,7 +7,7 @@
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -181,4 +181,4 @@ OutlinePath::Segments OutlinePath::segments_between(const OutlinePlace& from, co
   return segments;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

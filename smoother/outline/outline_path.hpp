@@ -10,7 +10,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/segment_tree.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// A place on the geometry: loop, arc length from the loop's first vertex, and segment. OutlinePath creates
 /// them.
@@ -175,4 +175,4 @@ bool OutlinePath::walk(const OutlinePlace& from, const OutlinePlace& to, const V
   return false;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

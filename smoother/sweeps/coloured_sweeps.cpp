@@ -2,7 +2,7 @@
 
 #include "smoother/sweeps/colouring.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 ColouredSweeps::ColouredSweeps(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars,
                                NodeFlags& stale)
@@ -58,4 +58,4 @@ void ColouredSweeps::share_moves() {
   own_moves_.clear();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

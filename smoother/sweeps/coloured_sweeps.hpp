@@ -9,7 +9,7 @@
 #include "mesher/mesh/colouring.hpp"
 #include "smoother/sweeps/node_stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Sweeps over the movable nodes, colour by colour. A node is visited if something in its star has moved
 /// since its last visit.
@@ -79,4 +79,4 @@ class ColouredSweeps {
   std::vector<NodeId> own_moves_;  ///< list of these nodes
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -3,7 +3,7 @@
 #include "mesher/mesh/colouring.hpp"
 #include "smoother/sweeps/node_stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Colours of the movable nodes; nodes that share a cell have different colours. *Collective.*
 inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, const NodeStars& stars) {
@@ -14,4 +14,4 @@ inline Colouring colour_stars(const Communicator& comm, const HaloMesh& mesh, co
       [&](std::span<const std::int32_t> order, std::size_t k) { stars.fetch_corners_ahead(order, k); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

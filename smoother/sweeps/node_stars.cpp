@@ -7,7 +7,7 @@
 #include "mesher/base/ids.hpp"
 #include "smoother/sweeps/rings.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 namespace {
 
@@ -181,4 +181,4 @@ void NodeStars::gather(std::size_t i, Star& star) const {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

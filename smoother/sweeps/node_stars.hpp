@@ -7,7 +7,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/objective/star.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// The stars of the owned nodes that may move.
 class NodeStars {
@@ -93,4 +93,4 @@ void NodeStars::for_each_star_round(NodeId copy, const Visit& visit) const {
   for (std::size_t k = ghost_starts_[slot]; k < ghost_starts_[slot + 1]; ++k) visit(ghost_stars_[k]);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -2,7 +2,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Flags the nodes of cells with a flagged node, `rings` times. On entry flags are read at owned nodes only;
 /// on return they are valid at all nodes. *Collective.*
@@ -17,4 +17,4 @@ inline void grow(const HaloMesh& mesh, NodeFlags& flags, int rings) {
   mesh.exchange().update(flags);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

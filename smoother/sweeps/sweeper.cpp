@@ -6,7 +6,7 @@
 
 #include "smoother/node/untangle.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 Sweeper::Sweeper(const Communicator& comm, HaloMesh& mesh, const NodeStars& stars, BoundarySlide& slide,
                  const Rule& rule, const NodeFlags& bad, NodeFlags& stale)
@@ -107,4 +107,4 @@ std::optional<Point> Sweeper::better_place(std::size_t i) {
   return untangle(star_, p, rule_.objective);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -7,7 +7,7 @@
 #include "smoother/outline/boundary_slide.hpp"
 #include "smoother/sweeps/coloured_sweeps.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 
 /// Visits nodes sweep by sweep, colour by colour: the nodes of cells above a threshold and their neighbours,
 /// if something near has moved since their last visit.
@@ -56,4 +56,4 @@ class Sweeper {
   int done_ = 0;  ///< number of sweeps, the present one included
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -10,7 +10,7 @@
 
 #include "flow/command/environment.hpp"
 
-namespace quadloop {
+namespace quadloop::app {
 namespace {
 
 constexpr const char* daemon = "OMPI_MCA_ess_singleton_isolated";
@@ -35,7 +35,7 @@ class MpiSingletonTest : public testing::Test {
     std::vector<std::string> names{daemon, folder, network, transfer, devices};
     for (char** entry = environ; *entry != nullptr; ++entry) {
       const std::string name = std::string(*entry).substr(0, std::string(*entry).find('='));
-      if (set_by_launcher(name)) names.push_back(name);
+      if (flow::set_by_launcher(name)) names.push_back(name);
     }
     for (const std::string& name : names) unsetenv(name.c_str());
   }
@@ -70,4 +70,4 @@ TEST_F(MpiSingletonTest, SaysNothingToOneOfALaunchersRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::app

@@ -16,12 +16,12 @@ int main(int argc, char** argv) {
     const bool others_wait = std::string(argv[1]) == "wait";
     const bool fails =
         std::any_of(argv + 2, argv + argc, [&](const char* rank) { return std::stoi(rank) == comm.rank(); });
-    quadloop::Outcome outcome;
+    quadloop::app::Outcome outcome;
     if (fails)
       outcome = {quadloop::ExitStatus::output_failed, "rank " + std::to_string(comm.rank()) + "\nfailed"};
     else if (others_wait)
       comm.barrier();
-    status = static_cast<int>(close_together(closing.raw(), outcome));
+    status = static_cast<int>(quadloop::app::close_together(closing.raw(), outcome));
   }
   MPI_Finalize();
   return status;

@@ -55,9 +55,9 @@ std::vector<Chain> moved_loops_from(Bytes& bytes) {
 
 MeshInput input_from(Bytes& bytes) {
   const MeshOptions options = mesh_options_from(bytes);
-  SmoothOptions smooth;
+  smoother::SmoothOptions smooth;
   smooth.sweeps = bytes.below(4);
-  smooth.objective = bytes.below(2) == 0 ? Objective::power : Objective::thesis;
+  smooth.objective = bytes.below(2) == 0 ? smoother::Objective::power : smoother::Objective::thesis;
   smooth.level_transitions = bytes.below(2) == 0;
   AssembleOptions outline;
   outline.domain_is_known = true;

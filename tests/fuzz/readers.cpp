@@ -24,21 +24,21 @@ namespace {
 
 /// What `check` does with a mesh, and `smooth` before it begins.
 void read_and_look(const std::string& path) {
-  MeshOfFile mesh = read_mesh_file(path);
-  if (LoadedMesh* loaded = std::get_if<LoadedMesh>(&mesh)) {
+  io::MeshOfFile mesh = io::read_mesh_file(path);
+  if (io::LoadedMesh* loaded = std::get_if<io::LoadedMesh>(&mesh)) {
     validate(loaded->mesh, {loaded->blocks, loaded->triangle_to_block, loaded->quad_to_block});
-    tidy_mesh(*loaded, path);
+    io::tidy_mesh(*loaded, path);
   } else {
-    check_mesh3d(std::get<FileMesh>(mesh));
+    io::check_mesh3d(std::get<io::FileMesh>(mesh));
   }
 }
 
-void read_case_file(const std::string& path) { read_case(path).values({}); }
+void read_case_file(const std::string& path) { io::read_case(path).values({}); }
 
 void read_outline_file(const std::string& path) {
   std::vector<std::string> warnings;
-  add_gis_formats();
-  read_outline(path, warnings);
+  io::add_gis_formats();
+  io::read_outline(path, warnings);
 }
 
 bool has_one_of(std::string_view name, std::initializer_list<std::string_view> suffixes) {
@@ -53,15 +53,15 @@ bool has_one_of(std::string_view name, std::initializer_list<std::string_view> s
 void read_file(std::string_view name, std::string_view input) {
   static const Folder folder;
   const std::string path = folder.file(name);
-  if (name.ends_with(tree_suffix)) {
+  if (name.ends_with(io::tree_suffix)) {
     folder.clear();
     write_tree_of_text(input, path);
-    read_tree(Communicator(MPI_COMM_SELF), path);
+    io::read_tree(Communicator(MPI_COMM_SELF), path);
     return;
   }
   write_input(folder, name, input);
   if (name.starts_with("solution.")) {
-    read_solution(path);
+    io::read_solution(path);
   } else if (name.ends_with(".toml")) {
     read_case_file(path);
   } else if (has_one_of(name, {".geom", ".dat", ".dxf", ".geojson"})) {

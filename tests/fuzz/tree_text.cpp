@@ -10,25 +10,27 @@
 
 namespace quadloop::fuzz {
 
+using io::Hdf5Handle;
+
 namespace {
 
 constexpr std::int64_t most_numbers = 1'000'000;
 
 /// Types by name; text is none of them.
 hid_t type_named(const std::string& name) {
-  if (name == "i1") return file_type<std::int8_t>();
-  if (name == "i2") return file_type<std::int16_t>();
-  if (name == "i4") return file_type<std::int32_t>();
-  if (name == "i8") return file_type<std::int64_t>();
-  if (name == "u4") return file_type<std::uint32_t>();
-  if (name == "u8") return file_type<std::uint64_t>();
-  if (name == "f8") return file_type<double>();
+  if (name == "i1") return io::file_type<std::int8_t>();
+  if (name == "i2") return io::file_type<std::int16_t>();
+  if (name == "i4") return io::file_type<std::int32_t>();
+  if (name == "i8") return io::file_type<std::int64_t>();
+  if (name == "u4") return io::file_type<std::uint32_t>();
+  if (name == "u8") return io::file_type<std::uint64_t>();
+  if (name == "f8") return io::file_type<double>();
   throw InputError("no type of number: " + name);
 }
 
 /// The numbers of the rest of a line, to the bit: as integers where they are integers.
 struct Values {
-  hid_t type = memory_type<double>();
+  hid_t type = io::memory_type<double>();
   std::vector<double> reals;
   std::vector<std::uint64_t> whole;
   const void* data() const { return whole.empty() ? static_cast<const void*>(reals.data()) : whole.data(); }
@@ -43,7 +45,7 @@ std::uint64_t integer_of(const std::string& word) {
 Values values_in(std::istringstream& line, const std::string& type, std::int64_t count) {
   Values values;
   const bool real = type == "f8", is_unsigned = type.starts_with("u");
-  if (!real) values.type = is_unsigned ? memory_type<std::uint64_t>() : memory_type<std::int64_t>();
+  if (!real) values.type = is_unsigned ? io::memory_type<std::uint64_t>() : io::memory_type<std::int64_t>();
   std::string word;
   for (std::int64_t i = 0; i < count; ++i) {
     if (!(line >> word)) word = "0";
@@ -120,7 +122,7 @@ class TreeOfText {
     require(attribute.valid() && H5Awrite(attribute.id(), type.id(), text.c_str()) >= 0, name);
   }
 
-  QuietHdf5 quiet_;  // first, so that it outlives what the handle releases
+  io::QuietHdf5 quiet_;  // first, so that it outlives what the handle releases
   Hdf5Handle file_;
 };
 

@@ -10,7 +10,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -110,4 +110,4 @@ TEST(CellValues, ThatAreNotFiniteAreRefusedWithTheirCell) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

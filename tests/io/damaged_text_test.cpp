@@ -24,7 +24,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -219,4 +219,4 @@ TEST(DamagedFile, OfSu2sRestart) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

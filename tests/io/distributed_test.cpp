@@ -27,7 +27,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -329,4 +329,4 @@ TEST(TreeFile, RefusesImpossibleLeavesAndAttributesByName) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

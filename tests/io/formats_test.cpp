@@ -10,7 +10,7 @@
 
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -167,4 +167,4 @@ TEST(Formats, OfMeshesAreReadAndWritten) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

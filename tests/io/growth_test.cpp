@@ -14,7 +14,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::expect_linear;
@@ -86,4 +86,4 @@ TEST(Growth, OfParts) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

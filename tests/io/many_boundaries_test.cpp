@@ -37,7 +37,7 @@ int MPI_Allgatherv(const void* send, int count, MPI_Datatype type, void* receive
 }
 }
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::expect_linear;
@@ -144,4 +144,4 @@ TEST(ManyBoundaries, TakeTimeInProportion) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

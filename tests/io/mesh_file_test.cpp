@@ -12,7 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 enum class Kind { hybrid, triangles };
@@ -256,4 +256,4 @@ TEST(MeshFile, AFormatThatHoldsNoMeshIsOurOwnMistake) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,9 +7,9 @@
 namespace quadloop::test {
 
 /// The plane mesh of a file, by the reader of its format.
-template <MeshOfFile (*read)(const std::string&)>
-LoadedMesh read_plane(const std::string& path) {
-  return plane_of(read(path), path);
+template <io::MeshOfFile (*read)(const std::string&)>
+io::LoadedMesh read_plane(const std::string& path) {
+  return io::plane_of(read(path), path);
 }
 
 }  // namespace quadloop::test

@@ -19,7 +19,7 @@ std::string with_crlf(const std::string& text) {
   return crlf;
 }
 
-LoadedMesh ReaderCheck::of(const std::string& text) const {
+io::LoadedMesh ReaderCheck::of(const std::string& text) const {
   const TemporaryFolder folder;
   write_bytes(folder.file(name), text);
   return read(folder.file(name));

@@ -14,10 +14,10 @@ std::string with_crlf(const std::string& text);
 
 /// Reads texts as if they were the file `name`, on one rank.
 struct ReaderCheck {
-  LoadedMesh (*read)(const std::string& path);
+  io::LoadedMesh (*read)(const std::string& path);
   std::string name;
 
-  LoadedMesh of(const std::string& text) const;
+  io::LoadedMesh of(const std::string& text) const;
 
   /// Expects the refusal "name:line: ..." to begin with `begins` and to contain `says`.
   void expect_refusal(const std::string& text, const std::string& begins, const std::string& says) const;

@@ -173,7 +173,7 @@ std::size_t files_in(const std::string& folder) {
 }
 
 BoundaryCondition condition_back(const std::string& format, BoundaryCondition condition) {
-  if (!format_named(format)->holds(Content::conditions)) return BoundaryCondition::none;
+  if (!io::format_named(format)->holds(io::Content::conditions)) return BoundaryCondition::none;
   const std::map<std::string, std::map<std::string, std::string>> changed{
       {"fluent.msh", {{"viscous_wall", "wall"}, {"inviscid_wall", "wall"}, {"none", "wall"}}},
       {"ugrid", {{"wall", "viscous_wall"}, {"symmetry", "inviscid_wall"}, {"interface", "none"}}}};

@@ -19,7 +19,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::replaced;
@@ -309,4 +309,4 @@ TEST(SolutionFile, ValuesThatOverflowAreRefused) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

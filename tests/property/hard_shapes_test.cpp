@@ -97,14 +97,14 @@ std::string mesh_fault(Mesh mesh, const Geometry& geometry, MeshType type) {
 /// smallest angle get no worse.
 std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptions& options,
                             double area_dropped) {
-  SmoothOptions how;
+  smoother::SmoothOptions how;
   how.geometry = &geometry;
   const TreeGrid grid = choose_root(geometry, options.size.root);
   if (options.type == MeshType::delaunay) {
     how.delaunay = [&](Point p) { return tie_rank(grid, grid.finest_level(options.size.min), p); };
   }
   const QualitySummary before = summarise_quality(test::world(), mesh);
-  const SmoothReport report = smooth_mesh(test::world(), mesh, how);
+  const smoother::SmoothReport report = smoother::smooth_mesh(test::world(), mesh, how);
   const QualitySummary after = summarise_quality(test::world(), mesh);
   if (report.inverted_after > report.inverted_before) return "smoothed: more cells are flat";
   if (report.inverted_before == 0 && report.worst_cost_after > report.worst_cost_before + rounding) {

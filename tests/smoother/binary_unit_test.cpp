@@ -9,7 +9,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 /// The unit of a mesh of two opposite corners of a box.
@@ -80,4 +80,4 @@ TEST(BinaryUnit, GeometriesGoIntoItWhole) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

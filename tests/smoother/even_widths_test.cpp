@@ -9,7 +9,7 @@
 
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -97,4 +97,4 @@ TEST(EvenWidths, AreSmoothingsLastStepWhereItIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -9,7 +9,7 @@
 
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -101,4 +101,4 @@ TEST(FitToLayers, IsTheSameOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

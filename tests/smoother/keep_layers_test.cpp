@@ -11,7 +11,7 @@
 #include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::LayeredStrip;
@@ -157,4 +157,4 @@ TEST(BlocksForFlips, AreOneEachBesideStripsToo) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -8,7 +8,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 Mesh mesh_of(const std::vector<Point>& points) {
@@ -93,4 +93,4 @@ TEST(ShapeHistograms, CountEveryCellOfAllRanksOnce) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -15,7 +15,7 @@
 #include "tests/smoother/rounding.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::degrees_rounding;
@@ -166,4 +166,4 @@ TEST(SmoothDelaunay, NeverGetsWorseByFlips) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -17,7 +17,7 @@
 #include "tests/smoother/rounding.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::circle;
@@ -407,4 +407,4 @@ TEST(SmoothMesh, UntanglesWithNlopt) { expect_untangled(Method::nlopt); }
 TEST(SmoothMesh, UntanglesByTheThesissObjective) { expect_untangled(Method::perturb, Objective::thesis); }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

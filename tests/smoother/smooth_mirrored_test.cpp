@@ -12,7 +12,7 @@
 #include "tests/mesh/mirrored_mesh.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Grid;
@@ -121,4 +121,4 @@ TEST(SmoothMirrored, RefusesAMeshThatIsNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

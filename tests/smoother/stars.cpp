@@ -42,16 +42,18 @@ std::array<Point, 2> random_target(Random& random, bool stretched) {
 
 }  // namespace
 
-void add_quad(Star& star, Point a, Point b, Point c, Point w1, Point w2) {
-  const auto targets = stretched_targets<4>(w1, w2);
-  const auto seen_from_previous = [](const CornerTarget& t) { return seen_from_next(seen_from_next(t)); };
-  star.add({a, c, targets[0], CellAngle::at_p});
-  star.add({a, b, seen_from_previous(targets[1]), CellAngle::at_q});
-  star.add({b, c, seen_from_next(targets[3]), CellAngle::at_r});
+void add_quad(smoother::Star& star, Point a, Point b, Point c, Point w1, Point w2) {
+  const auto targets = smoother::stretched_targets<4>(w1, w2);
+  const auto seen_from_previous = [](const smoother::CornerTarget& t) {
+    return smoother::seen_from_next(smoother::seen_from_next(t));
+  };
+  star.add({a, c, targets[0], smoother::CellAngle::at_p});
+  star.add({a, b, seen_from_previous(targets[1]), smoother::CellAngle::at_q});
+  star.add({b, c, smoother::seen_from_next(targets[3]), smoother::CellAngle::at_r});
 }
 
-Star random_star(Random& random, Cells cells, bool stretched) {
-  Star star;
+smoother::Star random_star(Random& random, Cells cells, bool stretched) {
+  smoother::Star star;
   const std::vector<Point> ring = random_ring(random);
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point a = ring[k], c = ring[(k + 1) % ring.size()];
@@ -60,16 +62,18 @@ Star random_star(Random& random, Cells cells, bool stretched) {
     if (quad) {
       add_quad(star, a, uniform(random, 0.7, 1.2) * (a + c), c, w1, w2);
     } else {
-      star.add({a, c, stretched ? corner_target(w1, w2) : equilateral_target(), CellAngle::all});
+      star.add({a, c, stretched ? smoother::corner_target(w1, w2) : smoother::equilateral_target(),
+                smoother::CellAngle::all});
     }
   }
   return star;
 }
 
-Star fan_of(const std::vector<Point>& polygon) {
-  Star star;
+smoother::Star fan_of(const std::vector<Point>& polygon) {
+  smoother::Star star;
   for (std::size_t k = 0; k < polygon.size(); ++k)
-    star.add({polygon[k], polygon[(k + 1) % polygon.size()], equilateral_target(), CellAngle::all});
+    star.add({polygon[k], polygon[(k + 1) % polygon.size()], smoother::equilateral_target(),
+              smoother::CellAngle::all});
   return star;
 }
 
@@ -82,8 +86,8 @@ std::vector<Point> regular_polygon(int corners, Point centre, double radius) {
   return polygon;
 }
 
-Star quad_patch() {
-  Star star;
+smoother::Star quad_patch() {
+  smoother::Star star;
   Point a{1, 0};
   for (int k = 0; k < 4; ++k) {
     const Point c{-a.y, a.x};
@@ -93,29 +97,32 @@ Star quad_patch() {
   return star;
 }
 
-double smallest_degrees(const Star& star, Point p) {
+double smallest_degrees(const smoother::Star& star, Point p) {
   double smallest = 180;
-  for (const StarCorner& c : star.corners()) {
-    const bool all = c.angle == CellAngle::all;
-    if (all || c.angle == CellAngle::at_p) smallest = std::min(smallest, corner_degrees(c.r, p, c.q));
-    if (all || c.angle == CellAngle::at_q) smallest = std::min(smallest, corner_degrees(p, c.q, c.r));
-    if (all || c.angle == CellAngle::at_r) smallest = std::min(smallest, corner_degrees(c.q, c.r, p));
+  for (const smoother::StarCorner& c : star.corners()) {
+    const bool all = c.angle == smoother::CellAngle::all;
+    if (all || c.angle == smoother::CellAngle::at_p)
+      smallest = std::min(smallest, corner_degrees(c.r, p, c.q));
+    if (all || c.angle == smoother::CellAngle::at_q)
+      smallest = std::min(smallest, corner_degrees(p, c.q, c.r));
+    if (all || c.angle == smoother::CellAngle::at_r)
+      smallest = std::min(smallest, corner_degrees(c.q, c.r, p));
   }
   return smallest;
 }
 
-std::vector<double> corner_costs(const Star& star, Point p) {
+std::vector<double> corner_costs(const smoother::Star& star, Point p) {
   double squares = 0;
-  for (const StarCorner& c : star.corners()) squares += dot(c.q - p, c.q - p);
+  for (const smoother::StarCorner& c : star.corners()) squares += dot(c.q - p, c.q - p);
   std::vector<double> costs;
-  for (const StarCorner& c : star.corners()) {
-    costs.push_back(corner_cost(corner_form(p, c.q, c.r), c.target,
-                                squares / static_cast<double>(star.corners().size())));
+  for (const smoother::StarCorner& c : star.corners()) {
+    costs.push_back(smoother::corner_cost(smoother::corner_form(p, c.q, c.r), c.target,
+                                          squares / static_cast<double>(star.corners().size())));
   }
   return costs;
 }
 
-double largest_cost(const Star& star, Point p) {
+double largest_cost(const smoother::Star& star, Point p) {
   const std::vector<double> costs = corner_costs(star, p);
   return *std::max_element(costs.begin(), costs.end());
 }

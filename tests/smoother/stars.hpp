@@ -19,22 +19,22 @@ enum class Cells { triangles, quads, mixed };
 
 /// The star of a node at the origin, valid there, of four to eight neighbours. `stretched`: with targets that
 /// differ from cell to cell.
-Star random_star(Random& random, Cells cells, bool stretched = false);
+smoother::Star random_star(Random& random, Cells cells, bool stretched = false);
 
 /// The triangles between the origin, or any node inside, and the sides of a polygon, counter-clockwise.
-Star fan_of(const std::vector<Point>& polygon);
+smoother::Star fan_of(const std::vector<Point>& polygon);
 std::vector<Point> regular_polygon(int corners, Point centre = {}, double radius = 1);
 
 /// Four unit quads round the origin.
-Star quad_patch();
+smoother::Star quad_patch();
 
 /// Adds the three corners of a quad p, a, b, c that hang on p, with the targets of a stretched quad: its
 /// edges from p.
-void add_quad(Star& star, Point a, Point b, Point c, Point w1, Point w2);
+void add_quad(smoother::Star& star, Point a, Point b, Point c, Point w1, Point w2);
 
 /// The smallest angle of the star's cells in degrees, and the largest of its corners' costs, one by one.
-double smallest_degrees(const Star& star, Point p);
-double largest_cost(const Star& star, Point p);
-std::vector<double> corner_costs(const Star& star, Point p);
+double smallest_degrees(const smoother::Star& star, Point p);
+double largest_cost(const smoother::Star& star, Point p);
+std::vector<double> corner_costs(const smoother::Star& star, Point p);
 
 }  // namespace quadloop::test

@@ -78,13 +78,13 @@ Mesh disc(const Grid& grid, const Geometry& polygon) {
   return mesh;
 }
 
-Mesh smoothed_alone(Mesh mesh, const SmoothOptions& options, SmoothReport* report) {
-  const SmoothReport told = smooth_mesh(self(), mesh, options);
+Mesh smoothed_alone(Mesh mesh, const smoother::SmoothOptions& options, smoother::SmoothReport* report) {
+  const smoother::SmoothReport told = smoother::smooth_mesh(self(), mesh, options);
   if (report != nullptr) *report = told;
   return mesh;
 }
 
-void expect_same_report(const SmoothReport& a, const SmoothReport& b) {
+void expect_same_report(const smoother::SmoothReport& a, const smoother::SmoothReport& b) {
   EXPECT_EQ(a.sweeps, b.sweeps);
   EXPECT_EQ(a.free_nodes, b.free_nodes);
   EXPECT_EQ(a.moves, b.moves);

@@ -26,25 +26,26 @@ Geometry circle(int vertices);
 Mesh disc(const Grid& grid, const Geometry& polygon);
 
 /// Smooths a whole mesh on this rank.
-Mesh smoothed_alone(Mesh mesh, const SmoothOptions& options, SmoothReport* report = nullptr);
+Mesh smoothed_alone(Mesh mesh, const smoother::SmoothOptions& options,
+                    smoother::SmoothReport* report = nullptr);
 
 /// A whole mesh smoothed on one rank and on all, in one order.
 struct Smoothed {
   MeshOrder order;
   Mesh alone, part;
-  SmoothReport alone_report, report;
+  smoother::SmoothReport alone_report, report;
 };
 
 /// `options_for(part, order)` gives each communicator's options.
 template <class Options>
 Smoothed smooth_both_ways(const Mesh& mesh, const MeshOrder& order, const Options& options_for) {
   Smoothed s{order, scatter_mesh(self(), mesh, order), scatter_mesh(world(), mesh, order), {}, {}};
-  s.alone_report = smooth_mesh(self(), s.alone, options_for(s.alone));
-  s.report = smooth_mesh(world(), s.part, options_for(s.part));
+  s.alone_report = smoother::smooth_mesh(self(), s.alone, options_for(s.alone));
+  s.report = smoother::smooth_mesh(world(), s.part, options_for(s.part));
   return s;
 }
 
-void expect_same_report(const SmoothReport& a, const SmoothReport& b);
+void expect_same_report(const smoother::SmoothReport& a, const smoother::SmoothReport& b);
 
 template <class Options>
 void expect_same_positions(const Mesh& mesh, const Options& options_for) {

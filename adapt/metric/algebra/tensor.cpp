@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 Eigen2 eigen_of(const Symmetric& s) {
   const double mean = 0.5 * (s.xx + s.yy), half = 0.5 * (s.xx - s.yy), spread = std::hypot(half, s.xy);
@@ -88,4 +88,4 @@ double quality_in(const Symmetric& m, Point a, Point b, Point c) {
   return for_equilateral * std::sqrt(determinant) * cross(b - a, c - a) / sum;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

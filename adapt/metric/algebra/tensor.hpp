@@ -4,7 +4,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A symmetric 2 x 2 matrix.
 struct Symmetric {
@@ -69,4 +69,4 @@ Metric grown(const Metric& m, Point edge, double slope);
 /// equilateral triangle, 0 or less for a flat or inverted one.
 double quality_in(const Symmetric& m, Point a, Point b, Point c);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -34,7 +34,7 @@ bool may_go(const TileMesh& mesh, std::int32_t gone, const TileMesh::Edge& edge)
   if (on_rim(mesh, before) && on_rim(mesh, after)) return false;
   const Walls& walls = mesh.walls();
   Walls::Chord whole = mesh.chord(before, after, edge.side.boundary);
-  const OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);
+  const smoother::OutlinePlace at = walls.place_of(mesh.point(gone), edge.side.boundary);
   return at.valid() && walls.may_change(whole) && walls.may_join(whole, at, mesh.point(gone));
 }
 
@@ -104,4 +104,4 @@ bool collapse_edge(TileMesh& mesh, std::int32_t a, std::int32_t b, double longes
   return true;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

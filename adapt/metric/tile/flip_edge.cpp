@@ -3,7 +3,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 bool flip_edge(TileMesh& mesh, std::int32_t from, std::int32_t to) {
   constexpr double gain = 1.001;  // prevents repeated flips by rounding
@@ -29,4 +29,4 @@ bool flip_edge(TileMesh& mesh, std::int32_t from, std::int32_t to) {
   return true;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,7 +2,7 @@
 
 #include "adapt/metric/tile/tile_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Each operation changes a tile's mesh if this is valid and improves its conformity to the metric; otherwise
 /// it does nothing. Triangles remain positive by exact tests. Returns whether the mesh was changed.
@@ -21,4 +21,4 @@ bool flip_edge(TileMesh& mesh, std::int32_t a, std::int32_t b);
 /// worst triangle around it does not get worse.
 bool relax_node(TileMesh& mesh, std::int32_t n);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -76,13 +76,13 @@ bool relax_on_wall(TileMesh& mesh, std::int32_t n, const StarQuality& now) {
   const std::int32_t boundary = mesh.boundary_of(n);
   const Walls& walls = mesh.walls();
   const Walls::Chord whole = mesh.chord(before, after, boundary);
-  const OutlinePlace at = walls.place_of(mesh.point(n), boundary);
+  const smoother::OutlinePlace at = walls.place_of(mesh.point(n), boundary);
   if (!at.valid() || !whole.from.valid() || !whole.to.valid() || before == after) return false;
   const double back = mesh.edge_length(before, n), ahead = mesh.edge_length(n, after);
   const double way = ahead > back ? walls.way(at, whole.to) : walls.way(whole.from, at);
   const double step = (ahead - back) / (ahead + back) * way;
   for (const double share : relaxation_shares) {
-    const OutlinePlace moved = walls.moved(at, share * step);
+    const smoother::OutlinePlace moved = walls.moved(at, share * step);
     const Point to = walls.point_at(moved);
     if (walls.may_slide(whole, moved, to, at, mesh.point(n)) && take(mesh, n, now, to)) return true;
   }
@@ -101,4 +101,4 @@ bool relax_node(TileMesh& mesh, std::int32_t n) {
                              [&](double share) { return take(mesh, n, *now, from + share * way); });
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

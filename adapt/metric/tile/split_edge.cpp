@@ -4,7 +4,7 @@
 #include "adapt/metric/tile/operations.hpp"
 #include "mesher/delaunay/flipper.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -25,7 +25,7 @@ std::optional<Division> division_of(const TileMesh& mesh, const TileMesh::Edge& 
   const Walls& walls = mesh.walls();
   const Walls::Chord chord = mesh.chord(edge.a, edge.b, edge.side.boundary);
   if (!walls.may_change(chord)) return {};
-  const OutlinePlace place = walls.middle_of(chord);
+  const smoother::OutlinePlace place = walls.middle_of(chord);
   const Point at = walls.point_at(place);
   if (!walls.may_divide(chord, place, at)) return {};
   const auto freedom =
@@ -100,4 +100,4 @@ bool split_edge(TileMesh& mesh, std::int32_t a, std::int32_t b) {
   return true;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

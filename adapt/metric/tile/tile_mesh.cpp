@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 TileMesh::TileMesh(const std::vector<TileNode>& nodes, std::vector<TileTriangle> triangles,
                    const Walls& walls)
@@ -183,4 +183,4 @@ void TileMesh::set_side(std::int32_t a, std::int32_t b, const TileSide& side) {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

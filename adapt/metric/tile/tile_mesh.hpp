@@ -8,7 +8,7 @@
 #include "adapt/metric/algebra/tensor.hpp"
 #include "adapt/metric/tile/walls.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A node of a tile with its global number; negative for a new node.
 struct TileNode {
@@ -104,4 +104,4 @@ class TileMesh {
   std::vector<char> standing_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

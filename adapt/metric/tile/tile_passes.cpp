@@ -4,7 +4,7 @@
 
 #include "adapt/metric/tile/operations.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -75,4 +75,4 @@ TileChanges adapt_tile(TileMesh& mesh) {
   return changes;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "adapt/metric/tile/tile_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Counts of operations.
 struct TileChanges {
@@ -25,4 +25,4 @@ struct TileChanges {
 /// about 4^2. The result depends only on the tile's nodes and triangles in their order.
 TileChanges adapt_tile(TileMesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

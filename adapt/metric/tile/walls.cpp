@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -20,26 +20,27 @@ bool Walls::may_change(const Chord& chord) const {
   return heights_.empty() || !(heights_[middle_of(chord).segment] > 0);
 }
 
-double Walls::deviation(const Chord& whole, OutlinePlace at, Point p) const {
+double Walls::deviation(const Chord& whole, smoother::OutlinePlace at, Point p) const {
   return std::max(deviation({whole.from, at, whole.a, p}), deviation({at, whole.to, p, whole.b}));
 }
 
-bool Walls::may_divide(const Chord& whole, OutlinePlace at, Point p) const {
+bool Walls::may_divide(const Chord& whole, smoother::OutlinePlace at, Point p) const {
   return meets_nothing({whole.from, at, whole.a, p}) && meets_nothing({at, whole.to, p, whole.b}) &&
          !outline_.sweeps_over(whole, p);
 }
 
-bool Walls::may_slide(const Chord& whole, OutlinePlace at, Point p, OutlinePlace before, Point q) const {
+bool Walls::may_slide(const Chord& whole, smoother::OutlinePlace at, Point p, smoother::OutlinePlace before,
+                      Point q) const {
   if (keeps_nodes_) return false;
   const double shorter = std::min(length(p - whole.a), length(whole.b - p));
   const double allowed = std::max(deviation(whole, before, q), stray_share * shorter);
   return deviation(whole, at, p) <= allowed && may_divide(whole, at, p) && !outline_.sweeps_over(whole, q);
 }
 
-bool Walls::may_join(const Chord& whole, OutlinePlace at, Point p) const {
+bool Walls::may_join(const Chord& whole, smoother::OutlinePlace at, Point p) const {
   if (keeps_nodes_) return false;
   const double allowed = std::max(deviation(whole, at, p), stray_share * length(whole.b - whole.a));
   return deviation(whole) <= allowed && meets_nothing(whole) && !outline_.sweeps_over(whole, p);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

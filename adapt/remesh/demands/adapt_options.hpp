@@ -11,7 +11,7 @@
 #include "adapt/transfer/transfer.hpp"
 #include "mesher/base/word_table.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Adaptation options of a case.
 struct AdaptOptions {
@@ -55,4 +55,4 @@ struct AdaptOptions {
   std::optional<WallFlow> wall_flow;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

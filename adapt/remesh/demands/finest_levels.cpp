@@ -4,7 +4,7 @@
 #include "mesher/geometry/facets.hpp"
 #include "mesher/grid/tree_grid.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::vector<std::int8_t> finest_levels(const Geometry& geometry, const TreeRecor
   return levels;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the finest level to which adaptation may split each quadtree cell of this rank: `finest`, but at
 /// facets of the geometry (FacetZones) cells do not become smaller than half of the segments there, unless
@@ -15,4 +15,4 @@ namespace quadloop {
 std::vector<std::int8_t> finest_levels(const Geometry& geometry, const TreeRecord& tree, int finest,
                                        bool facets_may_be_resolved);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

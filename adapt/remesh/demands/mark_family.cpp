@@ -7,7 +7,7 @@
 #include "adapt/sensor/target_size.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<RefinementFlag> MarkFamily::size_flags(double at) const {
   return mark_by_size(solved_.tree, sizes);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

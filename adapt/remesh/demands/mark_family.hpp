@@ -9,7 +9,7 @@
 #include "adapt/sensor/thresholds.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A family of markings of one quadtree, ordered by a parameter in [-1, 1]. At 1 these are the flags of the
 /// rule itself. Towards 0 fewer cells are refined, dropping the smallest indicators first (for size fields,
@@ -42,4 +42,4 @@ class MarkFamily {
   double refined_share_ = 1, coarsened_share_ = 0;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

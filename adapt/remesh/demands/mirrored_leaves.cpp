@@ -7,7 +7,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "mesher/base/parallel/partners.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 Quadrant image_of(MirrorAxis axis, const TreeAttributes& tree, const Quadrant& quadrant) {
   Quadrant image = quadrant;
@@ -73,4 +73,4 @@ void agree_with_images(MirrorAxis axis, MeasuredWall& wall) {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the mirror image in an axis that halves the root of the trees.
 Quadrant image_of(MirrorAxis axis, const TreeAttributes& tree, const Quadrant& quadrant);
@@ -29,4 +29,4 @@ std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree
 /// Makes the wall friction symmetric: the larger value of two images counts.
 void agree_with_images(MirrorAxis axis, MeasuredWall& wall);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -159,4 +159,4 @@ void keep_root(const TreeAttributes& tree, MeshInput& input) {
   input.mesh.size.root = RootOptions{root.low, tree.tree_edge, tree.trees_x, tree.trees_y, root.high};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the square of a quadtree cell, in coordinates of the whole forest.
 Quadrant quadrant_of(const LeafRecord& leaf);
@@ -45,4 +45,4 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree,
 /// InputError if the geometry does not lie inside it.
 void keep_root(const TreeAttributes& tree, MeshInput& input);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

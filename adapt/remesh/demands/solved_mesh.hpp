@@ -6,7 +6,7 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A mesh with its quadtree and solution. Cells are in the order of the quadtree cells; the rank partitions
 /// of quadtree cells, mesh cells and nodes may differ.
@@ -17,4 +17,4 @@ struct SolvedMesh {
   std::string file;  ///< file of the solution, for messages
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -13,7 +13,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -164,4 +164,4 @@ SizedChanges changes_for_nodes(const TargetLevels& wanted, const TrialCount& cou
   return best;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

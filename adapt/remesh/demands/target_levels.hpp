@@ -11,7 +11,7 @@
 #include "adapt/remesh/demands/trial_count.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Returns the splits of a saved tree that bring each quadtree cell of this rank to its own target level;
 /// earlier demands are discarded. A cell that is to be n levels finer becomes 4^n cells. `levels` has one
@@ -71,4 +71,4 @@ struct SizedChanges {
 /// if that is more. *Collective.*
 SizedChanges changes_for_nodes(const TargetLevels& wanted, const TrialCount& count, std::int64_t nodes);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 NodeBounds TrialCount::nodes_after(const ChangedSplits& changes) const {
   return nodes_of({comm_, changes.demands});
@@ -34,4 +34,4 @@ double TrialCount::share_of_limit(const ChangedSplits& changes) const {
   return share_of(limit_, trial_.estimate(DemandedSplits(comm_, changes.demands)));
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "generate/mesh_trial.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Predicts the number of nodes after changes of a tree (MeshTrial).
 class TrialCount {
@@ -41,4 +41,4 @@ class TrialCount {
   MeshLimit limit_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::vector<Hessian> node_hessians(const Communicator& comm, const Mesh& mesh, c
   return {of_nodes.begin(), of_nodes.begin() + std::ssize(mesh.points)};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

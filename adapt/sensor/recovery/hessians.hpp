@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A symmetric 2 x 2 matrix of second derivatives, in 1 / length^2.
 struct Hessian {
@@ -59,4 +59,4 @@ std::vector<CellHessian> cell_hessians(const Communicator& comm, const Mesh& mes
 /// layers; 0 within layers. `field` has a value for each of these nodes. *Collective.*
 std::vector<Hessian> node_hessians(const Communicator& comm, const Mesh& mesh, const ScaledField& field);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -109,4 +109,4 @@ Hessian Moments::hessian(double rounding) const {
   return 1 / (unit * unit) * lift;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

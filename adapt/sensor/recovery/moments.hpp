@@ -6,7 +6,7 @@
 #include "adapt/sensor/recovery/hessians.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Moments of points about a place: sums of dx^a dy^b for a + b <= 4, and of q dx^a dy^b for a + b <= 2,
 /// where q is the value at the point minus a reference value of the place. They define the least-squares fit
@@ -29,4 +29,4 @@ class Moments {
   std::array<double, 6> values_{};
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

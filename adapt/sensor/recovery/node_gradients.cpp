@@ -3,7 +3,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::vector<Point> node_gradients(const Communicator& comm, const Mesh& mesh,
   return gradients;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

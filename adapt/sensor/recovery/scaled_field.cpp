@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -92,4 +92,4 @@ ScaledField scaled_by_range(const Communicator& comm, std::vector<double> values
   return scaled;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Allowed values of a field, besides being finite.
 enum class FieldSign { any, not_negative, positive };
@@ -30,4 +30,4 @@ struct ScaledField {
 /// *Collective.*
 ScaledField scaled_by_range(const Communicator& comm, std::vector<double> values);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

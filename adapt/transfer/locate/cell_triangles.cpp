@@ -6,7 +6,7 @@
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -141,4 +141,4 @@ std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& m
   return triangles;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

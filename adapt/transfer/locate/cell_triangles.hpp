@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A triangle cell or half of a quadrilateral, counter-clockwise. The global number is twice that of the cell
 /// (triangles first, then quadrilaterals), plus one for the second half of a quadrilateral.
@@ -54,4 +54,4 @@ std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& m
 std::vector<CellTriangle> cell_triangles(const Communicator& comm, const Mesh& mesh, Point centre,
                                          const PointCells& points);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

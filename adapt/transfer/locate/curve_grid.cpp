@@ -7,7 +7,7 @@
 #include "mesher/base/morton.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -62,4 +62,4 @@ bool CurveGrid::Square::lies_in(const Steps& steps) const {
   return steps.low.x <= begin.x && end.x <= steps.high.x && steps.low.y <= begin.y && end.y <= steps.high.y;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

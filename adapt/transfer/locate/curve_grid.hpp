@@ -6,7 +6,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A grid of 2^32 by 2^32 steps over a box, numbered along a Morton curve. Rounding to steps keeps the order
 /// of coordinates; a point outside the box is mapped to the nearest one on its border.
@@ -48,4 +48,4 @@ class CurveGrid {
   double scale_ = 0;  ///< steps per unit of length
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -60,4 +60,4 @@ void CurvePartition::descend(const CurveGrid::Steps& steps, const CurveGrid::Squ
   for (int k = 0; k < 4; ++k) descend(steps, square.child(k), ranks);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

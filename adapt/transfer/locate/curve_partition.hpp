@@ -6,7 +6,7 @@
 
 #include "adapt/transfer/locate/curve_grid.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Partition of the plane among the ranks: ranges of a Morton curve with about equal numbers of the given
 /// points. It depends on the number of ranks; results must not.
@@ -32,4 +32,4 @@ class CurvePartition {
   std::vector<std::uint64_t> splits_;  ///< first key of each rank except rank 0
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

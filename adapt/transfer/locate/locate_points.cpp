@@ -6,7 +6,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/predicates.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<co
   return Search(piece, points).run();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

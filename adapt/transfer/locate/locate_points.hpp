@@ -6,10 +6,10 @@
 
 #include "adapt/transfer/locate/triangle_piece.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each point the index of the triangle that contains it, border included, by exact predicates; the
 /// lowest number of several; -1 if there is none. The triangles must be counter-clockwise. O((n + m) log n).
 std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

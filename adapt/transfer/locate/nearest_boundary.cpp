@@ -7,7 +7,7 @@
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::vector<std::array<NodeId, 2>> boundary_edges_of(const Mesh& mesh) {
   return edges;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

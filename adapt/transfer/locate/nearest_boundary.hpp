@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// A place on a boundary edge, on the rank that has the edge; the index counts through the mesh's boundaries
 /// in order.
@@ -38,4 +38,4 @@ class NearestBoundary {
 /// This rank's boundary edges, by the index of BoundaryPlace.
 std::vector<std::array<NodeId, 2>> boundary_edges_of(const Mesh& mesh);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

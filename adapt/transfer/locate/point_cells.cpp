@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -119,4 +119,4 @@ bool PointCells::descend(const CurveGrid::Steps& steps, const CurveGrid::Square&
   return false;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

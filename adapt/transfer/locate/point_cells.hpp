@@ -9,7 +9,7 @@
 
 #include "adapt/transfer/locate/curve_grid.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The distribution of points, as grid squares with a few points each; every rank has all ranks' squares, at
 /// most about 65 000.
@@ -60,4 +60,4 @@ class PointCells {
   std::vector<std::uint64_t> occupied_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -3,7 +3,7 @@
 #include "mesher/base/ids.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -71,4 +71,4 @@ TrianglePiece gather_piece(const Communicator& comm, const CurvePartition& share
   return piece;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Triangles from any ranks, with their own node numbering.
 struct TrianglePiece {
@@ -26,4 +26,4 @@ struct TrianglePiece {
 TrianglePiece gather_piece(const Communicator& comm, const CurvePartition& shares, const Mesh& mesh,
                            const Field& field, std::span<const CellTriangle> triangles);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/geometry/point_table.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -106,4 +106,4 @@ std::vector<std::int32_t> unchanged_nodes(const Mesh& old_mesh, const NodeFlags&
   return found;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// For each of `points` the index of one of the `known` points with the same coordinates, for two lists in a
 /// similar order: searched near the position of the last match, and among a regular subset of the known
@@ -25,4 +25,4 @@ NodeFlags inner_nodes(const Communicator& comm, const Mesh& mesh);
 std::vector<std::int32_t> unchanged_nodes(const Mesh& old_mesh, const NodeFlags& is_inner,
                                           std::span<const Point> places);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

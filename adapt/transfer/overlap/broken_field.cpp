@@ -5,7 +5,7 @@
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -100,4 +100,4 @@ BrokenField broken_cells(const Communicator& comm, const Mesh& mesh, const CellV
   return broken;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

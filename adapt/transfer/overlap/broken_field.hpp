@@ -8,7 +8,7 @@
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "mesher/mesh/field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Variables that are linear on each local triangle and may be discontinuous between triangles.
 struct BrokenField {
@@ -34,4 +34,4 @@ BrokenField broken_nodal(const Mesh& mesh, const Field& field, std::span<const C
 BrokenField broken_cells(const Communicator& comm, const Mesh& mesh, const CellValues& cells,
                          std::span<const CellTriangle> triangles);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

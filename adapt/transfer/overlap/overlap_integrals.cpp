@@ -9,7 +9,7 @@
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/box_tree.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -216,4 +216,4 @@ OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartiti
   return add_up(comm, parts, old_field.width, new_triangles.size());
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

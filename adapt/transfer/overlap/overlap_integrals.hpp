@@ -7,7 +7,7 @@
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// Area of a triangle with counter-clockwise corners.
 constexpr double area_of(const std::array<Point, 3>& t) { return 0.5 * cross(t[1] - t[0], t[2] - t[0]); }
@@ -39,4 +39,4 @@ OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartiti
                                     const BrokenField& old_field,
                                     std::span<const std::array<Point, 3>> new_triangles);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/predicates.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 namespace {
 
@@ -60,4 +60,4 @@ TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array
   return {0.5 * twice_area, polygon.corners[0] + (1 / (3 * twice_area)) * moment};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -4,7 +4,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 
 /// The intersection of two triangles.
 struct TriangleOverlap {
@@ -17,4 +17,4 @@ struct TriangleOverlap {
 /// areas are accurate to rounding, also far from the origin.
 TriangleOverlap overlap_of(const std::array<Point, 3>& clipped, const std::array<Point, 3>& by);
 
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 Colouring colour_dual_nodes(const Communicator& comm, const DualMesh& mesh) {
   std::vector<std::vector<NodeId>> neighbours(mesh.owned_nodes());
@@ -17,4 +17,4 @@ Colouring colour_dual_nodes(const Communicator& comm, const DualMesh& mesh) {
   });
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

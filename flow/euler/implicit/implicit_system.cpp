@@ -6,7 +6,7 @@
 
 #include "flow/euler/scheme/viscous.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -282,4 +282,4 @@ void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::v
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

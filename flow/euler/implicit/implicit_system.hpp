@@ -10,7 +10,7 @@
 #include "flow/euler/scheme/no_slip.hpp"
 #include "flow/euler/scheme/shock_sensor.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 using Change = std::array<float, 4>;  ///< of the conserved variables
 
@@ -90,4 +90,4 @@ class ImplicitSystem {
   std::vector<double> time_terms_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -180,4 +180,4 @@ KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, c
   return end;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Four values for each owned node; further rows are ignored.
 using NodeRows = std::vector<std::array<double, 4>>;
@@ -29,4 +29,4 @@ struct KrylovEnd {
 KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, const NodeRows& right,
                          NodeRows& x, double tolerance, int iterations, int restart);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -5,7 +5,7 @@
 
 #include "mesher/base/parallel/exchange.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::vector<NodeLine> find_lines(const Communicator& comm, const DualMesh& mesh,
   return LineFinder(comm, mesh, colours).find();
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

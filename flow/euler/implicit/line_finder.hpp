@@ -7,7 +7,7 @@
 #include "flow/euler/implicit/colouring.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Consecutive nodes, each coupled far more strongly to its predecessor and successor than to other
 /// neighbours, as across a stack of thin cells.
@@ -23,4 +23,4 @@ struct NodeLine {
 /// lines. *Collective.*
 std::vector<NodeLine> find_lines(const Communicator& comm, const DualMesh& mesh, const Colouring& colours);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

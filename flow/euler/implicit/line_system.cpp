@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <unordered_map>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -81,4 +81,4 @@ void LineSystem::solve(int colour, std::vector<Row>& rows) const {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 #include "flow/euler/implicit/line_finder.hpp"
 #include "flow/euler/model/flux_jacobian.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The part of an implicit system that couples the nodes of each line (find_lines), solved exactly as a block
 /// tridiagonal system. A line shared by several ranks is solved on all of them, bitwise identically, after
@@ -57,4 +57,4 @@ class LineSystem {
   std::vector<Blocks> blocks_;            ///< for each row; empty without lines
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -5,7 +5,7 @@
 
 #include "mesher/base/parallel/reproducible_sum.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -80,4 +80,4 @@ void NewtonSystem::differentiate(const NodeRows& change, NodeRows& result) {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

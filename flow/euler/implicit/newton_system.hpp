@@ -6,7 +6,7 @@
 #include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/scheme/residual.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The linear system of a Newton step: (area / time step + derivative of the second-order residual) change =
 /// right side. It is matrix-free: GMRES takes directional derivatives from differences of two residuals. The
@@ -45,4 +45,4 @@ class NewtonSystem {
   std::vector<State> moved_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -34,4 +34,4 @@ State updated(const Gas& gas, const State& state, const std::array<double, 4>& d
   return state;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

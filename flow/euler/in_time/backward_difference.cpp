@@ -5,7 +5,7 @@
 
 #include "flow/euler/implicit/state_update.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -156,4 +156,4 @@ bool BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
   return true;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

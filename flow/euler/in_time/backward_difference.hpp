@@ -6,7 +6,7 @@
 #include "flow/euler/implicit/newton_system.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Implicit steps of order 2: BDF2 with the coefficients of variable steps; the first step is of order 1.
 /// Damps motion faster than the steps. Each step is solved by Newton's method, starting from the extrapolated
@@ -51,4 +51,4 @@ class BackwardDifference : public TimeScheme {
   int unsolved_ = 0;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -9,7 +9,7 @@
 
 #include "flow/euler/scheme/viscous.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -106,4 +106,4 @@ bool RungeKutta::is_everywhere(bool (*holds)(const State&)) const {
   return !run_.comm.any(!std::ranges::all_of(own, holds));
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

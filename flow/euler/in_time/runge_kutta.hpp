@@ -4,7 +4,7 @@
 
 #include "flow/euler/in_time/time_scheme.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Explicit steps of order 3, strong stability preserving (Shu and Osher 1988). A step that makes density or
 /// pressure negative at a node, e.g. in a starting expansion around a corner, is halved, repeatedly if
@@ -29,4 +29,4 @@ class RungeKutta : public TimeScheme {
   std::vector<Conserved> start_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 void TimeAverage::add(const std::vector<State>& states, const std::vector<Point>& friction, std::size_t owned,
                       double duration) {
@@ -28,4 +28,4 @@ std::vector<Point> TimeAverage::friction() const {
   return mean;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -5,7 +5,7 @@
 #include "flow/euler/model/gas.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Time averages of the owned nodes' states and wall friction. Forces are linear in pressure and friction, so
 /// the forces of the averages are the averages of the forces.
@@ -26,4 +26,4 @@ class TimeAverage {
   std::vector<Point> friction_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

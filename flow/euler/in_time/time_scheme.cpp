@@ -3,11 +3,11 @@
 #include "flow/euler/in_time/backward_difference.hpp"
 #include "flow/euler/in_time/runge_kutta.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 std::unique_ptr<TimeScheme> time_scheme(FlowRun& run, std::optional<double> step, double cfl) {
   if (step) return std::make_unique<BackwardDifference>(run, *step);
   return std::make_unique<RungeKutta>(run, cfl);
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

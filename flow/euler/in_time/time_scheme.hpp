@@ -8,7 +8,7 @@
 
 #include "flow/euler/scheme/flow_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 inline bool is_finite(const State& state) {
   return std::ranges::all_of(state, [](double value) { return std::isfinite(value); });
@@ -37,4 +37,4 @@ class TimeScheme {
 /// Returns an implicit scheme with this step, or an explicit one with this CFL number. *Collective.*
 std::unique_ptr<TimeScheme> time_scheme(FlowRun& run, std::optional<double> step, double cfl);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

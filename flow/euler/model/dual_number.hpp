@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// A number with its derivatives with respect to `count` variables: computing with such numbers instead of
 /// doubles gives exact derivatives (forward-mode automatic differentiation). Comparisons use the value only,
@@ -67,4 +67,4 @@ struct VectorOf {
   Real x{}, y{};
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 namespace {
 
@@ -48,4 +48,4 @@ void validate(const EulerOptions& options) {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -11,7 +11,7 @@
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// User options of one boundary of the mesh.
 struct BoundaryChoice {
@@ -101,4 +101,4 @@ inline constexpr const char* wall_shear_name = "wall_shear";
 /// Throws InputError that names the value and its valid range.
 void validate(const EulerOptions& options);
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

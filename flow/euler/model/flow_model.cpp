@@ -10,7 +10,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -217,4 +217,4 @@ void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, 
   QUADLOOP_REQUIRE(false, no_face);
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

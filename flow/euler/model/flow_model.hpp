@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Boundary condition. `none` is for a boundary without edges; in viscous flow a `wall` is `no_slip`.
 enum class Condition { none, wall, no_slip, farfield, inflow, outflow, symmetry };
@@ -58,4 +58,4 @@ FluxOf<Real> boundary_flux(const FlowModel& model, const BoundaryModel& boundary
 void add_boundary_matrix(const FlowModel& model, const BoundaryModel& boundary, const State& state,
                          Point normal, double factor, Matrix4& sum);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 
 #include "flow/euler/model/gas.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Returns the flux through a face of length 1 with this unit normal.
 template <class Real = double, class Vector = Point>
@@ -139,4 +139,4 @@ FluxOf<Real> roe_flux(const Gas& gas, const StateOf<Real>& left, const StateOf<R
                   waves.middle * (r.energy - l.energy) + part.first * mean.enthalpy + part.second * along)};
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include "flow/euler/model/flux.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Derivative of a flux with respect to the conserved variables, row-major.
 using Matrix4 = std::array<double, 16>;
@@ -72,4 +72,4 @@ inline double add_upwind_matrix(const Gas& gas, const State& left, const State& 
   return std::abs(along) + sound;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

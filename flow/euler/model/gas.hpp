@@ -5,7 +5,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Density, x velocity, y velocity, pressure, in units of free-stream density and speed of sound.
 using State = std::array<double, 4>;
@@ -60,4 +60,4 @@ struct Gas {
   State free_stream(double mach, double degrees) const;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

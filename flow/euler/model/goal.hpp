@@ -6,7 +6,7 @@
 #include "mesher/base/word_table.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 
 /// An output functional, as a coefficient: divided by dynamic pressure and reference length.
 struct Goal {
@@ -31,4 +31,4 @@ struct Goal {
   friend bool operator==(const Goal&, const Goal&) = default;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::flow

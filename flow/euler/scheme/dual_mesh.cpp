@@ -8,7 +8,7 @@
 #include "flow/euler/scheme/skewness.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -175,4 +175,4 @@ void DualMesh::collect_faces() {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

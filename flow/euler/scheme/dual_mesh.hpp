@@ -6,7 +6,7 @@
 
 #include "mesher/mesh/halo_mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 struct SkewFace;
 
@@ -78,4 +78,4 @@ class DualMesh {
   std::vector<BoundaryFace> faces_;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

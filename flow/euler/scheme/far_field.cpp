@@ -6,7 +6,7 @@
 
 #include "mesher/mesh/box_over_ranks.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 FarField::FarField(const Communicator& comm, const DualMesh& mesh, const FlowModel& model)
     : gas_{model.gas}, free_stream_{model.free_stream} {
@@ -33,4 +33,4 @@ State FarField::at(Point place) const {
   return {density, x, y, density * heat / g};
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The flow outside the far field: the free stream, optionally with the compressible point vortex of the lift
 /// (Thomas and Salas 1986), for a subsonic free stream. The vortex is at the centre of the bounding box of
@@ -27,4 +27,4 @@ class FarField {
   double circulation_ = 0;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -5,7 +5,7 @@
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// A flow during its solution: the problem, which must outlive it, and the changing data.
 struct FlowRun {
@@ -18,4 +18,4 @@ struct FlowRun {
   bool is_transferred = false;  ///< whether the states are those of a given flow
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -1,6 +1,6 @@
 #include "flow/euler/scheme/reconstruction.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -81,4 +81,4 @@ void LeastSquares::add_transposed(const std::vector<Gradient>& weights, std::vec
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

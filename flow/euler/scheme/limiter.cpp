@@ -3,7 +3,7 @@
 
 #include "flow/euler/scheme/reconstruction.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -78,4 +78,4 @@ void Limiter::find_factors(const std::vector<State>& states) {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 NoSlipNodes::NoSlipNodes(const DualMesh& mesh, const FlowModel& model) : gamma_{model.gas.gamma} {
   for (const BoundaryFace& face : mesh.faces()) {
@@ -55,4 +55,4 @@ void NoSlipNodes::hold(std::vector<Matrix4>& diagonal) const {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

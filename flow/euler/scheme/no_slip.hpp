@@ -6,7 +6,7 @@
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The nodes on no-slip walls. Their conserved variables are partly prescribed: zero momentum and, at an
 /// isothermal wall, an energy that depends on the density alone. The corresponding rows of an implicit step
@@ -39,4 +39,4 @@ class NoSlipNodes {
   std::vector<Node> nodes_;  ///< owned nodes, ascending
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

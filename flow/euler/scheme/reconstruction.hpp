@@ -7,7 +7,7 @@
 #include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Gradient of each variable along x and along y.
 struct Gradient {
@@ -103,4 +103,4 @@ class Limiter {
   bool frozen_ = false;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include "flow/euler/model/flux.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -161,4 +161,4 @@ void Residual::add_faces(const std::vector<State>& states) {
   }
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -12,7 +12,7 @@
 #include "flow/euler/scheme/shock_sensor.hpp"
 #include "flow/euler/scheme/viscous.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The net flux out of each owned node's dual cell: second order, with Roe fluxes between states at the
 /// midpoints of edges from limited gradients; in viscous flow minus the viscous fluxes of unlimited
@@ -100,4 +100,4 @@ inline State state_at_half(const BoundaryFace& face, const State& own, const Sta
   return state;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -1,6 +1,6 @@
 #include "flow/euler/scheme/shock_sensor.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 ShockSensor::ShockSensor(const DualMesh& mesh, double least_pressure)
     : mesh_{mesh}, least_pressure_{least_pressure}, jumps_(mesh.nodes()), shares_(mesh.nodes()) {}
@@ -17,4 +17,4 @@ void ShockSensor::find(const std::vector<State>& states) {
   mesh_.exchange().update(shares_);
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -6,7 +6,7 @@
 #include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Returns the jump of two pressures relative to the lower one, or to `least` if that is larger.
 template <class Real = double>
@@ -59,4 +59,4 @@ class ShockSensor {
   bool frozen_ = false;
 };
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

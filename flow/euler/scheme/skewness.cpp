@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -30,4 +30,4 @@ Skewness bearable(const SkewFace& face, const Nearness& low, const Nearness& hig
   return of_middle * face.of_middle + left_over * face.left_over;
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

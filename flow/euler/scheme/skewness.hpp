@@ -4,7 +4,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// The integral over a face of position, relative to its edge's midpoint, times normal: normals for the
 /// gradient along x and along y.
@@ -53,4 +53,4 @@ double share_left_over(double length, double size);
 /// keep all of it, bitwise.
 Skewness bearable(const SkewFace& face, const Nearness& low, const Nearness& high);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 namespace {
 
@@ -87,4 +87,4 @@ double diffusivity(const FlowModel& model, const State& state) {
   return std::max(4.0 / 3, model.gas.gamma / model.prandtl) * model.viscosity / state[0];
 }
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -3,7 +3,7 @@
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/reconstruction.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 
 /// Gradients of velocity and temperature. The temperature is gamma pressure / density: 1 in the free stream.
 struct ViscousGradient {
@@ -40,4 +40,4 @@ void add_viscous_matrix(const FlowModel& model, const State& state, const State&
 /// face.
 double diffusivity(const FlowModel& model, const State& state);
 
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

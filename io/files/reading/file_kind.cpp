@@ -12,7 +12,7 @@
 
 #include "mesher/base/suffix.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::optional<FileKind> kind_of_file(const std::string& path) {
   return std::nullopt;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The kind of a file by its first bytes, independent of its name.
 struct FileKind {
@@ -16,4 +16,4 @@ struct FileKind {
 /// Empty if the first bytes are of no known kind, or the path is not a regular file.
 std::optional<FileKind> kind_of_file(const std::string& path);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,7 +12,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -140,4 +140,4 @@ void InputPieces::read_all(char* into, std::size_t size) {
 
 void allow_piped_input(bool allowed) { pipes_allowed = allowed; }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

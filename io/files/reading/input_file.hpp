@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-namespace quadloop {
+namespace quadloop::io {
 
 class InputDescriptor;
 
@@ -40,4 +40,4 @@ class InputPieces {
 /// from a pipe are lost for the others.
 void allow_piped_input(bool allowed);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

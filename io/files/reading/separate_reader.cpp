@@ -19,7 +19,7 @@
 #include "io/files/reading/input_file.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -200,4 +200,4 @@ void run_reader(const std::string& kind, const std::string& path, const std::vec
 
 }  // namespace detail
 
-}  // namespace quadloop
+}  // namespace quadloop::io

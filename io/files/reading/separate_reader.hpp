@@ -6,7 +6,7 @@
 
 #include "io/files/reading/value_pipe.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Protocol between quadloop-reader (io/reader) and the program that starts it with `quadloop-reader SECONDS
 /// BYTES KIND PATH ...`; the first two arguments limit CPU time and memory. On its descriptor the reader
@@ -46,4 +46,4 @@ Result read_separately(const std::string& kind, const std::string& path,
   return result;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -69,4 +69,4 @@ void PipeReader::bytes(void* to, std::size_t size) {
   }
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Sends values through a pipe, whose end it owns. If there is no reader, data are discarded.
 class PipeWriter {
@@ -145,4 +145,4 @@ std::uint64_t signature_of() {
   return signature.number;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

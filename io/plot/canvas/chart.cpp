@@ -7,7 +7,7 @@
 #include "io/plot/canvas/ticks.hpp"
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::string draw_chart(const Chart& chart, double size, std::optional<Point> cen
   return ChartPicture(chart, whole, sheet.scale, format).draw();
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

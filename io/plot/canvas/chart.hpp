@@ -8,7 +8,7 @@
 #include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 struct ChartLine {
   std::string name;  ///< lines of the same name have the same colour
@@ -38,4 +38,4 @@ struct Chart {
 /// Returns the chart as a file's bytes; sizes as in PlotOptions. Throws InputError if a panel is empty.
 std::string draw_chart(const Chart& chart, double size, std::optional<Point> centimetres, PlotFormat format);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

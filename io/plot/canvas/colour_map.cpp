@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -83,4 +83,4 @@ Colour quality_colour(double t) {
   return interpolated(std::array<Colour, 3>{{red, yellow, green}}, t);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "io/plot/canvas/plot_canvas.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Maps a number from 0 to 1 to a colour; values outside are clamped.
 using ColourMap = Colour (*)(double);
@@ -21,4 +21,4 @@ Colour perceptual_colour(double t);
 /// 0 red, 0.5 yellow, 1 green.
 Colour quality_colour(double t);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -142,4 +142,4 @@ Chart history_chart(const std::vector<PlotTable>& histories) {
   return chart;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -6,7 +6,7 @@
 
 #include "io/plot/canvas/chart.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// A text table whose first line names its columns, as written by `quadloop solve`.
 struct PlotTable {
@@ -41,4 +41,4 @@ Chart cycles_chart(const std::vector<CycleStatistics>& cycles);
 /// Returns residual, CL and CD over the steps of consecutive runs, with a mark at the end of each.
 Chart history_chart(const std::vector<PlotTable>& histories);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

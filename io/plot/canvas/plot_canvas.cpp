@@ -11,7 +11,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::string Canvas::finish() {
   return std::move(cairo_->bytes);
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 enum class PlotFormat { png, svg, pdf };
 
@@ -72,4 +72,4 @@ class Canvas {
   std::unique_ptr<Cairo> cairo_;
 };
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include "io/plot/canvas/plot_canvas.hpp"
 #include "mesher/geometry/point.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// The size of a sheet, and the scale of its units in the file and in images on it.
 struct Sheet {
@@ -21,4 +21,4 @@ inline Sheet sheet_of(std::optional<Point> centimetres, PlotFormat format) {
   return {units_per_centimetre * *centimetres, format == PlotFormat::png ? dots : points, dots};
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

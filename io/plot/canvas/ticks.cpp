@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::io {
 
 Ticks round_ticks(double low, double high, double most) {
   Ticks ticks;
@@ -36,4 +36,4 @@ Ticks decade_ticks(double low, double high, double most) {
   return ticks;
 }
 
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 
 /// Numbers along an axis, with their labels.
 struct Ticks {
@@ -17,4 +17,4 @@ Ticks round_ticks(double low, double high, double most);
 /// Returns at most `most` powers of ten between low and high, which must be positive.
 Ticks decade_ticks(double low, double high, double most);
 
-}  // namespace quadloop
+}  // namespace quadloop::io

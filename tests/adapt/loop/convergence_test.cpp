@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 const CycleValues before{1000, 0.3, 0.02, 0.4};
@@ -56,4 +56,4 @@ TEST(Settling, ValuesComeBackFromTheRecord) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

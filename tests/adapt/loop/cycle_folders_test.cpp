@@ -12,7 +12,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 namespace fs = std::filesystem;
@@ -189,4 +189,4 @@ TEST(Resume, ADamagedOrMissingRecordSaysHowToBeRidOfIt) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::all_nodes;
@@ -25,7 +25,7 @@ class Notes final : public CycleObserver {
  public:
   void begin(int cycle) override { calls += "b" + std::to_string(cycle); }
   void meshed(const MeshResult&, const Field& start) override { calls += start.width() > 0 ? "M" : "m"; }
-  std::vector<std::string> solved(const Mesh&, const SolvedFlow&) override {
+  std::vector<std::string> solved(const Mesh&, const flow::SolvedFlow&) override {
     calls += "s";
     return {"from the observer"};
   }
@@ -63,7 +63,8 @@ TEST(Loop, RefinesWhereTheFlowChangesAndIsTheSameOnOneRank) {
 
 TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
   double worst = 0;
-  const FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+  const flow::FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start,
+                                      int cycle) {
     for (std::int32_t i = 0; cycle > 0 && i < mesh.owned_nodes; ++i)
       worst =
           std::max(worst, std::abs(start.row(NodeId{i})[0] - test::circular_shock(mesh.point(NodeId{i}))));
@@ -97,13 +98,12 @@ TEST(Loop, EndsWhereNothingIsToBeChanged) {
 }
 
 TEST(Loop, HandsOnWhatTheSolverThrows) {
-  const FlowSolver failing = [](const Communicator&, const Mesh&, const Field&, int) -> SolvedFlow {
-    throw SolverError("no flow today");
-  };
+  const flow::FlowSolver failing = [](const Communicator&, const Mesh&, const Field&,
+                                      int) -> flow::SolvedFlow { throw SolverError("no flow today"); };
   Notes notes;
   EXPECT_THROW(run_loop(world(), square_in_eighths, options_of(1), failing, notes), SolverError);
   EXPECT_EQ(notes.calls, "b0m");
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

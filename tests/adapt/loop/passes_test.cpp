@@ -7,7 +7,7 @@
 #include "tests/adapt/loop/shock_in_square.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::all_nodes;
@@ -20,8 +20,9 @@ AdaptOptions options_with(int passes) {
   return options;
 }
 
-SolvedFlow solve_shock_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-  SolvedFlow flow = test::solve_shock(comm, mesh, start, cycle);
+flow::SolvedFlow solve_shock_with_lift(const Communicator& comm, const Mesh& mesh, const Field& start,
+                                       int cycle) {
+  flow::SolvedFlow flow = test::solve_shock(comm, mesh, start, cycle);
   flow.cl = 0.25;
   return flow;
 }
@@ -78,4 +79,4 @@ TEST(Passes, StandInTheRecordOfTheFirstCycle) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

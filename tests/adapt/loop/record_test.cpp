@@ -5,7 +5,7 @@
 
 #include "adapt/loop/case_settings.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 CycleRecord sample() {
@@ -139,4 +139,4 @@ TEST(CaseSettings, TheDigestLeavesOutWhatMayChange) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

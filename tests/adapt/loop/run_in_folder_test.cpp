@@ -13,7 +13,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,9 +21,9 @@ using test::TemporaryFolder, test::world;
 
 /// A vortex in a square, a few steps of it.
 AdaptiveCase vortex_case(int cycles) {
-  EulerOptions euler;
+  flow::EulerOptions euler;
   euler.mach = 0.5;
-  euler.initial = EulerOptions::Initial::vortex;
+  euler.initial = flow::EulerOptions::Initial::vortex;
   euler.reference_length = 0.1;
   euler.iterations = 3;
   AdaptiveCase adaptive{{{{{"far", 0, 30, "farfield"}},
@@ -67,7 +67,7 @@ TEST(RunInFolder, EachCycleHasItsFiles) {
                              "mesh.history.csv", "log.txt", "record.json"})
       EXPECT_TRUE(fs::exists(folder.file(cycle) + "/" + name)) << cycle << " " << name;
     EXPECT_EQ(test::files_in(folder.file(cycle)), 8U);
-    EXPECT_TRUE(read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
+    EXPECT_TRUE(io::read_native(folder.file(cycle) + "/mesh.mesh").solution.has_value());
   }
   const std::string log = test::bytes_of(folder.file("run/cycle_01/log.txt"));
   EXPECT_TRUE(log.starts_with("cycle 1: "));
@@ -151,7 +151,7 @@ TEST(RunInFolder, WithPassesBeginsWithAnAdaptedMeshAndIsGoneOnWithToTheSameFiles
 AdaptiveCase floor_case(int cycles) {
   Boundary floor{"floor", 0.25, 30, "wall"}, rest{"rest", 0.25, 30, "farfield"};
   floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 0.5};
-  EulerOptions euler;
+  flow::EulerOptions euler;
   euler.mach = 0.5;
   euler.viscosity = 1e-3;
   euler.iterations = 3;
@@ -177,7 +177,7 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
   EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
   world().barrier();
   const auto tree = [&](const std::string& cycle) {
-    return read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
+    return io::read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
   };
   EXPECT_TRUE(tree("cycle_00").measured_wall.empty());
   EXPECT_FALSE(tree("cycle_01").measured_wall.empty());
@@ -224,7 +224,7 @@ TEST(RunInFolder, ASolutionWithAnotherValueIsNotGoneOnFrom) {
   const std::string mesh = folder.file("run/cycle_00/mesh.mesh");
   if (world().is_root()) change_a_digit(mesh);
   world().barrier();
-  ASSERT_TRUE(read_native(mesh).solution.has_value()) << "the file is whole";
+  ASSERT_TRUE(io::read_native(mesh).solution.has_value()) << "the file is whole";
   try {
     heard.run(vortex_case(1), folder.file("run"), true);
     FAIL() << "the run goes on from a damaged solution";
@@ -254,4 +254,4 @@ TEST(CommandSolver, TheStartingStateStandsWhereTheFormatHasAPlaceForIt) {
 /// Copies the mesh with its state as it is, or leaves what is no solution.
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,8 +12,8 @@ namespace quadloop::test {
 inline const MeshInput square_in_eighths = square_input(0.125);
 
 /// Of runs on the square with one variable, "q".
-inline AdaptOptions options_of(int cycles) {
-  AdaptOptions options;
+inline adapt::AdaptOptions options_of(int cycles) {
+  adapt::AdaptOptions options;
   options.cycles = cycles;
   options.variables = {"q"};
   options.min = 1.0 / 256;
@@ -21,8 +21,8 @@ inline AdaptOptions options_of(int cycles) {
 }
 
 /// A solver whose flow is the front.
-inline SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
+inline flow::SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field&, int) {
+  flow::SolvedFlow flow;
   flow.solution.names = {"q"};
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     flow.solution.values.push_back(circular_shock(mesh.point(NodeId{i})));
@@ -30,8 +30,8 @@ inline SolvedFlow solve_shock(const Communicator&, const Mesh& mesh, const Field
 }
 
 /// And one whose flow is constant: it asks for no other mesh.
-inline SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
-  SolvedFlow flow;
+inline flow::SolvedFlow solve_constant(const Communicator&, const Mesh& mesh, const Field&, int) {
+  flow::SolvedFlow flow;
   flow.solution = {{"q"}, std::vector<double>(mesh.owned_nodes, 3.0), {}};
   return flow;
 }

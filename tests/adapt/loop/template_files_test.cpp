@@ -8,7 +8,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::TemporaryFolder, test::world;
@@ -53,9 +53,9 @@ TEST(TemplateFiles, OfSu2AreItsConfiguration) {
     EXPECT_TRUE(template_files(Su2Solver{folder.file("none.cfg"), {}}).empty());
   }
   world().barrier();
-  EXPECT_TRUE(template_files(EulerOptions{}).empty());
+  EXPECT_TRUE(template_files(flow::EulerOptions{}).empty());
   EXPECT_TRUE(template_files(CommandSolver{}).empty());
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 std::vector<WallSpan> loop(const std::vector<Point>& points) {
@@ -41,4 +41,4 @@ TEST(CrossingWalls, LeavesOutWhatWasSoBefore) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

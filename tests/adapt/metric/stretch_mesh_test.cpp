@@ -24,7 +24,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -349,4 +349,4 @@ TEST(MetricStatistics, CountEveryEdgeOnce) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 TEST(BoundaryOutline, IsWholeOnEveryRank) {
@@ -79,4 +79,4 @@ TEST(BoundaryOutline, TwoBodiesThatTouchAreTwoLoops) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

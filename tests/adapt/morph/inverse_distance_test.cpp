@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 constexpr int circle_nodes = 200, frame_nodes = 80;
@@ -110,4 +110,4 @@ TEST(RigidMotion, TurnsAboutItsOwnPoint) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

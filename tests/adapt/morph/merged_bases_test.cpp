@@ -4,7 +4,7 @@
 
 #include "mesher/geometry/assemble/assemble.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 Geometry body(const std::vector<Point>& points) {
@@ -27,4 +27,4 @@ TEST(MergedBases, EndsThatAreOneNodeOfTheMeshBecomeOneVertex) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -16,7 +16,7 @@
 #include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -159,4 +159,4 @@ TEST(MorphDerivative, WantsPointsThatStandForEachOther) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -11,7 +11,7 @@
 #include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -119,4 +119,4 @@ TEST(MorphMesh, TellsHowFarCellsCanFollow) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 Geometry outline(const std::vector<Chain>& chains) {
@@ -101,7 +101,7 @@ TEST(OutlineMap, OfTheSameOutlineIsTheIdentityAlsoWhereCornersAreBlunter) {
   coarse.insert(coarse.begin() + 3, 0.5 * (fine[2] + fine[3]));
   const Geometry from = outline({loop("body", coarse)}), to = outline({loop("body", fine)});
   const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
-  const OutlinePath path(from);
+  const smoother::OutlinePath path(from);
   for (std::int32_t v = 0; v < from.size(); ++v)
     EXPECT_NEAR(length(map.image(0, path.arc_of(v)) - from.point(v)), 0, 1e-14) << v;
 }
@@ -114,7 +114,7 @@ TEST(OutlineMap, OfTheSameOutlineIsTheIdentityWhereTheMeshLostACorner) {
   const Geometry from = outline({loop("body", {{0, 0}, {4, 0}, {4.24, 0.4}, {4.24, 0.6}, {4, 1}, {0, 1}})}),
                  to = outline({loop("body", tip)});
   const OutlineMap map(from, to, false, {"to.geom", "the mesh"});
-  const OutlinePath path(from);
+  const smoother::OutlinePath path(from);
   for (std::int32_t v = 0; v < from.size(); ++v)
     EXPECT_NEAR(length(map.image(0, path.arc_of(v)) - from.point(v)), 0, 1e-14) << v;
   EXPECT_THROW(OutlineMap(outline({loop("body", cut_off)}), outline({loop("body", far_tip)}), false,
@@ -161,4 +161,4 @@ TEST(OutlineMap, RefusesLoopsAndCornersWithoutACounterpart) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

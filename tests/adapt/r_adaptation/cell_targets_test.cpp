@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::Grid;
@@ -19,7 +19,7 @@ std::vector<LogMetric> everywhere(const Mesh& mesh, const Metric& metric) {
 }
 
 /// The largest cost of any cell by its target.
-double largest_cost(const Mesh& mesh, const std::vector<CellTarget>& targets) {
+double largest_cost(const Mesh& mesh, const std::vector<smoother::CellTarget>& targets) {
   double worst = 0;
   std::size_t number = 0;
   const auto points_of = [&](const auto& nodes) {
@@ -29,8 +29,9 @@ double largest_cost(const Mesh& mesh, const std::vector<CellTarget>& targets) {
   };
   const auto add = [&](const auto& nodes) {
     constexpr std::size_t width = std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>;
-    const CellTarget& t = targets[number++];
-    worst = std::max(worst, cell_cost<width>(points_of(nodes), stretched_targets<width>(t.w1, t.w2)));
+    const smoother::CellTarget& t = targets[number++];
+    worst = std::max(
+        worst, smoother::cell_cost<width>(points_of(nodes), smoother::stretched_targets<width>(t.w1, t.w2)));
   };
   for (const auto& nodes : mesh.triangles) add(nodes);
   for (const auto& nodes : mesh.quads) add(nodes);
@@ -53,7 +54,7 @@ TEST(ShapesOfTree, GetThinnerAlongTheMetricsAxis) {
   const Point across{0.6, 0.8}, along{-0.8, 0.6};
   const Metric metric{symmetric_of({1 / (0.05 * 0.05), 1, across})};
   for (const auto& [stretch, share] : {std::pair{8.0, 0.4}, std::pair{2.0, 0.5}}) {
-    const std::vector<CellTarget> targets = shapes.targets(mesh, everywhere(mesh, metric), stretch);
+    const std::vector<smoother::CellTarget> targets = shapes.targets(mesh, everywhere(mesh, metric), stretch);
     ASSERT_EQ(targets.size(), mesh.triangles.size() + mesh.quads.size());
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
       const auto& nodes = mesh.quads[i];
@@ -82,10 +83,10 @@ TEST(ShapesOfTree, MakeTheSmootherLowerTheirCostAndKeepCellsValid) {
   for (const bool quads : {true, false}) {
     Mesh mesh = Grid{16, {1, 1}, quads}.mesh();
     const ShapesOfTree shapes(mesh);
-    SmoothOptions options;
+    smoother::SmoothOptions options;
     options.threshold = 1e-4;
     options.targets = shapes.targets(mesh, front_metric(mesh), 8);
-    const SmoothReport report = smooth_mesh(self, mesh, options);
+    const smoother::SmoothReport report = smoother::smooth_mesh(self, mesh, options);
     EXPECT_GT(report.moves, 100);
     EXPECT_LT(report.worst_cost_after, 0.8 * report.worst_cost_before);
     EXPECT_EQ(report.inverted_after, 0);
@@ -94,4 +95,4 @@ TEST(ShapesOfTree, MakeTheSmootherLowerTheirCostAndKeepCellsValid) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -169,4 +169,4 @@ TEST(MoveNodesToShocks, SaysThatNothingBends) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -52,4 +52,4 @@ TEST(BestPlaces, AreThoseOfTheLeastNorm) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

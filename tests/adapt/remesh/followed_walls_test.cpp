@@ -13,7 +13,7 @@
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -299,4 +299,4 @@ TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

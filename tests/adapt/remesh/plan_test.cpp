@@ -22,7 +22,7 @@
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -391,4 +391,4 @@ TEST(Plan, TellsShapesByMeansRatherThanByTheFlowAtTheirEnd) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -15,7 +15,7 @@
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::field_of;
@@ -128,4 +128,4 @@ TEST(BuiltMesh, MarksAreTheSameOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::Sharing, test::world;
@@ -45,4 +45,4 @@ TEST(CellShare, RowsThatDoNotFitAreRefused) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

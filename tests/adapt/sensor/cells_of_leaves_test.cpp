@@ -10,7 +10,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -71,4 +71,4 @@ TEST(CellsOfLeaves, MayBeNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

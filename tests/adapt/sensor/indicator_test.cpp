@@ -15,7 +15,7 @@
 #include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::field_of;
@@ -267,4 +267,4 @@ TEST(Indicator, EdgesWithinStripsDoNotCount) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -14,7 +14,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::infinite;
@@ -117,4 +117,4 @@ TEST(OrderedValues, AreFiniteAndNotNegative) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -74,15 +74,15 @@ Field field_of(const Mesh& mesh, const std::string& name,
   return field;
 }
 
-RuledFlags flags_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
-                    std::span<const double> values) {
-  const OrderedValues ordered(comm, leaves, values);
+RuledFlags flags_by(const adapt::ThresholdRule& rule, const Communicator& comm,
+                    std::span<const LeafRecord> leaves, std::span<const double> values) {
+  const adapt::OrderedValues ordered(comm, leaves, values);
   RuledFlags ruled;
-  ruled.statistics = statistics_of(comm, ordered);
-  ruled.thresholds = thresholds_by(rule, ordered, ruled.statistics);
-  ruled.flags = flags_above(leaves, values, ruled.thresholds);
-  ruled.refined = count_of(comm, ruled.flags, RefinementFlag::refine);
-  ruled.coarsened = count_of(comm, ruled.flags, RefinementFlag::coarsen);
+  ruled.statistics = adapt::statistics_of(comm, ordered);
+  ruled.thresholds = adapt::thresholds_by(rule, ordered, ruled.statistics);
+  ruled.flags = adapt::flags_above(leaves, values, ruled.thresholds);
+  ruled.refined = adapt::count_of(comm, ruled.flags, adapt::RefinementFlag::refine);
+  ruled.coarsened = adapt::count_of(comm, ruled.flags, adapt::RefinementFlag::coarsen);
   return ruled;
 }
 

@@ -64,13 +64,13 @@ Field field_of(const Mesh& mesh, const std::string& name,
 
 /// Flags by a rule, as MarkFamily comes to them, and what they follow from.
 struct RuledFlags {
-  std::vector<RefinementFlag> flags;  ///< of this rank's share
-  IndicatorStatistics statistics;
-  Thresholds thresholds;
+  std::vector<adapt::RefinementFlag> flags;  ///< of this rank's share
+  adapt::IndicatorStatistics statistics;
+  adapt::Thresholds thresholds;
   std::int64_t refined = 0, coarsened = 0;  ///< of all ranks' leaves
 };
-RuledFlags flags_by(const ThresholdRule& rule, const Communicator& comm, std::span<const LeafRecord> leaves,
-                    std::span<const double> values);
+RuledFlags flags_by(const adapt::ThresholdRule& rule, const Communicator& comm,
+                    std::span<const LeafRecord> leaves, std::span<const double> values);
 
 /// The variables of both at the same nodes.
 Field joined_fields(const Field& one, const Field& other);

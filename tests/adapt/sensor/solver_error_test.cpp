@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::field_of;
@@ -48,4 +48,4 @@ TEST(SolverErrors, MayNotBeNegative) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

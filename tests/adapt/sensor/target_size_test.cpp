@@ -11,7 +11,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::field_of;
@@ -81,4 +81,4 @@ TEST(TargetSize, MarksLeavesThatAreTooLargeOrTwiceTooSmall) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

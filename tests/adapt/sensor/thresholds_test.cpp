@@ -11,7 +11,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -146,4 +146,4 @@ TEST(Thresholds, AreTheSameOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::TemporaryFolder, test::world;
@@ -28,14 +28,14 @@ TEST(CommandSolver, WhatItLeavesIsTheSolution) {
   const Mesh part = scatter_mesh(world(), whole, own_order(whole));
   Field flow{{"density"}, {}, {}};
   for (std::int32_t i = 0; i < part.owned_nodes; ++i) flow.values.push_back(part.points[i].x + 3);
-  OutputSet outputs(world());
-  write_mesh(outputs, part, folder.file("mesh.mesh"), &flow);
+  io::OutputSet outputs(world());
+  io::write_mesh(outputs, part, folder.file("mesh.mesh"), &flow);
   outputs.commit();
   const auto folder_of = [&](int) { return folder.file("."); };
   const auto solve = [&](const std::string& script) {
     return command_solver(shell(script), folder_of)(world(), part, {}, 0);
   };
-  const SolvedFlow solved = solve("cp mesh.mesh left.mesh");
+  const flow::SolvedFlow solved = solve("cp mesh.mesh left.mesh");
   EXPECT_EQ(solved.solution.names, flow.names);
   EXPECT_EQ(solved.solution.values, flow.values);
   EXPECT_FALSE(solved.stream);
@@ -54,4 +54,4 @@ TEST(CommandSolver, TheStateStandsWhereAFormatHasAPlaceForIt) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,4 +112,4 @@ TEST(OpenfoamTemplate, FieldsMustBeThereAsText) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,12 +9,12 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
 
-const FreeStream stream{2, 3, 4, 0, 1.5, 0, 0.5};
+const flow::FreeStream stream{2, 3, 4, 0, 1.5, 0, 0.5};
 
 Mesh spread_grid() {
   Mesh whole = test::Grid{6}.mesh();
@@ -24,9 +24,9 @@ Mesh spread_grid() {
 }
 
 /// A pressure of 3 + y + 2, in the cells, and what else the solver tells.
-FlowSolver cell_solver(std::optional<double> lift) {
+flow::FlowSolver cell_solver(std::optional<double> lift) {
   return [lift](const Communicator&, const Mesh& mesh, const Field&, int) {
-    SolvedFlow flow;
+    flow::SolvedFlow flow;
     flow.solution.cells.names = {"U_x", "U_y", "p"};
     for (const CellShape& shape : cell_shapes(mesh)) {
       for (const double value : {4.0, 0.0, 5 + shape.centroid.y}) flow.solution.cells.values.push_back(value);
@@ -39,7 +39,7 @@ FlowSolver cell_solver(std::optional<double> lift) {
 
 TEST(WallQuantities, AreMadeOfAFlowInCells) {
   const Mesh mesh = spread_grid();
-  const SolvedFlow flow = with_wall_quantities(cell_solver({}), stream)(world(), mesh, {}, 0);
+  const flow::SolvedFlow flow = with_wall_quantities(cell_solver({}), stream)(world(), mesh, {}, 0);
   ASSERT_EQ(flow.forces.size(), 1U);
   EXPECT_EQ(flow.forces[0].boundary, "wall");
   ASSERT_TRUE(flow.stream && flow.cl && flow.cd);
@@ -48,14 +48,14 @@ TEST(WallQuantities, AreMadeOfAFlowInCells) {
   EXPECT_EQ(*flow.cd, flow.forces[0].cd);
   EXPECT_EQ(*flow.cl, flow.forces[0].cl);
   EXPECT_EQ(flow.solution.names.size(), 0U) << "the solution stays in cells";
-  const std::string table = wall_table(world(), mesh, flow.at_walls, stream, {"wall"});
+  const std::string table = flow::wall_table(world(), mesh, flow.at_walls, stream, {"wall"});
   EXPECT_EQ(table.starts_with("boundary,s,x,y,Cp,Mach\nwall,0,0,0,"), world().is_root()) << table;
   EXPECT_TRUE(flow.warnings.empty());
 }
 
 TEST(WallQuantities, LeaveWhatTheSolverTells) {
   const Mesh mesh = spread_grid();
-  const SolvedFlow flow = with_wall_quantities(cell_solver(0.5), stream)(world(), mesh, {}, 0);
+  const flow::SolvedFlow flow = with_wall_quantities(cell_solver(0.5), stream)(world(), mesh, {}, 0);
   EXPECT_EQ(flow.cl, 0.5);
   EXPECT_EQ(flow.cd, -1);
   EXPECT_EQ(flow.forces.size(), 1U);
@@ -63,13 +63,13 @@ TEST(WallQuantities, LeaveWhatTheSolverTells) {
 
 TEST(WallQuantities, AreNoneWithoutVelocityAndPressure) {
   const Mesh mesh = spread_grid();
-  const FlowSolver heat = [](const Communicator&, const Mesh& part, const Field&, int) {
-    SolvedFlow flow;
+  const flow::FlowSolver heat = [](const Communicator&, const Mesh& part, const Field&, int) {
+    flow::SolvedFlow flow;
     flow.solution.names = {"T"};
     flow.solution.values.resize(part.owned_nodes, 1.0);
     return flow;
   };
-  const SolvedFlow flow = with_wall_quantities(heat, stream)(world(), mesh, {}, 0);
+  const flow::SolvedFlow flow = with_wall_quantities(heat, stream)(world(), mesh, {}, 0);
   EXPECT_FALSE(flow.stream);
   EXPECT_FALSE(flow.cl);
   EXPECT_TRUE(flow.at_walls.empty());
@@ -79,4 +79,4 @@ TEST(WallQuantities, AreNoneWithoutVelocityAndPressure) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -11,7 +11,7 @@
 #include "tests/mesh/layered_strip.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -109,4 +109,4 @@ TEST(ColumnPlaces, WithoutLayersNothingMoves) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

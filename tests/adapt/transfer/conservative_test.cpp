@@ -16,7 +16,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::gathered;
@@ -196,4 +196,4 @@ TEST(ConservativeTransfer, OutsideTakesTheNearestCell) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

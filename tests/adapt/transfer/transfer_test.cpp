@@ -15,7 +15,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::Grid;
@@ -277,4 +277,4 @@ TEST(Transfer, WithoutVariablesOrNewNodesThereIsNothingToDo) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,17 +12,17 @@ namespace quadloop::test {
 
 /// States that nothing has solved for, on a mesh over all ranks, and what a residual needs.
 struct AdjointRun {
-  AdjointRun(const Communicator& comm, const Mesh& whole, EulerOptions with, double strength = 0.2)
+  AdjointRun(const Communicator& comm, const Mesh& whole, flow::EulerOptions with, double strength = 0.2)
       : mesh{scatter_mesh(comm, whole, space_filling_order(whole))},
         dual{comm, mesh},
         options{std::move(with)},
-        model{euler::flow_model(comm, mesh, options)},
+        model{flow::euler::flow_model(comm, mesh, options)},
         run{comm,
             options,
             dual,
             model,
-            euler::Residual(dual, model, options),
-            std::vector<euler::State>(dual.nodes(), model.free_stream)} {
+            flow::euler::Residual(dual, model, options),
+            std::vector<flow::euler::State>(dual.nodes(), model.free_stream)} {
     for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
     for (std::size_t node = 0; node < dual.nodes(); ++node) {
       const std::int64_t number = dual.global(static_cast<std::int32_t>(node)).value();
@@ -31,8 +31,8 @@ struct AdjointRun {
   }
 
   /// Values for all nodes that their numbers alone decide.
-  std::vector<euler::State> made_up(std::uint64_t seed) const {
-    std::vector<euler::State> rows(dual.nodes());
+  std::vector<flow::euler::State> made_up(std::uint64_t seed) const {
+    std::vector<flow::euler::State> rows(dual.nodes());
     for (std::size_t node = 0; node < rows.size(); ++node) {
       for (int k = 0; k < 4; ++k)
         rows[node][k] = scattered(seed, dual.global(static_cast<std::int32_t>(node)).value(), k);
@@ -42,12 +42,12 @@ struct AdjointRun {
 
   std::vector<std::string> names;
   Mesh mesh;
-  euler::DualMesh dual;
-  EulerOptions options;
-  euler::FlowModel model;
-  euler::FlowRun run;
-  euler::Residual& residual = run.residual;
-  std::vector<euler::State>& states = run.states;
+  flow::euler::DualMesh dual;
+  flow::EulerOptions options;
+  flow::euler::FlowModel model;
+  flow::euler::FlowRun run;
+  flow::euler::Residual& residual = run.residual;
+  std::vector<flow::euler::State>& states = run.states;
 };
 
 }  // namespace quadloop::test

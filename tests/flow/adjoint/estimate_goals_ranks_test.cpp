@@ -7,7 +7,7 @@
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -39,4 +39,4 @@ TEST(EstimateGoals, HaveTheSameBitsOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -15,7 +15,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -213,4 +213,4 @@ TEST(EstimateGoals, RefusesWhatHasNoAdjoint) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

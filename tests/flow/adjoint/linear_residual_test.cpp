@@ -10,7 +10,7 @@
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "tests/flow/adjoint/adjoint_run.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::AdjointRun;
@@ -245,4 +245,4 @@ TEST(LinearResidual, HasTheSameBitsOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

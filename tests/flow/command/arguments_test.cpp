@@ -3,7 +3,7 @@
 
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using Arguments = std::vector<std::string>;
@@ -53,4 +53,4 @@ TEST(Arguments, NothingToRunIsRefused) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -8,7 +8,7 @@
 #include "flow/command/environment.hpp"
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::CycleFolder;
@@ -75,4 +75,4 @@ INSTANTIATE_TEST_SUITE_P(Signals, EndedWithQuadloop, testing::Values(SIGKILL, SI
                          });
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 std::ptrdiff_t times(const std::vector<std::string>& environment, const std::string& entry) {
@@ -89,4 +89,4 @@ TEST(Environment, LetsAnMpirunOfTheSolversRunAsThisUserOnSoManyRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -4,7 +4,7 @@
 #include "flow/command/log_tail.hpp"
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 std::string error_in(const std::string& text, std::size_t length = 300) {
@@ -40,4 +40,4 @@ TEST(FoamError, OfOtherLogsIsNothing) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -12,7 +12,7 @@
 
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::bytes_of;
@@ -134,4 +134,4 @@ TEST(GuardedRun, ProgramRunsWhereTheLauncherMayRun) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -5,7 +5,7 @@
 
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 std::string tail_of(const std::string& text, std::size_t length = 200) {
@@ -45,4 +45,4 @@ TEST(LogTail, OnlyTheEndIsRead) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

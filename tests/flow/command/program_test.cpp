@@ -7,7 +7,7 @@
 
 #include "tests/flow/command/solver_scripts.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::CycleFolder;
@@ -52,4 +52,4 @@ TEST(Program, ThatMayNotBeRunIsSaid) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

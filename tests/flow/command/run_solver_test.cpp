@@ -8,7 +8,7 @@
 #include "tests/flow/command/solver_scripts.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::bytes_of;
@@ -167,4 +167,4 @@ TEST(RunSolver, MessageCanBeMadeForWhatItWrote) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

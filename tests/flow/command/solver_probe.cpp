@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   if (argc == 2) {
     const quadloop::Communicator comm(MPI_COMM_WORLD);
     const std::string folder = argv[1];
-    quadloop::run_solver(comm, {{"{case}/solver.sh", "{solution}"}, 60},
-                         {folder, folder + "/mesh.mesh", folder + "/solution.mesh", folder, 1, 0});
+    quadloop::flow::run_solver(comm, {{"{case}/solver.sh", "{solution}"}, 60},
+                               {folder, folder + "/mesh.mesh", folder + "/solution.mesh", folder, 1, 0});
   }
   MPI_Finalize();
 }

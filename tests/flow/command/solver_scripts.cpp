@@ -37,11 +37,11 @@ const std::string start_stubborn_processes =
     "while ! test -s orphan; do sleep 0.01; done\n";
 const std::vector<std::string> stubborn_processes{"child", "leader", "orphan"};
 
-SolverFiles CycleFolder::files() const {
+flow::SolverFiles CycleFolder::files() const {
   return {path(), file("mesh.mesh"), file("solution.mesh"), path(), 6, 4};
 }
 
-SolverCommand CycleFolder::script(const std::string& lines) const {
+flow::SolverCommand CycleFolder::script(const std::string& lines) const {
   write("solver.sh", "#!/bin/sh\n" + lines + "\n");
   if (world().is_root()) std::filesystem::permissions(file("solver.sh"), std::filesystem::perms::owner_all);
   world().barrier();

@@ -16,9 +16,9 @@ namespace quadloop::test {
 class CycleFolder : public TemporaryFolder {
  public:
   /// mesh.mesh and solution.mesh in the folder, which is the case's too; cycle 4, 6 ranks.
-  SolverFiles files() const;
+  flow::SolverFiles files() const;
   /// A command that runs a shell script of these lines with the solution as its $1. *Collective.*
-  SolverCommand script(const std::string& lines) const;
+  flow::SolverCommand script(const std::string& lines) const;
 };
 
 /// The Error that `call` throws.

@@ -9,7 +9,7 @@
 
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -41,4 +41,4 @@ TEST(PatientBarrier, ComesThroughSoon) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

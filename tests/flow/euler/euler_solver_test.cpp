@@ -8,7 +8,7 @@
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -95,4 +95,4 @@ TEST(EulerSolver, ThrowsWhatTheSolverThrows) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

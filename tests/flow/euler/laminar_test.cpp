@@ -7,7 +7,7 @@
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -104,4 +104,4 @@ TEST(GasAtRest, ConductsHeatFromWallToWall) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

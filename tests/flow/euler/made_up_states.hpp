@@ -9,7 +9,7 @@
 namespace quadloop::test {
 
 /// One of many unlike states, none near a vacuum.
-inline euler::State made_up_state(int number) {
+inline flow::euler::State made_up_state(int number) {
   const auto part = [&](int which) { return scattered(3, number, which); };
   return {1 + 0.6 * part(0), 1.5 * part(1), 1.5 * part(2), 0.7 + 0.5 * part(3)};
 }

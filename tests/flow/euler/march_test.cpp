@@ -15,7 +15,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::world;
@@ -186,4 +186,4 @@ TEST(MarchToSteady, KeepsTheBestOfAFlowThatFailsNearItsEnd) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

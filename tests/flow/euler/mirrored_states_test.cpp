@@ -8,7 +8,7 @@
 #include "tests/mesh/mirrored_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::world;
@@ -46,4 +46,4 @@ TEST(MirroredStates, AreNoneWhereMeshOrStreamIsNotItsOwnImage) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -10,7 +10,7 @@
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::world;
@@ -66,4 +66,4 @@ TEST(StateUpdate, LetsANodeLeaveAVacuum) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -110,4 +110,4 @@ TEST(Ranks, GiveTheSameBitsInTime) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

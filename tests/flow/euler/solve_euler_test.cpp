@@ -12,7 +12,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -209,4 +209,4 @@ TEST(Refusals, AFlowThatIsNoneFailsWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -9,7 +9,7 @@
 
 #include "flow/euler/steady_parameters.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using Next = SteadyControl::Next;
@@ -177,4 +177,4 @@ TEST(SteadyControl, LeavesAFlowThatHasLongNotHalvedToTimeWhereThatIsAsked) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

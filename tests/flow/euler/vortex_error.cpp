@@ -9,21 +9,22 @@
 
 namespace quadloop::test {
 
-double vortex_error(std::int32_t n, EulerOptions::Limiter limiter, bool quads) {
+double vortex_error(std::int32_t n, flow::EulerOptions::Limiter limiter, bool quads) {
   Mesh whole = irregular_grid(n, {10, 10}, 0.15, quads);
   relabel(whole, [](Point) { return "farfield"; });
   const Mesh mesh = scatter_mesh(world(), whole, space_filling_order(whole));
-  EulerOptions options;
+  flow::EulerOptions options;
   options.mach = 0.5;
   options.alpha = 30;
-  options.time = EulerOptions::Time::accurate;
+  options.time = flow::EulerOptions::Time::accurate;
   options.end_time = 2;
   options.limiter = limiter;
-  options.initial = EulerOptions::Initial::vortex;
+  options.initial = flow::EulerOptions::Initial::vortex;
   options.vortex_centre = Point{4.6, 4.7};
-  const EulerResult result = solve_euler(world(), mesh, options);
-  const euler::Gas gas;
-  const euler::Vortex exact{gas, gas.free_stream(options.mach, options.alpha), *options.vortex_centre, 1};
+  const flow::EulerResult result = flow::solve_euler(world(), mesh, options);
+  const flow::euler::Gas gas;
+  const flow::euler::Vortex exact{gas, gas.free_stream(options.mach, options.alpha), *options.vortex_centre,
+                                  1};
   std::vector<double> squares;
   for (std::int32_t node = 0; node < mesh.owned_nodes; ++node) {
     const double error = result.flow.values[4 * node] - exact.state(mesh.point(NodeId{node}), result.time)[0];

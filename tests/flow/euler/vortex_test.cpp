@@ -5,7 +5,7 @@
 
 #include "tests/flow/euler/vortex_error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 #ifdef QUADLOOP_FINE
@@ -31,4 +31,4 @@ TEST(Vortex, IsKeptWithTheLimiterToo) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

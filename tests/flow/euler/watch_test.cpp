@@ -6,7 +6,7 @@
 #include "flow/euler/shortfall.hpp"
 #include "flow/euler/step_fractions.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 TEST(StepFractions, FallWhereChangesSwingAndGrowAgain) {
@@ -105,4 +105,4 @@ TEST(Shortfall, SaysWhatHelps) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

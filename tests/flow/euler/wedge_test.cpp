@@ -8,7 +8,7 @@
 #include "flow/euler/solve_euler.hpp"
 #include "tests/flow/euler/flow_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 constexpr std::int32_t n = 72;
@@ -72,4 +72,4 @@ TEST(Wedge, PushesTheWall) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

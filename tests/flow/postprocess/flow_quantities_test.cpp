@@ -15,7 +15,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -136,4 +136,4 @@ TEST(RunConstants, ComeBackFromTheOrderThatFilesHave) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 /// Rows from time 0 on whose lift is `lift(time)` and whose drag is 0.5 throughout, after two steady ones.
@@ -79,4 +79,4 @@ TEST(UnsteadyFlow, IsOneLine) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -14,7 +14,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::dense_stream;
@@ -208,4 +208,4 @@ TEST(WallFlow, WantsVelocityAndPressure) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

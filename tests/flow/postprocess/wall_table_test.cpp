@@ -8,7 +8,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using test::world;
@@ -96,4 +96,4 @@ TEST(WallTable, OfNoWallIsItsHead) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using Numbers = std::vector<std::vector<std::int64_t>>;
@@ -52,4 +52,4 @@ TEST(Walk, PassesANodeWhereLoopsTouchOncePerLoop) {
 TEST(Walk, OfNothingIsNothing) { EXPECT_TRUE(walk({}).empty()); }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -5,7 +5,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -61,4 +61,4 @@ TEST(Su2Config, RefusesWhatSu2Refuses) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 TEST(Su2History, ItsLastRowHasTheForces) {
@@ -32,4 +32,4 @@ TEST(Su2History, LeavesOutWhatItCannotRead) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

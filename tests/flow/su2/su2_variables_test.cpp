@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -51,4 +51,4 @@ TEST(Su2Variables, WithoutPressureThereIsNoMachNumber) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

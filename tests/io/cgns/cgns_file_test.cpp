@@ -21,7 +21,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -269,4 +269,4 @@ TEST(TreeReader, RefusesMoreRowsThanTheFileHolds) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "io/cgns/cgns_faces.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -124,4 +124,4 @@ TEST(CgnsFaces, MayBeNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -22,7 +22,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -194,4 +194,4 @@ TEST(OutputSet, AFolderAppearsWithItsFilesOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -15,7 +15,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::world;
@@ -106,4 +106,4 @@ TEST(SharedOutput, WhatDoesNotReachTheDiskLeavesNoFile) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

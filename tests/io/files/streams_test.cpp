@@ -10,7 +10,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::world;
@@ -129,4 +129,4 @@ TEST(BoundaryStream, AFailureEndsOnAllRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -160,4 +160,4 @@ TEST(FluentFile, IsToldFromGmshsByItsFirstSign) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -10,7 +10,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/io/write_alone.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::replaced;
@@ -115,4 +115,4 @@ TEST(FluentMesh3dFile, FacesLookIntoTheirFirstCell) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

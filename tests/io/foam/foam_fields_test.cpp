@@ -7,7 +7,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -119,4 +119,4 @@ TEST(FoamFields, TheLatestTimeIsTheLargestNumber) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -13,7 +13,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/io/write_alone.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 std::string foam_list(const std::string& rows, int count) {
@@ -99,4 +99,4 @@ TEST(DividePolygon, TakesTheBestPieces) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 std::string word_of_key(const std::string& text, const std::string& key) {
@@ -47,4 +47,4 @@ TEST(FoamText, KnowsSwitches) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

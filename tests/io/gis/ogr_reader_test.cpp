@@ -14,7 +14,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 class OgrReader : public ::testing::Test {
@@ -355,4 +355,4 @@ TEST_F(OgrReader, ReadsTheGulfAsItsGeomTwin) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

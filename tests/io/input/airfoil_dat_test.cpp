@@ -7,7 +7,7 @@
 #include "tests/io/input/airfoil_rows.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::airfoil_name;
@@ -150,4 +150,4 @@ TEST_F(AirfoilDat, GivesEachElementALoopOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

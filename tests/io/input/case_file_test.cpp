@@ -4,7 +4,7 @@
 
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 class CaseFile : public ::testing::Test {
@@ -144,4 +144,4 @@ TEST_F(CaseFile, HintsAtMissingQuotes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "tests/io/input/airfoil_rows.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 class GeometryFile : public ::testing::Test {
@@ -152,4 +152,4 @@ TEST_F(GeometryFile, ReadsTheShippedGulfQuickly) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 struct Rows {
@@ -120,4 +120,4 @@ TEST(LineReader, DecimalCommasAreNotFourWords) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

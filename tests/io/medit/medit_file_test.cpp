@@ -11,7 +11,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -91,4 +91,4 @@ TEST(MeditWriter, NumbersBoundariesAndBlocks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

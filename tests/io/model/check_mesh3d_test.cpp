@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 constexpr std::int32_t none = FileBoundary::no_node;
@@ -110,4 +110,4 @@ TEST(CheckMesh3d, KeepsTheFirstFaultsAndCountsAll) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

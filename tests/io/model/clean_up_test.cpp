@@ -7,7 +7,7 @@
 #include "tests/io/input/temporary_file.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -195,4 +195,4 @@ TEST(CleanUp, GroupsWithoutElementsGo) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

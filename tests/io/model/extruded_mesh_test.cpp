@@ -5,7 +5,7 @@
 
 #include "tests/mesh/grid_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 Mesh square() {
@@ -69,4 +69,4 @@ TEST(ExtrudedMesh, VectorsStayInThePlane) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 /// Two squares that touch along x = 1, each with its own nodes there.
@@ -38,4 +38,4 @@ TEST(InterfaceNodes, AreThoseThatCellsOfTwoBlocksShare) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

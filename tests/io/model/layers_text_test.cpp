@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(LayersText, ComesBackToTheBit) {
@@ -23,4 +23,4 @@ TEST(LayersText, IsNoneWhereItSaysWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

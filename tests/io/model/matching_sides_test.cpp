@@ -8,7 +8,7 @@
 
 #include "tests/mesh/grid_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 /// A grid with a boundary for each side, in any order of edges, its nodes elsewhere.
@@ -76,4 +76,4 @@ TEST(MatchingSides, ClosedBoundariesHaveNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

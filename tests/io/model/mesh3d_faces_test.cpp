@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(Mesh3dFaces, ComeOnceWithTheirOwners) {
@@ -39,4 +39,4 @@ TEST(Mesh3dFaces, ComeOnceWithTheirOwners) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -11,7 +11,7 @@
 #include "tests/io/read_plane.hpp"
 #include "tests/io/reader_check.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 const test::ReaderCheck check{test::read_plane<read_su2>, "m.su2"};
@@ -213,4 +213,4 @@ TEST(OrientCells, TakesCellsThatNameANodeTwice) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/model/check_mesh3d.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 /// Two cubes, a prism on the right, a pyramid on the first's top and a tetrahedron beside it; no patches.
@@ -68,4 +68,4 @@ TEST(OrientMesh3d, TurnsAPieceThatIsAllInsideOut) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -100,4 +100,4 @@ TEST(PlaneOfMesh3d, RefusesWhatIsNoPlane) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 /// Of two columns with runs upwards, downwards and single nodes.
@@ -62,4 +62,4 @@ TEST(StripText, DamagedOnesAreNamedAndLeftOut) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -9,7 +9,7 @@
 #include "tests/mesh/mixed_square.hpp"
 #include "tests/mesh/node.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -149,4 +149,4 @@ TEST(TidyMesh, FaultsWithoutASingleCureStay) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -354,4 +354,4 @@ TEST(MshWriter, KeepsNamesInQuotes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -7,7 +7,7 @@
 
 #include "io/msh/msh_nodes.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(MshGroups, SignsSayNothing) {
@@ -53,4 +53,4 @@ TEST(NodeTags, GivenTwiceOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

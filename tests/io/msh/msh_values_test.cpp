@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 MshValues section(const std::string& name, std::size_t width, std::vector<double> values) {
@@ -37,4 +37,4 @@ TEST(MshColumns, LeaveOutWhatIsNotWhole) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -210,4 +210,4 @@ TEST(BinaryHeader, ManyNodesTakeMoreBytes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

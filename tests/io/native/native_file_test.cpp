@@ -7,7 +7,7 @@
 #include "mesher/mesh/check/validate.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -141,4 +141,4 @@ TEST(NativeReader, RefusesWhatIsNoFile) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -18,7 +18,7 @@
 #include "tests/mesh/same_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -222,4 +222,4 @@ TEST(PartFiles, AreNamedByTheirPart) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

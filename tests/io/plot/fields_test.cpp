@@ -14,7 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(ColourMaps, HaveNamesAndGoFromEndToEnd) {
@@ -216,4 +216,4 @@ TEST(MeshPlot, StreamlinesNeedAVelocity) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

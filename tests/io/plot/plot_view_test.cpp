@@ -13,7 +13,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 PlotView view_of(const Box& window) { return {window, 1600, {}, false}; }
@@ -243,4 +243,4 @@ TEST(Canvas, TextThatIsNoUtf8IsShownAsFarAsItIsAscii) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -19,7 +19,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::world;
@@ -163,4 +163,4 @@ TEST(CellFaces, AreRefusedUnlessEachEdgeHasItsCellsOrBoundary) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

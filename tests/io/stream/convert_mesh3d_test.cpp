@@ -17,7 +17,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 constexpr std::int32_t none = FileBoundary::no_node;
@@ -302,4 +302,4 @@ TEST(ConvertMesh3d, FormatsOfFacesNeedEachFaceOnce) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -17,7 +17,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::world;
@@ -178,4 +178,4 @@ TEST(StreamBlocks, CellsAreNumberedBlockByBlock) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

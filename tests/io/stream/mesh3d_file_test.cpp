@@ -17,7 +17,7 @@
 #include "tests/io/write_alone.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -193,4 +193,4 @@ TEST(Mesh3dFile, InterfacesBetweenBlocksAreNoPatch) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

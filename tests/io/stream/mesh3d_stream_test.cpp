@@ -5,7 +5,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(MeshStream, ListsBoundariesThenTheEnds) {
@@ -23,4 +23,4 @@ TEST(MeshStream, ListsBoundariesThenTheEnds) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

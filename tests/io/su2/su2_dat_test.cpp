@@ -11,7 +11,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -109,4 +109,4 @@ TEST(Su2Dat, IsWrittenAsSu2ReadsIt) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

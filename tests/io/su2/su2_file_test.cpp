@@ -11,7 +11,7 @@
 #include "tests/mesh/node.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::node;
@@ -193,4 +193,4 @@ TEST(Su2Writer, GivesMarkersNamesThatSu2Takes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 struct Cleaned {
@@ -37,4 +37,4 @@ TEST(CleanNames, DifferentNamesStayDifferentAndEqualOnesEqual) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(DecimalComma, IsTheOnlyOneOfANumber) {
@@ -14,4 +14,4 @@ TEST(DecimalComma, IsTheOnlyOneOfANumber) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

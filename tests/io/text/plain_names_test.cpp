@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -22,4 +22,4 @@ TEST(PlainWords, BeginWithALetter) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

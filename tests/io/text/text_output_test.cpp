@@ -10,7 +10,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder, test::world;
@@ -73,4 +73,4 @@ TEST(TextOutput, IsTheSameTextHoweverItsRowsAreSpread) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -8,7 +8,7 @@
 #include "io/text/name_index.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 struct Scanned {
@@ -118,4 +118,4 @@ TEST(DistinctNames, GiveTheFirstFreeSuffix) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -16,7 +16,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::world;
@@ -226,4 +226,4 @@ TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

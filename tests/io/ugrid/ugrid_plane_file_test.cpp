@@ -9,7 +9,7 @@
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::replaced;
@@ -71,4 +71,4 @@ TEST(UgridPlane, WallsOfTwoKindsHaveNumbersOfFun3d) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -14,7 +14,7 @@
 #include "tests/io/reader_check.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 using test::TemporaryFolder;
@@ -129,4 +129,4 @@ TEST(PvtuWriter, WritesOnePieceBesideTheList) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

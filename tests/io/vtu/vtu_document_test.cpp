@@ -7,7 +7,7 @@
 #include "io/vtu/vtu_arrays.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 struct Parsed {
@@ -157,4 +157,4 @@ TEST(VtuNumbers, RefuseWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

@@ -12,10 +12,12 @@
 namespace quadloop {
 namespace {
 
+using adapt::AdaptOptions;
+
 struct Case : testing::Test {
   Case() { folder.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
   std::optional<AdaptOptions> adapt(const std::string& text) const {
-    return read_adapt_table(read_case(folder.write("case.toml", text)));
+    return read_adapt_table(io::read_case(folder.write("case.toml", text)));
   }
   std::string refused(const std::string& text) const {
     return test::refusal(folder, [&] { adapt("[adapt]\n" + text); });
@@ -39,7 +41,7 @@ TEST_F(Case, AnEmptyTableHasTheDefaults) {
   EXPECT_EQ(options.cycles, 5);
   EXPECT_EQ(options.source, AdaptOptions::Source::variables);
   EXPECT_EQ(options.variables, std::vector<std::string>{"density"});
-  EXPECT_EQ(options.indicator, Indicator::difference);
+  EXPECT_EQ(options.indicator, adapt::Indicator::difference);
   EXPECT_EQ(options.threshold, AdaptOptions::Threshold::deviation);
   EXPECT_EQ(options.refine, 1.0);
   EXPECT_EQ(options.coarsen, 0.5);
@@ -90,7 +92,7 @@ TEST_F(Case, ReadsEveryKeyOfAdaptation) {
   EXPECT_EQ(options.cycles, 3);
   EXPECT_EQ(options.source, AdaptOptions::Source::variables);
   EXPECT_EQ(options.variables, (std::vector<std::string>{"density", "pressure"}));
-  EXPECT_EQ(options.indicator, Indicator::hessian);
+  EXPECT_EQ(options.indicator, adapt::Indicator::hessian);
   EXPECT_EQ(options.threshold, AdaptOptions::Threshold::nodes);
   EXPECT_EQ(options.refine, 2);
   EXPECT_EQ(options.coarsen, -1);
@@ -163,7 +165,7 @@ TEST_F(Case, TheBuiltInSolverWritesItsVariablesAlone) {
   EXPECT_NO_THROW(require_known_variables(command, {"entropy"}, "case.toml"));
   EXPECT_THROW(require_known_variables(euler, {"density", "entropy"}, "case.toml"), InputError);
   EXPECT_THROW(require_known_variables(euler, {"error"}, "case.toml"), InputError) << "of what?";
-  euler.euler.goals = {{Goal::Quantity::drag}};
+  euler.euler.goals = {{flow::Goal::Quantity::drag}};
   EXPECT_NO_THROW(require_known_variables(euler, {"error"}, "case.toml"));
 }
 
@@ -172,12 +174,13 @@ TEST_F(Case, TheSolverIsTheOneThatIsChosen) {
       loaded({case_file("[boundary.box]\nbc = \"wall\"\n[solver]\nmach = 2\ngamma = 1.3\n"), {}, "", {}});
   SolverSettings settings = input.settings.solver;
   const Geometry& geometry = input.mesh->geometry;
-  const ChosenSolver euler =
+  const adapt::ChosenSolver euler =
       chosen_solver(settings, input.settings.outline.rules, geometry, "somewhere/case.toml");
-  EXPECT_EQ(std::get<EulerOptions>(euler).mach, 2);
-  EXPECT_EQ(std::get<EulerOptions>(euler).boundaries.at(0).condition, BoundaryCondition::wall);
+  EXPECT_EQ(std::get<flow::EulerOptions>(euler).mach, 2);
+  EXPECT_EQ(std::get<flow::EulerOptions>(euler).boundaries.at(0).condition, BoundaryCondition::wall);
   settings.kind = SolverSettings::Kind::command;
-  const auto command = std::get<CommandSolver>(chosen_solver(settings, {}, geometry, "somewhere/case.toml"));
+  const auto command =
+      std::get<adapt::CommandSolver>(chosen_solver(settings, {}, geometry, "somewhere/case.toml"));
   EXPECT_EQ(command.gamma, 1.3);
   EXPECT_TRUE(command.case_folder.starts_with("/") && command.case_folder.ends_with("/somewhere"));
 }

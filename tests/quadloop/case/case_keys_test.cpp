@@ -52,7 +52,7 @@ class Dump {
   void add_one(const SizeSource::Line& l) { add(l.from, l.to); }
   void add_one(const RootOptions& r) { add(r.corner, r.tree_edge, r.trees_x, r.trees_y); }
   void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
-  void add_one(const Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
+  void add_one(const flow::Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
   void add_one(const LayerSpec& s) { add(s.first, s.growth, s.growth_to, s.count, s.equal, s.y_plus); }
   void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
   void add_one(const GeometryInput& f) {
@@ -69,7 +69,7 @@ class Dump {
   void add_one(const FlowSettings& f) {
     add(f.reynolds, f.reference_length, f.density, f.speed, f.alpha, f.gamma, f.pressure);
   }
-  void add_one(const AdaptOptions& a) {
+  void add_one(const adapt::AdaptOptions& a) {
     add(a.cycles, a.passes, a.source, a.variables, a.indicator, a.threshold, a.refine, a.coarsen, a.max_nodes,
         a.norm, a.growth, a.until.cl, a.until.cd, a.until.estimate, a.min, a.facets, a.transfer);
   }
@@ -80,7 +80,7 @@ class Dump {
 /// What a case was read into, so far as other parts of the program see it.
 std::string text_of(const Settings& s) {
   const SizeOptions& size = s.mesh.size;
-  const EulerOptions& e = s.solver.euler;
+  const flow::EulerOptions& e = s.solver.euler;
   Dump dump;
   dump.add(s.title, s.files, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt, s.morph_to);
   dump.add(s.far_field ? s.far_field->half_width : 0, s.output_prefix, s.formats, s.fields, s.partitions);
@@ -91,7 +91,7 @@ std::string text_of(const Settings& s) {
   dump.add(e.mach, e.alpha, e.gamma, e.viscosity, e.prandtl, e.time, e.end_time, e.time_step, e.average_from,
            e.unsteady, e.flow_throughs, e.cfl, e.iterations, e.tolerance, e.limiter, e.initial, e.far_field,
            e.reference_length, e.goals, e.adjoint_fields);
-  const CommandSolver& c = s.solver.command;
+  const adapt::CommandSolver& c = s.solver.command;
   dump.add(c.command.arguments, c.command.timeout, c.mesh, c.solution, c.ranks);
   for (const OutflowPressure& outflow : s.solver.pressures) dump.add(outflow.pattern, outflow.pressure);
   for (const WallTemperature& wall : s.solver.wall_temperatures) dump.add(wall.pattern, wall.temperature);
@@ -189,7 +189,7 @@ class CaseKeys : public ::testing::Test {
     for (const std::string& warning : settings.warnings)
       EXPECT_EQ(warning.find("nothing: it needs"), std::string::npos) << name << ": " << warning;
     expect_other_settings(path, accepted, name, place_of(table.text().name) + "." + key.text.name, settings);
-    CaseTable below = read_case(path, accepted.assignments());
+    io::CaseTable below = io::read_case(path, accepted.assignments());
     for (std::string rest = place_of(table.text().name); !rest.empty();) {
       const std::string first = rest.substr(0, rest.find('.'));
       rest.erase(0, first.size() + 1);

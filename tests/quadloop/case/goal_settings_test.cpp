@@ -18,7 +18,7 @@ class GoalSettingsTest : public ::testing::Test {
     return read_settings(folder_.write("case.toml", "[geometry]\nfile = \"box.geom\"\n[solver]\n" + text),
                          {});
   }
-  std::vector<Goal> goals(const std::string& text) { return read(text).solver.euler.goals; }
+  std::vector<flow::Goal> goals(const std::string& text) { return read(text).solver.euler.goals; }
   void expect_refused(const std::string& text, const std::string& part) {
     const std::string said = test::refusal(folder_, [&] { read(text); });
     EXPECT_NE(said.find(part), std::string::npos) << text << said;
@@ -32,17 +32,17 @@ TEST_F(GoalSettingsTest, AreAWordAListOrWeights) {
   EXPECT_TRUE(goals("mach = 0.5\n").empty());
   const auto one = goals("goal = \"drag\"\n");
   ASSERT_EQ(one.size(), 1U);
-  EXPECT_EQ(one[0].quantity, Goal::Quantity::drag);
+  EXPECT_EQ(one[0].quantity, flow::Goal::Quantity::drag);
   EXPECT_EQ(one[0].weight, 1);
   const auto two =
       goals("goal = [\"moment\", \"pressure\"]\ngoal_on = [\"b*\", \"c\"]\ngoal_about = [0.25, -1]\n");
   ASSERT_EQ(two.size(), 2U);
-  EXPECT_EQ(two[0].quantity, Goal::Quantity::moment);
+  EXPECT_EQ(two[0].quantity, flow::Goal::Quantity::moment);
   EXPECT_EQ(two[0].about, (Point{0.25, -1}));
   EXPECT_EQ(two[1].boundaries, (std::vector<std::string>{"b*", "c"}));
   const auto weighed = goals("goal = { drag = 15, lift = 2 }\n");
   ASSERT_EQ(weighed.size(), 2U);
-  EXPECT_EQ(weighed[0].quantity, Goal::Quantity::lift);
+  EXPECT_EQ(weighed[0].quantity, flow::Goal::Quantity::lift);
   EXPECT_EQ(weighed[0].weight, 2);
   EXPECT_EQ(weighed[1].weight, 15);
   EXPECT_FALSE(read("goal = \"lift\"\n").solver.euler.adjoint_fields);
@@ -71,7 +71,8 @@ TEST_F(GoalSettingsTest, RefusesFlowsWithoutAnAdjoint) {
 }
 
 TEST_F(GoalSettingsTest, PatternsBecomeNames) {
-  const std::vector<Goal> asked{{Goal::Quantity::lift, {"slat_*", "flap"}}, {Goal::Quantity::drag}};
+  const std::vector<flow::Goal> asked{{flow::Goal::Quantity::lift, {"slat_*", "flap"}},
+                                      {flow::Goal::Quantity::drag}};
   const auto goals = goals_on(asked, {"main", "slat_a", "flap", "slat_b"});
   EXPECT_EQ(goals[0].boundaries, (std::vector<std::string>{"slat_a", "flap", "slat_b"}));
   EXPECT_TRUE(goals[1].boundaries.empty());

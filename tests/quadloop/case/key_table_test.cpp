@@ -26,7 +26,7 @@ struct Whole {
 
 const KeyTable<Options> options_keys{
     "sample",
-    {key<&Options::width>("width", number(Range::positive()), "Width.",
+    {key<&Options::width>("width", number(io::Range::positive()), "Width.",
                           {.needs = {{"mesh.type = \"hybrid\"", "it is that of squares"}}}),
      key<&Options::depth>("depth", number(), "Depth.",
                           {.needs = {{"no shiny"}}, .required = {{"how deep", "colour = \"blue\""}}}),
@@ -41,7 +41,7 @@ const KeyTable<Options> options_keys{
 class KeyTableTest : public ::testing::Test {
  protected:
   Options read(const std::string& keys, const std::string& more = "") {
-    const CaseTable root = read_case(folder_.write("case.toml", "[sample]\n" + keys + more));
+    const io::CaseTable root = io::read_case(folder_.write("case.toml", "[sample]\n" + keys + more));
     Options options;
     options_keys.read(*root.table("sample"), options);
     return options;
@@ -121,7 +121,7 @@ TEST_F(KeyTableTest, AKeyMayNeedOneOfAnotherTable) {
 TEST_F(KeyTableTest, RowsServeAStructThatHasTheOptions) {
   const KeyTable<Whole> keys{"sample", options_keys.keys_of<&Whole::inner>()};
   Whole whole;
-  keys.read(*read_case(folder_.write("case.toml", "[sample]\ncount = 4\n")).table("sample"), whole);
+  keys.read(*io::read_case(folder_.write("case.toml", "[sample]\ncount = 4\n")).table("sample"), whole);
   EXPECT_EQ(whole.inner.count, 4);
   EXPECT_TRUE(keys.keys()[2].differs(whole, Whole{}));
   EXPECT_FALSE(keys.keys()[0].differs(whole, Whole{}));

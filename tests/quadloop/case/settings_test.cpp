@@ -12,6 +12,8 @@
 namespace quadloop {
 namespace {
 
+using flow::EulerOptions;
+
 class SettingsTest : public ::testing::Test {
  protected:
   SettingsTest() { folder_.write("box.geom", "1\nbox\n4\n0 0\n4 0\n4 4\n0 4\n"); }
@@ -60,7 +62,7 @@ TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
   folder_.write("map.geojson",
                 R"({"type":"FeatureCollection","name":"shore","features":[{"type":"Feature","properties":{},)"
                 R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[900,0],[900,900],[0,0]]]}}]})");
-  add_gis_formats();
+  io::add_gis_formats();
   const auto load_layers = [&](const std::string& layers) {
     const std::string text = "[geometry]\nfile = \"map.geojson\"\nlayers = " + layers + "\n";
     return load(read_settings(folder_.write("map.toml", text), {}));
@@ -460,7 +462,7 @@ TEST_F(SettingsTest, BoundaryTablesGiveTheMeshItsConditions) {
   Mesh mesh;
   mesh.boundaries = {
       {"box", "none", {}}, {"bottom", "wall", {}}, {"farfield", "none", {}}, {"other", "symmetry", {}}};
-  const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
+  const std::vector<flow::BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
   ASSERT_EQ(choices.size(), 4u);
   EXPECT_EQ(choices[0].condition, BoundaryCondition::outflow);
   EXPECT_EQ(choices[0].pressure, 0.5);

@@ -24,8 +24,8 @@ TEST_F(SmoothSettingsTest, WithoutTheTableShapesAreIdeal) {
   EXPECT_FALSE(read("[smooth]\ntargets = \"ideal\"\n").stretch);
   const Settings thesis = read("[smooth]\nsweeps = 3\nobjective = \"thesis\"\nmethod = \"nlopt\"\n");
   EXPECT_EQ(thesis.smooth.sweeps, 3);
-  EXPECT_EQ(thesis.smooth.objective, Objective::thesis);
-  EXPECT_EQ(thesis.smooth.method, Method::nlopt);
+  EXPECT_EQ(thesis.smooth.objective, smoother::Objective::thesis);
+  EXPECT_EQ(thesis.smooth.method, smoother::Method::nlopt);
 }
 
 TEST_F(SmoothSettingsTest, TargetsOfASolutionStretchCells) {

@@ -28,7 +28,7 @@ TEST_F(SolverSettingsTest, WallsMayHaveATemperature) {
       "wall_temperature = 0.5\n");
   Mesh mesh;
   mesh.boundaries = {{"box", "none", {}}, {"bottom", "none", {}}, {"other", "wall", {}}};
-  const std::vector<BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
+  const std::vector<flow::BoundaryChoice> choices = euler_options(s.solver, s.outline.rules, mesh).boundaries;
   EXPECT_EQ(choices[0].temperature, 0.5);
   EXPECT_EQ(choices[1].temperature, 2);
   EXPECT_FALSE(choices[2].temperature);

@@ -12,7 +12,7 @@
 #include "tests/smoother/level_transitions/turns.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::on_its_side;
@@ -126,4 +126,4 @@ TEST(LevelTransitions, LeaveSquaresWithoutHangingNodes) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -17,7 +17,7 @@
 #include "tests/smoother/whole_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::self;
@@ -208,4 +208,4 @@ TEST(TriangleLines, LeaveWhatIsPinnedAndWhatIsOfNoLine) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -9,7 +9,7 @@
 #include "tests/mesh/mirrored_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -77,4 +77,4 @@ TEST(HalfMesh, TakesValuesOfItsCells) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -9,7 +9,7 @@
 #include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Cells;
@@ -160,4 +160,4 @@ TEST(Acceptance, RefusesGainsThatCostTheWorst) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

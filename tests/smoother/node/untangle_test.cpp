@@ -10,7 +10,7 @@
 
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Cells;
@@ -299,4 +299,4 @@ TEST(RankedPlaces, AreAcceptedAndBestFirst) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

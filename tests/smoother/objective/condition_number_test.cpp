@@ -11,7 +11,7 @@
 #include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Random;
@@ -175,4 +175,4 @@ TEST(CellCost, OfInvertedCells) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

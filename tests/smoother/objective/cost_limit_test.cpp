@@ -8,7 +8,7 @@
 
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Random;
@@ -69,4 +69,4 @@ TEST(CostLimit, FlatAndInvertedCellsKeepNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

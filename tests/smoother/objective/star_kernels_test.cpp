@@ -9,7 +9,7 @@
 
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Cells;
@@ -102,4 +102,4 @@ TEST(StarKernels, AreThereForThisProcessor) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -13,7 +13,7 @@
 #include "tests/smoother/rounding.hpp"
 #include "tests/smoother/stars.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::Cells;
@@ -277,4 +277,4 @@ TEST(Star, ClearLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

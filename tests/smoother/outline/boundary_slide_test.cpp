@@ -11,7 +11,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/smoother/whole_meshes.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::self;
@@ -257,4 +257,4 @@ TEST(BoundarySlide, AnOutlineOfOtherNamesIsNone) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

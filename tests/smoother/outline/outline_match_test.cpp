@@ -6,7 +6,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 /// The unit square, its sides as the grid's boundaries are: "wall" south and east, "far" north and west.
@@ -86,4 +86,4 @@ TEST(OutlineMatch, LoopsThatTheMeshDoesNotKnowStay) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

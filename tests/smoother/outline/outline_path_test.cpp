@@ -10,7 +10,7 @@
 
 #include "tests/smoother/rounding.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::rounding;
@@ -236,4 +236,4 @@ TEST(OutlinePath, GivesUpOnWaysOfTooManyVertices) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

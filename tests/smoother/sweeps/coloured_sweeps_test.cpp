@@ -7,7 +7,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -111,4 +111,4 @@ TEST(ColouredSweeps, FlagsOutliveThem) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -8,7 +8,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -125,4 +125,4 @@ TEST(Colouring, OfNothing) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

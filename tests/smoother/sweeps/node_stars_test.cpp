@@ -9,7 +9,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -150,4 +150,4 @@ TEST(NodeStars, OfIdealCellsCostNothing) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

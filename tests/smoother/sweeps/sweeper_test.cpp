@@ -6,7 +6,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::smoother {
 namespace {
 
 using test::world;
@@ -66,4 +66,4 @@ TEST(Sweeper, AfterTheOpenSweepsNodesNearBadCellsMove) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::smoother

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 Metric stretched(double along, double across, double degrees) {
@@ -70,4 +70,4 @@ TEST(Metric, QualityIsThatOfTheEquilateralTriangleInIt) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -9,7 +9,7 @@
 #include "adapt/metric/tile/tile_passes.hpp"
 #include "adapt/metric/tile/walls.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 /// A ring of triangles, n around and two deep, between a circle of radius 1, which is a hole, and one of 3.
@@ -58,7 +58,7 @@ struct Ring {
         mesh{nodes(size), triangles(), walls} {}
 
   Geometry geometry;
-  OutlinePath path;
+  smoother::OutlinePath path;
   Walls walls;
   TileMesh mesh;
 };
@@ -140,7 +140,7 @@ bool hole_of_three_closes(std::size_t shown) {
   std::vector<BoundaryId> of_segments(4, BoundaryId{0});
   of_segments.resize(8, BoundaryId{1});
   const Geometry geometry{{{"outer"}, {"inner", 0, 180}}, outline, {0, 4, 8}, of_segments};
-  const OutlinePath path(geometry);
+  const smoother::OutlinePath path(geometry);
   const Walls walls(path, {"outer", "inner"}, {});
   std::vector<TileNode> nodes;
   for (const Point p : {Point{-1, 0}, {1, 0}, {0, 0.05}, {0, 3}, {-3, -3}, {3, -3}})
@@ -226,4 +226,4 @@ TEST(AdaptTile, CrowdsNoNodesOnEdgesThatStay) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -6,7 +6,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -64,4 +64,4 @@ TEST(MirroredLeaves, WallsAgree) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

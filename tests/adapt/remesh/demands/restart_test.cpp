@@ -11,7 +11,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -252,4 +252,4 @@ TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

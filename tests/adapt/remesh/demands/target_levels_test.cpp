@@ -15,7 +15,7 @@
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::circular_shock;
@@ -216,4 +216,4 @@ TEST(SizePlan, NamesTheFileOfAMissingVariable) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -7,7 +7,7 @@
 #include "tests/adapt/remesh/square_input.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -41,4 +41,4 @@ TEST(TrialCount, KeepsToWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

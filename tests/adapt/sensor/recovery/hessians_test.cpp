@@ -13,7 +13,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -171,4 +171,4 @@ TEST(CellHessians, InLayersAreThoseAlongTheRows) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

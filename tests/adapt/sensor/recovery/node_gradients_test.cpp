@@ -9,7 +9,7 @@
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -72,4 +72,4 @@ TEST(NodeGradients, HaveTheSameBitsOnAnyNumberOfRanks) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -12,7 +12,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::field_of;
@@ -109,4 +109,4 @@ TEST(ScaledField, IsConstantWithinRounding) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

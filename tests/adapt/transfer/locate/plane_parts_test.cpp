@@ -14,7 +14,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::scattered, test::world;
@@ -207,4 +207,4 @@ TEST(TrianglePiece, HasEveryTriangleThatMeetsOnesPieceOfThePlane) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

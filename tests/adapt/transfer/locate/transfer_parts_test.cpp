@@ -17,7 +17,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::scattered;
@@ -282,4 +282,4 @@ TEST(LinearValues, AFlatTriangleIsItsSides) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -8,7 +8,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop {
+namespace quadloop::adapt {
 namespace {
 
 using test::world;
@@ -92,4 +92,4 @@ TEST(StandingNodes, OfTwoAtOnePlaceNoneIsTaken) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::adapt

@@ -10,7 +10,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::world;
@@ -115,4 +115,4 @@ TEST(ImplicitSystem, SweepsConverge) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

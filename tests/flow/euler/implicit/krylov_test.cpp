@@ -7,7 +7,7 @@
 
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 constexpr std::size_t own_rows = 7;
@@ -86,4 +86,4 @@ TEST(Krylov, EndsWhereItMay) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using Dual = DualNumber<2>;
@@ -26,4 +26,4 @@ TEST(DualNumbers, FollowTheBranchTaken) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -8,7 +8,7 @@
 
 #include "mesher/base/error.hpp"
 
-namespace quadloop {
+namespace quadloop::flow {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity(),
@@ -67,4 +67,4 @@ TEST(EulerOptions, NameTheBoundary) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::flow

@@ -18,7 +18,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::made_up_normal;
@@ -234,4 +234,4 @@ TEST(BoundaryFlux, OfTheFreeStreamIsPhysical) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -7,7 +7,7 @@
 
 #include "flow/euler/model/flux.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 constexpr Gas air;
@@ -67,4 +67,4 @@ TEST(RoeAverage, LinearisesTheJump) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

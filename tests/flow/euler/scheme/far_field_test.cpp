@@ -9,7 +9,7 @@
 #include "tests/flow/euler/flow_meshes.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::world;
@@ -75,4 +75,4 @@ TEST(FarField, HasNoVortexFasterThanSound) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -14,7 +14,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 using test::made_up_state;
@@ -163,4 +163,4 @@ TEST(Vortex, BalancesItsPressureAndIsIsentropic) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -10,7 +10,7 @@
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/world.hpp"
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 TEST(ShockShare, RisesBetweenItsTwoJumps) {
@@ -66,4 +66,4 @@ TEST(RoeFlux, BesideAShockDampsWhatVariesAlongIt) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace quadloop::euler {
+namespace quadloop::flow::euler {
 namespace {
 
 /// An edge of this height on a face of width 1 whose middle lies `apart` above the edge's.
@@ -50,4 +50,4 @@ TEST(Skewness, LeavesNothingOverBesideSmallFaces) {
 }
 
 }  // namespace
-}  // namespace quadloop::euler
+}  // namespace quadloop::flow::euler

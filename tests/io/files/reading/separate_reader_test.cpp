@@ -25,7 +25,7 @@
 #include "mesher/base/error.hpp"
 #include "tests/io/sample_mesh.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -345,4 +345,4 @@ TEST(StagingFolder, InNoFolderIsRefused) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io

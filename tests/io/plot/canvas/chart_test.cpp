@@ -12,7 +12,7 @@
 #include "tests/io/sample_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace quadloop {
+namespace quadloop::io {
 namespace {
 
 TEST(Ticks, AreRoundNumbersOrDecades) {
@@ -109,4 +109,4 @@ TEST_F(Tables, OfHistoriesFollowEachOther) {
 }
 
 }  // namespace
-}  // namespace quadloop
+}  // namespace quadloop::io
