@@ -11,6 +11,30 @@ namespace quadloop::io {
 
 namespace {
 
+/// Reads the curve to the next point after the two numbers of a point: `curve` and its control points between
+/// its ends, then `weights` of all control points or `spacing`, where there are any.
+Curve read_curve(const LineReader& lines) {
+  Curve curve;
+  const auto& words = lines.words();
+  std::size_t w = 3;
+  const auto is_number = [&] { return w < words.size() && words[w] != "weights" && words[w] != "spacing"; };
+  while (is_number()) {
+    const double x = lines.real(w++);
+    if (!is_number()) lines.refuse("a control point of a curve should be two numbers");
+    curve.inner.push_back({x, lines.real(w++)});
+  }
+  if (curve.straight() || curve.degree() > Curve::largest_degree)
+    lines.refuse(fmt::format("a curve has 1 to {} control points between its ends", Curve::largest_degree - 1));
+  if (w < words.size() && words[w] == "weights") {
+    for (++w; is_number();) curve.weights.push_back(lines.real(w++));
+    if (curve.weights.size() != curve.inner.size() + 2 || std::ranges::min(curve.weights) <= 0)
+      lines.refuse(fmt::format("the curve needs {} weights above 0", curve.inner.size() + 2));
+  }
+  if (w + 2 == words.size() && words[w] == "spacing") curve.spacing = lines.real(w + 1), w += 2;
+  if (w != words.size()) lines.refuse(fmt::format("'{}' is not part of a curve", words[w]));
+  return curve;
+}
+
 Chain read_chain(LineReader& lines, std::int64_t number, std::int64_t total) {
   lines.require_next(fmt::format("the name of boundary {} of {}", number, total));
   const auto& words = lines.words();
@@ -32,13 +56,22 @@ Chain read_chain(LineReader& lines, std::int64_t number, std::int64_t total) {
       continue;
     }
     lines.require_next(fmt::format("point {} of {} of boundary '{}'", i, count, chain.name));
-    if (lines.words().size() != 2) {
+    const auto& point = lines.words();
+    const bool is_curve = point.size() > 2 && point[2] == "curve";
+    if (point.size() != 2 && !is_curve) {
       lines.refuse(fmt::format(
           "point {} of {} of boundary '{}' should be two numbers, not '{}' (is the count too large?)", i,
-          count, chain.name, fmt::join(lines.words(), " ")));
+          count, chain.name, fmt::join(point, " ")));
+    }
+    if (is_curve && chain.open && i == count)
+      lines.refuse(fmt::format("the last point of the open chain '{}' begins no curve", chain.name));
+    if (is_curve) {
+      chain.curves.resize(i - 1);
+      chain.curves.push_back(read_curve(lines));
     }
     chain.points.push_back({lines.real(0), lines.real(1)});
   }
+  if (!chain.curves.empty()) chain.curves.resize(chain.points.size() - (chain.open ? 1 : 0));
   return chain;
 }
 
@@ -52,7 +85,22 @@ void append(std::string& text, Point p) {
   append(text, p.x);
   text += ' ';
   append(text, p.y);
-  text += '\n';
+}
+
+void append(std::string& text, const Curve& curve) {
+  if (curve.straight()) return;
+  text += " curve";
+  for (const Point p : curve.inner) {
+    text += ' ';
+    append(text, p);
+  }
+  if (!curve.weights.empty()) text += " weights";
+  for (const double weight : curve.weights) {
+    text += ' ';
+    append(text, weight);
+  }
+  if (curve.spacing > 0) text += " spacing ";
+  if (curve.spacing > 0) append(text, curve.spacing);
 }
 
 }  // namespace
@@ -78,7 +126,11 @@ std::string geom_text(const Geometry& geometry) {
   std::string text = fmt::format("# The domain lies to the left of each boundary.\n{}\n", chains.size());
   for (const Chain& chain : chains) {
     text += fmt::format("{}{}\n{}\n", chain.name, chain.open ? " open" : "", chain.points.size());
-    for (const Point p : chain.points) append(text, p);
+    for (std::size_t i = 0; i < chain.points.size(); ++i) {
+      append(text, chain.points[i]);
+      if (i < chain.curves.size()) append(text, chain.curves[i]);
+      text += '\n';
+    }
   }
   return text;
 }

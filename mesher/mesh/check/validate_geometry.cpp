@@ -23,13 +23,18 @@ constexpr double fragments = 2, loop_reach = 4;
 /// Segments with a nearest-segment search.
 class SegmentSet {
  public:
-  void add(Point a, Point b) { segments_.emplace_back(a, b); }
+  void add(Point a, Point b, const Curve& curve = {}) {
+    if (!curve.straight()) curves_.resize(segments_.size());
+    if (!curve.straight() || !curves_.empty()) curves_.push_back(curve);
+    segments_.emplace_back(a, b);
+  }
   void build() {
     std::vector<Box> boxes;
     for (const auto& [a, b] : segments_) boxes.push_back(box_of(a, b));
     tree_ = BoxTree(boxes);
   }
-  /// Returns the nearest segment, the lowest number of equals, and its distance; infinite if there is none.
+  /// Returns the nearest segment, the lowest number of equals, and its distance, from a curve along the normal
+  /// of its chord; infinite if there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
     const std::uint32_t found = tree_.nearest(p, [&](std::int32_t number) {
@@ -37,11 +42,14 @@ class SegmentSet {
       return place_on_segment(p, a, b).squared_distance;
     });
     const auto& [a, b] = segments_[found];
+    if (!curves_.empty() && !curves_[found].straight())
+      return {found, length(p - above_chord({a, curves_[found], b}, p).point)};
     return {found, distance_to_segment(p, a, b)};
   }
 
  private:
   std::vector<std::pair<Point, Point>> segments_;
+  std::vector<Curve> curves_;  ///< of each segment; empty: all are straight
   BoxTree tree_;
 };
 
@@ -56,7 +64,7 @@ template <class Visit>
 void for_each_segment(const Chain& chain, const Visit& visit) {
   const std::size_t count = chain.points.size();
   for (std::size_t i = 0; i + (chain.open ? 1 : 0) < count; ++i)
-    visit(chain.points[i], chain.points[(i + 1) % count]);
+    visit(chain.points[i], chain.points[(i + 1) % count], chain.curves.empty() ? Curve{} : chain.curves[i]);
 }
 
 std::map<std::string, NamedOutline> outlines_of(std::span<const Chain> geometry) {
@@ -64,8 +72,8 @@ std::map<std::string, NamedOutline> outlines_of(std::span<const Chain> geometry)
   for (std::size_t c = 0; c < geometry.size(); ++c) {
     NamedOutline& outline = outlines[geometry[c].name];
     outline.chains.push_back(c);
-    for_each_segment(geometry[c], [&](Point a, Point b) {
-      outline.segments.add(a, b);
+    for_each_segment(geometry[c], [&](Point a, Point b, const Curve& curve) {
+      outline.segments.add(a, b, curve);
       outline.segment_chain.push_back(c);
     });
   }
@@ -156,7 +164,7 @@ class Comparison {
     if (!all_segments_) {
       all_segments_.emplace();
       for (const Chain& chain : geometry_)
-        for_each_segment(chain, [&](Point a, Point b) { all_segments_->add(a, b); });
+        for_each_segment(chain, [&](Point a, Point b, const Curve& curve) { all_segments_->add(a, b, curve); });
       all_segments_->build();
     }
     return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
@@ -223,7 +231,7 @@ class Comparison {
   void compare_area() {
     long double wanted = 0, meshed = 0;
     for (const Chain& chain : geometry_)
-      for_each_segment(chain, [&](Point a, Point b) { wanted += cross(a - centre_, b - centre_) / 2; });
+      for_each_segment(chain, [&](Point a, Point b, const Curve&) { wanted += cross(a - centre_, b - centre_) / 2; });
     for (const auto& edge : topology_.outer_edges())
       meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
     fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));

@@ -151,5 +151,26 @@ TEST_F(GeometryFile, ReadsTheShippedGulfQuickly) {
   }
 }
 
+TEST_F(GeometryFile, CurvesAreWrittenAndReadAgain) {
+  const std::string text =
+      "2\nbox\n4\n-3 -3\n3 -3\n3 3\n-3 3\nlens\n2\n1 0 curve 1 -1 -1 -1 weights 1 0.5 0.5 1\n-1 0 curve 0 1 "
+      "spacing 0.25\n";
+  const Geometry first = assembled(read("a.geom", text));
+  ASSERT_TRUE(first.has_curves());
+  const Geometry second = assembled(read("b.geom", geom_text(first)));
+  EXPECT_EQ(second.digest(), first.digest());
+  EXPECT_EQ(geom_text(second), geom_text(first));
+}
+
+TEST_F(GeometryFile, FaultsOfCurvesAreNamed) {
+  const auto with = [](const std::string& row) { return "1\nlens\n3\n1 0 " + row + "\n-1 0\n0 1\n"; };
+  EXPECT_NE(refused("a.geom", with("curve")).find("control points"), std::string::npos);
+  EXPECT_NE(refused("a.geom", with("curve 1")).find("two numbers"), std::string::npos);
+  EXPECT_NE(refused("a.geom", with("curve 1 2 weights 1 1")).find("needs 3 weights"), std::string::npos);
+  EXPECT_NE(refused("a.geom", with("curve 1 2 weights 1 0 1")).find("above 0"), std::string::npos);
+  EXPECT_NE(refused("a.geom", with("curve 1 2 spacing")).find("'spacing' is not part of a curve"), std::string::npos);
+  EXPECT_NE(refused("a.geom", "1\nlens open\n2\n1 0\n-1 0 curve 0 1\n").find("begins no curve"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace quadloop::io
