@@ -177,7 +177,8 @@ class CaseKeys : public ::testing::Test {
     const std::string name = table.text().name + "." + key.text.name;
     Accepted accepted;
     if (name == "solver.goal_about") accepted.set(table.text(), "goal", "\"moment\"");
-    if (name == "geometry.layers") accepted.set(table.text(), "file", "\"box.dxf\"");
+    if (name == "geometry.layers" || name == "geometry.names")
+      accepted.set(table.text(), "file", "\"box.dxf\"");
     if (name == "source.spacing") accepted.set(table.text(), "box");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
