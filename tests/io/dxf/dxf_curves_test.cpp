@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesher/geometry/curve.hpp"
+#include "tests/io/dxf/chain_points.hpp"
 #include "tests/io/dxf/dxf_entities.hpp"
 
 namespace quadloop::io {
@@ -24,23 +25,6 @@ class DxfCurves : public DxfTest {
 };
 
 constexpr double precise = 1e-12;
-
-CurvedSegment segment_of(const Chain& chain, std::size_t i) {
-  return {chain.points[i], chain.curves.empty() ? Curve{} : chain.curves[i],
-          chain.points[(i + 1) % chain.points.size()]};
-}
-
-std::size_t segments_of(const Chain& chain) { return chain.points.size() - (chain.open ? 1 : 0); }
-
-/// Points along all segments, the ends included.
-std::vector<Point> along(const Chain& chain) {
-  constexpr int pieces = 64;
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < segments_of(chain); ++i) {
-    for (int k = 0; k <= pieces; ++k) points.push_back(point_at(segment_of(chain, i), k / double{pieces}));
-  }
-  return points;
-}
 
 double length_of(const Chain& chain) {
   const std::vector<Point> points = along(chain);

@@ -57,7 +57,8 @@ class Dump {
   void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
   void add_one(const GeometryInput& f) {
     const Transform& t = f.transform;
-    add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.layers, f.unit);
+    add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.choice.layers, f.choice.names.from,
+        f.choice.names.attribute, f.unit);
   }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
