@@ -12,7 +12,7 @@ namespace {
 [[noreturn]] void refuse() {
   const char* reason = dlerror();
   throw InputError(fmt::format(
-      "drawings and maps are read by GDAL, which cannot be loaded ({}); install it, or convert the "
+      "maps are read by GDAL, which cannot be loaded ({}); install it, or convert the "
       "file to .geom",
       reason != nullptr ? reason : QUADLOOP_GDAL));
 }

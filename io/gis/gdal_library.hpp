@@ -2,7 +2,6 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
@@ -15,7 +14,7 @@ namespace quadloop::io {
 #define QUADLOOP_FOR_EACH_GDAL_FUNCTION(DO)                                                                 \
   DO(CPLErrorReset)                                                                                         \
   DO(CPLGetLastErrorMsg) DO(CPLGetLastErrorType) DO(CPLPopErrorHandler) DO(CPLPushErrorHandler)             \
-      DO(CPLQuietErrorHandler) DO(CPLSetThreadLocalConfigOption) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
+      DO(CPLQuietErrorHandler) DO(GDALAllRegister) DO(GDALClose) DO(GDALDatasetGetLayer)                    \
           DO(GDALDatasetGetLayerCount) DO(GDALOpenEx) DO(OGR_F_Destroy) DO(OGR_F_GetFID)                    \
               DO(OGR_F_GetFieldAsString) DO(OGR_F_GetFieldIndex) DO(OGR_F_GetGeometryRef)                   \
                   DO(OGR_F_IsFieldSetAndNotNull) DO(OGR_G_Clone) DO(OGR_G_DestroyGeometry)                  \
@@ -23,8 +22,7 @@ namespace quadloop::io {
                           DO(OGR_G_GetLinearGeometry) DO(OGR_G_GetPointCount) DO(OGR_G_GetX) DO(OGR_G_GetY) \
                               DO(OGR_G_HasCurveGeometry) DO(OGR_GT_Flatten) DO(OGR_GT_IsSubClassOf)         \
                                   DO(OGR_L_GetName) DO(OGR_L_GetNextFeature) DO(OGR_L_GetSpatialRef)        \
-                                      DO(OSRGetLinearUnits) DO(OSRIsGeographic) DO(OGR_F_GetStyleString) DO(VSIFCloseL)           \
-                                          DO(VSIFileFromMemBuffer) DO(VSIUnlink)
+                                      DO(OSRGetLinearUnits) DO(OSRIsGeographic)
 // clang-format on
 
 /// GDAL, loaded on first use: with its dependencies this takes longer than the rest of the program, and few

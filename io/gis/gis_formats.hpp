@@ -2,7 +2,7 @@
 
 namespace quadloop::io {
 
-/// Enables geometry files in .dxf, .geojson, .shp and .gpkg formats, read by GDAL, for the whole process.
+/// Enables geometry files in .geojson, .shp and .gpkg formats, read by GDAL, for the whole process.
 /// Further calls have no effect.
 void add_gis_formats();
 

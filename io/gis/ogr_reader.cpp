@@ -1,28 +1,21 @@
 #include "io/gis/ogr_reader.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <new>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <span>
 
 #include "io/files/reading/input_file.hpp"
-#include "io/gis/dxf_drawing.hpp"
 #include "io/gis/gdal_library.hpp"
 #include "io/gis/gis_formats.hpp"
 #include "io/input/geometry_file.hpp"
-#include "io/input/length_units.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/nearest_word.hpp"
-#include "mesher/base/suffix.hpp"
 
 namespace quadloop::io {
 
@@ -45,12 +38,10 @@ void throw_out_of_memory(CPLErr kind, CPLErrorNum number, const char* message) {
   gdal().CPLQuietErrorHandler(kind, number, message);
 }
 
-/// GDAL would print its own lines on stderr; its last message goes into ours instead. It gives each entity of
-/// a DXF block as one feature with the entity's own layer, not one feature for a reference to the block.
+/// GDAL would print its own lines on stderr; its last message goes into ours instead.
 class QuietGdal {
  public:
   QuietGdal() {
-    gdal().CPLSetThreadLocalConfigOption("DXF_MERGE_BLOCK_GEOMETRIES", "FALSE");
     gdal().CPLPushErrorHandler(throw_out_of_memory);
     gdal().CPLErrorReset();
   }
@@ -64,11 +55,6 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string without_blanks(std::string name) {
-  for (char& c : name) c = std::string_view(" \t\r\n\v\f,#").find(c) != std::string_view::npos ? '_' : c;
-  return name;
-}
-
 /// Returns an attribute, ignoring the case of its name; empty if the feature has none.
 std::string text_of(OGRFeatureH feature, const char* attribute) {
   const int field = gdal().OGR_F_GetFieldIndex(feature, attribute);
@@ -76,120 +62,45 @@ std::string text_of(OGRFeatureH feature, const char* attribute) {
   return gdal().OGR_F_GetFieldAsString(feature, field);
 }
 
-std::string name_of(OGRFeatureH feature, OGRLayerH layer) {
-  for (const char* attribute : {"name", "boundary", "Layer"}) {
-    const std::string name = text_of(feature, attribute);
-    if (!name.empty()) return without_blanks(name);
-  }
-  return without_blanks(gdal().OGR_L_GetName(layer));
-}
-
-/// Counts omitted features by kind, for a warning.
-class LeftOut {
- public:
-  /// Features with the same handle count once: GDAL makes several features of a dimension.
-  void add(const std::string& kind, const std::string& handle) {
-    if (handle.empty() || seen_.insert(kind + handle).second) ++counts_[kind];
-  }
-  bool empty() const { return counts_.empty(); }
-  std::string text() const {
-    std::string text;
-    for (const auto& [kind, count] : counts_)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
-    return text;
-  }
-
- private:
-  std::map<std::string, std::int64_t> counts_;
-  std::set<std::string> seen_;
-};
-
 /// Collects the chains of one feature after another.
 class Collector {
  public:
-  /// `drawing` is null if the file is not a drawing.
-  Collector(std::vector<Chain>& chains, const LayerNames& layers, const DxfDrawing* drawing)
-      : chains_{chains}, layers_{layers}, drawing_{drawing} {
-    if (drawing == nullptr) return;
-    known_layers_.insert(drawing->layers().begin(), drawing->layers().end());
-    for (const auto& [block, layer] : drawing->missing_blocks()) {
-      if (is_wanted(layer))
-        left_out_.add(fmt::format("INSERT of block '{}', whose content is not in the file", block), {});
-    }
-  }
+  Collector(std::vector<Chain>& chains, const DrawingChoice& choice, const std::string& path)
+      : chains_{chains}, choice_{choice}, path_{path} {}
 
-  void add_layer(OGRLayerH layer, const std::string& path) {
-    if (drawing_ == nullptr) known_layers_.insert(gdal().OGR_L_GetName(layer));
-    while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) add_feature(feature.get(), layer, path);
+  void add_layer(OGRLayerH layer) {
+    const std::string name = gdal().OGR_L_GetName(layer);
+    known_layers_.insert(name);
+    if (!choice_.has_layer(name)) return;
+    while (const Feature feature{gdal().OGR_L_GetNextFeature(layer)}) add_feature(feature.get(), name);
   }
 
   const LeftOut& left_out() const { return left_out_; }
-  const std::set<std::string>& known_layers() const { return known_layers_; }
+  std::vector<std::string> known_layers() const { return {known_layers_.begin(), known_layers_.end()}; }
 
  private:
-  void add_feature(OGRFeatureH feature, OGRLayerH layer, const std::string& path) {
-    const std::string layer_name = drawing_ ? text_of(feature, "Layer") : gdal().OGR_L_GetName(layer);
-    known_layers_.insert(layer_name);
-    if (!is_wanted(layer_name)) return;
+  void add_feature(OGRFeatureH feature, const std::string& layer) {
     const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
     if (geometry == nullptr) return;
-    const std::string handle = drawing_ ? text_of(feature, "EntityHandle") : "";
-    if (const std::string why = why_left_out(feature, handle, layer_name); !why.empty())
-      return left_out_.add(why, handle);
-    const std::string name = name_of(feature, layer);
-    const std::string source = fmt::format("{}: layer '{}', feature {}", path, gdal().OGR_L_GetName(layer),
-                                           gdal().OGR_F_GetFID(feature));
-    const DxfEntity* const entity = drawing_ ? drawing_->find(handle) : nullptr;
-    if (entity != nullptr && entity->spline) {
-      if (std::vector<Point> points = points_of(*entity->spline); !points.empty())
-        return add_points(std::move(points), name, source);
-    }
+    const std::string source =
+        fmt::format("{}: layer '{}', feature {}", path_, layer, gdal().OGR_F_GetFID(feature));
     const OwnGeometry straight{gdal().OGR_G_HasCurveGeometry(geometry, 0) != 0
                                    ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr)
                                    : gdal().OGR_G_Clone(geometry)};
-    add(straight.get(), name, source);
+    add(straight.get(), one_word(name_of(feature, layer)), source);
   }
 
-  bool is_wanted(const std::string& layer) const {
-    return layers_.empty() ||
-           std::ranges::any_of(layers_, [&](const std::string& name) { return matches_layer(name, layer); });
-  }
-
-  /// For a drawing: returns the kind of a feature that is not part of the geometry, or not visible; empty if
-  /// it is to be read.
-  std::string why_left_out(OGRFeatureH feature, const std::string& handle, const std::string& layer) const {
-    if (drawing_ == nullptr) return {};
-    const std::string type = type_of(feature, handle);
-    if (text_of(feature, "PaperSpace") == "1")
-      return fmt::format("{} in paper space", type.empty() ? "entity" : type);
-    const char* const style = gdal().OGR_F_GetStyleString(feature);
-    const bool hidden = style != nullptr && has_hidden_colour(style);
-    if (hidden && layers_.empty())
-      return fmt::format("{} not visible on layer '{}'", type.empty() ? "entity" : type, layer);
-    return is_outline(type) ? std::string() : fmt::format("{} on layer '{}'", type, layer);
-  }
-
-  /// Returns the entity's type; for the contents of a block its class.
-  std::string type_of(OGRFeatureH feature, const std::string& handle) const {
-    const DxfEntity* const entity = drawing_->find(handle);
-    if (entity != nullptr && entity->type != "INSERT") return entity->type;
-    const std::string classes = text_of(feature, "SubClasses");
-    return classes.substr(classes.rfind(':') + 1);
-  }
-
-  static bool is_outline(const std::string& type) {
-    static const std::set<std::string> types{"",         "LINE",         "LWPOLYLINE",     "POLYLINE",
-                                             "ARC",      "CIRCLE",       "ELLIPSE",        "SPLINE",
-                                             "AcDbLine", "AcDbPolyline", "AcDb2dPolyline", "AcDb3dPolyline",
-                                             "AcDbArc",  "AcDbCircle",   "AcDbEllipse",    "AcDbSpline"};
-    return types.contains(type);
-  }
-
-  /// GDAL gives features on a layer that is off or frozen, and invisible ones, a transparent colour.
-  static bool has_hidden_colour(std::string_view style) {
-    const std::size_t colour = style.find("c:#");
-    return colour != std::string_view::npos && style.substr(colour + 3, 8).size() == 8 &&
-           style.substr(colour + 9, 2) == "00";
+  std::string name_of(OGRFeatureH feature, const std::string& layer) const {
+    using From = BoundaryNames::From;
+    const auto& [from, attribute] = choice_.names;
+    if (from == From::file) return std::filesystem::path(path_).stem().string();
+    std::vector<std::string> attributes;
+    if (from == From::attribute) attributes = {attribute};
+    if (from == From::usual) attributes = {"name", "boundary"};
+    for (const std::string& name : attributes) {
+      if (std::string text = text_of(feature, name.c_str()); !text.empty()) return text;
+    }
+    return layer;
   }
 
   void add(OGRGeometryH geometry, const std::string& name, const std::string& source) {
@@ -200,7 +111,7 @@ class Collector {
       const int parts = gdal().OGR_G_GetGeometryCount(geometry);
       for (int i = 0; i < parts; ++i) add(gdal().OGR_G_GetGeometryRef(geometry, i), name, source);
     } else {
-      left_out_.add("features that are neither lines nor polygons", {});
+      left_out_.add("features that are neither lines nor polygons");
     }
   }
 
@@ -222,8 +133,8 @@ class Collector {
   }
 
   std::vector<Chain>& chains_;
-  const LayerNames& layers_;
-  const DxfDrawing* drawing_;
+  const DrawingChoice& choice_;
+  const std::string& path_;
   LeftOut left_out_;
   std::set<std::string> known_layers_;
 };
@@ -276,76 +187,42 @@ void note_unit(OGRLayerH layer, FileUnit& unit) {
 }
 
 void read_layer(OGRLayerH layer, const std::string& path, Collector& collector) {
-  collector.add_layer(layer, path);
+  collector.add_layer(layer);
   if (gdal().CPLGetLastErrorType() >= CE_Failure)
     throw InputError(fmt::format("{}: {}; correct the file or export it again", path,
                                  one_line(gdal().CPLGetLastErrorMsg())));
 }
 
-/// A file in memory, for GDAL.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::string text) : text_{std::move(text)} {
-    gdal().VSIFCloseL(
-        gdal().VSIFileFromMemBuffer(name, reinterpret_cast<GByte*>(text_.data()), text_.size(), 0));
-  }
-  ~MemoryFile() { gdal().VSIUnlink(name); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  static constexpr const char* name = "/vsimem/corrected.dxf";
-
- private:
-  std::string text_;
-};
-
-void refuse_empty(const std::string& path, const LayerNames& layers, const Collector& collector) {
-  const std::vector<std::string> known(collector.known_layers().begin(), collector.known_layers().end());
-  if (!layers.empty() && collector.left_out().empty())
-    throw InputError(
-        fmt::format("{}: no layer of the file has lines or polygons and is one of [{}]; its layers are: {}",
-                    path, fmt::join(layers, ", "), first_few(known)));
-  throw InputError(
-      fmt::format("{}: holds no lines and no polygons; a geometry needs closed outlines{}", path,
-                  collector.left_out().empty() ? "" : ". Left out: " + collector.left_out().text()));
-}
-
 }  // namespace
 
-std::vector<Chain> read_ogr(const std::string& path, const LayerNames& layers,
+std::vector<Chain> read_ogr(const std::string& path, const DrawingChoice& choice,
                             std::vector<std::string>& warnings, FileUnit& unit) {
   require_input_file(path);
-  std::optional<DxfDrawing> drawing;
-  if (suffix_of(path) == ".dxf") drawing.emplace(path);
   gdal().GDALAllRegister();
   const QuietGdal quiet;
-  std::optional<MemoryFile> corrected;
-  if (drawing && !drawing->corrected().empty()) corrected.emplace(drawing->corrected());
-  const Dataset data{gdal().GDALOpenEx(corrected ? MemoryFile::name : path.c_str(),
-                                       GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
+  const Dataset data{
+      gdal().GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr)};
   if (!data) {
     throw InputError(
         fmt::format("{}: cannot be read as the kind of file that its suffix indicates ({}); export it again",
                     path, one_line(gdal().CPLGetLastErrorMsg())));
   }
   std::vector<Chain> chains;
-  Collector collector(chains, layers, drawing ? &*drawing : nullptr);
+  Collector collector(chains, choice, path);
   gdal().CPLErrorReset();
   std::vector<Chain> in_degrees;
   for (int i = 0; i < gdal().GDALDatasetGetLayerCount(data.get()); ++i) {
     const OGRLayerH layer = gdal().GDALDatasetGetLayer(data.get(), i);
     const auto before = std::ssize(chains);
     read_layer(layer, path, collector);
-    if (!drawing) note_unit(layer, unit);
+    note_unit(layer, unit);
     if (is_in_degrees(layer)) in_degrees.insert(in_degrees.end(), chains.begin() + before, chains.end());
   }
-  if (chains.empty()) refuse_empty(path, layers, collector);
+  unit.layers = collector.known_layers();
+  if (chains.empty()) refuse_empty(path, choice, unit.layers, collector.left_out());
   warn_of_degrees(path, in_degrees, warnings);
   if (!collector.left_out().empty())
     warnings.push_back(fmt::format("{}: left out: {}", path, collector.left_out().text()));
-  if (drawing && !drawing->unit().empty())
-    unit = {drawing->unit(), metres_in(drawing->unit()).value_or(0), {}};
-  unit.layers.assign(collector.known_layers().begin(), collector.known_layers().end());
   return chains;
 }
 

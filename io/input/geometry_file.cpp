@@ -6,13 +6,15 @@
 #include <iterator>
 #include <map>
 
+#include "io/dxf/dxf_reader.hpp"
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
+#include "io/step/step_reader.hpp"
 #include "io/text/clean_names.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
-#include "mesher/geometry/assemble/boundary_rules.hpp"
 
 namespace quadloop::io {
 
@@ -20,24 +22,23 @@ namespace {
 
 std::map<std::string, GeometryReader>& readers() {
   static std::map<std::string, GeometryReader> all{
-      {".geom", [](const std::string& path, const LayerNames&, std::vector<std::string>&,
+      {".geom", [](const std::string& path, const DrawingChoice&, std::vector<std::string>&,
                    FileUnit&) { return read_geom(path); }},
-      {".dat", [](const std::string& path, const LayerNames&, std::vector<std::string>& warnings, FileUnit&) {
+      {".dat", [](const std::string& path, const DrawingChoice&, std::vector<std::string>& warnings, FileUnit&) {
          return read_airfoil(path, warnings);
-       }}};
+       }},
+      {".dxf", io::read_dxf},
+      {".stp", io::read_step},
+      {".step", io::read_step}};
   return all;
 }
 
 }  // namespace
 
-bool matches_layer(const std::string& pattern, const std::string& layer) {
-  return matches(small_letters(pattern), small_letters(layer));
-}
-
 bool is_airfoil_file(const std::string& path) { return suffix_of(path) == ".dat"; }
 
 std::vector<std::string> geometry_suffixes() {
-  std::vector<std::string> all{".geom", ".dat"};
+  std::vector<std::string> all{".geom", ".dat", ".dxf", ".stp", ".step"};
   all.insert(all.end(), gis_suffixes.begin(), gis_suffixes.end());
   return all;
 }
@@ -45,16 +46,18 @@ std::vector<std::string> geometry_suffixes() {
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 bool has_layers_of_drawings(const std::string& path) {
-  return std::ranges::count(gis_suffixes, suffix_of(path)) > 0;
+  const std::string suffix = suffix_of(path);
+  return suffix == ".dxf" || suffix == ".stp" || suffix == ".step" || std::ranges::count(gis_suffixes, suffix) > 0;
 }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
-                                 const LayerNames& layers, FileUnit* unit) {
+                                 const DrawingChoice& choice, FileUnit* unit) {
   const std::string suffix = suffix_of(path);
   const auto reader = readers().find(suffix);
   if (reader != readers().end()) {
     FileUnit declared;
-    std::vector<Chain> chains = reader->second(path, layers, warnings, declared);
+    std::vector<Chain> chains = reader->second(path, choice, warnings, declared);
+    if (declared.metres == 0) declared.metres = metres_in(declared.name).value_or(0);
     if (unit != nullptr) *unit = declared;
     std::vector<std::string*> names;
     for (Chain& chain : chains) names.push_back(&chain.name);

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/input/geometry_file.hpp"
-#include "io/input/length_units.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"
@@ -47,7 +47,7 @@ void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, F
 
 /// Throws InputError for an entry of geometry.layers that matches no layer of any file.
 void require_layers(const std::vector<GeometryInput>& files, const std::set<std::string>& known) {
-  for (const std::string& pattern : files.front().layers) {
+  for (const std::string& pattern : files.front().choice.layers) {
     if (std::ranges::any_of(known, [&](const std::string& name) { return io::matches_layer(pattern, name); }))
       continue;
     const std::vector<std::string> names(known.begin(), known.end());
@@ -93,7 +93,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
           input.where, input.path));
     }
     FileExtent extent;
-    std::vector<Chain> of_file = io::read_geometry(input.path, warnings, input.layers, &extent.declared);
+    std::vector<Chain> of_file = io::read_geometry(input.path, warnings, input.choice, &extent.declared);
     note_extent(input, of_file, extent);
     layers.insert(extent.declared.layers.begin(), extent.declared.layers.end());
     if (extents != nullptr) extents->push_back(extent);

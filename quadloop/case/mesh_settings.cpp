@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/input/length_units.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -44,6 +44,21 @@ std::vector<std::string> unit_words() {
   std::vector<std::string> words = io::length_unit_names();
   words.insert(words.begin(), {"none", "file"});
   return words;
+}
+
+/// What names the boundaries of drawings and maps.
+ValueForm<io::BoundaryNames> boundary_names() {
+  using From = io::BoundaryNames::From;
+  const std::string prefix = "attribute:";
+  const ValueForm<From> words =
+      choice<From>({{"layer", From::layer}, {"block", From::block}, {"colour", From::colour}, {"file", From::file}});
+  return {words.text + ", or `\"attribute:NAME\"`", "\"block\"",
+          [words, prefix](const io::CaseTable& table, const std::string& key) {
+            const std::string given = *table.text(key);
+            if (given.size() <= prefix.size() || !given.starts_with(prefix))
+              return io::BoundaryNames{words.read(table, key)};
+            return io::BoundaryNames{From::attribute, given.substr(prefix.size())};
+          }};
 }
 
 ValueForm<FarField> far_field() {
@@ -84,7 +99,7 @@ const KeyTable<Settings>& geometry_keys() {
       "geometry",
       {key<&Settings::placement, &Placement::files>(
            "file", texts(),
-           "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.geojson`, `.shp`, `.gpkg` "
+           "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.stp`, `.step`, `.geojson`, `.shp`, `.gpkg` "
            "([formats](formats.md)).",
            {.example = "\"box.geom\"", .required = {{"name the outline, as in file = \"outline.geom\""}}}),
        key<&Settings::placement, &Placement::scale>(
@@ -101,11 +116,15 @@ const KeyTable<Settings>& geometry_keys() {
            {.fallback = "the origin", .needs = {{"rotate", "the angle in degrees"}}}),
        key<&Settings::placement, &Placement::translate>(
            "translate", points_or_one(), "Translation after the rotation.", {.fallback = "`[0, 0]`"}),
-       key<&Settings::placement, &Placement::layers>(
+       key<&Settings::placement, &Placement::choice, &io::DrawingChoice::layers>(
            "layers", texts(),
            "Layers to read from a drawing or a map, with wildcards `*` and `?`. All: of a drawing, those "
            "that are neither off nor frozen.",
            {.fallback = "all"}),
+       key<&Settings::placement, &Placement::choice, &io::DrawingChoice::names>(
+           "names", boundary_names(),
+           "What names the boundaries of a drawing or a map; see [formats](formats.md#dxf).",
+           {.fallback = "`\"layer\"`; of a map the attribute `name` or `boundary`, else the layer"}),
        key<&Settings::outline, &AssembleOptions::join>(
            "join", number({0, 0.1, true, false}),
            "Tolerance for joining the ends of chains, as a fraction of the extent. A warning counts the "
@@ -245,12 +264,15 @@ void read_geometry_table(const io::CaseTable& table, const std::string& case_pat
     files.push_back({(folder / file).string(),
                      fmt::format("{}: 'geometry.file'", table.place("file")),
                      {},
-                     given.layers,
+                     given.choice,
                      "none",
                      given.spline.value_or(io::is_airfoil_file(file))});
   if (files.empty()) table.refuse("file", "is empty; name the outline, as in file = \"outline.geom\"");
-  if (!given.layers.empty() && std::ranges::none_of(given.files, io::has_layers_of_drawings))
+  const bool has_drawing = std::ranges::any_of(given.files, io::has_layers_of_drawings);
+  if (!given.choice.layers.empty() && !has_drawing)
     table.refuse("layers", "chooses layers of drawings and maps, but no file is one");
+  if (table.has("names") && !has_drawing)
+    table.refuse("names", "names the boundaries of drawings and maps, but no file is one");
   share_out(table, "scale", given.scale, files,
             [](auto& file, double scale) { file.transform.scale = scale; });
   share_out(table, "rotate", given.rotate, files,

@@ -26,7 +26,7 @@ struct GeometryInput {
   std::string path;
   std::string where;  ///< the setting that names it, for messages
   Transform transform;
-  std::vector<std::string> layers = {};  ///< to read from a drawing or map; empty: all (read_geometry())
+  io::DrawingChoice choice = {};
   /// "none": coordinates are taken unchanged; "file": in the unit that the file declares; or a name of
   /// length_units.hpp. Except for "none" coordinates are converted to metres.
   std::string unit = "none";
@@ -35,7 +35,8 @@ struct GeometryInput {
 
 /// The files of a case and their placement: each list has one value for all files, or one per file.
 struct Placement {
-  std::vector<std::string> files, layers, unit;
+  std::vector<std::string> files, unit;
+  io::DrawingChoice choice;
   std::optional<bool> spline;
   std::vector<double> scale, rotate;
   std::vector<Point> rotate_about, translate;

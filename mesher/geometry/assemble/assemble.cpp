@@ -11,6 +11,7 @@
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
+#include "mesher/geometry/assemble/stray_chains.hpp"
 #include "mesher/geometry/assemble/subdivide_curves.hpp"
 #include "mesher/geometry/assemble/united_islands.hpp"
 #include "mesher/geometry/validate.hpp"
@@ -143,9 +144,10 @@ void require_extent(const Geometry& g) {
 }  // namespace
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
-  subdivide_curves(chains, options);
   clean_chains(chains, warnings);
   join_rounded_ends(chains, options.join, warnings);
+  leave_out_strays(chains, options.far_field, warnings);
+  subdivide_curves(chains, options);
   if (chains.empty())
     throw InputError(
         "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "

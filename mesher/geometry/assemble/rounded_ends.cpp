@@ -135,21 +135,41 @@ double extent_of(const std::vector<Chain>& chains) {
   return std::max({0.0, box.width(), box.height()});
 }
 
-/// Canonical points: the same for a chain and its reverse, and for a loop from any of its points.
-std::vector<Point> points_either_way(const Chain& chain) {
-  std::vector<Point> forth = chain.points;
-  if (!chain.open) std::rotate(forth.begin(), std::min_element(forth.begin(), forth.end()), forth.end());
-  std::vector<Point> back = forth;
-  std::reverse(back.begin() + (chain.open ? 0 : 1), back.end());
-  return std::min(forth, back);
+/// The coordinates of a chain, with those of its curves.
+using Trace = std::vector<double>;
+
+Trace trace_of(const std::vector<Point>& points, const std::vector<Curve>& curves) {
+  Trace trace;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    trace.insert(trace.end(), {points[i].x, points[i].y});
+    if (i >= curves.size()) continue;
+    trace.push_back(static_cast<double>(curves[i].inner.size()));
+    for (const Point p : curves[i].inner) trace.insert(trace.end(), {p.x, p.y});
+    trace.insert(trace.end(), curves[i].weights.begin(), curves[i].weights.end());
+  }
+  return trace;
+}
+
+/// The same for a chain and its reverse, and for a loop from any of its points.
+Trace trace_either_way(const Chain& chain) {
+  std::vector<Point> points = chain.points;
+  std::vector<Curve> curves = chain.curves;
+  if (!chain.open) {
+    const auto first = std::ranges::min_element(points) - points.begin();
+    if (!curves.empty()) std::ranges::rotate(curves, curves.begin() + first);
+    std::ranges::rotate(points, points.begin() + first);
+  }
+  const Trace forth = trace_of(points, curves);
+  std::reverse(points.begin() + (chain.open ? 0 : 1), points.end());
+  return std::min(forth, trace_of(points, reversed(std::move(curves))));
 }
 
 void drop_repeated_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
-  std::set<std::pair<std::string, std::vector<Point>>> seen;
+  std::set<std::pair<std::string, Trace>> seen;
   std::int64_t dropped = 0;
   std::string first;
   std::erase_if(chains, [&](const Chain& chain) {
-    if (chain.points.empty() || seen.insert({chain.name, points_either_way(chain)}).second) return false;
+    if (chain.points.empty() || seen.insert({chain.name, trace_either_way(chain)}).second) return false;
     if (dropped++ == 0)
       first = fmt::format("of boundary '{}' at ({}, {})", chain.name, chain.points[0].x, chain.points[0].y);
     return true;

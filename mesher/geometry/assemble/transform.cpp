@@ -9,10 +9,7 @@
 
 namespace quadloop {
 
-namespace {
-
-/// Cosine and sine of an angle in degrees; exactly -1, 0 or 1 for multiples of 90.
-Point direction(double degrees) {
+Point unit_vector(double degrees) {
   const double turn = std::remainder(degrees, 360.0);  // exact, in -180 .. 180
   if (turn == 0) return {1, 0};
   if (turn == 90) return {0, 1};
@@ -21,6 +18,8 @@ Point direction(double degrees) {
   const double radians = turn * (std::numbers::pi / 180);
   return {std::cos(radians), std::sin(radians)};
 }
+
+namespace {
 
 Point placed(Point p, const Transform& transform, Point turn) {
   const Point arm = transform.scale * p - transform.rotate_about;
@@ -31,7 +30,7 @@ Point placed(Point p, const Transform& transform, Point turn) {
 }  // namespace
 
 void apply(const Transform& transform, std::vector<Chain>& chains) {
-  const Point turn = direction(transform.rotate_degrees);
+  const Point turn = unit_vector(transform.rotate_degrees);
   for (Chain& chain : chains) {
     for (Point& p : chain.points) p = placed(p, transform, turn);
     for (Curve& curve : chain.curves) {

@@ -15,6 +15,9 @@ struct Transform {
   Point rotate_about = {};  ///< in scaled coordinates
 };
 
+/// Cosine and sine of an angle in degrees; exactly -1, 0 or 1 for multiples of 90.
+Point unit_vector(double degrees);
+
 /// Places the points. Quarter turns are exact: no sine of 90 degrees is rounded.
 void apply(const Transform& transform, std::vector<Chain>& chains);
 

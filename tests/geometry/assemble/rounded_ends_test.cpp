@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
+#include "mesher/geometry/assemble/curved_chain.hpp"
 #include "tests/geometry/outlines.hpp"
 
 namespace quadloop {
@@ -59,6 +62,35 @@ TEST(RoundedEnds, WhatIsThereTwiceStaysOnce) {
   Chain other = chain(false, {{0, 0}, {1, 0}, {1, 1}});
   other.name = "other";
   EXPECT_EQ(Repaired({chain(false, {{0, 0}, {1, 0}, {1, 1}}), other}).chains.size(), 2U);
+}
+
+/// A half circle about the origin, above (or below) it.
+Chain half_circle(double x, double height) {
+  Chain half = chain(true, {{x, 0}});
+  append_arc(half, {{0, 0}, {x, 0}, {0, height}, 0, std::numbers::pi}, Point{-x, 0});
+  return half;
+}
+
+TEST(RoundedEnds, CurvesThatAreThereTwiceStayOnce) {
+  Chain backwards = half_circle(1, 1);
+  std::ranges::reverse(backwards.points);
+  backwards.curves = reversed(std::move(backwards.curves));
+  const Chain upper = half_circle(1, 1), lower = half_circle(1, -1), flat = half_circle(1, 0.5);
+  EXPECT_EQ(Repaired({upper, lower, backwards}).chains.size(), 2u);
+  EXPECT_EQ(Repaired({upper, flat}).chains.size(), 2u) << "the same ends";
+  EXPECT_EQ(Repaired({upper, chain(true, upper.points)}).chains.size(), 2u) << "the same points";
+  Chain loop = upper;
+  append_arc(loop, {{0, 0}, {-1, 0}, {0, -1}, 0, std::numbers::pi}, Point{1, 0});
+  loop.points.pop_back();
+  loop.open = false;
+  Chain other = loop;
+  std::ranges::rotate(other.points, other.points.begin() + 1);
+  std::ranges::rotate(other.curves, other.curves.begin() + 1);
+  EXPECT_EQ(Repaired({loop, other}).chains.size(), 1u);
+  std::ranges::reverse(other.points);
+  other.curves = reversed(std::move(other.curves));
+  std::ranges::rotate(other.curves, other.curves.begin() + 1);  // the first segment begins at the first point
+  EXPECT_EQ(Repaired({loop, other}).chains.size(), 1u);
 }
 
 TEST(RoundedEnds, RoundingGrowsWithTheLargestCoordinate) {

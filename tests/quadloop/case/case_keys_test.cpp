@@ -57,7 +57,8 @@ class Dump {
   void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
   void add_one(const GeometryInput& f) {
     const Transform& t = f.transform;
-    add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.layers, f.unit);
+    add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.choice.layers, f.choice.names.from,
+        f.choice.names.attribute, f.unit);
   }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
@@ -177,7 +178,8 @@ class CaseKeys : public ::testing::Test {
     const std::string name = table.text().name + "." + key.text.name;
     Accepted accepted;
     if (name == "solver.goal_about") accepted.set(table.text(), "goal", "\"moment\"");
-    if (name == "geometry.layers") accepted.set(table.text(), "file", "\"box.dxf\"");
+    if (name == "geometry.layers" || name == "geometry.names")
+      accepted.set(table.text(), "file", "\"box.dxf\"");
     if (name == "source.spacing") accepted.set(table.text(), "box");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
