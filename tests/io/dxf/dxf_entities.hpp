@@ -12,6 +12,8 @@
 
 namespace quadloop::test {
 
+using namespace quadloop::io;
+
 /// Pairs of a group code and a value, one after another.
 inline std::string groups() { return {}; }
 template <class Value, class... More>
