@@ -94,6 +94,26 @@ TEST_F(OgrReader, ANameComesBeforeABoundary) {
   EXPECT_EQ(chains[0].name, "Anholt");
 }
 
+TEST_F(OgrReader, NamesBoundariesByLayerAttributeOrFile) {
+  const std::string text = collection(
+      feature(R"("name":"Anholt","kind":"sea wall")", "Polygon", "[[[0,0],[900,0],[900,900],[0,0]]]") + "," +
+      feature(R"("name":"Laesoe")", "Polygon", "[[[2000,0],[2900,0],[2900,900],[2000,0]]]"));
+  using From = BoundaryNames::From;
+  const auto names = [&](From from, const std::string& attribute) {
+    choice_.names = {from, attribute};
+    const auto chains = read("isles.geojson", text);
+    return chains.at(0).name + " " + chains.at(1).name;
+  };
+  EXPECT_EQ(names(From::usual, ""), "Anholt Laesoe");
+  EXPECT_EQ(names(From::layer, ""), "isles isles");
+  EXPECT_EQ(names(From::block, ""), "isles isles") << "a map has none";
+  EXPECT_EQ(names(From::file, ""), "isles isles");
+  EXPECT_EQ(names(From::attribute, "KIND"), "sea_wall isles") << "the second has none";
+  choice_.layers = {"other"};
+  EXPECT_NE(test::refusal(folder_, [&] { read("isles.geojson", text); }).find("its layers are: isles"),
+            std::string::npos);
+}
+
 TEST_F(OgrReader, RefusesWhatItCannotRead) {
   EXPECT_EQ(
       test::refusal(folder_, [&] { read("a.geojson", "{ nonsense"); }).find("a.geojson: cannot be read"), 0u);

@@ -58,7 +58,7 @@ class Dump {
   void add_one(const GeometryInput& f) {
     const Transform& t = f.transform;
     add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.choice.layers, f.choice.names.from,
-        f.choice.names.attribute, f.unit);
+        f.choice.names.attribute, f.unit, f.spline);
   }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
