@@ -133,7 +133,7 @@ void keep(const adapt::CycleRecord& record, const std::string& folder, std::vect
 std::string why_ended(const adapt::LoopEnd& end) {
   if (end.settled) return fmt::format("  cycle {} satisfies adapt.until, so the run ends\n", end.last);
   if (!end.nothing_to_change) return {};
-  return fmt::format("  cycle {} marks no cell, so the run ends: {}\n", end.last,
+  return fmt::format("  after cycle {} no cell is refined or coarsened, so the run ends: {}\n", end.last,
                      end.left->plan.reason_for_no_change);
 }
 

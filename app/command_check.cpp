@@ -14,6 +14,7 @@
 #include "io/formats.hpp"
 #include "io/input/geometry_file.hpp"
 #include "io/mesh_file.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 
@@ -71,8 +72,9 @@ CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chai
 std::string regions_warning(const CheckReport& report) {
   const MeshRegions& regions = report.regions;
   return fmt::format(
-      "{}: the mesh has {} connected regions; the smallest, of {} cells, has a node at ({}, {})", report.file,
-      regions.count, regions.smallest_cells, regions.smallest_place.x, regions.smallest_place.y);
+      "{}: the mesh has {} connected regions; the smallest, of {}, has a node at ({:.6g}, {:.6g})",
+      report.file, regions.count, counted(regions.smallest_cells, "cell"), regions.smallest_place.x,
+      regions.smallest_place.y);
 }
 
 void check_mesh3d_on_root(const CommandContext& context, const CheckArguments& arguments,

@@ -20,6 +20,7 @@
 #include "io/mesh_file.hpp"
 #include "io/model/plane_of_mesh3d.hpp"
 #include "io/parts/part_output.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::app {
@@ -167,7 +168,8 @@ void report(const CommandContext& context, const io::MeshOfFile& input, const Co
     const std::vector<std::string> of_parts =
         io::part_file_names(request.prefix, request.parts, request.formats);
     files.insert(files.end(), of_parts.begin(), of_parts.end());
-    wrote += fmt::format("  wrote {} and {} files of parts\n", of_parts.front(), of_parts.size() - 1);
+    wrote += fmt::format("  wrote {} and {}\n", of_parts.front(),
+                         counted(std::ssize(of_parts) - 1, "partition file"));
   }
   context.record.statistics = statistics.record();
   if (context.shows_table()) std::cout << statistics.table() << wrote;

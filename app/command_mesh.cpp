@@ -143,7 +143,9 @@ Warnings first_mesh_warnings(const MeshInput& input) {
   const char* setting = adapt::setting_that_follows(input);
   if (!setting) return {};
   return {fmt::format(
-      "{}: there is no solution yet: this is the first mesh of \"adapt\", that of the quadtree", setting)};
+      "{}: \"mesh\" ignores this setting, which requires a solution, and writes the quadtree mesh from which "
+      "\"adapt\" starts",
+      setting)};
 }
 
 /// Reads on every rank (files are small compared with a mesh, and errors are then the same everywhere),

@@ -19,6 +19,7 @@
 #include "io/model/fixed_nodes.hpp"
 #include "io/model/interface_nodes.hpp"
 #include "io/model/tidy_mesh.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -75,9 +76,9 @@ Warnings doubts_about_stretched(const Mesh& mesh, const std::string& path) {
   mesh.for_each_cell(look_at);
   if (stretched == 0) return {};
   return {fmt::format(
-      "{}: {} cells have an aspect ratio above {:g}; smoothing makes layers among them uniform, unless a "
+      "{}: {} with an aspect ratio above {:g}; smoothing makes layers among them uniform, unless a "
       ".mesh file has the line '# layers NAME COUNT' before the number of edges of the wall",
-      path, stretched, most_stretched)};
+      path, counted(stretched, "cell"), most_stretched)};
 }
 
 void append(Warnings& warnings, const Warnings& more) {

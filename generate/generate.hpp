@@ -21,8 +21,9 @@ namespace quadloop {
 struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
-  smoother::SmoothOptions smooth;  ///< without the geometry
-  std::uint64_t digest = 0;        ///< case_digest() of the case's own mesh options and lines
+  smoother::SmoothOptions smooth;      ///< without the geometry
+  std::uint64_t digest = 0;  ///< case_digest() of the case's mesh options and lines
+  /// Wakes and interior layer lines.
   std::vector<LayerLine> lines = {};
   /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/r_adaptation); empty: no
   /// r-adaptation.
@@ -39,20 +40,20 @@ struct GeneratedMesh {
   LayerReport layers;  ///< of the boundaries that have layers
 };
 
-/// Returns the smoothing options for meshes of this input: nodes slide along its geometry, which must outlive
-/// the options; parallelograms are preserved if no other quads are kept. Delaunay-type meshes end with flips,
-/// with the node order of quadtree cells down to `finest_level`.
+/// Returns the smoothing options for meshes of this input. Boundary nodes slide along its geometry, which
+/// must outlive the options. With mesh.quads = "parallel", smoothing tries to keep parallelograms. In
+/// meshes of triangles only, edge flips follow; for cocircular nodes the diagonal is chosen by the order of
+/// the nodes along the space-filling curve of quadtree cells of level `finest_level`.
 smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_level);
 
-/// Callback on the smoothed mesh before the layers are generated. `input` is that of the mesh (of the domain
-/// outside layers, if there are any). Nodes on the outer edge of the layers must not move, and the tree must
-/// count the cells. *Collective.*
+/// Callback on the smoothed mesh before the layers are generated. With layers, `input` describes only the
+/// domain outside them. The callback must not move nodes on the outer edge of the layers, and it must update
+/// the cell counts in the tree record. *Collective.*
 using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
 
-/// Generates and smooths a mesh. Smoothing starts from the mesh as cut; a Delaunay-type mesh ends with flips,
-/// with the node order that it was made with. First heights of layers that specify a y+ follow the measured
-/// wall friction, which the tree stores. Throws InputError as build_mesh does, and Fault if the mesh is not
-/// valid (require_sound()). *Collective.*
+/// Generates and smooths a mesh (smooth_options_for()). If layers specify a y+, their first heights follow from
+/// the measured wall friction, which is stored in the tree record. Throws InputError as build_mesh does, and
+/// Fault if the mesh is not valid (require_sound()). *Collective.*
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
                             const MeshChange& change = {});

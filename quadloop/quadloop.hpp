@@ -27,10 +27,11 @@
 /// nodes and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in
 /// the unit of the case's geometry. Values are in solver units; sense() and remesh() require finite values.
 ///
-/// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes; halo.exchange() updates
-/// ghost values from their owners. Ghost contributions are never summed at the owner, because the sum would
-/// depend on the partition. Accumulate over halo.for_each_cell() at owned nodes only; cells are visited in
-/// global order. reproducible_sum() sums over all ranks.
+/// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes. Accumulate over
+/// halo.for_each_cell() at owned nodes only; cells are visited in global order. Then
+/// halo.exchange().update(values) copies the values of the owners to the ghosts (update_rows() for several
+/// variables). Ghost contributions are never summed at the owner, because the sum would depend on the
+/// partition. reproducible_sum() sums over all ranks.
 ///
 /// Errors are exceptions derived from Error, the same on all ranks. InputError: a case, mesh or field cannot
 /// be used. SolverError: the solver failed. OutputError: a file cannot be written. The message gives location
@@ -84,11 +85,12 @@ struct NewMesh {
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Smooths a mesh with the case's settings; boundary nodes slide along the case's geometry. The mesh may be
-/// any valid mesh of that geometry. Connectivity is preserved, except for Delaunay meshes of Delaunay-type
-/// cases, where edge flips restore the Delaunay property (checking this gathers the mesh on one rank). With
-/// quads = "parallel", smoothing avoids skewing parallelograms; quads that nevertheless lose this shape are
-/// not split into triangles, unlike in make_mesh(). The nodes of layer cells do not move. Never degrades the
-/// worst cell. Untangles as many inverted cells as possible; check() reports the others.
+/// any valid mesh of that geometry. Connectivity is preserved, with one exception: if the case generates
+/// triangles only and the mesh is Delaunay, edges are flipped so that it remains Delaunay (this check gathers
+/// the mesh on one rank). With quads = "parallel", smoothing tries to keep parallelograms; make_mesh() splits
+/// those that are lost into triangles, smooth() does not. The nodes of layer cells do not move. The quality
+/// of the worst cell does not decrease. Untangles as many inverted cells as possible; check() reports the
+/// others.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
@@ -105,7 +107,7 @@ class RefinementFlags {
  public:
   std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
-  const std::vector<std::string>& warnings() const;  ///< why no cell is flagged; limits that could not be met
+  const std::vector<std::string>& warnings() const;  ///< e.g. why no cell is refined, or limits not met
   /// Whether remesh() returns a different mesh: refined or coarsened quadtree cells, a metric, target sizes
   /// for the nodes, or new first-layer heights.
   bool changes_mesh() const;
@@ -120,8 +122,8 @@ class RefinementFlags {
   std::shared_ptr<const adapt::AdaptationPlan> plan_;
 };
 
-/// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` was returned by
-/// make_mesh() or remesh() for this case, and has a solution. Throws InputError if the case has no such
+/// Flags quadtree cells for refinement or coarsening by the case's table [adapt]. `solved` must be the result
+/// of make_mesh() or remesh() for this case, with a solution. Throws InputError if the case has no such
 /// table, or if the solution lacks the variable, lacks a row for an owned node, or has a value that is not
 /// finite.
 RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
@@ -145,8 +147,9 @@ struct MeshFile {
 };
 
 /// Reads a mesh and its nodal field; the suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh. The root
-/// rank reads the whole file; CGNS is read by the installed program quadloop-reader. Throws InputError with
-/// the file and, for text formats, the line.
+/// rank reads the whole file. CGNS files are read by a separate program, quadloop-reader (see
+/// docs/how-to/library.md), which must be installed. Throws InputError with the file and, for text formats,
+/// the line.
 MeshFile read(const Communicator& comm, const std::string& path);
 
 /// Writes a mesh and, if the format supports it, the field; the suffix selects the format. The file is
@@ -162,9 +165,9 @@ std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const
 void write_solved(const Communicator& comm, const SolvedMesh& solved, const std::string& stem);
 
 /// Reads files written by write_solved(), on any number of ranks, and restores the data bit for bit, so that
-/// an interrupted adaptation continues with identical results. Like CGNS files in read(), the tree file is
-/// read by the program quadloop-reader. Throws InputError if the files do not belong together, or are not of
-/// this case.
+/// an interrupted adaptation continues with identical results. The tree file is read by the separate program
+/// quadloop-reader, as CGNS files are by read(). Throws InputError if the files do not belong together, or
+/// are not of this case.
 SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::string& stem);
 
 }  // namespace quadloop

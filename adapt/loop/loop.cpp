@@ -56,7 +56,7 @@ class Loop {
     observer_.planned(end);
     times.end();
     append(warnings, flow.warnings);
-    append(warnings, end.plan.warnings);
+    if (adapt_.cycles > 0) append(warnings, warnings_after(cycle, end.plan));
     CycleRecord record = record_of(cycle, remeshed, flow, end, times);
     settle(before, record, end);
     observer_.finished(std::move(record), flow.notes, warnings);
@@ -65,6 +65,13 @@ class Loop {
   }
 
  private:
+  /// Returns the plan's warnings. The last of them refers to this cycle if the next mesh would be the same.
+  static std::vector<std::string> warnings_after(int cycle, const AdaptationPlan& plan) {
+    std::vector<std::string> warnings = plan.warnings;
+    if (!plan.changes_mesh()) warnings.back() = fmt::format("after cycle {}: {}", cycle, warnings.back());
+    return warnings;
+  }
+
   RemeshedSolution next_mesh(const CycleEnd* before) const {
     if (before != nullptr) return remesh_and_transfer(comm_, mesh_, before->plan, before->solved);
     if (start_) return start_();

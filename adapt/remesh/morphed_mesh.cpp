@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -98,7 +99,8 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
 
 std::string why_anew(const MorphWish& wish, const std::string& refusal) {
   return fmt::format(
-      "{}: was remeshed, because morphing would reduce the cell quality below {:g} (design.morph_to): {}",
+      "{}: a new mesh was generated, because morphing would reduce the cell quality below {:g} "
+      "(design.morph_to): {}",
       wish.file, wish.least_quality, refusal);
 }
 
@@ -126,12 +128,21 @@ bool has_other_settings(const MeshInput& input, const SolvedMesh& old, const Mor
 /// Returns the reason, for a mesh that is not to be morphed or whose geometry has not changed.
 std::string why_not_kept(const MeshInput& input, const SolvedMesh& old, bool wished) {
   const std::string why = has_outline_of(old, input)
-                              ? fmt::format("{} are not those that it was made with", what_shapes_cells)
+                              ? fmt::format("{} have changed", what_shapes_cells)
                               : "the geometry or the settings of its boundaries have changed";
   const std::string cure = wished || has_outline_of(old, input)
                                ? ""
                                : "; set design.morph_to in the case file to morph the mesh instead";
-  return fmt::format("{}: was remeshed, because {}{}", old.file, why, cure);
+  return fmt::format("a new mesh was generated instead of {}, because {}{}", old.file, why, cure);
+}
+
+/// Returns a warning about a mesh that was morphed without its geometry.
+std::string without_former_outline(const SolvedMesh& old) {
+  return fmt::format(
+      "{}: the geometry of this mesh is not stored beside it as {}, so the points of the old and the new "
+      "boundaries correspond by arc length, not by number, which changes the forces slightly; to store it, "
+      "put [design] into the case file before the first run, or use mesh --geometry-out",
+      old.file, std::filesystem::path(old.file).filename().replace_extension(".geom").string());
 }
 
 /// Returns a warning about anisotropic cells that a mesh generated from the tree alone does not have.
@@ -151,9 +162,11 @@ RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input
   MorphedMesh morphed;
   if (wish) morphed = morph_solved(comm, input, old, *wish);
   if (morphed.remeshed) {
+    std::vector<std::string>& warnings = morphed.remeshed->generated.result.report.warnings;
+    if (wish->from == nullptr) warnings.push_back(without_former_outline(old));
     if (has_other_settings(input, old, *wish))
-      morphed.remeshed->generated.result.report.warnings.push_back(fmt::format(
-          "{}: {} are not those that it was made with{}; its cells are kept, and the new settings "
+      warnings.push_back(fmt::format(
+          "{}: {} have changed since this mesh was generated{}; its cells are kept, and the new settings "
           "take effect at the next remeshing",
           old.file, what_shapes_cells, wish->changed.empty() ? "" : ": " + wish->changed));
     return std::move(*morphed.remeshed);

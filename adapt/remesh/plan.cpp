@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "adapt/remesh/demands/finest_levels.hpp"
 #include "adapt/remesh/demands/mark_family.hpp"
@@ -16,7 +17,10 @@
 #include "adapt/remesh/demands/target_levels.hpp"
 #include "adapt/remesh/demands/trial_count.hpp"
 #include "adapt/remesh/followed_walls.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/facets.hpp"
+#include "mesher/grid/tree_grid.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop::adapt {
@@ -76,23 +80,42 @@ std::vector<std::int8_t> finest_of_leaves(const MeshInput& input, const AdaptOpt
   return finest_levels(input.geometry, solved.tree, finest_level(input, options), options.facets);
 }
 
-/// Counts cells that the rule flags but that the facets of the geometry keep unchanged. *Collective.*
-std::int64_t held_by_facets(const Communicator& comm, const SolvedMesh& solved,
-                            const std::vector<RefinementFlag>& flags, std::span<const std::int8_t> finest) {
+/// Returns the facet with the longest segment among those that keep flagged cells unchanged, the one of the
+/// lowest vertex if several are equal; empty if there is none. *Collective.*
+std::optional<Facet> holding_facet(const Communicator& comm, const Geometry& geometry,
+                                   const SolvedMesh& solved, const std::vector<RefinementFlag>& flags,
+                                   std::span<const std::int8_t> finest) {
   std::int8_t deepest = 0;
   for (const std::int8_t level : finest) deepest = std::max(deepest, level);
   deepest = static_cast<std::int8_t>(comm.maximum(std::int64_t{deepest}));
-  std::int64_t held = 0;
+  const auto is_held = [&](std::size_t i) {
+    const LeafRecord& leaf = solved.tree.leaves[i];
+    return flags[i] == RefinementFlag::refine && finest[i] < deepest && leaf.level >= finest[i];
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < flags.size() && !any; ++i) any = is_held(i);
+  if (!comm.any(any)) return {};
+  const TreeAttributes& a = solved.tree.attributes;
+  const TreeGrid grid(root_box(a), a.trees_x, a.trees_y);
+  const FacetZones zones(geometry);
+  Facet longest{geometry.size(), 0, 0};
+  const auto later = [](const Facet& f) { return std::pair(-f.segment, f.vertex); };
   for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i] == RefinementFlag::refine && finest[i] < deepest && solved.tree.leaves[i].level >= finest[i])
-      ++held;
+    const Facet* facet =
+        is_held(i) ? zones.longest_at(grid.box_of(quadrant_of(solved.tree.leaves[i]))) : nullptr;
+    if (facet != nullptr && later(*facet) < later(longest)) longest = *facet;
   }
-  return comm.sum(held);
+  return std::ranges::min(comm.all_gather(longest), {}, later);
 }
 
-constexpr const char* text_of_facets =
-    "boundary cells of a polygonal geometry are not refined below half the length of its segments, because "
-    "the flow would resolve the corners of the polygon; supply more points, or set adapt.facets = true";
+std::string text_of(const Facet& facet, const Geometry& geometry) {
+  const Point p = geometry.point(facet.vertex);
+  return fmt::format(
+      "boundary '{}': its points near ({:.6g}, {:.6g}) are {:.3g} apart, too far for further refinement; in "
+      "cells smaller than half of this distance the flow would resolve the corners of the polygon; supply "
+      "more points, or set adapt.facets = true",
+      geometry.boundary(geometry.boundary_of(facet.vertex)).name, p.x, p.y, facet.segment);
+}
 
 /// Returns the reason why a plan changes no cell, for the user. `all`: the changes flagged by the rule alone.
 /// *Collective.*
@@ -103,11 +126,11 @@ std::string reason_for_no_change(const Communicator& comm, const AdaptOptions& o
     return fmt::format("{} is constant",
                        options.variables.size() == 1 ? options.variables.front() : "each of adapt.variable");
   if (all.refined + all.coarsened > 0)
-    return fmt::format(
-        "{} leaves no room{}",
-        options.max_nodes ? fmt::format("adapt.max_nodes = {}", *options.max_nodes)
-                          : "--max-cells or free memory",
-        options.max_nodes ? "; increase it, or set adapt.norm, which redistributes the nodes" : "");
+    return fmt::format("{}", options.max_nodes
+                                 ? fmt::format("adapt.max_nodes = {} is reached; increase it, or set "
+                                               "adapt.norm, which redistributes the nodes",
+                                               *options.max_nodes)
+                                 : "--max-cells or free memory allows no more cells");
   const std::vector<RefinementFlag> flags = family.flags(1);
   const std::int64_t wanted = count_of(comm, flags, RefinementFlag::refine);
   if (wanted == 0 && options.source == AdaptOptions::Source::size)
@@ -124,8 +147,8 @@ std::string reason_for_no_change(const Communicator& comm, const AdaptOptions& o
   }
   const double edge = solved.tree.attributes.tree_edge /
                       static_cast<double>(std::int64_t{1} << comm.minimum(std::int64_t{coarsest}));
-  return fmt::format("{} prevents refinement of the {} cells above the threshold, with edges up to {}", bound,
-                     wanted, edge);
+  return fmt::format("{} prevents refinement of the {} above the threshold, with edges up to {:.6g}", bound,
+                     counted(wanted, "cell"), edge);
 }
 
 /// Constructs the object; errors of the field are reported with its file. *Collective.*
@@ -158,17 +181,17 @@ void warn_above_cap(const TrialCount& count, std::int64_t cap, const ChangedSpli
                   least < nodes ? "up to " : "", nodes, cap));
 }
 
-void plan_by_flags(const Communicator& comm, const AdaptOptions& options, const SolvedMesh& solved,
-                   const TrialCount& count, std::span<const std::int8_t> finest,
-                   std::optional<MirrorAxis> mirror, AdaptationPlan& plan) {
-  const auto family = made_from<MarkFamily>(comm, options, solved, mirror);
-  const NodeSearch search(comm, count, solved, family, finest, mirror);
+void plan_by_flags(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
+                   const SolvedMesh& solved, const TrialCount& count, std::span<const std::int8_t> finest,
+                   AdaptationPlan& plan) {
+  const auto family = made_from<MarkFamily>(comm, options, solved, input.mesh.mirror);
+  const NodeSearch search(comm, count, solved, family, finest, input.mesh.mirror);
   const ChangedSplits all = search.changes_at(1);
   ChangedSplits changes = all;
   const bool bounded = !count.allowed(all);
   if (bounded) plan.warnings.emplace_back(text_of_bound);
-  const bool held = held_by_facets(comm, solved, family.flags(1), finest) > 0;
-  if (held) plan.warnings.emplace_back(text_of_facets);
+  const auto held = holding_facet(comm, input.geometry, solved, family.flags(1), finest);
+  if (held) plan.warnings.push_back(text_of(*held, input.geometry));
   if (options.max_nodes || bounded) changes = search.within(options.max_nodes, all);
   if (options.max_nodes) warn_above_cap(count, *options.max_nodes, changes, plan);
   take(std::move(changes), plan);
@@ -176,7 +199,7 @@ void plan_by_flags(const Communicator& comm, const AdaptOptions& options, const 
   plan.mean = family.mean();
   plan.deviation = family.deviation();
   if (!plan.changes_mesh())
-    plan.reason_for_no_change = reason_for_no_change(comm, options, solved, family, all, held);
+    plan.reason_for_no_change = reason_for_no_change(comm, options, solved, family, all, held.has_value());
 }
 
 /// Returns the number of nodes requested by the options.
@@ -303,10 +326,10 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   else if (options.norm)
     plan_by_sizes(comm, options, solved, count, finest, input.mesh.mirror, plan);
   else
-    plan_by_flags(comm, options, solved, count, finest, input.mesh.mirror, plan);
+    plan_by_flags(comm, input, options, solved, count, finest, plan);
   if (input.stretch && !plan.flat) plan.anisotropy = target_demand(input, options, solved);
   if (!plan.changes_mesh())
-    plan.warnings.push_back("no cell is flagged, the mesh is unchanged: " + plan.reason_for_no_change);
+    plan.warnings.push_back("no cell is refined or coarsened, because " + plan.reason_for_no_change);
   return plan;
 }
 

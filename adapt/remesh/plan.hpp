@@ -33,7 +33,7 @@ struct AdaptationPlan {
   TransferKind transfer = TransferKind::linear;
   std::vector<std::string> warnings;
   bool flat = false;                 ///< whether the solution gives no reason to refine anywhere
-  std::string reason_for_no_change;  ///< why no cell is flagged
+  std::string reason_for_no_change;  ///< why no cell is refined or coarsened
 
   /// Without an effective flag, new heights or anisotropy the next mesh would be the same.
   bool changes_mesh() const {

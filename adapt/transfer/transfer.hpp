@@ -20,13 +20,12 @@ inline constexpr WordTable<TransferKind, 2> transfer_words{
 struct TransferReport {
   std::int64_t outside = 0;        ///< nodes of the new mesh outside the old one; for nodal values only
   std::int64_t cells_outside = 0;  ///< new cells not covered by the old mesh; for cell values only
-  std::vector<double> drift;  ///< for each variable, nodal ones first: its integral over the new mesh minus
-                              ///< that over the old one
+  std::vector<double> drift;       ///< for each variable, nodal ones first: integral over the new mesh minus
+                                   ///< integral over the old mesh
   std::vector<double> relative_drift;  ///< drift relative to the old integral of the variable's absolute
                                        ///< value; 0 if that integral is 0
-  std::size_t conserved_from =
-      0;  ///< index of the first variable that is transferred conservatively, as all later ones are
-  double area_change = 0;  ///< (new area - old area) / old area; 0 if nothing is conserved
+  std::size_t conserved_from = 0;      ///< variables from this index on are transferred conservatively
+  double area_change = 0;              ///< (new area - old area) / old area; 0 if nothing is conserved
 
   /// The report for a field that is not transferred: all drifts are 0.
   static TransferReport without_drift(const Field& field) {
@@ -44,13 +43,13 @@ struct Transferred {
 ///
 /// Linear: a node inside an old triangle (quads are split into two triangles, parts_of()) gets the linear
 /// interpolant there: exact for linear fields up to rounding, and bitwise the old value at a coincident node.
-/// If it lies in several triangles, that of the lowest global number is used. A node outside the old mesh
-/// gets the value at the nearest point of the old boundary; ties are resolved by the lowest edge number.
-/// Nodes in wall layers are located in the old mesh by wall distance (column_places). So new values stay
-/// within the range of the old nodes used, and the result is bitwise independent of the distribution of the
-/// two meshes.
+/// If it lies in several triangles, the one with the lowest global number is used. A node outside the old
+/// mesh gets the value at the nearest point of the old boundary; ties are resolved by the lowest edge number.
+/// Nodes in wall layers are located in the old mesh by wall distance (column_places). The new values stay
+/// within the range of the old nodes used. The result is bitwise independent of the partitions of the two
+/// meshes.
 ///
-/// Conservative: the same, corrected such that integrals are kept (conserve_at_nodes()).
+/// Conservative: linear transfer with a correction that preserves the integrals (conserve_at_nodes()).
 ///
 /// Cell values are transferred by transfer_cells(); a cell outside the old mesh gets the value of the old
 /// cell at the nearest boundary edge.

@@ -62,7 +62,7 @@ std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_
 std::string places_text(const std::vector<SharpPlace>& places) {
   std::string text;
   for (const auto& [place, degrees] : places)
-    text += inner_row(fmt::format("({}, {})", place.x, place.y), fmt::format("{:.6g}", degrees));
+    text += inner_row(fmt::format("({:.6g}, {:.6g})", place.x, place.y), fmt::format("{:.6g}", degrees));
   return text;
 }
 

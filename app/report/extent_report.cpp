@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mesher/base/counted.hpp"
+
 namespace quadloop::app {
 
 namespace {
@@ -37,7 +39,8 @@ std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents) {
   const std::size_t listed = std::min(extents.size(), most_listed);
   for (std::size_t i = 0; i < listed; ++i) lines.push_back(line_of(extents[i]));
   if (extents.size() > listed)
-    lines.push_back(fmt::format("{} more geometry files; --json shows them", extents.size() - listed));
+    lines.push_back(
+        fmt::format("{}; --json shows them", counted(extents.size() - listed, "more geometry file")));
   return lines;
 }
 

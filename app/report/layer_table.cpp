@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/counted.hpp"
+
 namespace quadloop::app {
 
 namespace {
@@ -105,15 +107,15 @@ void add_shapes(Statistics& statistics, const QualitySummary& quality, const std
 }  // namespace
 
 void add_layers(Statistics& statistics, const LayerReport& report, std::size_t most) {
-  add_rows(statistics, report, {"count", "min first", "med first", "t/t_req", "full t", "growth", "minimum at"},
-           most);
+  add_rows(statistics, report,
+           {"count", "min first", "med first", "t/t_req", "full t", "growth", "minimum at"}, most);
 }
 
 void add_layers(Statistics& statistics, const std::vector<LayerStatistics>& layers, std::size_t most) {
   std::vector<const char*> columns{"count",  "columns", "first", "median", "largest",
                                    "growth", "to",      "thick", "to"};
   if (std::ranges::any_of(layers, [](const LayerStatistics& row) { return row.asked > 0; }))
-    columns.push_back("of asked");
+    columns.push_back("t/t_req");
   add_rows(statistics, layers, columns, most);
 }
 
@@ -153,18 +155,19 @@ void add_objections(Statistics& statistics, const FaceStatisticsByLayers& faces,
   statistics.add_member("flat_cells", json_of(flat));
   std::vector<std::string> objections;
   if (non_orthogonal > 0)
-    objections.push_back(fmt::format("{} faces of non-orthogonality above {} degrees", non_orthogonal,
-                                     FaceStatistics::severe_degrees));
+    objections.push_back(fmt::format("{} of non-orthogonality above {} degrees",
+                                     counted(non_orthogonal, "face"), FaceStatistics::severe_degrees));
   if (skew > 0)
-    objections.push_back(fmt::format("{} faces of skewness above {}", skew, FaceStatistics::severe_skewness));
-  if (flat > 0)
     objections.push_back(
-        fmt::format("{} cells of aspect ratio above {}", flat, FaceStatistics::severe_aspect_ratio));
+        fmt::format("{} of skewness above {}", counted(skew, "face"), FaceStatistics::severe_skewness));
+  if (flat > 0)
+    objections.push_back(fmt::format("{} of aspect ratio above {}", counted(flat, "cell"),
+                                     FaceStatistics::severe_aspect_ratio));
   if (objections.empty())
     objections.push_back(fmt::format(
         "all criteria satisfied (non-orthogonality {:.1f} degrees, skewness {:.2f})", angle, skewness));
   const std::string su2 = shape.inexact_nodes == 0
-                              ? "exact at all interior nodes"
+                              ? "linear fields are exact at all interior nodes"
                               : fmt::format("{:.2g} % of the quads are not parallelograms",
                                             100 * (1 - shape.parallelogram_share()));
   statistics.add_lines(fmt::format("  checkMesh: {}; SU2: {}\n", fmt::join(objections, ", "), su2));

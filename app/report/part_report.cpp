@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mesher/base/counted.hpp"
+
 namespace quadloop::app {
 
 void add_parts(Statistics& statistics, const PartStatistics& parts) {
@@ -17,7 +19,8 @@ void add_parts(Statistics& statistics, const PartStatistics& parts) {
 
 void add_parts(MeshSummary& summary, const PartStatistics& parts, const std::vector<std::string>& files) {
   add_parts(summary.statistics, parts);
-  summary.files.push_back(files.front() + fmt::format(" and {} files of parts", files.size() - 1));
+  summary.files.push_back(files.front() +
+                          fmt::format(" and {}", counted(std::ssize(files) - 1, "partition file")));
 }
 
 }  // namespace quadloop::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "smoother/objective/condition_number.hpp"
 
@@ -37,9 +38,7 @@ Point worst_place(const Mesh& mesh) {
 
 }  // namespace
 
-std::string more_faults(std::int64_t count) {
-  return count == 0 ? "" : fmt::format("; {} fault{} more", count, count == 1 ? "" : "s");
-}
+std::string more_faults(std::int64_t count) { return count == 0 ? "" : "; " + counted(count, "more fault"); }
 
 void refuse_invalid(const std::string& file, const std::vector<MeshFault>& faults) {
   const MeshFault& first = faults.front();
@@ -78,10 +77,10 @@ void require_valid(const io::LoadedMesh& smoothed, const std::string& file) {
   if (inverted == 0) refuse_invalid(file, faults);
   const Point place = worst_place(smoothed.mesh);
   throw InputError(
-      fmt::format("{}: {} cell{} could not be untangled, the worst at ({}, {}); nothing was written. "
+      fmt::format("{}: {} could not be untangled, the worst at ({:.6g}, {:.6g}); nothing was written. "
                   "Increase --sweeps, or repair the mesh there: nodes between blocks are fixed, and boundary "
                   "nodes slide only along straight parts, or along --geometry",
-                  file, inverted, inverted == 1 ? "" : "s", place.x, place.y));
+                  file, counted(inverted, "cell"), place.x, place.y));
 }
 
 }  // namespace quadloop::app

@@ -14,13 +14,14 @@ namespace quadloop::flow {
 /// length.
 struct BoundaryForce {
   std::string boundary;
-  double cl = 0, cd = 0;                    ///< by pressure, minus the free-stream pressure, and friction
+  double cl = 0, cd = 0;                    ///< of pressure (minus free-stream pressure) and friction
   double cl_friction = 0, cd_friction = 0;  ///< friction only
 };
 
-/// Returns the forces on the named boundaries, in their order, for any solver's nodal solution: pressure and,
-/// if there is a variable wall_shear, friction, both linear along each edge. 0 if the free stream is at rest.
-/// Bitwise independent of the number of ranks. *Collective.*
+/// Returns the forces on the named boundaries, in their order, for the nodal solution of any solver. The
+/// pressure and, if the solution has a variable wall_shear, the friction are integrated; both are linear
+/// along each edge. The forces are 0 if the free stream is at rest. Bitwise independent of the number of
+/// ranks. *Collective.*
 std::vector<BoundaryForce> boundary_forces(const Communicator& comm, const Mesh& mesh, const Field& flow,
                                            const FreeStream& stream, const std::vector<std::string>& walls);
 

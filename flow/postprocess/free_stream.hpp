@@ -2,7 +2,7 @@
 
 namespace quadloop::flow {
 
-/// The undisturbed flow, reference of the coefficients, in the units of the solution.
+/// The free stream, to which the coefficients refer, in the units of the solution.
 struct FreeStream {
   double density = 1, pressure = 1 / 1.4, speed = 0;
   double alpha = 0;             ///< degrees above the x axis

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/counted.hpp"
+
 namespace quadloop::flow {
 
 namespace {
@@ -61,10 +63,6 @@ std::optional<double> period_of(const std::vector<HistoryRow>& rows, Coefficient
   }
   if (longest - shortest > irregular * mean) return {};
   return mean;
-}
-
-std::string counted(int number, const char* of) {
-  return fmt::format("{} {}{}", number, of, number == 1 ? "" : "s");
 }
 
 std::string fall_of(double residual) {

@@ -8,7 +8,7 @@
 
 namespace quadloop::flow {
 
-/// Statistics of a coefficient over time.
+/// Mean, minimum and maximum of a coefficient over time.
 struct Swing {
   double mean = 0, smallest = 0, largest = 0;
 };
@@ -24,7 +24,7 @@ struct UnsteadyFlow {
   bool implicit = false;
   int unsolved = 0;        ///< implicit steps that did not meet their tolerance
   bool continued = false;  ///< whether it continues a steady run, or a flow that was itself continued
-  /// Preceding steady run: steps and final residual.
+  /// Steps and final residual of the preceding steady run.
   int steady_steps = 0;
   double steady_residual = 0;
 };

@@ -13,6 +13,7 @@
 #include "io/model/clean_up.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/stream/cell_of_sides.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
@@ -195,8 +196,8 @@ class FoamReader {
       }
     }
     if (again > 0)
-      mesh_.warnings.push_back(
-          fmt::format("{}: {} cells are in several zones; each is of the first alone", path_, again));
+      mesh_.warnings.push_back(fmt::format("{}: {} in several zones, assigned to the first of them", path_,
+                                           counted(again, "cell")));
     for (std::int32_t& block : block_of) {
       if (block < 0) block = mesh_.block_named("domain");
     }
@@ -224,8 +225,8 @@ class FoamReader {
           fmt::format("{}: patches of a cyclic type are plain boundaries here, not periodic: {}", path_,
                       some_names(cyclic)));
     if (divided_ > 0)
-      mesh_.warnings.push_back(fmt::format("{}: {} polygonal cells are divided into {} triangles and quads",
-                                           path_, divided_, pieces_));
+      mesh_.warnings.push_back(fmt::format("{}: divided {} into {} triangles and quads", path_,
+                                           counted(divided_, "polygonal cell"), pieces_));
   }
 
   /// For a polygon, adds the pieces of its cell.

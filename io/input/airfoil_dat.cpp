@@ -92,9 +92,14 @@ class AirfoilRows {
     while (!divided_ && lines.next()) take(lines);
     if (rows_.empty() && !first) return;
     if (rows_.empty()) lines.refuse("the file ends here, but the coordinates are missing");
-    if (counts_ && rows_.size() != expected()) {
+    if (counts_ && !agrees() && returns_to(*counts_)) {
+      rows_.insert(rows_.begin(), *counts_);
+      counts_.reset();
+    }
+    if (counts_ && !agrees()) {
       lines.refuse(fmt::format(
-          "the file has {} points, but its head says {} and {}; correct the counts, or complete the file",
+          "the file has {} points, but its header (Lednicer format) counts {} and {}; correct the counts, or "
+          "complete the file",
           rows_.size(), counts_->x, counts_->y));
     }
   }
@@ -147,6 +152,12 @@ class AirfoilRows {
   std::size_t expected() const {
     return static_cast<std::size_t>(counts_->x) + static_cast<std::size_t>(counts_->y);
   }
+
+  bool agrees() const { return rows_.size() == expected(); }
+
+  /// Whether the last row is at p, up to a blunt trailing edge. Then two integers are the first point of a
+  /// Selig file, such as one in millimetres, and not counts.
+  bool returns_to(Point p) const { return length(rows_.back() - p) <= blunt * chord_of(rows_); }
 
   /// Whether the element is complete: as many points as counted in the header, or closed.
   bool is_whole() const {
@@ -230,7 +241,7 @@ Chain chain_of(AirfoilRows& airfoil, const std::string& path, const std::string&
     rows = around(rows, *airfoil.upper());
   } else if (const auto [second, from_leading_edge] = two_surfaces(rows); second > 0) {
     warnings.push_back(
-        fmt::format("{}: both surfaces run from the {} edge, though the head has no counts; point {} "
+        fmt::format("{}: both surfaces run from the {} edge, though the header has no counts; point {} "
                     "begins the second",
                     path, from_leading_edge ? "leading" : "trailing", second + 1));
     if (!from_leading_edge) {

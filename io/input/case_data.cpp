@@ -75,8 +75,34 @@ toml::table parse_value(const std::string& text) {
   return plain;
 }
 
+/// Returns the table that holds the key `part`: the node itself. Throws InputError if it is a list or a
+/// single value, or if the key is written as an entry of a list, as in `wake[0]`.
+toml::table& table_with(toml::node& node, const std::string& part, const std::string& parent,
+                        const std::string& place) {
+  if (node.is_array_of_tables())
+    throw InputError(fmt::format(
+        "{0}: '{1}' is a list of tables; select an entry by its number from 0, as in {1}.0.{2}, or replace "
+        "the list, as in --set '{1}=[{{...}}]'",
+        place, parent, part));
+  if (node.is_array())
+    throw InputError(
+        fmt::format("{0}: '{1}' is a list; replace it as a whole, as in --set '{1}=[...]'", place, parent));
+  toml::table* table = node.as_table();
+  if (table == nullptr)
+    throw InputError(fmt::format("{}: '{}' is a single value, not a table with '{}'", place, parent, part));
+  const std::string list = part.substr(0, part.find('['));
+  if (list != part && table->get(part) == nullptr && table->get(list) != nullptr &&
+      table->get(list)->is_array())
+    throw InputError(
+        fmt::format("{0}: '{1}' is no key; select an entry of the list '{2}' by its number from 0, "
+                    "as in {2}.0",
+                    place, part, list));
+  return *table;
+}
+
 /// Returns the table or list one level down, created if missing.
-toml::node* step_down(toml::node& node, const std::string& part, const std::string& place) {
+toml::node* step_down(toml::node& node, const std::string& part, const std::string& parent,
+                      const std::string& place) {
   if (toml::array* list = node.as_array()) {
     std::size_t index = 0;
     const auto [stop, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
@@ -85,12 +111,9 @@ toml::node* step_down(toml::node& node, const std::string& part, const std::stri
     throw InputError(fmt::format("{}: '{}' is not a number from 0 to {}, which selects an entry of the list",
                                  place, part, std::ssize(*list) - 1));
   }
-  toml::table* table = node.as_table();
-  if (table == nullptr)
-    throw InputError(
-        fmt::format("{}: there is no table to hold '{}'; its parent is a single value", place, part));
-  if (table->get(part) == nullptr) table->insert(part, toml::table{});
-  return table->get(part);
+  toml::table& table = table_with(node, part, parent, place);
+  if (table.get(part) == nullptr) table.insert(part, toml::table{});
+  return table.get(part);
 }
 
 /// Returns row `number` of a text, from 1.
@@ -165,13 +188,14 @@ void assign(CaseTable::Data& data, const std::string& text) {
   if (!assignment.has_key())
     throw InputError(place + ": what stands before the '=' is not a key; write as in spacing.min=0.1");
   toml::node* node = &data.root;
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i) node = step_down(*node, parts[i], place);
+  std::string parent;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    node = step_down(*node, parts[i], parent, place);
+    parent += (i == 0 ? "" : ".") + parts[i];
+  }
+  toml::table& table = table_with(*node, parts.back(), parent, place);
   const toml::table parsed = parse_value(assignment.value);
-  toml::table* table = node->as_table();
-  if (table == nullptr)
-    throw InputError(
-        fmt::format("{}: there is no table to hold '{}'; its parent is not one", place, parts.back()));
-  parsed.get("value")->visit([&](const auto& value) { table->insert_or_assign(parts.back(), value); });
+  parsed.get("value")->visit([&](const auto& value) { table.insert_or_assign(parts.back(), value); });
   data.assigned[fmt::format("{}", fmt::join(parts, "."))] = text;
 }
 

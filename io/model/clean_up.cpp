@@ -13,6 +13,7 @@
 #include "io/model/orient_cells.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/model/serialize_mesh.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/mesh/topology.hpp"
 
@@ -244,7 +245,7 @@ void drop_unused_nodes(FileMesh& mesh, const std::string& path) {
   }
   mesh.points.resize(kept);
   renumber_nodes(mesh, new_id);
-  mesh.warnings.push_back(fmt::format("{}: {} nodes that belong to no cell were left out", path, dropped));
+  mesh.warnings.push_back(fmt::format("{}: left out {} without a cell", path, counted(dropped, "node")));
 }
 
 void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes) {
@@ -296,8 +297,8 @@ void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std
   if (names.empty()) return;
   std::erase_if(loaded.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
   loaded.warnings.push_back(
-      fmt::format("{}: {} edges between two cells are not boundary edges and were left out: those of {}",
-                  path, count, some_names(names)));
+      fmt::format("{}: left out {} between two cells, which cannot be boundary edges: those of {}", path,
+                  counted(count, "edge"), some_names(names)));
 }
 
 void drop_empty_groups(FileMesh& mesh) {
@@ -340,7 +341,7 @@ LoadedMesh plane_mesh(FileMesh file, const TextScanner& scan) {
   place_edges(file.boundaries, loaded, table, scan);
   if (turned > 0)
     loaded.warnings.push_back(
-        fmt::format("{}: {} cells ran clockwise and were reversed", scan.path(), turned));
+        fmt::format("{}: reversed {} with clockwise nodes", scan.path(), counted(turned, "cell")));
   separate_inner_curves(loaded, table, scan.path());
   if (loaded.mesh.boundaries.empty()) add_outer_boundary(loaded.mesh);
   return loaded;

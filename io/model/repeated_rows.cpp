@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "mesher/base/counted.hpp"
+
 namespace quadloop::io {
 
 void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
@@ -14,17 +16,16 @@ void warn_of_repeated(const RepeatedElements& repeated, const std::string& path,
     if (kept == other) {
       same += count;
     } else if (++lines <= most_lines) {
-      warnings.push_back(
-          fmt::format("{}: {} elements are in the groups '{}' and '{}'; they are assigned to '{}'", path,
-                      count, kept, other, kept));
+      warnings.push_back(fmt::format("{}: {} in the groups '{}' and '{}', assigned to '{}'", path,
+                                     counted(count, "element"), kept, other, kept));
     }
   }
   if (lines > most_lines)
     warnings.push_back(
-        fmt::format("{}: {} more pairs of groups have common elements", path, lines - most_lines));
+        fmt::format("{}: {} of groups with common elements", path, counted(lines - most_lines, "more pair")));
   if (same > 0)
-    warnings.push_back(
-        fmt::format("{}: {} elements occur more than once; the first of each was used", path, same));
+    warnings.push_back(fmt::format("{}: {} that occurred before; the first of each was used", path,
+                                   counted(same, "element")));
 }
 
 std::string some_names(const std::vector<std::string>& names) {

@@ -67,8 +67,8 @@ struct FaultValue {
   std::string text;
 };
 
-/// Throws a Fault with the source location, the values with their names in the source, separated by commas,
-/// and the rank.
+/// Throws a Fault. Its message contains the source location, the rank, and the values with their names.
+/// `names` are the expressions in the source, separated by commas.
 [[noreturn]] void fail(const char* file, int line, const char* message, const char* names,
                        std::initializer_list<FaultValue> values);
 

@@ -48,7 +48,7 @@ class IdRange {
   Id begin_, end_;
 };
 
-/// Returns the ids from `begin` up to but excluding `end` (not less than `begin`); from 0.
+/// Returns the ids from `begin` (or 0) up to but excluding `end`, which must not be less than `begin`.
 template <class Tag, class Rep>
 constexpr IdRange<Id<Tag, Rep>> ids_between(Id<Tag, Rep> begin, Id<Tag, Rep> end) {
   return {begin, end};
@@ -58,8 +58,8 @@ constexpr IdRange<Id<Tag, Rep>> ids_below(Id<Tag, Rep> end) {
   return {Id<Tag, Rep>{0}, end};
 }
 
-/// Values of all entities of one kind: a vector indexed by ids of that kind only. Ids must be below size().
-/// The values are contiguous in the order of the ids, so it converts to std::span.
+/// Values of all entities of one kind: a vector that is indexed by ids of that kind. Ids must be below
+/// size(). The values are contiguous in the order of the ids, so the vector converts to std::span.
 template <class Id, class T>
 class IdVector {
   static_assert(!std::is_same_v<T, bool>, "bits of a std::vector<bool> are no range of values: take char");

@@ -10,8 +10,8 @@
 
 namespace quadloop {
 
-/// A typed number of an entity, so that nodes and leaves, or local and global numbers, cannot be mixed up. A
-/// default-constructed id is invalid.
+/// The number of an entity, with its own type, so that nodes and quadtree cells (leaves), or local and global
+/// numbers, cannot be mixed up. A default-constructed id is invalid.
 template <class Tag, class Rep>
 class Id {
  public:

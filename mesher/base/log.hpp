@@ -12,8 +12,7 @@ struct Options {
   bool verbose = false;  ///< details too
 };
 
-/// Sets the verbosity. Before the call only warnings are shown, on any rank, so that a program that uses the
-/// library gets further output on request only. Logs go to stderr.
+/// Sets the verbosity. Before the first call only warnings are shown, on every rank. Logs go to stderr.
 void configure(const Options& options);
 
 void warning(const std::string& message);

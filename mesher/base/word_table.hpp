@@ -9,8 +9,7 @@
 
 namespace quadloop {
 
-/// The words for the values of an enumeration in user input, in the order in which messages list them: the
-/// one place to add the word of a new value.
+/// The words for the values of an enumeration in user input, in the order in which messages list them.
 template <class Value, std::size_t count>
 using WordTable = std::array<std::pair<const char*, Value>, count>;
 

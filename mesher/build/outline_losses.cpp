@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/check/validate.hpp"
@@ -14,7 +15,7 @@ namespace quadloop {
 
 namespace {
 
-std::string text(Point p) { return fmt::format("({}, {})", p.x, p.y); }
+std::string text(Point p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
 
 /// Returns which of the flags are set on any rank. *Collective.*
 std::vector<char> seen_anywhere(const Communicator& comm, const std::vector<char>& here) {
@@ -187,7 +188,7 @@ void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& v
                      const std::string& why) {
   const Box box = box_of_boundary(geometry, vanished.front());
   const std::string more =
-      vanished.size() == 1 ? "" : fmt::format(", nor would {} other boundaries", vanished.size() - 1);
+      vanished.size() == 1 ? "" : fmt::format(", nor would {}", counted(vanished.size() - 1, "other curve"));
   throw InputError(
       fmt::format("boundary '{}' near {}, {:.6g} wide and {:.6g} high, {} and would have no edge in the "
                   "mesh{}; reduce spacing.min, or allow it by vanish = \"allow\" in [geometry]",

@@ -51,21 +51,28 @@ std::vector<Facet> facets_of(const Geometry& geometry) {
   return facets;
 }
 
-FacetZones::FacetZones(const Geometry& geometry) {
+FacetZones::FacetZones(const Geometry& geometry) : facets_{facets_of(geometry)} {
   std::vector<Box> zones;
-  for (const Facet& facet : facets_of(geometry)) {
+  for (const Facet& facet : facets_) {
     const double half = facet.segment / 2;
     const Point p = geometry.point(facet.vertex);
     zones.push_back({p - Point{half, half}, p + Point{half, half}});
-    least_.push_back(half);
   }
   zones_ = BoxTree(zones);
 }
 
+const Facet* FacetZones::longest_at(const Box& box) const {
+  const Facet* longest = nullptr;
+  zones_.for_each_meeting(box, [&](std::int32_t number) {
+    const Facet& facet = facets_[number];
+    if (longest == nullptr || facet.segment > longest->segment) longest = &facet;
+  });
+  return longest;
+}
+
 double FacetZones::least_size(const Box& box) const {
-  double least = 0;
-  zones_.for_each_meeting(box, [&](std::int32_t facet) { least = std::max(least, least_[facet]); });
-  return least;
+  const Facet* facet = longest_at(box);
+  return facet == nullptr ? 0 : facet->segment / 2;
 }
 
 }  // namespace quadloop

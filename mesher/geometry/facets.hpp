@@ -25,13 +25,15 @@ class FacetZones {
  public:
   explicit FacetZones(const Geometry& geometry);
 
-  bool empty() const { return least_.empty(); }
-  /// Half the length of the shorter side at a facet that is within this distance of the box along each
-  /// axis, the largest if there are several; 0 if there is none.
+  bool empty() const { return facets_.empty(); }
+  /// The facet that is within half of its segment of the box along each axis, that with the longest segment
+  /// if there are several; null if there is none.
+  const Facet* longest_at(const Box& box) const;
+  /// Half the segment of that facet; 0 if there is none.
   double least_size(const Box& box) const;
 
  private:
-  std::vector<double> least_;
+  std::vector<Facet> facets_;
   BoxTree zones_;
 };
 

@@ -30,10 +30,11 @@ struct Chain {
 /// A boundary: its mesh settings, and its boundary condition for solvers.
 struct Boundary {
   std::string name;
-  double spacing = 0;          ///< length wanted along it; 0: the geometry's own point spacing
-  double corner_degrees = 30;  ///< a point that turns by more is kept as a node; 180 keeps none
+  double spacing = 0;          ///< requested edge length along it; 0: the spacing of the geometry's points
+  double corner_degrees = 30;  ///< points with a larger turning angle become nodes; 180: none do so
   BoundaryCondition condition = {};
-  double corner_spacing = 0;  ///< size wanted of the leaves at its sharp corners; 0: that of any other place
+  /// Requested size of the quadtree cells (leaves) at its sharp corners; 0: no special size.
+  double corner_spacing = 0;
   std::optional<LayerSpec> layers = {};
 };
 
@@ -41,7 +42,7 @@ struct Boundary {
 struct LocalDemands {
   std::vector<double> spacing;       ///< of each segment; positive
   std::vector<char> kept;            ///< flag of each vertex: must become a mesh node
-  std::vector<double> bend_degrees;  ///< of each vertex: turning angle for the curvature rule
+  std::vector<double> bend_degrees;  ///< of each vertex: turning angle for spacing.curvature
 };
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
@@ -101,21 +102,21 @@ class Geometry {
   /// Whether the vertex must become a mesh node: its turning angle exceeds its boundary's limit, or two
   /// boundaries or loops meet there.
   bool kept(std::int32_t v) const { return kept_[v] != 0; }
-  /// Whether the geometry is straight at the vertex (to straight_degrees) within one boundary. Such a point
-  /// is no feature, so splitting segments does not change the mesh.
+  /// Whether the geometry is straight at the vertex (to straight_degrees) within one boundary. Straight
+  /// points are ignored: inserting points into a straight segment does not change the mesh.
   bool straight(std::int32_t v) const { return (flags_[v] & is_straight) != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// Turning angle of the geometry at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
   /// Turning angle of the chords at the vertex, in degrees; that of the geometry where it has no curve.
   double chord_turn_degrees(std::int32_t v) const;
-  /// Turning angle for the curvature rule, in degrees; 0 at kept vertices.
+  /// Turning angle for spacing.curvature, in degrees; 0 at kept vertices.
   double bend_degrees(std::int32_t v) const {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : chord_turn_degrees(v);
   }
-  /// The size that the segment requests of the leaves which contain it: its boundary's spacing, else that of
-  /// its curve, else its own length. If the geometry between two feature points is shorter than the spacing, its whole length counts,
-  /// as one cell with both points would be thin.
+  /// The size that the segment requests of the quadtree cells which contain it: its boundary's spacing, else
+  /// that of its curve, else its own length. Between two feature points closer than the spacing, their distance
+  /// (arc length) is requested instead, so that no cell contains both.
   double spacing_of(std::int32_t segment) const;
   /// The part of the geometry between two consecutive kept vertices.
   struct Stretch {
@@ -126,9 +127,9 @@ class Geometry {
   /// has no other kept vertex.
   std::optional<Stretch> stretch_shorter_than(double limit, std::int32_t v) const;
 
-  /// The size that a sharp corner requests of the leaves which touch it: the smaller value of the adjacent
-  /// boundaries whose `corner_degrees` the turning angle exceeds. 0 at all other vertices, also where
-  /// boundaries meet without a corner.
+  /// The size that the vertex requests of the quadtree cells which touch it: the minimum of `corner_spacing`
+  /// over those adjacent boundaries for which the vertex is a sharp corner (turning angle above
+  /// `corner_degrees`); 0 if there is none.
   double corner_spacing_of(std::int32_t v) const;
 
   /// A hash of all coordinates, names and settings of the geometry.

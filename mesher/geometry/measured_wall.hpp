@@ -6,8 +6,8 @@
 
 namespace quadloop {
 
-/// A straight piece of a wall, with the domain to its left, and the friction measured at its ends: the number
-/// of wall units (viscous lengths nu / u_tau) per unit of length, i.e. y+ at unit height. 0 where there is no
+/// A wall edge, with the domain to its left, and the wall friction of the last solution at its ends: the
+/// number of wall units (viscous lengths nu / u_tau) per unit of length, i.e. y+ at unit height. 0 without
 /// friction.
 struct MeasuredEdge {
   Point from, to;
@@ -16,7 +16,8 @@ struct MeasuredEdge {
   friend bool operator==(const MeasuredEdge&, const MeasuredEdge&) = default;
 };
 
-/// The walls of an earlier mesh; the same on every rank. Empty: no measurement.
+/// The walls of an earlier mesh with the friction of its solution; the same on every rank. Empty: none is
+/// known.
 using MeasuredWall = std::vector<MeasuredEdge>;
 
 }  // namespace quadloop

@@ -14,7 +14,7 @@ namespace quadloop {
 void refuse_narrow(const LayerStrip& strip, Point corner) {
   const double width = length(strip.columns[0].back() - strip.columns[0].front());
   throw InputError(
-      fmt::format("{}{}: its layers are {:.3g} wide and end within one cell near ({}, {}); reduce "
+      fmt::format("{}{}: its layers are {:.3g} wide and end within one cell near ({:.6g}, {:.6g}); reduce "
                   "spacing.min below that, or use thicker layers",
                   strip.place, strip.name, width, corner.x, corner.y));
 }

@@ -81,8 +81,8 @@ void GrownMesh::keep_edge(std::size_t boundary, std::int32_t leaf, const std::ar
 void GrownMesh::refuse_bad_cells() const {
   comm_.together([&] {
     if (bad_)
-      throw InputError(fmt::format("{}near ({}, {}): a cell of the layers would be inverted; {}", bad_->whose,
-                                   bad_->corner.x, bad_->corner.y, bad_->cure));
+      throw InputError(fmt::format("{}near ({:.6g}, {:.6g}): a cell of the layers would be inverted; {}",
+                                   bad_->whose, bad_->corner.x, bad_->corner.y, bad_->cure));
   });
 }
 

@@ -206,17 +206,18 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
   std::ranges::stable_sort(thin, {}, &BoundaryLayerReport::share_least);
   std::vector<std::string> warnings;
   for (const BoundaryLayerReport& row : thin | std::views::take(most_named)) {
-    warnings.push_back(
-        fmt::format("boundary '{}': near ({:.6g}, {:.6g}) its {} layers reach {:.0f} % of the requested "
-                    "thickness {:.3g}, as walls come close, turn sharply or are rough there (close "
-                    "points with few decimals): the growth is {:.3g} instead of {:.3g}; {:.1f} % of the wall "
-                    "has the full thickness",
-                    row.boundary, row.least.x, row.least.y, row.reached, 100 * row.share_least,
-                    row.thickness_asked, row.growth_least, row.growth_asked, 100 * row.share_full));
+    warnings.push_back(fmt::format(
+        "boundary '{}': near ({:.6g}, {:.6g}) the {} layers are {:.2g} thick in total, {:.2g} % of the "
+        "requested {:.3g}, with the growth ratio {:.3g} instead of {:.3g}; {:.1f} % of the boundary has "
+        "the full thickness. Layers are thinner at narrow gaps, at sharp turns and at rough parts of the "
+        "geometry (close points with few decimals); reduce count or growth, or smooth the points",
+        row.boundary, row.least.x, row.least.y, row.reached, row.share_least * row.thickness_asked,
+        100 * row.share_least, row.thickness_asked, row.growth_least, row.growth_asked,
+        100 * row.share_full));
   }
   if (thin.size() > most_named)
     warnings.push_back(
-        fmt::format("{} more boundaries have layers that are in places less than half as thick as requested; "
+        fmt::format("layers are in places less than half as thick as requested on {} more of the boundaries; "
                     "the table at the end lists them all",
                     thin.size() - most_named));
   return warnings;
@@ -255,20 +256,35 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
                     wanted[b].at.y, wanted[b].size, min));
   if (limited.size() > most_named)
     warnings.push_back(
-        fmt::format("{} more boundaries have last layers that are thinner than half of "
-                    "spacing.min = {:.6g}",
-                    limited.size() - most_named, min));
+        fmt::format("last layers are thinner than half of spacing.min = {:.6g} on {} more of the boundaries",
+                    min, limited.size() - most_named));
+}
+
+/// Returns what to do about small cells beside a strip: at a trailing edge that is no feature point, as it
+/// turns by less than its boundary's `corner`, the wall's columns do not meet those of the wake.
+std::string advice_on(const LayerStrip& strip, const Geometry& geometry) {
+  for (std::int32_t v = 0; v < geometry.size(); ++v) {
+    const Boundary& boundary = geometry.boundary(geometry.boundary_of(v));
+    if (!strip.root || geometry.point(v) != strip.columns[0][strip.layers]) continue;
+    if (geometry.turn_degrees(v) > boundary.corner_degrees) continue;
+    return fmt::format(
+        "make corner = {:.6g} of boundary '{}' smaller than {:.6g}, the angle by which it turns at "
+        "the trailing edge, so that this point becomes a node",
+        boundary.corner_degrees, boundary.name, geometry.turn_degrees(v));
+  }
+  return "reduce spacing.min, or use thicker or fewer layers";
 }
 
 /// Warns where cells outside are much larger than those at a strip's end, which gives thin triangles.
-void add_warning_of_strip(const LayerStrip& strip, double min, std::vector<std::string>& warnings) {
+void add_warning_of_strip(const LayerStrip& strip, const Geometry& geometry, double min,
+                          std::vector<std::string>& warnings) {
   const auto least = std::ranges::min_element(strip.spacing);
   if (*least >= min) return;
   const Point at = strip.front[std::min<std::size_t>(least - strip.spacing.begin(), strip.front.size() - 1)];
   warnings.push_back(fmt::format(
       "{}the layers of {} require cells of {:.3g} beside them at ({:.6g}, {:.6g}), smaller than spacing.min "
-      "= {:.6g}: triangles there will be thin; reduce spacing.min, or use thicker or fewer layers",
-      strip.place, strip.name, *least, at.x, at.y, min));
+      "= {:.6g}: triangles there will be thin; {}",
+      strip.place, strip.name, *least, at.x, at.y, min, advice_on(strip, geometry)));
 }
 
 /// Warns of a base without layers of its own: its cells are as high as the columns behind it are wide.
@@ -305,7 +321,7 @@ std::vector<std::string> size_warnings(const LayerFront& front, double min) {
   std::vector<std::string> warnings;
   add_warnings_of_walls(front, min, warnings);
   for (const LayerStrip& strip : front.strips) {
-    add_warning_of_strip(strip, min, warnings);
+    add_warning_of_strip(strip, front.line.geometry(), min, warnings);
     add_warning_of_base(strip, warnings);
     add_warning_of_turn(strip, warnings);
   }

@@ -10,8 +10,8 @@
 
 namespace quadloop {
 
-/// Cell averages: for each of this rank's cells, triangles, then quads, a row of width() values. Names are
-/// the same on all ranks.
+/// Cell averages: a row of width() values for each of this rank's cells, triangles first, then quads. The
+/// names are the same on all ranks.
 struct CellValues {
   std::vector<std::string> names;
   std::vector<double> values;
@@ -20,9 +20,9 @@ struct CellValues {
   std::vector<double> column(std::size_t variable) const;
 };
 
-/// Nodal values, and optionally cell averages, of named variables: for each owned node, in the mesh's order,
-/// a row of width() values, optionally followed by ghost rows (with_ghosts()). Names and constants are the
-/// same on all ranks.
+/// Nodal values, and optionally cell averages, of named variables. `values` has a row of width() values for
+/// each owned node, in the mesh's order; rows of ghosts may follow (with_ghosts()). Names and constants are
+/// the same on all ranks.
 struct Field {
   std::vector<std::string> names;  ///< found by variable(), variable_names.hpp
   std::vector<double> values;
@@ -40,12 +40,11 @@ struct Field {
   std::vector<double> column(std::size_t variable) const;
 };
 
-/// Returns the variables of these names, in this order, under the field's own names: nodal variables, else
-/// cell variables. Throws InputError as variable() does.
+/// Returns the named variables, in this order: the nodal variables if the field has them, else the cell
+/// variables. They keep the names that they have in the field. Throws InputError as variable() does.
 Field selected(const Field& field, std::span<const std::string> wanted, const std::string& where);
 
-/// Appends variables to the nodal ones: `values` has a row of them for each node. A field without variables
-/// gets only these.
+/// Appends nodal variables: `values` has a row of names.size() values for each node.
 void append_columns(Field& field, std::span<const std::string> names, std::span<const double> values);
 
 /// Returns the rows of owned nodes followed by those of the mesh's ghosts, fetched from their owners;

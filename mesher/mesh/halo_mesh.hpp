@@ -25,7 +25,8 @@ class HaloMesh {
   /// `mesh` must outlive the object, with unchanged cells. *Collective.*
   HaloMesh(const Communicator& comm, const Mesh& mesh);
 
-  /// Owned nodes as in the mesh, then its ghosts, then the other nodes of other ranks' cells.
+  /// The owned nodes and the ghosts of the mesh, in its order, then the remaining nodes of the cells of other
+  /// ranks.
   std::vector<Point>& points() { return points_; }
   const std::vector<Point>& points() const { return points_; }
   const Point& point(NodeId node) const { return points_[node.value()]; }
@@ -36,11 +37,12 @@ class HaloMesh {
   }
   const NodeExchange& exchange() const { return exchange_; }
 
-  /// All boundary edges that touch an owned node, and others; those of this rank first, not in global order.
+  /// Contains every boundary edge at an owned node, and some more. This rank's edges come first; the edges
+  /// are not in global order.
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
-  /// Distributes one value for each of the mesh's own cells, triangles, then quads; returns one value for
-  /// each cell here, in the order of for_each_cell. *Collective.*
+  /// `own` has a value for each cell of this rank's Mesh, triangles first, then quads. Returns the values of
+  /// all cells of the HaloMesh, in the order of for_each_cell(). *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 

@@ -34,8 +34,8 @@ struct BoundaryEdges {
 struct StripLayers {
   std::string name;
   WallLayers layers;  ///< on each side of the line
-  /// Whether the line begins at a wall, e.g. at a trailing edge. Its first column is then the union of the
-  /// two layer columns of the wall there, one on each side.
+  /// Whether the line begins at a wall, e.g. at a trailing edge. Its first column then consists of the wall's
+  /// two layer columns at that point, one on each side of the line.
   bool from_wall = false;
   /// Nodes per column: 2 * layers.count + 1, plus one for each row of cells between the two sides behind a
   /// blunt trailing edge.
@@ -90,11 +90,11 @@ void flag_all(const Nodes& nodes, NodeFlags& flags) {
 
 /// One rank's part of a mesh of triangles and quadrilaterals. Cells are counter-clockwise. Each node is owned
 /// by one rank; global node numbers follow the order of ranks. Owned nodes come first, in global order, then
-/// ghost (halo) nodes: nodes of other ranks that this rank's cells touch. Each cell and each
-/// boundary edge is stored on exactly one rank. This rank need not own the nodes of the cell, so some cells
-/// around an owned node may be on other ranks; HaloMesh adds them. Cells are ordered globally by rank, then
-/// by local index. `boundaries` has the same entries in the same order on every rank, even if this rank has
-/// no edge of them.
+/// ghost (halo) nodes: nodes of other ranks that this rank's cells touch. Each cell and each boundary edge is
+/// stored on exactly one rank. The rank that stores a cell need not own its nodes, so some cells around an
+/// owned node may be on other ranks; HaloMesh adds them. Cells are ordered globally by rank, then by local
+/// index. `boundaries` has the same entries in the same order on every rank, even if this rank has no edge of
+/// them.
 struct Mesh {
   std::vector<Point> points;    ///< owned nodes, then ghosts
   std::int64_t first_node = 0;  ///< global number of points[0]

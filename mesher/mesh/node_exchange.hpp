@@ -29,10 +29,11 @@ class NodeOwners {
 void flag_at_owners(const Communicator& comm, const NodeOwners& owners, std::span<const GlobalNodeId> nodes,
                     IdVector<NodeId, char>& flags);
 
-/// Updates ghost values from their owners: arrays have one row for each owned node and each ghost.
+/// Copies nodal values from the owners to the ghosts. Arrays have one row for each owned node, then one for
+/// each ghost.
 class NodeExchange : public GhostExchange {
  public:
-  /// `copies` are the global numbers of the ghosts, in this rank's order. *Collective.*
+  /// `ghosts` are the global numbers of the ghosts, in this rank's order. *Collective.*
   NodeExchange(const Communicator& comm, const NodeOwners& owners, std::int32_t owned_nodes,
                std::span<const GlobalNodeId> ghosts);
 };

@@ -11,8 +11,8 @@ namespace quadloop {
 /// can be appended to the ghosts.
 class NodeTable {
  public:
-  /// The vectors must outlive the table, and must not be changed by others meanwhile. `points` are those of
-  /// all nodes.
+  /// `points` contains the positions of all nodes of this rank. The vectors must outlive the table; only the
+  /// table may change them.
   NodeTable(std::int64_t first_node, std::int32_t owned_nodes, std::vector<Point>& points,
             std::vector<GlobalNodeId>& ghosts)
       : first_{first_node}, owned_{owned_nodes}, points_{points}, ghosts_{ghosts} {
@@ -28,7 +28,8 @@ class NodeTable {
     return found == local_of_.end() ? NodeId{} : found->second;
   }
 
-  /// Returns the local number; a node that is not on this rank is appended as a ghost at that position.
+  /// Returns the local number. A node that is not yet on this rank is appended to the ghosts, with this
+  /// position.
   NodeId local(GlobalNodeId node, Point point) {
     const NodeId known = find(node);
     if (known.valid()) return known;

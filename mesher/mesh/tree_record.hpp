@@ -14,10 +14,10 @@ struct LeafRecord {
   std::int32_t tree_x = 0, tree_y = 0;  ///< column and row of its tree in the brick of trees
   std::int32_t x = 0, y = 0;            ///< lower left corner in its tree, whose edge is 2^30
   std::int8_t level = 0;                ///< edge = tree edge / 2^level
-  std::int8_t wanted = 0;               ///< target level by case, geometry and adaptation
+  std::int8_t wanted = 0;               ///< level requested by case, geometry and adaptation
   std::int16_t block = 0;               ///< block of its cells, from 1; 0: outside the domain
   std::int32_t triangles = 0, quads = 0;
-  /// Bit l: adaptation demanded to split the quadrant of level l that contains the cell.
+  /// Bit l is set if adaptation requested to split the quadtree cell of level l that contains this cell.
   std::uint32_t adapted = 0;
 };
 
@@ -46,7 +46,7 @@ inline Box root_box(const TreeAttributes& a) {
 struct TreeRecord {
   TreeAttributes attributes;
   std::vector<LeafRecord> leaves;
-  MeasuredWall measured_wall = {};  ///< that first heights of layers follow; whole on every rank
+  MeasuredWall measured_wall = {};  ///< wall friction for the first heights; all of it on every rank
 };
 
 }  // namespace quadloop

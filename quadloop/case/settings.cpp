@@ -180,7 +180,9 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
 
 const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path) {
   if (settings.adapt) return *settings.adapt;
-  throw InputError(case_path + ": has no table [adapt]; it says from what the mesh is to be adapted");
+  throw InputError(case_path +
+                   ": has no table [adapt]; add it with the key `variable`, the variable that "
+                   "the mesh is adapted to");
 }
 
 std::string format_suffix_of(const std::string& prefix) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/facets.hpp"
 #include "mesher/grid/tree_grid.hpp"
@@ -57,10 +58,10 @@ void warn_of_gaps(const MeshOptions& options, const Geometry& geometry, double f
   const auto narrow = Proximity(geometry).narrow_parts(*options.size.gap * finest);
   if (narrow.segments == 0) return;
   warnings.push_back(fmt::format(
-      "spacing.gap requests {} cells across gaps, but gaps at {} segments of the geometry, the first at "
-      "({:.6g}, {:.6g}), are narrower than {} cells of {}; spacing.min = {} permits no smaller cells",
-      *options.size.gap, narrow.segments, narrow.first.x, narrow.first.y, *options.size.gap, finest,
-      options.size.min));
+      "spacing.gap requests {} cells across gaps, but gaps at {} of the geometry, the first at ({:.6g}, "
+      "{:.6g}), are narrower than {} cells of {:.6g}; spacing.min = {} permits no smaller cells",
+      *options.size.gap, counted(narrow.segments, "segment"), narrow.first.x, narrow.first.y,
+      *options.size.gap, finest, options.size.min));
 }
 
 /// The points of one boundary where it turns by more than `curvature` within a smallest cell.
@@ -104,9 +105,9 @@ void warn_of_curvature(const MeshOptions& options, const Geometry& geometry, dou
   for (const BoundaryId b : sharp.ids()) {
     const auto& [points, wanted, at] = sharp[b];
     if (points == 0) continue;
-    const std::string requests = fmt::format(
-        "spacing.curvature = {} requests smaller cells at {} points of boundary '{}', the smallest",
-        *options.size.curvature, points, geometry.boundary(b).name);
+    const std::string requests =
+        fmt::format("spacing.curvature = {} requests smaller cells at {} of boundary '{}', the smallest",
+                    *options.size.curvature, counted(points, "point"), geometry.boundary(b).name);
     warn_if_limited(requests, wanted, at, options.size.min, warnings);
   }
 }
@@ -142,7 +143,8 @@ void warn_of_facets(const MeshOptions& options, const Geometry& geometry, Warnin
     if (points < 2) continue;  // no side lies between two of them
     warnings.push_back(fmt::format(
         "boundary '{}' turns by up to {:.3g} degrees at {} points that are not corners, the first "
-        "at ({}, {}). Cells smaller than {:.3g} resolve the straight facets between its points, and the "
+        "at ({:.6g}, {:.6g}). Cells smaller than {:.3g} resolve the straight facets between its points, and "
+        "the "
         "pressure of a flow has a peak at each point; give the outline more points",
         geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
   }

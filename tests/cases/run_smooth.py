@@ -156,7 +156,7 @@ def check_what_is_put_right(program, whole, folder):
     smooth(program, whole, wanted)
     given = folder / "clockwise.mesh"
     write_native(given, mesh.nodes, [[cell[:1] + cell[:0:-1] for cell in mesh.cells]], mesh.boundaries)
-    put_right(program, given, made, f"{len(mesh.cells)} cells ran clockwise")
+    put_right(program, given, made, f"reversed {len(mesh.cells)} cells with clockwise nodes")
     require(made.read_bytes() == wanted.read_bytes(), "turned cells are not what they were")
     given = folder / "unused.mesh"
     write_native(given, [*mesh.nodes, (0.1, 0.2)], [mesh.cells], mesh.boundaries)

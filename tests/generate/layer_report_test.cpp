@@ -157,6 +157,29 @@ TEST(LayerReport, WarnsOfABaseWithoutLayers) {
   EXPECT_NE(narrow[0].find("high instead of first = 0.01"), std::string::npos) << narrow[0];
 }
 
+/// The warning about small cells beside the wake of a wedge whose edge turns by 168.579 degrees.
+std::string warning_beside_wake(double corner) {
+  Boundary box{"box", 0.5, 30, "none"}, body{"body", 0.1, corner, "wall"};
+  body.layers = four;
+  std::vector<BoundaryId> of_segment(7, BoundaryId{1});
+  std::fill_n(of_segment.begin(), 4, BoundaryId{0});
+  const Geometry geometry({box, body}, {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}, {-1, 0.2}, {1, 0}, {-1, -0.2}},
+                          {0, 4, 7}, of_segment);
+  constexpr double min = 10;  // above every cell
+  const LayerFront front = layer_front(geometry, {}, {{{"body"}, {}, 1.5, 0.1, {}, "case.toml:7"}});
+  for (const std::string& warning : size_warnings(front, min)) {
+    if (warning.starts_with("case.toml:7: the layers of wake require cells")) return warning;
+  }
+  return "none";
+}
+
+TEST(LayerReport, WarnsOfAnEdgeThatIsNoFeaturePoint) {
+  const std::string of_corner = warning_beside_wake(30), of_point = warning_beside_wake(180);
+  EXPECT_TRUE(of_corner.ends_with("; reduce spacing.min, or use thicker or fewer layers")) << of_corner;
+  EXPECT_NE(of_point.find("; make corner = 180 of boundary 'body' smaller than 168.579"), std::string::npos)
+      << of_point;
+}
+
 TEST(LayerReport, IsEmptyWithoutLayersAndCountsOnlyThoseThatAsk) {
   EXPECT_EQ(generate_mesh(world(), channel(2, false)).layers.size(), 1U);
   MeshInput plain = channel(2, false);

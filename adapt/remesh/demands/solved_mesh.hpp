@@ -8,8 +8,8 @@
 
 namespace quadloop::adapt {
 
-/// A mesh with its quadtree and solution. Cells are in the order of the quadtree cells; the rank partitions
-/// of quadtree cells, mesh cells and nodes may differ.
+/// A mesh with its quadtree and solution. The mesh cells are in the order of the quadtree cells. A mesh cell,
+/// its quadtree cell and its nodes may be on different ranks.
 struct SolvedMesh {
   Mesh mesh;
   TreeRecord tree;

@@ -18,7 +18,7 @@ namespace quadloop {
 /// reproducible_sum().
 class Communicator {
  public:
-  /// In bytes. MPI counts are 32-bit: longer data are sent in pieces.
+  /// In bytes. MPI counts are 32-bit, so longer data are sent in several messages.
   static constexpr std::size_t largest_message = std::size_t{1} << 30;
 
   explicit Communicator(MPI_Comm to_duplicate);
@@ -40,9 +40,9 @@ class Communicator {
   /// Returns the sum of the values of all lower ranks.
   std::int64_t exclusive_sum(std::int64_t value) const;
   void barrier() const;
-  /// A barrier for waits of seconds to hours: a waiting rank sleeps between polls, so that the processors are
-  /// free for another program, while barrier() keeps each of them busy. Ranks leave it up to 10 ms late for
-  /// each doubling of their number.
+  /// A barrier for waits of seconds to hours, e.g. for another program. Waiting ranks sleep between polls, so
+  /// that the processors are free; in barrier() they would keep them busy. The delay is up to 10 ms for each
+  /// doubling of the number of ranks.
   void patient_barrier() const;
 
   /// Returns one value from every rank, in the order of ranks, on every rank.
@@ -68,9 +68,9 @@ class Communicator {
     int from;
     std::span<std::byte> bytes;  ///< receive buffer
   };
-  /// Point to point, called only by the ranks involved, possibly including itself: each expects one message
-  /// of exactly this length from each sender. Any length: data are sent in pieces of at most `largest_piece`
-  /// bytes.
+  /// Sends and receives the given messages; called only by the ranks involved. A rank may send to itself. For
+  /// each outgoing message the receiver must have an incoming one of the same length. Any length: data are
+  /// sent in pieces of at most `largest_piece` bytes.
   void exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
                          std::size_t largest_piece = largest_message) const;
 
@@ -78,7 +78,8 @@ class Communicator {
   void send_bytes(std::span<const std::byte> bytes, int to) const;
   std::vector<std::byte> receive_bytes(int from) const;
 
-  /// Runs `local` on every rank; if it throws on any, all ranks throw the Error of the lowest such rank.
+  /// Runs `local` on every rank. If it throws on some ranks, all ranks throw the error of the lowest of
+  /// these.
   void together(const std::function<void()>& local) const;
 
  private:

@@ -13,9 +13,9 @@
 
 namespace quadloop {
 
-/// A communication pattern between ranks, set up once, for repeated point-to-point transfer of rows of values
-/// in both directions. Each rank has items, each with one destination rank, possibly itself; they arrive
-/// ordered by source rank, then in its order.
+/// A communication pattern between ranks, set up once, for repeated transfer of rows of values in both
+/// directions. Each rank has items, each with one destination rank, possibly itself. They arrive in the order
+/// of the source ranks, and those of one source rank in its order.
 ///
 ///     const Exchange questions(comm, rank_of_question);
 ///     const auto asked = questions.deliver(points);
@@ -69,7 +69,7 @@ class Outbox {
     ranks_.push_back(rank);
     values_.push_back(value);
   }
-  /// Returns the values for this rank, by source rank, then in its order. *Collective.*
+  /// Returns the values for this rank, in the order of the source ranks. *Collective.*
   std::vector<T> deliver(const Communicator& comm) const { return Exchange(comm, ranks_).deliver(values_); }
 
  private:
@@ -93,7 +93,7 @@ auto scatter_from_root(const Communicator& comm, const Values& values, std::span
   return Exchange(comm, ranks).deliver(std::span(values).first(ranks.size()));
 }
 
-/// The numbers from 0 on, partitioned into one contiguous range per rank, in the order of ranks.
+/// The numbers 0, 1, 2 ..., divided into one contiguous range per rank, in the order of ranks.
 class RankRanges {
  public:
   /// `begin` is the first number of this rank's range. *Collective.*
@@ -131,8 +131,8 @@ class GhostExchange {
   /// Updates only the ghosts of owned entries for which `changed` is true. *Collective.*
   template <std::ranges::contiguous_range Values, class Changed>
   void update(Values& values, const Changed& changed) const;
-  /// For sparse values: calls `take(entry, value)` for each ghost with the result of `value_of(entry)` on its
-  /// owner. *Collective.*
+  /// For values that are not stored in an array: calls `take(entry, value)` for each ghost, where `value` is
+  /// the result of `value_of(entry)` on its owner. *Collective.*
   template <class ValueOf, class Take>
   void update_some(const ValueOf& value_of, const Take& take) const;
 

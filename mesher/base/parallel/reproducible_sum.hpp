@@ -11,16 +11,16 @@
 namespace quadloop {
 
 /// Returns the sum of all ranks' values, bitwise independent of their order and of the number of ranks:
-/// values are added as integers in a unit that depends on the largest value and the number of values. The
-/// error, before rounding of the result, is less than 2^-60 of the largest absolute value times the number of
-/// values, for up to 2^31 values. 0 for no values; NaN if any value is not finite. *Collective.*
+/// values are added as integers in a unit that depends on the largest value and the number of values. For up
+/// to 2^31 values the error before the final rounding is less than 2^-60 times the largest absolute value
+/// times the number of values. 0 for no values; NaN if any value is not finite. *Collective.*
 double reproducible_sum(const Communicator& comm, std::span<const double> values);
 
 /// Several such sums at once, of values with a known bound.
 class ReproducibleSums {
  public:
-  /// Each of `sums` sums is over at most `count` values on all ranks, with absolute values up to `largest`,
-  /// which must be positive; the arguments are the same on every rank.
+  /// `sums` is the number of sums. Each has at most `count` values over all ranks, and no absolute value
+  /// exceeds `largest`, which must be positive. The arguments are the same on every rank.
   ReproducibleSums(std::size_t sums, double largest, std::int64_t count);
 
   void add(std::size_t sum, double value) {

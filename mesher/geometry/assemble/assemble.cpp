@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
@@ -51,7 +52,7 @@ void orient(Outline& outline, const std::vector<LoopNesting>& nestings, Warnings
   }
   if (turned > most_named)
     warnings.push_back(
-        fmt::format("{} more loops had the wrong orientation and were reversed", turned - most_named));
+        fmt::format("reversed {} with the wrong orientation", counted(turned - most_named, "more loop")));
 }
 
 const std::string& name_of(const Outline& outline, std::size_t loop) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
@@ -123,10 +124,10 @@ void fit_to_mirror(std::vector<Chain>& chains, MirrorAxis axis, Warnings& warnin
   }
   fit_curves_to_mirror(chains, axis, curve_rounding * std::max(box.width(), box.height()));
   if (moved > 0) {
-    warnings.push_back(
-        fmt::format("{} points of the geometry were moved by a rounding error, onto mirror images of others "
-                    "about the {}-axis or onto it",
-                    moved, name_of(axis)));
+    warnings.push_back(fmt::format(
+        "moved {} of the geometry by a rounding error, onto mirror images of others about the {}-axis "
+        "or onto it",
+        counted(moved, "point"), name_of(axis)));
   }
 }
 

@@ -227,10 +227,10 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, Pl
 }
 
 [[noreturn]] void refuse_second(const PlacedLine& wake, const std::string& first) {
-  throw InputError(
-      fmt::format("{}{} begins at the trailing edge at ({}, {}), and so does {}; a trailing edge has one "
-                  "wake: remove one of them",
-                  wake.place, wake.name, wake.path[0].x, wake.path[0].y, first));
+  throw InputError(fmt::format(
+      "{}{} begins at the trailing edge at ({:.6g}, {:.6g}), and so does {}; a trailing edge has one "
+      "wake: remove one of them",
+      wake.place, wake.name, wake.path[0].x, wake.path[0].y, first));
 }
 
 }  // namespace

@@ -400,10 +400,11 @@ LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& ro
   LayerStrip strip = Strip(line, root).built();
   const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   if (std::ranges::all_of(strip.front, is_finite)) return strip;
-  throw InputError(fmt::format(
-      "{}{} returns to its first point ({}, {}) within the thickness of its layers, {:.3g}; change its path, "
-      "or make the layers thinner",
-      line.place, line.name, line.path[0].x, line.path[0].y, strip.asked));
+  throw InputError(
+      fmt::format("{}{} returns to its first point ({:.6g}, {:.6g}) within the thickness of its layers, "
+                  "{:.3g}; change its path, "
+                  "or make the layers thinner",
+                  line.place, line.name, line.path[0].x, line.path[0].y, strip.asked));
 }
 
 }  // namespace quadloop

@@ -148,7 +148,7 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
   const Point p = g.point(begin);
   const LayerStrip& strip = strip_at(front, nearest_front(front, parent, p, true));
   throw InputError(
-      fmt::format("{}the layers of {} cover boundary {} at ({}, {}); change its path, or shorten it",
+      fmt::format("{}the layers of {} cover boundary {} at ({:.6g}, {:.6g}); change its path, or shorten it",
                   strip.place, strip.name, g.boundary(g.boundary_of(begin)).name, p.x, p.y));
 }
 
@@ -158,15 +158,15 @@ std::int32_t nearest_front(const LayerFront& front, std::int32_t loop, Point p, 
   const Point p = front.outer.point(begin);
   const LayerStrip& strip = strip_at(front, begin);
   if (!is_in_domain(front.line.geometry(), p))
-    throw InputError(fmt::format("{}{} lies outside of the domain, at ({}, {}); change its path", strip.place,
-                                 strip.name, p.x, p.y));
+    throw InputError(fmt::format("{}{} lies outside of the domain, at ({:.6g}, {:.6g}); change its path",
+                                 strip.place, strip.name, p.x, p.y));
   const std::int32_t around = nearest_front(front, parent, p, false);
   const BoundaryId boundary = front.outer.boundary_of(around);
   const std::string whose = boundary == front.strip_boundary()
                                 ? strip_at(front, around).name
                                 : "boundary " + front.outer.boundary(boundary).name;
   throw InputError(fmt::format(
-      "{}{} lies within the layers of {}, at ({}, {}); change its path, or make those layers thinner",
+      "{}{} lies within the layers of {}, at ({:.6g}, {:.6g}); change its path, or make those layers thinner",
       strip.place, strip.name, whose, p.x, p.y));
 }
 

@@ -348,11 +348,11 @@ class Fitting {
   [[noreturn]] void refuse() const {
     const auto at = std::ranges::find(meets_, 1) - meets_.begin();
     const Station& station = line_[size32(std::vector<char>(at))];
-    throw InputError(
-        fmt::format("boundary {} near ({}, {}): its layers meet others even if they are made very thin; use "
-                    "thinner layers, or make that part a separate boundary without layers",
-                    line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name,
-                    station.wall.x, station.wall.y));
+    throw InputError(fmt::format(
+        "boundary {} near ({:.6g}, {:.6g}): its layers meet others even if they are made very thin; use "
+        "thinner layers, or make that part a separate boundary without layers",
+        line_.geometry().boundary(line_.geometry().boundary_of(station.segment)).name, station.wall.x,
+        station.wall.y));
   }
 
   const WallLine& line_;

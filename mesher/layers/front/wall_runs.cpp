@@ -58,10 +58,10 @@ class Runs {
       if (!carries(s) || !carries(t)) continue;
       const Boundary &a = g_.boundary(layers_[s]), &b = g_.boundary(layers_[t]);
       if (a.layers->count == b.layers->count) continue;
-      throw InputError(
-          fmt::format("boundaries {} and {} meet at ({}, {}), but one has {} layers and the other {}; give "
-                      "both the same count",
-                      a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
+      throw InputError(fmt::format(
+          "boundaries {} and {} meet at ({:.6g}, {:.6g}), but one has {} layers and the other {}; give "
+          "both the same count",
+          a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
     }
   }
 

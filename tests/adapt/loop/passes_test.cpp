@@ -56,7 +56,7 @@ TEST(Passes, EndWhereAFlowAsksForNoOtherMesh) {
   EXPECT_EQ(first.drifts(), none);
   const std::vector<std::string>& warnings = first.generated.result.report.warnings;
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_TRUE(warnings[0].starts_with("pass 1: no cell is flagged")) << warnings[0];
+  EXPECT_TRUE(warnings[0].starts_with("pass 1: no cell is refined or coarsened")) << warnings[0];
 }
 
 TEST(Passes, StandInTheRecordOfTheFirstCycle) {

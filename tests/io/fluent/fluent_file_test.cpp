@@ -61,7 +61,7 @@ TEST(FluentReader, TurnsCellsThatLieToTheRight) {
   const LoadedMesh loaded = check.of(turned);
   EXPECT_TRUE(validate(loaded.mesh).empty());
   ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_NE(loaded.warnings[0].find("2 cells ran clockwise"), std::string::npos);
+  EXPECT_NE(loaded.warnings[0].find("reversed 2 cells with clockwise nodes"), std::string::npos);
 }
 
 TEST(FluentReader, TwoZonesOfCellsAreBlocks) {

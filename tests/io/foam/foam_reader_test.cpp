@@ -67,7 +67,7 @@ TEST(FoamReader, DividesPolygonsOfPlaneMeshes) {
   EXPECT_EQ(loaded.mesh.triangles.size(), 1U);
   EXPECT_EQ(loaded.mesh.boundaries.size(), 4U);
   EXPECT_EQ(loaded.warnings,
-            std::vector<std::string>{path + ": 1 polygonal cells are divided into 2 triangles and quads"});
+            std::vector<std::string>{path + ": divided 1 polygonal cell into 2 triangles and quads"});
   const std::optional<FileMesh> mesh3d = test::read_mesh3d(path);
   EXPECT_TRUE(check_mesh3d(*mesh3d).faults.empty());
 }

@@ -118,11 +118,21 @@ TEST_F(AirfoilDat, RefusesABrokenPoint) {
                 .find("a.dat:3: '0.5 0.06 0.1' should be two coordinates"),
             0u);
   EXPECT_EQ(refused(airfoil_name + "3. 3.\n" + upper_rows + lower_rows + "0.5 0.1\n")
-                .find("a.dat:9: the file has 7 points, but its head says 3 and 3"),
+                .find("a.dat:9: the file has 7 points, but its header (Lednicer format) counts 3 and 3"),
             0u);
   EXPECT_EQ(refused(airfoil_name + "3. 4.\n" + upper_rows + lower_rows + "the end\n")
                 .find("a.dat:9: the file has 6 points"),
             0u);
+}
+
+TEST_F(AirfoilDat, ReadsAFirstPointOfTwoIntegers) {
+  const std::string rest = "500.5 60.0\n0.0 0.0\n500.5 -60.0\n";
+  const std::vector<Point> points = read(airfoil_name + "1000.000 2.000\n" + rest + "1000.000 -2.000\n");
+  EXPECT_EQ(points.size(), 5u) << "a blunt airfoil in millimetres";
+  EXPECT_NE(std::ranges::find(points, Point{1000, 2}), points.end());
+  EXPECT_EQ(read(airfoil_name + "1000.000 2.000\n" + rest + "1000.000 2.000\n").size(), 4u);
+  EXPECT_EQ(refused(airfoil_name + "1000.000 2.000\n" + rest).find("a.dat:5: the file has 3 points"), 0u)
+      << "the last row does not return to it";
 }
 
 TEST_F(AirfoilDat, PassesOverTheBoxOfAGridForMses) {

@@ -110,6 +110,18 @@ TEST_F(CaseFile, SetErrorsNameTheirText) {
   EXPECT_NE(refused([&] { read("a = 1\n", {"a"}); }).find("--set a: has no '='"), std::string::npos);
   EXPECT_NE(refused([&] { read("a = 1\n", {"a.b=2"}); }).find("--set a.b=2"), std::string::npos);
   EXPECT_NE(refused([&] { read("a = 1\n", {"a..b=2"}); }).find("not a key"), std::string::npos);
+  EXPECT_EQ(refused([&] { read("a = 1\n", {"a.b=2"}); }),
+            "--set a.b=2: 'a' is a single value, not a table with 'b'");
+  EXPECT_EQ(
+      refused([&] { read("[[t.s]]\n", {"t.s.x=2"}); }),
+      "--set t.s.x=2: 't.s' is a list of tables; select an entry by its number from 0, as in t.s.0.x, or "
+      "replace the list, as in --set 't.s=[{...}]'");
+  for (const std::string key : {"s[0]", "s[0].x"})
+    EXPECT_EQ(
+        refused([&] { read("[[s]]\n", {key + "=2"}); }).find("--set " + key + "=2: 's[0]' is no key; select"),
+        0u);
+  EXPECT_EQ(refused([&] { read("a = [1, 2]\n", {"a.x=2"}); }),
+            "--set a.x=2: 'a' is a list; replace it as a whole, as in --set 'a=[...]'");
   EXPECT_NE(refused([&] { read("[[s]]\n", {"s.4.x=2"}); }).find("--set s.4.x=2"), std::string::npos);
   EXPECT_EQ(refused([&] { read("a = 1\n", {"s.0.x=2"}).tables("s"); }),
             "--set s.0.x=2: 's' has nothing in the case file that --set could change; write a [[s]] there "

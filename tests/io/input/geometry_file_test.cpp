@@ -112,7 +112,7 @@ TEST_F(GeometryFile, ReadsLednicer) {
 
 TEST_F(GeometryFile, RefusesBadAirfoils) {
   EXPECT_EQ(refused("a.dat", "name\n3. 4.\n0 0\n1 0\n")
-                .find("a.dat:4: the file has 2 points, but its head says 3 and 4"),
+                .find("a.dat:4: the file has 2 points, but its header (Lednicer format) counts 3 and 4"),
             0u);
   EXPECT_EQ(refused("a.dat", "name\n1.0 0.0\n0.5 x\n").find("a.dat:3: 'x' is not a number"), 0u);
   EXPECT_EQ(refused("a.dat", "name\n").find("a.dat:1: the file ends here"), 0u);

@@ -101,7 +101,7 @@ TEST(CleanUp, ClockwiseCellsAreTurnedAndCounted) {
   for (auto& quad : f.mesh.quads) std::swap(quad[1], quad[3]);
   const LoadedMesh mesh = f.finished();
   ASSERT_EQ(mesh.warnings.size(), 1U);
-  EXPECT_NE(mesh.warnings[0].find("2 cells ran clockwise"), std::string::npos);
+  EXPECT_NE(mesh.warnings[0].find("reversed 2 cells with clockwise nodes"), std::string::npos);
 }
 
 TEST(CleanUp, CellsAreSortedByBlockAndEmptyBlocksGo) {
@@ -130,10 +130,9 @@ TEST(CleanUp, RepeatedElementsStandOnce) {
   EXPECT_EQ(f.mesh.cell_to_block[1], (std::vector<std::int32_t>{0, 1})) << "the first was used";
   EXPECT_EQ(f.mesh.boundaries[0].faces.size(), 1U);
   EXPECT_TRUE(f.mesh.boundaries[1].faces.empty());
-  EXPECT_EQ(f.mesh.warnings,
-            (std::vector<std::string>{
-                "a.msh: 1 elements are in the groups 'a' and 'b'; they are assigned to 'a'",
-                "a.msh: 1 elements are in the groups 'wall' and 'again'; they are assigned to 'wall'"}));
+  EXPECT_EQ(f.mesh.warnings, (std::vector<std::string>{
+                                 "a.msh: 1 element in the groups 'a' and 'b', assigned to 'a'",
+                                 "a.msh: 1 element in the groups 'wall' and 'again', assigned to 'wall'"}));
 }
 
 TEST(CleanUp, OfRepeatedElementsThoseOfTheSmallestGroupStay) {

@@ -109,7 +109,7 @@ void expect_turned_back(const Listing& listing, const Chosen& chosen, const std:
   EXPECT_TRUE(plain.warnings.empty());
   expect_same_cells_and_boundary(loaded.mesh, plain.mesh);
   ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_NE(loaded.warnings[0].find(": " + count + " cells ran clockwise"), std::string::npos)
+  EXPECT_NE(loaded.warnings[0].find(": reversed " + count + " cell"), std::string::npos)
       << loaded.warnings[0];
   Listing bare = listing;
   bare.outline.clear();

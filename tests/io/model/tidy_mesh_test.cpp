@@ -68,8 +68,7 @@ TEST(TidyMesh, DropsNodesOfNoCellWithTheirRows) {
   expect_same(mesh, square().mesh);
   EXPECT_EQ(loaded.solution->values,
             (std::vector<double>{0, 1, 2, 3, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
-  EXPECT_EQ(loaded.warnings,
-            std::vector<std::string>{"m.mesh: 2 nodes that belong to no cell were left out"});
+  EXPECT_EQ(loaded.warnings, std::vector<std::string>{"m.mesh: left out 2 nodes without a cell"});
 }
 
 TEST(TidyMesh, TurnsCellsAndBoundaryEdges) {
@@ -80,7 +79,7 @@ TEST(TidyMesh, TurnsCellsAndBoundaryEdges) {
   tidy_mesh(loaded, "m.mesh");
   expect_same(loaded.mesh, square().mesh);
   ASSERT_EQ(loaded.warnings.size(), 2U);
-  EXPECT_EQ(loaded.warnings[0], "m.mesh: 6 cells ran clockwise and were reversed");
+  EXPECT_EQ(loaded.warnings[0], "m.mesh: reversed 6 cells with clockwise nodes");
   EXPECT_EQ(loaded.warnings[1], "m.mesh: 1 boundary edges had their cell to the right and were reversed");
 }
 
