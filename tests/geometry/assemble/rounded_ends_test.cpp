@@ -78,7 +78,10 @@ TEST(RoundedEnds, CurvesThatAreThereTwiceStayOnce) {
   const Chain upper = half_circle(1, 1), lower = half_circle(1, -1), flat = half_circle(1, 0.5);
   EXPECT_EQ(Repaired({upper, lower, backwards}).chains.size(), 2u);
   EXPECT_EQ(Repaired({upper, flat}).chains.size(), 2u) << "the same ends";
-  EXPECT_EQ(Repaired({upper, chain(true, upper.points)}).chains.size(), 2u) << "the same points";
+  Chain other_shape = upper;
+  other_shape.curves[1].inner[0].y *= 2;
+  EXPECT_EQ(Repaired({upper, other_shape}).chains.size(), 2u) << "the same points";
+  EXPECT_EQ(Repaired({upper, chain(true, upper.points)}).chains.size(), 2u) << "straight";
   Chain loop = upper;
   append_arc(loop, {{0, 0}, {-1, 0}, {0, -1}, 0, std::numbers::pi}, Point{1, 0});
   loop.points.pop_back();
