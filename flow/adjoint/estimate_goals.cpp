@@ -33,12 +33,12 @@ void append_adjoint(const std::string& goal, const Adjoint& adjoint, Field& flow
   for (const char* const name : conserved) names.push_back(fmt::format("{}_adjoint_{}", goal, name));
   std::vector<double> values;
   const std::size_t rows = flow.values.size() / flow.width();
-  for (std::size_t row = 0; row < rows; ++row)
-    values.insert(values.end(), adjoint.weights[row].begin(), adjoint.weights[row].end());
+  for (const Flux& row : std::span(adjoint.weights).first(rows))
+    values.insert(values.end(), row.begin(), row.end());
   append_columns(flow, names, values);
 }
 
-void append_places(const std::string& goal, const std::vector<Point>& derivative, Field& flow) {
+void append_places(const std::string& goal, const IdVector<NodeId, Point>& derivative, Field& flow) {
   std::vector<double> values;
   for (const Point& of_node : derivative) values.insert(values.end(), {of_node.x, of_node.y});
   append_columns(flow, std::vector{goal + "_by_x", goal + "_by_y"}, values);
@@ -60,7 +60,7 @@ void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {
   std::vector<std::string> boundaries;
   for (const BoundaryEdges& boundary : mesh.boundaries) boundaries.push_back(boundary.name);
   const LinearResidual linear(run);
-  std::vector<double> error(run.mesh.owned_nodes(), 0.0);
+  IdVector<NodeId, double> error(run.mesh.owned_nodes(), 0.0);
   for (const Goal& goal : run.options.goals) {
     const GoalFunctional functional(run.comm, run.mesh, run.model, boundaries, goal,
                                     run.options.reference_length);
@@ -70,7 +70,7 @@ void estimate(const Mesh& mesh, FlowRun& run, EulerResult& result) {
     const double value = functional.value(run.states);
     result.goals.push_back({name_of(goal.quantity), value, value - found.signed_sum, found.sum, by_alpha,
                             by_mach, adjoint.iterations, adjoint.residual, adjoint.converged});
-    for (std::size_t node = 0; node < error.size(); ++node) error[node] += goal.weight * found.of_nodes[node];
+    for (const NodeId node : error.ids()) error[node] += goal.weight * found.of_nodes[node];
     if (!run.options.adjoint_fields) continue;
     append_adjoint(name_of(goal.quantity), adjoint, result.flow);
     append_places(name_of(goal.quantity), place_derivative(linear, functional, adjoint.weights), result.flow);

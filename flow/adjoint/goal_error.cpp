@@ -28,14 +28,14 @@ bool is_physical(const State& state) { return state[0] > 0 && state[3] > 0; }
 /// Terms of each cell's contribution, along its edges.
 class CellParts {
  public:
-  CellParts(const FlowRun& run, const std::vector<Flux>& adjoint)
+  CellParts(const FlowRun& run, const IdVector<NodeId, Flux>& adjoint)
       : run_{run}, adjoint_{adjoint}, gradients_(run.mesh.nodes()) {
     run.residual.least_squares().compute(run.states, gradients_);
     run.mesh.exchange().update(gradients_);
   }
 
   /// Midpoint of an edge: cubic interpolation of states and gradients at its ends.
-  State state_between(std::int32_t a, std::int32_t b) const {
+  State state_between(NodeId a, NodeId b) const {
     const Point way = run_.mesh.point(b) - run_.mesh.point(a);
     const State mean = sum_of(0.5, run_.states[a], 0.5, run_.states[b]);
     State middle = mean;
@@ -48,7 +48,7 @@ class CellParts {
   }
 
   Flux flux(const State& state, Point normal) const { return physical_flux(run_.model.gas, state, normal); }
-  Flux rise(std::int32_t a, std::int32_t b) const { return sum_of(1, adjoint_[b], -1, adjoint_[a]); }
+  Flux rise(NodeId a, NodeId b) const { return sum_of(1, adjoint_[b], -1, adjoint_[a]); }
 
   /// Returns the sum over the cell's edges of the adjoint's difference times the scheme's flux through the
   /// edge's face in the cell.
@@ -56,7 +56,7 @@ class CellParts {
   double by_scheme(const Nodes& nodes, Point centre) const {
     double sum = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const std::int32_t a = nodes[i].value(), b = nodes[(i + 1) % nodes.size()].value();
+      const NodeId a = nodes[i], b = nodes[(i + 1) % nodes.size()];
       sum += product(rise(a, b), flux_in_cell(a, b, centre, nodes.size() == 4));
     }
     return sum;
@@ -69,11 +69,11 @@ class CellParts {
  private:
   /// Returns the flux from a to b through the face between the edge's midpoint and the cell's centre; in
   /// quads including the skewness.
-  Flux flux_in_cell(std::int32_t a, std::int32_t b, Point centre, bool is_quad) const {
+  Flux flux_in_cell(NodeId a, NodeId b, Point centre, bool is_quad) const {
     const Point from = run_.mesh.point(a), to = run_.mesh.point(b), across = centre - 0.5 * (from + to);
     const double size = length(across);
     const Point normal = size > 0 ? (1 / size) * turned(across) : Point{};
-    const std::vector<Gradient>& gradients = run_.residual.gradients();
+    const IdVector<NodeId, Gradient>& gradients = run_.residual.gradients();
     const DualEdge edge{a, b, normal, size, 0.5 * (to - from)};
     const EdgeStates ends = states_at_middle(edge, run_.states, gradients);
     const Flux flux =
@@ -92,8 +92,8 @@ class CellParts {
   static Point turned(Point v) { return {v.y, -v.x}; }
 
   const FlowRun& run_;
-  const std::vector<Flux>& adjoint_;
-  std::vector<Gradient> gradients_;
+  const IdVector<NodeId, Flux>& adjoint_;
+  IdVector<NodeId, Gradient> gradients_;
 };
 
 /// Edge-midpoint rule, exact for quadratics; the gradients of the shape functions are the rotated opposite
@@ -101,14 +101,13 @@ class CellParts {
 double CellParts::integral(const std::array<NodeId, 3>& nodes) const {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::int32_t a = nodes[i].value(), b = nodes[(i + 1) % 3].value();
+    const NodeId a = nodes[i], b = nodes[(i + 1) % 3];
     const State middle = state_between(a, b);
     for (std::size_t n = 0; n < 3; ++n) {
-      const Point opposite =
-          run_.mesh.point(nodes[(n + 2) % 3].value()) - run_.mesh.point(nodes[(n + 1) % 3].value());
+      const Point opposite = run_.mesh.point(nodes[(n + 2) % 3]) - run_.mesh.point(nodes[(n + 1) % 3]);
       // half of the inward normal is the gradient of the node's shape function times the area
       const Point inward{-0.5 * opposite.y, 0.5 * opposite.x};
-      sum += product(adjoint_[nodes[n].value()], flux(middle, inward)) / 3;
+      sum += product(adjoint_[nodes[n]], flux(middle, inward)) / 3;
     }
   }
   return sum;
@@ -120,7 +119,7 @@ double CellParts::integral(const std::array<NodeId, 4>& nodes) const {
   constexpr std::array<std::size_t, 4> corners{0, 2, 8, 6}, middles{1, 5, 7, 3};
   State centre{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::int32_t a = nodes[i].value(), b = nodes[(i + 1) % 4].value();
+    const NodeId a = nodes[i], b = nodes[(i + 1) % 4];
     states[corners[i]] = run_.states[a];
     states[middles[i]] = state_between(a, b);
     for (std::size_t k = 0; k < 4; ++k)
@@ -132,8 +131,8 @@ double CellParts::integral(const std::array<NodeId, 4>& nodes) const {
     for (const std::size_t i : corners) states[4] = sum_of(1, states[4], 0.25, states[i]);
   }
   constexpr std::array<double, 3> weights{1.0 / 6, 4.0 / 6, 1.0 / 6};
-  const auto point = [&](std::size_t i) { return run_.mesh.point(nodes[i].value()); };
-  const auto psi = [&](std::size_t i) -> const Flux& { return adjoint_[nodes[i].value()]; };
+  const auto point = [&](std::size_t i) { return run_.mesh.point(nodes[i]); };
+  const auto psi = [&](std::size_t i) -> const Flux& { return adjoint_[nodes[i]]; };
   double sum = 0;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
@@ -159,7 +158,7 @@ class Sums {
 
   template <class Nodes>
   void add(double part, const Nodes& nodes) {
-    for (const std::int32_t node : nodes) {
+    for (const NodeId node : nodes) {
       if (run_.mesh.is_owned(node)) error_.of_nodes[node] += part / static_cast<double>(nodes.size());
     }
   }
@@ -177,7 +176,7 @@ class Sums {
 };
 
 /// Adds the pressure on each wall or symmetry plane: in the residual and in the functional.
-void add_faces(const FlowRun& run, const GoalFunctional& goal, const std::vector<Flux>& adjoint,
+void add_faces(const FlowRun& run, const GoalFunctional& goal, const IdVector<NodeId, Flux>& adjoint,
                const CellParts& cells, Sums& sums) {
   const auto faces = run.mesh.faces();
   auto part = goal.parts().begin();
@@ -187,7 +186,7 @@ void add_faces(const FlowRun& run, const GoalFunctional& goal, const std::vector
     const GoalFunctional::Part weights = counts ? *part++ : GoalFunctional::Part{};
     const Condition condition = run.model.boundaries[face.boundary].condition;
     if (condition != Condition::wall && condition != Condition::symmetry) continue;
-    const auto along = [&](std::int32_t node) {
+    const auto along = [&](NodeId node) {
       return adjoint[node][1] * face.normal.x + adjoint[node][2] * face.normal.y;
     };
     const double from = along(face.from) - weights.of_from, to = along(face.to) - weights.of_to;
@@ -202,20 +201,18 @@ void add_faces(const FlowRun& run, const GoalFunctional& goal, const std::vector
 
 }  // namespace
 
-GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const std::vector<Flux>& adjoint) {
+GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const IdVector<NodeId, Flux>& adjoint) {
   const CellParts cells(run, adjoint);
   Sums sums(run);
   const HaloMesh& halo = run.mesh.halo();
   halo.for_each_cell([&](const auto& nodes) {
-    std::array<std::int32_t, std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>>> numbers;
     bool touches = false;
     Point centre{};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      numbers[i] = nodes[i].value();
       touches = touches || halo.owns(nodes[i]);
       centre = centre + 1.0 / static_cast<double>(nodes.size()) * halo.point(nodes[i]);
     }
-    if (touches) sums.add(cells.by_scheme(nodes, centre) - cells.integral(nodes), numbers);
+    if (touches) sums.add(cells.by_scheme(nodes, centre) - cells.integral(nodes), nodes);
   });
   add_faces(run, goal, adjoint, cells, sums);
   return sums.finish();

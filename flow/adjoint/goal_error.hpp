@@ -1,16 +1,14 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/adjoint/goal_functional.hpp"
 
 namespace quadloop::flow::euler {
 
 /// Discretisation error of an output functional.
 struct GoalError {
-  double signed_sum = 0;         ///< subtracting this from the functional gives a better value
-  double sum = 0;                ///< sum of the absolute nodal contributions, without cancellation
-  std::vector<double> of_nodes;  ///< absolute contributions of the owned nodes
+  double signed_sum = 0;              ///< subtracting this from the functional gives a better value
+  double sum = 0;                     ///< sum of the absolute nodal contributions, without cancellation
+  IdVector<NodeId, double> of_nodes;  ///< absolute contributions of the owned nodes
 };
 
 /// Returns the dual-weighted residual: the flow's residual with higher-order fluxes, weighted by the adjoint
@@ -24,6 +22,6 @@ struct GoalError {
 /// is cubic along edges, from unlimited gradients; psi is linear in triangles, bilinear in quads. `states`
 /// and `adjoint` must include ghosts. Errors from chords of a curved boundary and from the far-field distance
 /// are not included. *Collective.*
-GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const std::vector<Flux>& adjoint);
+GoalError goal_error(const FlowRun& run, const GoalFunctional& goal, const IdVector<NodeId, Flux>& adjoint);
 
 }  // namespace quadloop::flow::euler

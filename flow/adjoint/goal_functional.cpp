@@ -82,7 +82,7 @@ GoalFunctional::GoalFunctional(const Communicator& comm, const DualMesh& mesh, c
           : fmt::format("solver.goal_on: the mesh has no edges on {}", fmt::join(goal.boundaries, ", ")));
 }
 
-double GoalFunctional::value(const std::vector<State>& states) const {
+double GoalFunctional::value(const IdVector<NodeId, State>& states) const {
   std::vector<double> terms;
   for (const Part& part : parts_) {
     const BoundaryFace& face = mesh_.faces()[part.face];
@@ -96,8 +96,8 @@ double GoalFunctional::value(const std::vector<State>& states) const {
   return reproducible_sum(comm_, terms);
 }
 
-std::vector<State> GoalFunctional::derivative() const {
-  std::vector<State> result(mesh_.nodes(), State{});
+IdVector<NodeId, State> GoalFunctional::derivative() const {
+  IdVector<NodeId, State> result(mesh_.nodes(), State{});
   for (const Part& part : parts_) {
     const BoundaryFace& face = mesh_.faces()[part.face];
     const double of_other = face.blend / 6, from = face.half_size * part.of_from,
@@ -108,7 +108,8 @@ std::vector<State> GoalFunctional::derivative() const {
   return result;
 }
 
-void GoalFunctional::add_place_derivative(const std::vector<State>& states, std::vector<Point>& sums) const {
+void GoalFunctional::add_place_derivative(const IdVector<NodeId, State>& states,
+                                          IdVector<NodeId, Point>& sums) const {
   using Dual = DualNumber<4>;
   using Vector = VectorOf<Dual>;
   for (const Part& part : parts_) {

@@ -25,13 +25,13 @@ class GoalFunctional {
                  const std::vector<std::string>& boundaries, const Goal& goal, double reference_length);
 
   /// Ghosts of the states must be up to date. *Collective.*
-  double value(const std::vector<State>& states) const;
+  double value(const IdVector<NodeId, State>& states) const;
 
   /// Returns the derivative with respect to the states: an entry for each node, complete for owned nodes.
-  std::vector<State> derivative() const;
+  IdVector<NodeId, State> derivative() const;
 
   /// Adds to the owned nodes' sums the derivative with respect to their positions at constant states.
-  void add_place_derivative(const std::vector<State>& states, std::vector<Point>& sums) const;
+  void add_place_derivative(const IdVector<NodeId, State>& states, IdVector<NodeId, Point>& sums) const;
 
   /// In the order of the mesh's faces.
   const std::vector<Part>& parts() const { return parts_; }

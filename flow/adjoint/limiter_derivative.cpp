@@ -9,24 +9,24 @@ namespace quadloop::flow::euler {
 /// For one side (up or down) of a node: the first edge, for each variable, with the extreme value and the
 /// extreme change.
 struct LimiterDerivative::Side {
-  std::array<std::int32_t, 4> neighbour{-1, -1, -1, -1};
-  std::array<std::int32_t, 4> along{-1, -1, -1, -1};
+  std::array<NodeId, 4> neighbour{}, along{};
   std::array<Point, 4> way{};
 };
 
 LimiterDerivative::LimiterDerivative(const DualMesh& mesh, const Limiter& limiter,
-                                     const std::vector<State>& states, std::vector<Gradient> gradients)
+                                     const IdVector<NodeId, State>& states,
+                                     IdVector<NodeId, Gradient> gradients)
     : mesh_{mesh}, gradients_{std::move(gradients)}, parts_(mesh.owned_nodes()), live_{!limiter.frozen()} {
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+  for (const NodeId node : parts_.ids()) {
     for (std::size_t k = 0; k < 4; ++k) parts_[node][k].factor = limiter.factors()[node][k];
     small_squared_.push_back(limiter.small_squared(node));
   }
   if (live_) find(limiter, states);
 }
 
-/// The sides of node n are at 2 n (up) and 2 n + 1 (down).
-void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<State>& states,
-                                   std::vector<Side>& sides) const {
+/// The sides of a node are up and down, in this order.
+void LimiterDerivative::find_edges(const Limiter& limiter, const IdVector<NodeId, State>& states,
+                                   IdVector<NodeId, std::array<Side, 2>>& sides) const {
   for (const DualEdge& edge : mesh_.edges()) {
     for (const auto& [node, other, way] :
          {std::tuple{edge.low, edge.high, edge.half}, {edge.high, edge.low, -1.0 * edge.half}}) {
@@ -35,11 +35,11 @@ void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<Sta
       for (std::size_t k = 0; k < 4; ++k) {
         const double change = gradient.x[k] * way.x + gradient.y[k] * way.y;
         for (const bool up : {true, false}) {
-          Side& side = sides[2 * node + (up ? 0 : 1)];
+          Side& side = sides[node][up ? 0 : 1];
           const auto& of = [&](const Limiter::Bounds& bounds) { return up ? bounds.high[k] : bounds.low[k]; };
-          if (side.neighbour[k] < 0 && states[other][k] == of(limiter.values(node)))
+          if (!side.neighbour[k].valid() && states[other][k] == of(limiter.values(node)))
             side.neighbour[k] = other;
-          if (side.along[k] >= 0 || change != of(limiter.changes(node))) continue;
+          if (side.along[k].valid() || change != of(limiter.changes(node))) continue;
           side.along[k] = other;
           side.way[k] = way;
         }
@@ -48,12 +48,12 @@ void LimiterDerivative::find_edges(const Limiter& limiter, const std::vector<Sta
   }
 }
 
-void LimiterDerivative::find(const Limiter& limiter, const std::vector<State>& states) {
-  std::vector<Side> sides(2 * parts_.size());
+void LimiterDerivative::find(const Limiter& limiter, const IdVector<NodeId, State>& states) {
+  IdVector<NodeId, std::array<Side, 2>> sides(parts_.size());
   find_edges(limiter, states, sides);
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+  for (const NodeId node : parts_.ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
-      const Side &up = sides[2 * node], &down = sides[2 * node + 1];
+      const auto& [up, down] = sides[node];
       follow_bounds(limiter, node, k, states[node][k], up, down);
       if (is_positive(k)) follow_keeping(limiter, node, k, states[node][k], down);
     }
@@ -61,7 +61,7 @@ void LimiterDerivative::find(const Limiter& limiter, const std::vector<State>& s
 }
 
 /// For factors determined by the bounds of the neighbours' values.
-void LimiterDerivative::follow_bounds(const Limiter& limiter, std::size_t node, std::size_t k, double value,
+void LimiterDerivative::follow_bounds(const Limiter& limiter, NodeId node, std::size_t k, double value,
                                       const Side& up_side, const Side& down_side) {
   using Dual = DualNumber<3>;
   const Limiter::Bounds &values = limiter.values(node), &changes = limiter.changes(node);
@@ -81,12 +81,12 @@ void LimiterDerivative::follow_bounds(const Limiter& limiter, std::size_t node, 
   part.along = side.along[k];
   part.way = side.way[k];
   // a node that has the largest value itself allows no change, whatever the states
-  part.neighbour = value == (is_up ? values.high[k] : values.low[k]) ? -1 : side.neighbour[k];
-  if (part.neighbour < 0) part.by_allowed = 0;
+  part.neighbour = value == (is_up ? values.high[k] : values.low[k]) ? NodeId{} : side.neighbour[k];
+  if (!part.neighbour.valid()) part.by_allowed = 0;
 }
 
 /// For factors determined by the least remaining density or pressure.
-void LimiterDerivative::follow_keeping(const Limiter& limiter, std::size_t node, std::size_t k, double value,
+void LimiterDerivative::follow_keeping(const Limiter& limiter, NodeId node, std::size_t k, double value,
                                        const Side& down) {
   using Dual = DualNumber<2>;
   const Dual keeping =
@@ -94,15 +94,16 @@ void LimiterDerivative::follow_keeping(const Limiter& limiter, std::size_t node,
   Part& part = parts_[node][k];
   if (keeping.value >= 1 || keeping.value != part.factor) return;
   part.by_allowed = part.by_small = 0;
-  part.neighbour = -1;
+  part.neighbour = NodeId{};
   part.by_own = keeping.slopes[0];
   part.by_change = keeping.slopes[1];
   part.along = down.along[k];
   part.way = down.way[k];
 }
 
-void LimiterDerivative::apply(const std::vector<State>& change, std::vector<Gradient>& gradients) const {
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+void LimiterDerivative::apply(const IdVector<NodeId, State>& change,
+                              IdVector<NodeId, Gradient>& gradients) const {
+  for (const NodeId node : parts_.ids()) {
     const Gradient& held = gradients_[node];
     Gradient& gradient = gradients[node];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -126,9 +127,10 @@ struct HandedFactors {
 
 }  // namespace
 
-void LimiterDerivative::apply_transposed(std::vector<Gradient>& weights, std::vector<State>& sums) const {
-  std::vector<HandedFactors> handed(live_ ? mesh_.nodes() : 0);
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+void LimiterDerivative::apply_transposed(IdVector<NodeId, Gradient>& weights,
+                                         IdVector<NodeId, State>& sums) const {
+  IdVector<NodeId, HandedFactors> handed(live_ ? mesh_.nodes() : 0);
+  for (const NodeId node : parts_.ids()) {
     const Gradient& held = gradients_[node];
     Gradient& weight = weights[node];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -165,18 +167,19 @@ struct HandedGradient {
 
 }  // namespace
 
-void LimiterDerivative::add_place_weights(const std::vector<Gradient>& weights, std::vector<Point>& places,
-                                          std::vector<double>& areas) const {
+void LimiterDerivative::add_place_weights(const IdVector<NodeId, Gradient>& weights,
+                                          IdVector<NodeId, Point>& places,
+                                          IdVector<NodeId, double>& areas) const {
   if (!live_) return;
-  std::vector<HandedGradient> handed(mesh_.nodes());
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+  IdVector<NodeId, HandedGradient> handed(mesh_.nodes());
+  for (const NodeId node : parts_.ids()) {
     const Gradient &held = gradients_[node], &weight = weights[node];
     for (std::size_t k = 0; k < 4; ++k) {
       const Part& part = parts_[node][k];
       const double factor = held.x[k] * weight.x[k] + held.y[k] * weight.y[k];
       // (K h)^3 is proportional to area^(3/2)
       areas[node] += factor * part.by_small * 1.5 * small_squared_[node] / mesh_.areas()[node];
-      if (part.by_change == 0 || part.along < 0) continue;
+      if (part.by_change == 0 || !part.along.valid()) continue;
       const Point half = 0.5 * factor * part.by_change * Point{held.x[k], held.y[k]};
       places[node] = places[node] - half;
       handed[node].to[k] = mesh_.global(part.along);

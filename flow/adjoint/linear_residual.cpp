@@ -68,7 +68,7 @@ State stepped(const State& state, const Gradient& gradient, Point way) {
 LinearResidual::LinearResidual(FlowRun& run) : run_{run} {
   run.residual.evaluate(run.states);
   if (const Limiter* const limiter = run.residual.limiter()) {
-    std::vector<Gradient> gradients(run.mesh.nodes());
+    IdVector<NodeId, Gradient> gradients(run.mesh.nodes());
     run.residual.least_squares().compute(run.states, gradients);
     limiter_.emplace(run.mesh, *limiter, run.states, std::move(gradients));
   }
@@ -100,7 +100,7 @@ void LinearResidual::differentiate_edges() {
 
 void LinearResidual::differentiate_skew() {
   using Dual = DualNumber<12>;
-  const std::vector<Gradient>& gradients = run_.residual.gradients();
+  const IdVector<NodeId, Gradient>& gradients = run_.residual.gradients();
   for (const SkewEdge& skew : run_.mesh.skew_edges()) {
     const DualEdge& edge = run_.mesh.edges()[skew.edge];
     const Gradient &low = gradients[edge.low], &high = gradients[edge.high];
@@ -116,7 +116,7 @@ void LinearResidual::differentiate_faces() {
   using Dual = DualNumber<4>;
   for (const BoundaryFace& face : run_.mesh.faces()) {
     const BoundaryModel& boundary = run_.model.boundaries[face.boundary];
-    const auto half = [&](std::int32_t own, std::int32_t other) {
+    const auto half = [&](NodeId own, NodeId other) {
       const State state = state_at_half(face, run_.states[own], run_.states[other]);
       return slopes(boundary_flux(run_.model, boundary, as_variables<Dual>(state, 0), face.normal), 0,
                     face.half_size);
@@ -125,20 +125,21 @@ void LinearResidual::differentiate_faces() {
   }
 }
 
-void LinearResidual::apply(std::vector<State>& change, std::vector<Flux>& sums) const {
+void LinearResidual::apply(IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const {
   run_.mesh.exchange().update(change);
-  std::vector<Gradient> gradients(run_.mesh.nodes());
+  IdVector<NodeId, Gradient> gradients(run_.mesh.nodes());
   run_.residual.least_squares().compute(change, gradients);
   if (limiter_) limiter_->apply(change, gradients);
   run_.mesh.exchange().update(gradients);
-  sums.assign(run_.mesh.nodes(), {});
+  sums = IdVector<NodeId, Flux>(run_.mesh.nodes());
   apply_edges(change, gradients, sums);
   if (shocks_) apply_shocks(change, sums);
   apply_faces(change, sums);
 }
 
-void LinearResidual::apply_edges(const std::vector<State>& change, const std::vector<Gradient>& gradients,
-                                 std::vector<Flux>& sums) const {
+void LinearResidual::apply_edges(const IdVector<NodeId, State>& change,
+                                 const IdVector<NodeId, Gradient>& gradients,
+                                 IdVector<NodeId, Flux>& sums) const {
   const auto edges = run_.mesh.edges();
   const auto carry = [&](const DualEdge& edge, const Flux& through) {
     add(through, 1, sums[edge.low]);
@@ -165,8 +166,8 @@ void LinearResidual::apply_edges(const std::vector<State>& change, const std::ve
   }
 }
 
-void LinearResidual::apply_shocks(const std::vector<State>& change, std::vector<Flux>& sums) const {
-  const std::vector<double> shares = shocks_->apply(change);
+void LinearResidual::apply_shocks(const IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const {
+  const IdVector<NodeId, double> shares = shocks_->apply(change);
   for (const ShockPart& part : shock_edges_) {
     const DualEdge& edge = run_.mesh.edges()[part.edge];
     add(part.by_share, shares[part.node], sums[edge.low]);
@@ -174,7 +175,7 @@ void LinearResidual::apply_shocks(const std::vector<State>& change, std::vector<
   }
 }
 
-void LinearResidual::apply_faces(const std::vector<State>& change, std::vector<Flux>& sums) const {
+void LinearResidual::apply_faces(const IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const {
   const auto faces = run_.mesh.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const auto& [from, to, boundary, normal, half_size, blend] = faces[f];
@@ -184,10 +185,10 @@ void LinearResidual::apply_faces(const std::vector<State>& change, std::vector<F
 }
 
 /// Sums of owned nodes are in the order of edges and faces, as in Residual.
-void LinearResidual::apply_transposed(std::vector<Flux>& weights, std::vector<State>& sums) const {
+void LinearResidual::apply_transposed(IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums) const {
   run_.mesh.exchange().update(weights);
-  sums.assign(run_.mesh.nodes(), {});
-  std::vector<Gradient> gradients(run_.mesh.nodes());
+  sums = IdVector<NodeId, State>(run_.mesh.nodes());
+  IdVector<NodeId, Gradient> gradients(run_.mesh.nodes());
   transpose_edges(weights, sums, gradients);
   transpose_faces(weights, sums);
   if (shocks_) transpose_shocks(weights, sums);
@@ -195,15 +196,16 @@ void LinearResidual::apply_transposed(std::vector<Flux>& weights, std::vector<St
   run_.residual.least_squares().add_transposed(gradients, sums);
 }
 
-std::vector<Gradient> LinearResidual::limited_gradient_weights(const std::vector<Flux>& weights) const {
-  std::vector<State> sums(run_.mesh.nodes());
-  std::vector<Gradient> gradients(run_.mesh.nodes());
+IdVector<NodeId, Gradient> LinearResidual::limited_gradient_weights(
+    const IdVector<NodeId, Flux>& weights) const {
+  IdVector<NodeId, State> sums(run_.mesh.nodes());
+  IdVector<NodeId, Gradient> gradients(run_.mesh.nodes());
   transpose_edges(weights, sums, gradients);
   return gradients;
 }
 
-void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vector<State>& sums,
-                                     std::vector<Gradient>& gradients) const {
+void LinearResidual::transpose_edges(const IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums,
+                                     IdVector<NodeId, Gradient>& gradients) const {
   const auto edges = run_.mesh.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const DualEdge& edge = edges[e];
@@ -226,7 +228,7 @@ void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vect
     add_transposed_product(skew_[s].by_state, weight, by_state);
     add_transposed_product(skew_[s].by_x, weight, by_x);
     add_transposed_product(skew_[s].by_y, weight, by_y);
-    for (const std::int32_t node : {edge.low, edge.high}) {
+    for (const NodeId node : {edge.low, edge.high}) {
       add(by_state, 0.5, sums[node]);
       add(by_x, 0.5, gradients[node].x);
       add(by_y, 0.5, gradients[node].y);
@@ -235,8 +237,9 @@ void LinearResidual::transpose_edges(const std::vector<Flux>& weights, std::vect
 }
 
 /// The weight of a share is complete where its node is owned: all of its edges are on this rank.
-void LinearResidual::transpose_shocks(const std::vector<Flux>& weights, std::vector<State>& sums) const {
-  std::vector<double> shares(run_.mesh.nodes());
+void LinearResidual::transpose_shocks(const IdVector<NodeId, Flux>& weights,
+                                      IdVector<NodeId, State>& sums) const {
+  IdVector<NodeId, double> shares(run_.mesh.nodes());
   for (const ShockPart& part : shock_edges_) {
     const DualEdge& edge = run_.mesh.edges()[part.edge];
     const Flux weight = difference(weights[edge.low], weights[edge.high]);
@@ -245,7 +248,8 @@ void LinearResidual::transpose_shocks(const std::vector<Flux>& weights, std::vec
   shocks_->add_transposed(shares, sums);
 }
 
-void LinearResidual::transpose_faces(const std::vector<Flux>& weights, std::vector<State>& sums) const {
+void LinearResidual::transpose_faces(const IdVector<NodeId, Flux>& weights,
+                                     IdVector<NodeId, State>& sums) const {
   const auto faces = run_.mesh.faces();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const BoundaryFace& face = faces[f];

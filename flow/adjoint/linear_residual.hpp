@@ -21,14 +21,14 @@ class LinearResidual {
 
   /// Computes the change of the owned nodes' net fluxes due to changes of the states, which have an entry for
   /// each node; those of ghosts are updated first. *Collective.*
-  void apply(std::vector<State>& change, std::vector<Flux>& sums) const;
+  void apply(IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const;
 
   /// Transpose: computes the weights of the owned nodes' states due to weights of net fluxes. *Collective.*
-  void apply_transposed(std::vector<Flux>& weights, std::vector<State>& sums) const;
+  void apply_transposed(IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums) const;
 
   /// Returns the weights of the owned nodes' limited gradients due to weights of net fluxes, which must
   /// include ghosts.
-  std::vector<Gradient> limited_gradient_weights(const std::vector<Flux>& weights) const;
+  IdVector<NodeId, Gradient> limited_gradient_weights(const IdVector<NodeId, Flux>& weights) const;
   /// Empty if the scheme has no limiter.
   const std::optional<LimiterDerivative>& limiter() const { return limiter_; }
   const FlowRun& run() const { return run_; }
@@ -47,20 +47,20 @@ class LinearResidual {
   /// nodes.
   struct ShockPart {
     std::size_t edge;
-    std::int32_t node;
+    NodeId node;
     Flux by_share;
   };
   void differentiate_edges();
   void differentiate_skew();
   void differentiate_faces();
-  void apply_edges(const std::vector<State>& change, const std::vector<Gradient>& gradients,
-                   std::vector<Flux>& sums) const;
-  void apply_shocks(const std::vector<State>& change, std::vector<Flux>& sums) const;
-  void apply_faces(const std::vector<State>& change, std::vector<Flux>& sums) const;
-  void transpose_edges(const std::vector<Flux>& weights, std::vector<State>& sums,
-                       std::vector<Gradient>& gradients) const;
-  void transpose_shocks(const std::vector<Flux>& weights, std::vector<State>& sums) const;
-  void transpose_faces(const std::vector<Flux>& weights, std::vector<State>& sums) const;
+  void apply_edges(const IdVector<NodeId, State>& change, const IdVector<NodeId, Gradient>& gradients,
+                   IdVector<NodeId, Flux>& sums) const;
+  void apply_shocks(const IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const;
+  void apply_faces(const IdVector<NodeId, State>& change, IdVector<NodeId, Flux>& sums) const;
+  void transpose_edges(const IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums,
+                       IdVector<NodeId, Gradient>& gradients) const;
+  void transpose_shocks(const IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums) const;
+  void transpose_faces(const IdVector<NodeId, Flux>& weights, IdVector<NodeId, State>& sums) const;
 
   const FlowRun& run_;
   std::optional<LimiterDerivative> limiter_;

@@ -8,7 +8,7 @@ namespace quadloop::flow::euler {
 namespace {
 
 /// Terms of psi . flux through the edges for another free-stream Mach number, on which slow flow depends.
-void add_edges(const FlowRun& run, const std::vector<Flux>& adjoint, const Gas& gas,
+void add_edges(const FlowRun& run, const IdVector<NodeId, Flux>& adjoint, const Gas& gas,
                std::vector<double>& terms) {
   for (const DualEdge& edge : run.mesh.edges()) {
     const EdgeStates ends = states_at_middle(edge, run.states, run.residual.gradients());
@@ -24,7 +24,7 @@ void add_edges(const FlowRun& run, const std::vector<Flux>& adjoint, const Gas& 
 /// Returns the functional and psi . residual at constant states for another free stream; only boundary and
 /// edge fluxes of the residual depend on it.
 double held(const FlowRun& run, const std::vector<std::string>& boundaries, const Goal& goal,
-            const std::vector<Flux>& adjoint, double mach, double alpha) {
+            const IdVector<NodeId, Flux>& adjoint, double mach, double alpha) {
   FlowModel model = run.model;
   model.free_stream = model.gas.free_stream(mach, alpha);
   model.gas.least_mach = std::min(mach, 1.0);
@@ -47,7 +47,7 @@ double held(const FlowRun& run, const std::vector<std::string>& boundaries, cons
 }  // namespace
 
 ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
-                                         const Goal& goal, const std::vector<Flux>& adjoint) {
+                                         const Goal& goal, const IdVector<NodeId, Flux>& adjoint) {
   // central differences of smooth functions: relative error about 1e-9
   constexpr double degrees = 1e-3, share = 1e-4;
   const double mach = run.options.mach, alpha = run.options.alpha, d_mach = share * mach;

@@ -16,6 +16,6 @@ struct ParameterDerivative {
 /// (derivative of the residual), at constant states. `boundaries` are the names of the mesh's boundaries.
 /// *Collective.*
 ParameterDerivative parameter_derivative(const FlowRun& run, const std::vector<std::string>& boundaries,
-                                         const Goal& goal, const std::vector<Flux>& adjoint);
+                                         const Goal& goal, const IdVector<NodeId, Flux>& adjoint);
 
 }  // namespace quadloop::flow::euler

@@ -55,7 +55,7 @@ struct FaceWeights {
 
 class PlaceDerivative {
  public:
-  PlaceDerivative(const LinearResidual& linear, const std::vector<Flux>& adjoint)
+  PlaceDerivative(const LinearResidual& linear, const IdVector<NodeId, Flux>& adjoint)
       : linear_{linear},
         run_{linear.run()},
         adjoint_{adjoint},
@@ -63,7 +63,7 @@ class PlaceDerivative {
         areas_(run_.mesh.nodes(), 0.0) {}
 
   /// Returns the derivative of psi . residual.
-  std::vector<Point> find() {
+  IdVector<NodeId, Point> find() {
     add_edges();
     add_gradients();
     add_boundaries();
@@ -95,9 +95,9 @@ class PlaceDerivative {
 
   const LinearResidual& linear_;
   const FlowRun& run_;
-  const std::vector<Flux>& adjoint_;
-  std::vector<Point> sums_;
-  std::vector<double> areas_;  ///< derivative with respect to the nodes' dual areas, via the limiter
+  const IdVector<NodeId, Flux>& adjoint_;
+  IdVector<NodeId, Point> sums_;
+  IdVector<NodeId, double> areas_;  ///< derivative with respect to the nodes' dual areas, via the limiter
   std::vector<FaceWeights> edges_;
 };
 
@@ -114,12 +114,12 @@ void PlaceDerivative::add_edges() {
 void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
   using Dual = DualNumber<4>;
   if (edge.size == 0) return;
-  const std::vector<Gradient>& gradients = run_.residual.gradients();
+  const IdVector<NodeId, Gradient>& gradients = run_.residual.gradients();
   const VectorOf<Dual> face{Dual::variable(edge.size * edge.normal.x, 0),
                             Dual::variable(edge.size * edge.normal.y, 1)},
       half{Dual::variable(edge.half.x, 2), Dual::variable(edge.half.y, 3)};
   const bool reconstructed = states_at_middle(edge, run_.states, gradients).reconstructed;
-  const auto transferred = [&](std::int32_t node, double way) {
+  const auto transferred = [&](NodeId node, double way) {
     StateOf<Dual> state = constant<Dual>(run_.states[node]);
     for (std::size_t k = 0; reconstructed && k < 4; ++k)
       state[k] = state[k] + way * (gradients[node].x[k] * half.x + gradients[node].y[k] * half.y);
@@ -136,7 +136,7 @@ void PlaceDerivative::add_upwind(const DualEdge& edge, FaceWeights& weights) {
 
 /// The flux is proportional to the skewness, so the derivative exists where that is 0 too.
 void PlaceDerivative::add_skew(const DualEdge& edge, FaceWeights& weights) const {
-  const std::vector<Gradient>& gradients = run_.residual.gradients();
+  const IdVector<NodeId, Gradient>& gradients = run_.residual.gradients();
   const Gradient &low = gradients[edge.low], &high = gradients[edge.high];
   State state, along_x, along_y;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -153,21 +153,21 @@ void PlaceDerivative::add_skew(const DualEdge& edge, FaceWeights& weights) const
 /// Gradients depend on positions by least squares and, unless frozen, by the limiter.
 void PlaceDerivative::add_gradients() {
   using Dual = DualNumber<2>;
-  std::vector<Gradient> weights = linear_.limited_gradient_weights(adjoint_);
-  std::vector<State> of_states(run_.mesh.nodes());
+  IdVector<NodeId, Gradient> weights = linear_.limited_gradient_weights(adjoint_);
+  IdVector<NodeId, State> of_states(run_.mesh.nodes());
   if (linear_.limiter()) {
     linear_.limiter()->add_place_weights(weights, sums_, areas_);
     linear_.limiter()->apply_transposed(weights, of_states);
   }
-  std::vector<Gradient> gradients(run_.mesh.nodes());
+  IdVector<NodeId, Gradient> gradients(run_.mesh.nodes());
   run_.residual.least_squares().compute(run_.states, gradients);
   run_.mesh.exchange().update(gradients);
-  const std::vector<Gradient> solved = run_.residual.least_squares().solved(weights);
+  const IdVector<NodeId, Gradient> solved = run_.residual.least_squares().solved(weights);
   for (const DualEdge& edge : run_.mesh.edges()) {
     const VectorOf<Dual> half{Dual::variable(edge.half.x, 0), Dual::variable(edge.half.y, 1)};
     const Dual weight = 1 / (half.x * half.x + half.y * half.y);
     Dual term;
-    for (const std::int32_t node : {edge.low, edge.high}) {
+    for (const NodeId node : {edge.low, edge.high}) {
       const Gradient &by = solved[node], &gradient = gradients[node];
       for (std::size_t k = 0; k < 4; ++k) {
         const double rise = run_.states[edge.high][k] - run_.states[edge.low][k];
@@ -244,7 +244,7 @@ void PlaceDerivative::add_cell(const Nodes& nodes, std::vector<FaceWeights>::con
   std::array<VectorOf<Dual>, n> places;
   VectorOf<Dual> centre{};
   for (std::size_t i = 0; i < n; ++i) {
-    const Point at = run_.mesh.point(nodes[i].value());
+    const Point at = run_.mesh.point(nodes[i]);
     places[i] = {Dual::variable(at.x, 2 * i), Dual::variable(at.y, 2 * i + 1)};
     centre = centre + 1.0 / static_cast<double>(n) * places[i];
   }
@@ -252,7 +252,7 @@ void PlaceDerivative::add_cell(const Nodes& nodes, std::vector<FaceWeights>::con
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t after = (i + 1) % n, before = (i + n - 1) % n;
     const FaceWeights& of_face = *(weights + static_cast<std::ptrdiff_t>(i));
-    const double side = run_.mesh.global(nodes[i].value()) < run_.mesh.global(nodes[after].value()) ? 1 : -1;
+    const double side = run_.mesh.global(nodes[i]) < run_.mesh.global(nodes[after]) ? 1 : -1;
     const VectorOf<Dual> along = places[after] - places[i],
                          across = centre - 0.5 * (places[after] + places[i]), normal = side * turned(across);
     term = term + of_face.normal[0] * normal.x + of_face.normal[1] * normal.y;
@@ -265,24 +265,24 @@ void PlaceDerivative::add_cell(const Nodes& nodes, std::vector<FaceWeights>::con
       term = term + skew(across.x, along.x, 0) + skew(across.y, along.y, 2);
     }
     const VectorOf<Dual> out = centre - places[i], apart = 0.5 * (places[before] - places[after]);
-    term = term + 0.5 * areas_[nodes[i].value()] * (out.x * apart.y - out.y * apart.x);
+    term = term + 0.5 * areas_[nodes[i]] * (out.x * apart.y - out.y * apart.x);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    Point& sum = sums_[nodes[i].value()];
+    Point& sum = sums_[nodes[i]];
     sum = sum + Point{term.slopes[2 * i], term.slopes[2 * i + 1]};
   }
 }
 
 }  // namespace
 
-std::vector<Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
-                                    const std::vector<Flux>& adjoint) {
+IdVector<NodeId, Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
+                                         const IdVector<NodeId, Flux>& adjoint) {
   const FlowRun& run = linear.run();
-  std::vector<Point> of_goal(run.mesh.nodes());
+  IdVector<NodeId, Point> of_goal(run.mesh.nodes());
   goal.add_place_derivative(run.states, of_goal);
-  const std::vector<Point> of_residual = PlaceDerivative(linear, adjoint).find();
+  const IdVector<NodeId, Point> of_residual = PlaceDerivative(linear, adjoint).find();
   of_goal.resize(of_residual.size());
-  for (std::size_t node = 0; node < of_goal.size(); ++node) of_goal[node] = of_goal[node] - of_residual[node];
+  for (const NodeId node : of_goal.ids()) of_goal[node] = of_goal[node] - of_residual[node];
   return of_goal;
 }
 

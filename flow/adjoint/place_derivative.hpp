@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/adjoint/goal_functional.hpp"
 #include "flow/adjoint/linear_residual.hpp"
 
@@ -14,7 +12,7 @@ namespace quadloop::flow::euler {
 /// which the skewness corrections of quads are reduced (DualMesh, SkewEdge; boundary halves), e.g. in stacks
 /// of thin cells, are held constant. `adjoint` must include ghosts. Bitwise independent of the number of
 /// ranks. *Collective.*
-std::vector<Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
-                                    const std::vector<Flux>& adjoint);
+IdVector<NodeId, Point> place_derivative(const LinearResidual& linear, const GoalFunctional& goal,
+                                         const IdVector<NodeId, Flux>& adjoint);
 
 }  // namespace quadloop::flow::euler

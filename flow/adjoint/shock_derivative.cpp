@@ -7,13 +7,13 @@
 namespace quadloop::flow::euler {
 
 ShockDerivative::ShockDerivative(const Communicator& comm, const DualMesh& mesh, const ShockSensor& sensor,
-                                 const std::vector<State>& states)
+                                 const IdVector<NodeId, State>& states)
     : mesh_{mesh}, parts_(mesh.owned_nodes()) {
   using Dual = DualNumber<2>;
   bool acts = false;
   for (const DualEdge& edge : mesh.edges()) {
     for (const auto& [node, other] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
-      if (sensor.frozen() || !mesh.is_owned(node) || parts_[node].neighbour >= 0) continue;
+      if (sensor.frozen() || !mesh.is_owned(node) || parts_[node].neighbour.valid()) continue;
       const Dual jump = pressure_jump(Dual::variable(states[node][3], 0), Dual::variable(states[other][3], 1),
                                       sensor.least_pressure());
       if (jump.value != sensor.jump(node)) continue;
@@ -25,11 +25,11 @@ ShockDerivative::ShockDerivative(const Communicator& comm, const DualMesh& mesh,
   acts_ = comm.any(acts);
 }
 
-std::vector<double> ShockDerivative::apply(const std::vector<State>& change) const {
-  std::vector<double> shares(mesh_.nodes());
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+IdVector<NodeId, double> ShockDerivative::apply(const IdVector<NodeId, State>& change) const {
+  IdVector<NodeId, double> shares(mesh_.nodes());
+  for (const NodeId node : parts_.ids()) {
     const Part& part = parts_[node];
-    if (part.neighbour >= 0)
+    if (part.neighbour.valid())
       shares[node] = part.by_own * change[node][3] + part.by_neighbour * change[part.neighbour][3];
   }
   mesh_.exchange().update(shares);
@@ -46,11 +46,12 @@ struct HandedWeight {
 
 }  // namespace
 
-void ShockDerivative::add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const {
-  std::vector<HandedWeight> handed(mesh_.nodes());
-  for (std::size_t node = 0; node < parts_.size(); ++node) {
+void ShockDerivative::add_transposed(const IdVector<NodeId, double>& weights,
+                                     IdVector<NodeId, State>& sums) const {
+  IdVector<NodeId, HandedWeight> handed(mesh_.nodes());
+  for (const NodeId node : parts_.ids()) {
     const Part& part = parts_[node];
-    if (part.neighbour < 0) continue;
+    if (!part.neighbour.valid()) continue;
     sums[node][3] += part.by_own * weights[node];
     handed[node] = {mesh_.global(part.neighbour), part.by_neighbour * weights[node]};
   }

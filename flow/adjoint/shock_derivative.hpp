@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/scheme/shock_sensor.hpp"
 
 namespace quadloop::flow::euler {
@@ -12,25 +10,25 @@ class ShockDerivative {
  public:
   /// For the sensor's last call, at these states. The mesh must outlive the object. *Collective.*
   ShockDerivative(const Communicator& comm, const DualMesh& mesh, const ShockSensor& sensor,
-                  const std::vector<State>& states);
+                  const IdVector<NodeId, State>& states);
 
   /// Whether any share has a non-zero derivative, on any rank.
   bool acts() const { return acts_; }
 
   /// Returns the changes of the shares of all nodes; those of the states must include ghosts. *Collective.*
-  std::vector<double> apply(const std::vector<State>& change) const;
+  IdVector<NodeId, double> apply(const IdVector<NodeId, State>& change) const;
 
   /// Transpose: adds the weights of the states due to weights of the owned nodes' shares to the owned nodes'
   /// `sums`. *Collective.*
-  void add_transposed(const std::vector<double>& weights, std::vector<State>& sums) const;
+  void add_transposed(const IdVector<NodeId, double>& weights, IdVector<NodeId, State>& sums) const;
 
  private:
   struct Part {
     double by_own = 0, by_neighbour = 0;  ///< with respect to the pressures
-    std::int32_t neighbour = -1;
+    NodeId neighbour;
   };
   const DualMesh& mesh_;
-  std::vector<Part> parts_;  ///< of the owned nodes
+  IdVector<NodeId, Part> parts_;  ///< of the owned nodes
   bool acts_ = false;
 };
 

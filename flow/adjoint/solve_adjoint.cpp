@@ -12,10 +12,10 @@ constexpr int sweeps = 12, restart = 60;
 constexpr double cfl = 1000;  ///< of the preconditioner
 
 /// Returns the derivatives of the states with respect to the conserved variables.
-std::vector<Matrix4> states_by_conserved(const FlowRun& run) {
+IdVector<NodeId, Matrix4> states_by_conserved(const FlowRun& run) {
   using Dual = DualNumber<4>;
-  std::vector<Matrix4> matrices(run.mesh.owned_nodes());
-  for (std::size_t node = 0; node < matrices.size(); ++node) {
+  IdVector<NodeId, Matrix4> matrices(run.mesh.owned_nodes());
+  for (const NodeId node : matrices.ids()) {
     const Conserved w = run.model.gas.conserved(run.states[node]);
     const StateOf<Dual> state =
         run.model.gas.state(ConservedOf<Dual>{Dual::variable(w.mass, 0), Dual::variable(w.x_momentum, 1),
@@ -29,8 +29,8 @@ std::vector<Matrix4> states_by_conserved(const FlowRun& run) {
 }
 
 /// Converts weights of states to weights of conserved variables.
-void to_conserved(const std::vector<Matrix4>& matrices, NodeRows& rows) {
-  for (std::size_t node = 0; node < matrices.size(); ++node) {
+void to_conserved(const IdVector<NodeId, Matrix4>& matrices, NodeRows& rows) {
+  for (const NodeId node : matrices.ids()) {
     const std::array<double, 4> of_state = rows[node];
     for (std::size_t column = 0; column < 4; ++column) {
       double sum = 0;
@@ -43,14 +43,14 @@ void to_conserved(const std::vector<Matrix4>& matrices, NodeRows& rows) {
 
 }  // namespace
 
-Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of_goal,
+Adjoint solve_adjoint(const LinearResidual& linear, const IdVector<NodeId, State>& of_goal,
                       const AdjointSolve& how) {
   const FlowRun& run = linear.run();
-  const std::vector<Matrix4> matrices = states_by_conserved(run);
+  const IdVector<NodeId, Matrix4> matrices = states_by_conserved(run);
   ImplicitSystem first_order(run.comm, run.mesh, run.model, ImplicitSystem::Sense::transposed);
-  first_order.assemble(run.states, cfl, std::vector<double>(run.mesh.owned_nodes(), 1.0),
+  first_order.assemble(run.states, cfl, IdVector<NodeId, double>(run.mesh.owned_nodes(), 1.0),
                        run.residual.shocks());
-  std::vector<Change> change(run.mesh.nodes());
+  IdVector<NodeId, Change> change(run.mesh.nodes());
   KrylovSystem system;
   system.owned = run.mesh.owned_nodes();
   system.multiply = [&](NodeRows& x, NodeRows& product) {
@@ -59,7 +59,7 @@ Adjoint solve_adjoint(const LinearResidual& linear, const std::vector<State>& of
   };
   system.precondition = [&](const NodeRows& right, NodeRows& x) {
     first_order.relax(right, sweeps, change);  // solves for the negative right side
-    for (std::size_t node = 0; node < system.owned; ++node) {
+    for (const NodeId node : run.mesh.owned_ids()) {
       for (std::size_t k = 0; k < 4; ++k) x[node][k] = -static_cast<double>(change[node][k]);
     }
   };

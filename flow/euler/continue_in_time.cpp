@@ -22,10 +22,10 @@ constexpr int implicit_steps = 40;
 /// free-stream speed. *Collective.*
 double flow_through_time(const FlowRun& run) {
   std::vector<Point> of_walls, all;
-  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) all.push_back(run.mesh.point(node));
+  for (const NodeId node : run.mesh.owned_ids()) all.push_back(run.mesh.point(node));
   for (const BoundaryFace& face : run.mesh.faces()) {
     if (!feels_force(run.model.boundaries[face.boundary].condition)) continue;
-    for (const std::int32_t node : {face.from, face.to}) of_walls.push_back(run.mesh.point(node));
+    for (const NodeId node : {face.from, face.to}) of_walls.push_back(run.mesh.point(node));
   }
   const bool has_walls = run.comm.any(!of_walls.empty());
   const Box box = box_over_ranks(run.comm, has_walls ? of_walls : all);
@@ -91,7 +91,7 @@ void require_few_steps(FlowRun& run) {
 
 void continue_in_time(FlowRun& run, EulerResult& result, TimeAverage& average) {
   const EulerResult steady = result;
-  const std::vector<State> steady_states = run.states;
+  const IdVector<NodeId, State> steady_states = run.states;
   std::string failure;
   run.residual.release_limiter();
   try {

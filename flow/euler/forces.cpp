@@ -30,8 +30,8 @@ Point sum_over_ranks(const Communicator& comm, const std::vector<Point>& forces)
 
 /// Pressure forces on the halves of boundary faces at owned nodes. `counts` selects the faces.
 template <class Counts>
-std::vector<Point> pushes_on(const DualMesh& mesh, const FlowModel& model, const std::vector<State>& states,
-                             const Counts& counts) {
+std::vector<Point> pushes_on(const DualMesh& mesh, const FlowModel& model,
+                             const IdVector<NodeId, State>& states, const Counts& counts) {
   std::vector<Point> pushes;
   for (const BoundaryFace& face : mesh.faces()) {
     if (!counts(face)) continue;
@@ -59,13 +59,13 @@ ForceCoefficients coefficients(const Communicator& comm, const FlowModel& model,
 }
 
 /// For each owned node the length of its halves of no-slip faces, of one boundary or of all.
-std::vector<double> no_slip_lengths(const DualMesh& mesh, const FlowModel& model,
-                                    std::optional<std::int32_t> boundary) {
-  std::vector<double> lengths(mesh.nodes(), 0.0);
+IdVector<NodeId, double> no_slip_lengths(const DualMesh& mesh, const FlowModel& model,
+                                         std::optional<std::int32_t> boundary) {
+  IdVector<NodeId, double> lengths(mesh.nodes(), 0.0);
   for (const BoundaryFace& face : mesh.faces()) {
     if (model.boundaries[face.boundary].condition != Condition::no_slip) continue;
     if (boundary && face.boundary != *boundary) continue;
-    for (const std::int32_t node : {face.from, face.to}) lengths[node] += face.half_size;
+    for (const NodeId node : {face.from, face.to}) lengths[node] += face.half_size;
   }
   lengths.resize(mesh.owned_nodes());
   return lengths;
@@ -74,29 +74,30 @@ std::vector<double> no_slip_lengths(const DualMesh& mesh, const FlowModel& model
 }  // namespace
 
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
-                              const std::vector<State>& states, const std::vector<Point>& friction,
+                              const IdVector<NodeId, State>& states, const IdVector<NodeId, Point>& friction,
                               double reference_length) {
   const auto counts = [&](const BoundaryFace& face) {
     return feels_force(model.boundaries[face.boundary].condition);
   };
   std::vector<Point> rubs;
-  for (std::size_t node = 0; node < std::min<std::size_t>(friction.size(), mesh.owned_nodes()); ++node)
-    rubs.push_back(-1.0 * friction[node]);
+  if (!friction.empty())
+    for (const NodeId node : mesh.owned_ids()) rubs.push_back(-1.0 * friction[node]);
   return coefficients(comm, model, pushes_on(mesh, model, states, counts), rubs, reference_length);
 }
 
 std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const DualMesh& mesh,
-                                                const FlowModel& model, const std::vector<State>& states,
-                                                const std::vector<Point>& friction, double reference_length,
+                                                const FlowModel& model, const IdVector<NodeId, State>& states,
+                                                const IdVector<NodeId, Point>& friction,
+                                                double reference_length,
                                                 const std::vector<BoundaryEdges>& boundaries) {
-  const std::vector<double> all = no_slip_lengths(mesh, model, {});
+  const IdVector<NodeId, double> all = no_slip_lengths(mesh, model, {});
   std::vector<BoundaryForce> forces;
   for (std::int32_t b = 0; b < std::ssize(boundaries); ++b) {
     const Condition condition = model.boundaries[b].condition;
     if (condition == Condition::none || !feels_force(condition)) continue;
-    const std::vector<double> lengths = no_slip_lengths(mesh, model, b);
+    const IdVector<NodeId, double> lengths = no_slip_lengths(mesh, model, b);
     std::vector<Point> rubs;
-    for (std::size_t node = 0; node < std::min(friction.size(), lengths.size()); ++node) {
+    for (const NodeId node : lengths.ids()) {
       if (lengths[node] > 0) rubs.push_back(-lengths[node] / all[node] * friction[node]);
     }
     const auto counts = [&](const BoundaryFace& face) { return face.boundary == b; };
@@ -107,18 +108,18 @@ std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const 
   return forces;
 }
 
-std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
-                               const std::vector<Point>& friction) {
-  std::vector<Point> normals(mesh.nodes());
-  std::vector<double> sizes(mesh.nodes(), 0.0), shear(mesh.owned_nodes(), 0.0);
+IdVector<NodeId, double> wall_shear(const DualMesh& mesh, const FlowModel& model,
+                                    const IdVector<NodeId, Point>& friction) {
+  IdVector<NodeId, Point> normals(mesh.nodes());
+  IdVector<NodeId, double> sizes(mesh.nodes(), 0.0), shear(mesh.owned_nodes(), 0.0);
   for (const BoundaryFace& face : mesh.faces()) {
     if (model.boundaries[face.boundary].condition != Condition::no_slip) continue;
-    for (const std::int32_t node : {face.from, face.to}) {
+    for (const NodeId node : {face.from, face.to}) {
       normals[node] = normals[node] + face.half_size * face.normal;
       sizes[node] += face.half_size;
     }
   }
-  for (std::size_t node = 0; node < shear.size(); ++node) {
+  for (const NodeId node : shear.ids()) {
     const double size = length(normals[node]);
     if (size == 0) continue;
     Point along{-normals[node].y / size, normals[node].x / size};

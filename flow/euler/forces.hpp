@@ -18,18 +18,19 @@ struct ForceCoefficients {
 /// feels_force() selects; 0 if the free stream is at rest. The states of ghosts must be up to date;
 /// `friction` is as Residual::friction(). *Collective.*
 ForceCoefficients wall_forces(const Communicator& comm, const DualMesh& mesh, const FlowModel& model,
-                              const std::vector<State>& states, const std::vector<Point>& friction,
+                              const IdVector<NodeId, State>& states, const IdVector<NodeId, Point>& friction,
                               double reference_length);
 
 /// Returns the same for each of these boundaries that has edges, in the mesh's order. The friction of a node
 /// where boundaries meet is split by the lengths of their edges. *Collective.*
 std::vector<BoundaryForce> forces_of_boundaries(const Communicator& comm, const DualMesh& mesh,
-                                                const FlowModel& model, const std::vector<State>& states,
-                                                const std::vector<Point>& friction, double reference_length,
+                                                const FlowModel& model, const IdVector<NodeId, State>& states,
+                                                const IdVector<NodeId, Point>& friction,
+                                                double reference_length,
                                                 const std::vector<BoundaryEdges>& boundaries);
 
 /// Returns the friction along the wall at each owned node (wall_shear_name).
-std::vector<double> wall_shear(const DualMesh& mesh, const FlowModel& model,
-                               const std::vector<Point>& friction);
+IdVector<NodeId, double> wall_shear(const DualMesh& mesh, const FlowModel& model,
+                                    const IdVector<NodeId, Point>& friction);
 
 }  // namespace quadloop::flow::euler

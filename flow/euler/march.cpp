@@ -13,11 +13,10 @@
 
 namespace quadloop::flow::euler {
 
-double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes) {
+double mass_residual(const FlowRun& run, const IdVector<NodeId, Flux>& fluxes) {
   std::vector<double> squares;
-  const std::size_t owned = run.mesh.owned_nodes();
-  squares.reserve(owned);
-  for (std::size_t node = 0; node < owned; ++node) squares.push_back(fluxes[node][0] * fluxes[node][0]);
+  squares.reserve(run.mesh.owned_nodes());
+  for (const NodeId node : run.mesh.owned_ids()) squares.push_back(fluxes[node][0] * fluxes[node][0]);
   const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
   return count > 0 ? std::sqrt(reproducible_sum(run.comm, squares) / count) : 0;
 }
@@ -34,14 +33,14 @@ void tell_progress(const EulerResult& result, bool in_time) {
 
 }  // namespace
 
-std::vector<State> undisturbed(const FlowRun& run) {
-  std::vector<State> uniform(run.mesh.nodes(), run.model.free_stream);
+IdVector<NodeId, State> undisturbed(const FlowRun& run) {
+  IdVector<NodeId, State> uniform(run.mesh.nodes(), run.model.free_stream);
   run.residual.no_slip().hold(uniform);
   return uniform;
 }
 
 double free_stream_residual(FlowRun& run) {
-  std::vector<State> uniform = undisturbed(run);
+  IdVector<NodeId, State> uniform = undisturbed(run);
   return mass_residual(run, run.residual.evaluate(uniform));
 }
 
@@ -77,17 +76,17 @@ constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
 
 /// Returns the first owned node with an unphysical state.
 std::int64_t first_without_gas(const FlowRun& run) {
-  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+  for (const NodeId node : run.mesh.owned_ids()) {
     if (!is_gas(run.states[node])) return run.mesh.global(node).value();
   }
   return none;
 }
 
 /// Returns the first node, over all ranks, of those with the largest flux. *Collective.*
-std::int64_t first_of_largest_flux(const FlowRun& run, const std::vector<Flux>& fluxes) {
+std::int64_t first_of_largest_flux(const FlowRun& run, const IdVector<NodeId, Flux>& fluxes) {
   double worst = -1;
   std::int64_t at = none;
-  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+  for (const NodeId node : run.mesh.owned_ids()) {
     double size = std::abs(fluxes[node][0]);
     if (!std::isfinite(size)) size = std::numeric_limits<double>::infinity();
     if (size <= worst) continue;
@@ -99,11 +98,11 @@ std::int64_t first_of_largest_flux(const FlowRun& run, const std::vector<Flux>& 
 
 }  // namespace
 
-std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes) {
+std::string worst_place(const FlowRun& run, const IdVector<NodeId, Flux>& fluxes) {
   std::int64_t at = run.comm.minimum(first_without_gas(run));
   if (at == none) at = first_of_largest_flux(run, fluxes);
   std::vector<double> told;
-  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+  for (const NodeId node : run.mesh.owned_ids()) {
     if (run.mesh.global(node) != GlobalNodeId{at}) continue;
     const State& state = run.states[node];
     told = {run.mesh.point(node).x, run.mesh.point(node).y, state[0], state[1], state[2], state[3]};

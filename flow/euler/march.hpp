@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "flow/euler/in_time/time_average.hpp"
 #include "flow/euler/scheme/flow_run.hpp"
@@ -10,7 +9,7 @@
 namespace quadloop::flow::euler {
 
 /// Returns the root mean square of the owned nodes' net mass fluxes; NaN if any is not finite. *Collective.*
-double mass_residual(const FlowRun& run, const std::vector<Flux>& fluxes);
+double mass_residual(const FlowRun& run, const IdVector<NodeId, Flux>& fluxes);
 
 /// Sets the far-field vortex to the current lift, if the options request it. *Collective.*
 void surround(FlowRun& run, FarField& far_field);
@@ -26,7 +25,7 @@ void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, co
 
 /// Returns "at (x, y), where density is ..." for the least physical node over all ranks: the first unphysical
 /// one (is_gas()), else the first with the largest flux. *Collective.*
-std::string worst_place(const FlowRun& run, const std::vector<Flux>& fluxes);
+std::string worst_place(const FlowRun& run, const IdVector<NodeId, Flux>& fluxes);
 
 /// Takes implicit steps with local time steps until the tolerance or the maximum number of iterations is
 /// reached. *Collective.*
@@ -55,7 +54,7 @@ void require_few_steps(FlowRun& run);
 void continue_in_time(FlowRun& run, EulerResult& result, TimeAverage& average);
 
 /// Returns the free stream at every node, at rest at no-slip walls.
-std::vector<State> undisturbed(const FlowRun& run);
+IdVector<NodeId, State> undisturbed(const FlowRun& run);
 
 /// Returns the mass residual of the undisturbed free stream. *Collective.*
 double free_stream_residual(FlowRun& run);

@@ -29,7 +29,7 @@ class TimeMarch {
     double before = 0;  // length of the previous step, as far as it counts for the averages
     while (true) {
       surround(run_, far_field_);
-      const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
+      const IdVector<NodeId, Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       const bool ends = result_.converged || steps() >= plan_.most_steps;
       report(run_, result_, run_.options.cfl, ends, {true, keeps_every_step() ? 1 : explicit_history});
@@ -54,7 +54,7 @@ class TimeMarch {
   /// Also the step at which averaging starts.
   bool keeps_every_step() const { return scheme_->is_implicit() || (counts_for_means() && average_.empty()); }
 
-  void measure(const std::vector<Flux>& fluxes) {
+  void measure(const IdVector<NodeId, Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
     if (!std::isfinite(norm)) fail(fluxes);
     if (reference_ == 0) reference_ = norm;
@@ -64,7 +64,7 @@ class TimeMarch {
   }
 
   /// Reports failure at the present states.
-  [[noreturn]] void fail(const std::vector<Flux>& fluxes) const {
+  [[noreturn]] void fail(const IdVector<NodeId, Flux>& fluxes) const {
     throw SolverError(
         fmt::format("the flow solver failed at time {:.6g} {}; check the boundary conditions and the cells "
                     "there, or try a smaller {}",

@@ -37,7 +37,7 @@ class SteadyMarch {
   EulerResult march() {
     while (true) {
       surround(run_, far_field_);
-      const std::vector<Flux>& fluxes = run_.residual.evaluate(run_.states);
+      const IdVector<NodeId, Flux>& fluxes = run_.residual.evaluate(run_.states);
       measure(fluxes);
       if (result_.converged && becomes_image()) continue;
       const SteadyControl::Decision decision = control_.decide(flow_now());
@@ -69,12 +69,11 @@ class SteadyMarch {
 
   /// Residual of an undisturbed flow from rounding: fluxes are of the size of the dual cells' sides.
   static double rounding(const FlowRun& run) {
-    const std::vector<double> areas(run.mesh.areas().begin(), run.mesh.areas().end());
     const auto count = static_cast<double>(run.comm.sum(run.mesh.owned_nodes()));
-    return 1e-14 * std::sqrt(reproducible_sum(run.comm, areas) / count);
+    return 1e-14 * std::sqrt(reproducible_sum(run.comm, run.mesh.areas()) / count);
   }
 
-  void measure(const std::vector<Flux>& fluxes) {
+  void measure(const IdVector<NodeId, Flux>& fluxes) {
     const double norm = mass_residual(run_, fluxes);
     if (result_.iterations == 0 && norm > reference_) reference_ = norm;
     const bool is_zero = norm <= zero_;
@@ -109,7 +108,7 @@ class SteadyMarch {
   }
 
   /// After too many blow-ups: keeps the best flow if it is developed, else fails.
-  EulerResult end_at_best(const std::vector<Flux>& fluxes) {
+  EulerResult end_at_best(const IdVector<NodeId, Flux>& fluxes) {
     const std::string failure = fmt::format(
         "the flow solver failed after {} steps {}; check the boundary conditions and the cells there, or try "
         "a smaller cfl",
@@ -168,17 +167,16 @@ class SteadyMarch {
     return result_;
   }
 
-  void step(const std::vector<Flux>& fluxes, double cfl) {
+  void step(const IdVector<NodeId, Flux>& fluxes, double cfl) {
     system_.assemble(run_.states, cfl, shares_.shares(), run_.residual.shocks());
     system_.relax(fluxes, steady_parameters.cfl.sweeps, change_);
     shares_.follow(change_);
-    const std::size_t owned = run_.mesh.owned_nodes();
-    for (std::size_t node = 0; node < owned; ++node)
+    for (const NodeId node : run_.mesh.owned_ids())
       run_.states[node] = updated(run_.model.gas, run_.states[node],
                                   {change_[node][0], change_[node][1], change_[node][2], change_[node][3]});
   }
 
-  void newton_step(const std::vector<Flux>& fluxes, double cfl) {
+  void newton_step(const IdVector<NodeId, Flux>& fluxes, double cfl) {
     if (!newton_) newton_.emplace(run_, system_);
     const NewtonStep::Taken taken = newton_->take(fluxes, control_.newton_cfl(cfl), shares_.shares());
     if (!control_.learn(flow_now(), taken.share, taken.left_over)) return;
@@ -192,13 +190,13 @@ class SteadyMarch {
   FlowRun& run_;
   SteadyControl control_;
   ImplicitSystem system_;
-  std::vector<Change> change_;
+  IdVector<NodeId, Change> change_;
   StepFractions shares_;
   FarField far_field_;
   EulerResult result_;
   std::optional<NewtonStep> newton_;
   std::optional<MirroredStates> mirrored_;
-  std::vector<State> best_states_;
+  IdVector<NodeId, State> best_states_;
   double reference_ = 0, zero_ = 0;  ///< mass residuals: reference of the tolerance; rounding
   double of_free_stream_ = 0;
   bool is_stepped_ = false;

@@ -27,16 +27,15 @@ MirroredStates::MirroredStates(const Communicator& comm, const DualMesh& mesh, M
                                NodeImages images)
     : comm_{&comm}, mesh_{&mesh}, axis_{axis}, images_{std::move(images)} {}
 
-void MirroredStates::average(std::vector<State>& states) const {
+void MirroredStates::average(IdVector<NodeId, State>& states) const {
   const NodeOwners owners(*comm_, comm_->exclusive_sum(mesh_->owned_nodes()));
   std::vector<int> ranks;
   for (const GlobalNodeId image : images_) ranks.push_back(owners.rank_of(image));
   const Exchange exchange(*comm_, ranks);
-  std::vector<State> of_images;
-  for (const GlobalNodeId asked : exchange.deliver(images_))
-    of_images.push_back(states[owners.local(asked).value()]);
-  of_images = exchange.answer(of_images);
-  for (std::size_t node = 0; node < of_images.size(); ++node) {
+  std::vector<State> answers;
+  for (const GlobalNodeId asked : exchange.deliver(images_)) answers.push_back(states[owners.local(asked)]);
+  IdVector<NodeId, State> of_images(exchange.answer(answers));
+  for (const NodeId node : of_images.ids()) {
     State& state = states[node];
     of_images[node][across(axis_)] *= -1;
     for (std::size_t k = 0; k < state.size(); ++k) state[k] = 0.5 * (state[k] + of_images[node][k]);

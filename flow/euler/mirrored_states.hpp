@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -18,7 +17,7 @@ class MirroredStates {
                                             const FlowModel& model, MirrorAxis axis);
 
   /// Replaces the states of each owned node and its image by their mean. *Collective.*
-  void average(std::vector<State>& states) const;
+  void average(IdVector<NodeId, State>& states) const;
 
  private:
   MirroredStates(const Communicator& comm, const DualMesh& mesh, MirrorAxis axis, NodeImages images);

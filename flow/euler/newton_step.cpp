@@ -23,8 +23,8 @@ NewtonStep::NewtonStep(FlowRun& run, ImplicitSystem& system)
       residual_(run.mesh.owned_nodes()),
       change_(run.mesh.owned_nodes()) {}
 
-NewtonStep::Taken NewtonStep::take(const std::vector<Flux>& fluxes, double cfl,
-                                   const std::vector<double>& shares) {
+NewtonStep::Taken NewtonStep::take(const IdVector<NodeId, Flux>& fluxes, double cfl,
+                                   const IdVector<NodeId, double>& shares) {
   std::copy_n(fluxes.begin(), residual_.size(), residual_.begin());
   start_ = run_.states;
   system_.assemble(start_, cfl, shares, run_.residual.shocks());
@@ -48,7 +48,7 @@ double NewtonStep::solve() {
 
 /// Returns the residual norm after this fraction of the change.
 double NewtonStep::advance(double share) {
-  for (std::size_t node = 0; node < change_.size(); ++node) {
+  for (const NodeId node : change_.ids()) {
     std::array<double, 4> change = change_[node];
     for (double& value : change) value *= share;
     run_.states[node] = updated(run_.model.gas, start_[node], change);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/implicit/newton_system.hpp"
 #include "flow/euler/scheme/flow_run.hpp"
 
@@ -20,7 +18,7 @@ class NewtonStep {
   };
   /// Updates the states. `fluxes` are those of the states before; the residual is evaluated at other states.
   /// *Collective.*
-  Taken take(const std::vector<Flux>& fluxes, double cfl, const std::vector<double>& shares);
+  Taken take(const IdVector<NodeId, Flux>& fluxes, double cfl, const IdVector<NodeId, double>& shares);
 
  private:
   double solve();
@@ -30,7 +28,7 @@ class NewtonStep {
   ImplicitSystem& system_;
   NewtonSystem newton_;
   NodeRows residual_, change_;
-  std::vector<State> start_;
+  IdVector<NodeId, State> start_;
 };
 
 }  // namespace quadloop::flow::euler

@@ -31,18 +31,18 @@ bool goes_on_in_time(const EulerOptions& options, const Field& start) {
 
 /// Sets the owned nodes' states from the variables of these names.
 void take_start(const DualMesh& dual, const Field& start, const std::vector<std::string>& names,
-                std::vector<State>& states) {
+                IdVector<NodeId, State>& states) {
   const Field given = selected(start, names, "the starting state");
   const std::size_t owned = dual.owned_nodes();
   QUADLOOP_REQUIRE(given.values.size() == 4 * owned, "a row for each owned node", given.values.size(), owned);
-  for (std::size_t node = 0; node < owned; ++node)
-    std::copy_n(given.values.begin() + 4 * node, 4, states[node].begin());
+  for (const NodeId node : dual.owned_ids()) std::ranges::copy(given.row(node), states[node].begin());
 }
 
 /// Returns a state for each node; ghosts are set later.
-std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
-                                const FlowModel& model, const EulerOptions& options, const Field& start) {
-  std::vector<State> states(dual.nodes(), model.free_stream);
+IdVector<NodeId, State> start_states(const Communicator& comm, const Mesh& mesh, const DualMesh& dual,
+                                     const FlowModel& model, const EulerOptions& options,
+                                     const Field& start) {
+  IdVector<NodeId, State> states(dual.nodes(), model.free_stream);
   if (start.width() > 0) {
     const std::vector<std::string> at_end(at_end_names.begin(), at_end_names.end());
     take_start(dual, start, goes_on_in_time(options, start) ? at_end : flow_names(), states);
@@ -50,15 +50,14 @@ std::vector<State> start_states(const Communicator& comm, const Mesh& mesh, cons
     const Point centre =
         options.vortex_centre ? *options.vortex_centre : box_over_ranks(comm, mesh.points).centre();
     const Vortex vortex{model.gas, model.free_stream, centre, options.reference_length};
-    for (std::int32_t node = 0; node < dual.owned_nodes(); ++node)
-      states[node] = vortex.state(dual.point(node), 0);
+    for (const NodeId node : dual.owned_ids()) states[node] = vortex.state(dual.point(node), 0);
   }
   return states;
 }
 
 /// Stores flow and forces of the run's states, with this wall friction. *Collective.*
 void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
-               const std::vector<Point>& friction, EulerResult& result) {
+               const IdVector<NodeId, Point>& friction, EulerResult& result) {
   const bool viscous = run.model.is_viscous();
   const ForceCoefficients forces =
       wall_forces(run.comm, run.mesh, run.model, run.states, friction, run.options.reference_length);
@@ -69,13 +68,13 @@ void take_flow(const FlowRun& run, const std::vector<BoundaryEdges>& boundaries,
   result.forces = forces_of_boundaries(run.comm, run.mesh, run.model, run.states, friction,
                                        run.options.reference_length, boundaries);
   result.flow.names = flow_names();
-  std::vector<double> shear;
+  IdVector<NodeId, double> shear;
   if (viscous) {
     result.flow.names.emplace_back(wall_shear_name);
     shear = wall_shear(run.mesh, run.model, friction);
   }
   std::vector<double>& values = result.flow.values;
-  for (std::size_t node = 0; node < run.mesh.areas().size(); ++node) {
+  for (const NodeId node : run.mesh.owned_ids()) {
     values.insert(values.end(), run.states[node].begin(), run.states[node].end());
     if (viscous) values.push_back(shear[node]);
   }
@@ -88,7 +87,7 @@ void keep_flow(FlowRun& run, const std::vector<BoundaryEdges>& boundaries, const
     if (run.model.is_viscous()) run.residual.evaluate(run.states);  // the kept flow may not be the last one
     return take_flow(run, boundaries, run.residual.friction(), result);
   }
-  const std::vector<State> at_end = run.states;
+  const IdVector<NodeId, State> at_end = run.states;
   average.take(run.states);
   run.residual.evaluate(run.states);
   take_flow(run, boundaries, average.friction(), result);
@@ -144,7 +143,7 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   validate(options);
   const FlowModel model = flow_model(comm, mesh, options);
   const DualMesh dual(comm, mesh);
-  std::vector<State> states = start_states(comm, mesh, dual, model, options, start);
+  IdVector<NodeId, State> states = start_states(comm, mesh, dual, model, options, start);
   FlowRun run{
       comm, options, dual, model, Residual(dual, model, options), std::move(states), start.width() > 0};
   run.residual.no_slip().hold(run.states);

@@ -19,8 +19,8 @@ float product(const Change& a, const Change& b) {
 StepFractions::StepFractions(std::size_t owned_nodes)
     : shares_(owned_nodes, 1.0), last_(owned_nodes), turns_(owned_nodes, 0) {}
 
-void StepFractions::follow(const std::vector<Change>& change) {
-  for (std::size_t node = 0; node < shares_.size(); ++node) {
+void StepFractions::follow(const IdVector<NodeId, Change>& change) {
+  for (const NodeId node : shares_.ids()) {
     const float before = product(last_[node], last_[node]);
     const bool turned =
         before > 0 && product(change[node], last_[node]) < -share_parameters.turned_back * before;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "flow/euler/implicit/implicit_system.hpp"
 
@@ -16,7 +15,7 @@ class StepFractions {
   explicit StepFractions(std::size_t owned_nodes);
 
   /// Updates the shares with the owned nodes' changes of one more step.
-  void follow(const std::vector<Change>& change);
+  void follow(const IdVector<NodeId, Change>& change);
 
   /// Forgets previous changes: the flow was reset.
   void forget();
@@ -24,12 +23,12 @@ class StepFractions {
   /// Restarts completely: the residual has changed.
   void restart();
 
-  const std::vector<double>& shares() const { return shares_; }  ///< for each owned node
+  const IdVector<NodeId, double>& shares() const { return shares_; }  ///< for each owned node
 
  private:
-  std::vector<double> shares_;
-  std::vector<Change> last_;
-  std::vector<std::int8_t> turns_;  ///< number of consecutive reversals of the node's change
+  IdVector<NodeId, double> shares_;
+  IdVector<NodeId, Change> last_;
+  IdVector<NodeId, std::int8_t> turns_;  ///< number of consecutive reversals of the node's change
 };
 
 }  // namespace quadloop::flow::euler

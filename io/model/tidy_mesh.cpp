@@ -6,6 +6,7 @@
 
 #include "io/model/clean_up.hpp"
 #include "io/model/orient_cells.hpp"
+#include "mesher/base/counted.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop::io {
@@ -115,23 +116,24 @@ std::size_t add_missing_boundary(Mesh& mesh, const EdgeTable& table) {
 
 void tidy_mesh(LoadedMesh& loaded, const std::string& path) {
   Mesh& mesh = loaded.mesh;
-  const auto warn = [&](auto count, const std::string& what) {
-    if (count > 0) loaded.warnings.push_back(fmt::format("{}: {} {}", path, count, what));
+  const auto warn = [&](auto count, const char* done, const char* noun, const std::string& rest) {
+    if (count > 0)
+      loaded.warnings.push_back(fmt::format("{}: {} {} {}", path, done, counted(count, noun), rest));
   };
-  warn(drop_unused_nodes(loaded), "nodes that belong to no cell were left out");
+  warn(drop_unused_nodes(loaded), "left out", "node", "without a cell");
   EdgeTable table(mesh);
   if (!surely_oriented(mesh, table)) {
-    warn(orient_cells(mesh), "cells ran clockwise and were reversed");
+    warn(orient_cells(mesh), "reversed", "cell", "with clockwise nodes");
     table = EdgeTable(mesh);
   }
-  warn(turn_edges(mesh, table), "boundary edges had their cell to the right and were reversed");
+  warn(turn_edges(mesh, table), "reversed", "boundary edge", "with the cell to the right");
   warn(std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); }),
-       "boundaries without edges were left out");
+       "left out", "named boundary curve", "without edges");
   separate_inner_curves(loaded, table, path);
   const std::size_t added = add_missing_boundary(mesh, table);
   if (added > 0)
-    warn(added, fmt::format("outer edges belong to no boundary; they form the boundary \"{}\" now",
-                            mesh.boundaries.back().name));
+    warn(added, "added", "outer edge",
+         fmt::format("without a boundary, as boundary \"{}\"", mesh.boundaries.back().name));
 }
 
 }  // namespace quadloop::io

@@ -160,12 +160,12 @@ def check_what_is_put_right(program, whole, folder):
     require(made.read_bytes() == wanted.read_bytes(), "turned cells are not what they were")
     given = folder / "unused.mesh"
     write_native(given, [*mesh.nodes, (0.1, 0.2)], [mesh.cells], mesh.boundaries)
-    put_right(program, given, made, "1 nodes that belong to no cell")
+    put_right(program, given, made, "left out 1 node without a cell")
     require(made.read_bytes() == wanted.read_bytes(), "a node of no cell has changed the mesh")
     given = folder / "unbounded.mesh"
     write_native(given, mesh.nodes, [mesh.cells], {name: edges[::2] for name, edges in mesh.boundaries.items()})
     left_out = sum(len(edges) // 2 for edges in mesh.boundaries.values())
-    put_right(program, given, made, f"{left_out} outer edges belong to no boundary")
+    put_right(program, given, made, f"added {left_out} outer edges without a boundary")
     listed = {node for edges in mesh.boundaries.values() for edge in edges[::2] for node in edge}
     ends = [node for edges in mesh.boundaries.values() for edge in edges[1::2] for node in edge if node in listed]
     nodes = NativeMesh(made).nodes

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 
 #include "flow/euler/scheme/viscous.hpp"
 
@@ -77,36 +77,34 @@ ImplicitSystem::ImplicitSystem(const Communicator& comm, const DualMesh& mesh, c
 }
 
 /// The colour of the node's update: that of its line, or its own.
-std::int8_t ImplicitSystem::turn(std::int32_t owned_node) const {
+std::int8_t ImplicitSystem::turn(NodeId owned_node) const {
   const std::int8_t of_line = lines_.colour(owned_node);
-  return of_line >= 0 ? of_line : colours_.colour_of[NodeId{owned_node}];
+  return of_line >= 0 ? of_line : colours_.colour_of[owned_node];
 }
 
 /// Orders the rows by colour. Within a colour the rows of lines come first, as they must not see updates of
 /// the same colour, then the others in the order of nodes.
 void ImplicitSystem::order_rows() {
-  const auto key = [&](std::int32_t node) { return std::pair{turn(node), lines_.colour(node) < 0}; };
-  row_nodes_.resize(mesh_.owned_nodes());
-  std::iota(row_nodes_.begin(), row_nodes_.end(), 0);
-  std::stable_sort(row_nodes_.begin(), row_nodes_.end(),
-                   [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  const auto key = [&](NodeId node) { return std::pair{turn(node), lines_.colour(node) < 0}; };
+  std::ranges::copy(mesh_.owned_ids(), std::back_inserter(row_nodes_));
+  std::stable_sort(row_nodes_.begin(), row_nodes_.end(), [&](NodeId a, NodeId b) { return key(a) < key(b); });
   for (int c = 0; c <= colours_.count; ++c) {
     const auto first = std::partition_point(row_nodes_.begin(), row_nodes_.end(),
-                                            [&](std::int32_t node) { return turn(node) < c; });
+                                            [&](NodeId node) { return turn(node) < c; });
     colour_starts_.push_back(first - row_nodes_.begin());
   }
 }
 
 /// Reserves a block per neighbour in each row. Returns the start of the row of each owned node.
-std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
-  std::vector<std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
+IdVector<NodeId, std::size_t> ImplicitSystem::lay_out_rows() {
+  IdVector<NodeId, std::size_t> neighbours(row_nodes_.size(), 0), starts(row_nodes_.size());
   for (const DualEdge& edge : mesh_.edges()) {
     for (const auto& [node, other] : {std::pair{edge.low, edge.high}, {edge.high, edge.low}}) {
       if (mesh_.is_owned(node) && !lines_.links(node).contains(other)) ++neighbours[node];
     }
   }
   row_starts_.push_back(0);
-  for (const std::int32_t node : row_nodes_) {
+  for (const NodeId node : row_nodes_) {
     starts[node] = row_starts_.back();
     row_starts_.push_back(row_starts_.back() + neighbours[node]);
   }
@@ -117,8 +115,8 @@ std::vector<std::size_t> ImplicitSystem::lay_out_rows() {
 
 /// Assigns each edge its places in the rows of its nodes, in the order of edges, beginning at `next`, the
 /// start of each owned node's row.
-void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
-  const auto take = [&](std::int32_t node, std::int32_t column) {
+void ImplicitSystem::place_edges(IdVector<NodeId, std::size_t> next) {
+  const auto take = [&](NodeId node, NodeId column) {
     if (!mesh_.is_owned(node)) return nowhere;
     if (lines_.links(node).contains(column)) return in_line;
     const std::size_t slot = next[node]++;
@@ -129,24 +127,23 @@ void ImplicitSystem::place_edges(std::vector<std::size_t> next) {
     slots_.push_back({take(edge.low, edge.high), take(edge.high, edge.low)});
 }
 
-void ImplicitSystem::assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
-                              const ShockSensor* shocks) {
+void ImplicitSystem::assemble(const IdVector<NodeId, State>& states, double cfl,
+                              const IdVector<NodeId, double>& shares, const ShockSensor* shocks) {
   add_fluxes(states, shocks);
   find_time_terms(cfl, shares);
   add_time_terms();
   invert_diagonal();
 }
 
-void ImplicitSystem::assemble_with_rate(const std::vector<State>& states, double rate,
+void ImplicitSystem::assemble_with_rate(const IdVector<NodeId, State>& states, double rate,
                                         const ShockSensor* shocks) {
   add_fluxes(states, shocks);
-  for (std::size_t node = 0; node < mesh_.areas().size(); ++node)
-    time_terms_[node] = rate * mesh_.areas()[node];
+  for (const NodeId node : mesh_.owned_ids()) time_terms_[node] = rate * mesh_.areas()[node];
   add_time_terms();
   invert_diagonal();
 }
 
-void ImplicitSystem::add_fluxes(const std::vector<State>& states, const ShockSensor* shocks) {
+void ImplicitSystem::add_fluxes(const IdVector<NodeId, State>& states, const ShockSensor* shocks) {
   for (Matrix4& block : diagonal_) block = {};
   std::fill(wave_sums_.begin(), wave_sums_.end(), 0.0);
   std::fill(line_sums_.begin(), line_sums_.end(), 0.0);
@@ -155,7 +152,7 @@ void ImplicitSystem::add_fluxes(const std::vector<State>& states, const ShockSen
 }
 
 /// Stores the derivative of the node's row with respect to the other node.
-void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t other, const Matrix4& block) {
+void ImplicitSystem::place(std::int32_t slot, NodeId node, NodeId other, const Matrix4& block) {
   if (slot == nowhere) return;
   Matrix4 kept = block;
   for (int row = 1; row <= held_[node]; ++row) std::fill_n(kept.begin() + 4 * row, 4, 0.0);
@@ -168,11 +165,11 @@ void ImplicitSystem::place(std::int32_t slot, std::int32_t node, std::int32_t ot
 
 /// The derivative of the flux from low to high is (A_low + |A|) / 2 with respect to the low state and (A_high
 /// - |A|) / 2 with respect to the high state.
-void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSensor* shocks) {
+void ImplicitSystem::add_edges(const IdVector<NodeId, State>& states, const ShockSensor* shocks) {
   const auto edges = mesh_.edges();
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const DualEdge& edge = edges[e];
-    const std::size_t low = edge.low, high = edge.high;
+    const NodeId low = edge.low, high = edge.high;
     Matrix4 upwind{};
     const double half = 0.5 * edge.size;
     const double speed = add_upwind_matrix(model_.gas, states[low], states[high], edge.normal, half, upwind,
@@ -200,15 +197,14 @@ void ImplicitSystem::add_edges(const std::vector<State>& states, const ShockSens
 }
 
 /// Only the contribution of a node's own state to its half of a face.
-void ImplicitSystem::add_faces(const std::vector<State>& states) {
+void ImplicitSystem::add_faces(const IdVector<NodeId, State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
-    for (const std::int32_t node : {face.from, face.to}) {
-      const std::size_t at = node;
-      const State& state = states[at];
-      add_boundary_matrix(model_, boundary, state, face.normal, face.half_size, diagonal_[at]);
+    for (const NodeId node : {face.from, face.to}) {
+      const State& state = states[node];
+      add_boundary_matrix(model_, boundary, state, face.normal, face.half_size, diagonal_[node]);
       const double along = std::abs(state[1] * face.normal.x + state[2] * face.normal.y);
-      (lines_.links(node).is_end() ? line_sums_ : wave_sums_)[at] +=
+      (lines_.links(node).is_end() ? line_sums_ : wave_sums_)[node] +=
           0.5 * face.half_size * (along + model_.gas.sound_speed(state));
     }
   }
@@ -216,9 +212,9 @@ void ImplicitSystem::add_faces(const std::vector<State>& states) {
 
 /// Waves along lines, which are solved exactly, may travel farther in a step. The first steps are not robust
 /// above the CFL number soft_start; later there is no such limit.
-void ImplicitSystem::find_time_terms(double cfl, const std::vector<double>& shares) {
+void ImplicitSystem::find_time_terms(double cfl, const IdVector<NodeId, double>& shares) {
   const double along = cfl * std::max(1.0, cfl / soft_start);
-  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+  for (const NodeId node : mesh_.owned_ids()) {
     double area_over_step = wave_sums_[node] / (cfl * shares[node]);
     if (line_sums_[node] > 0) area_over_step += line_sums_[node] / (along * shares[node]);
     time_terms_[node] = area_over_step;
@@ -226,7 +222,7 @@ void ImplicitSystem::find_time_terms(double cfl, const std::vector<double>& shar
 }
 
 void ImplicitSystem::add_time_terms() {
-  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+  for (const NodeId node : mesh_.owned_ids()) {
     for (std::size_t k = 0; k < 4; ++k) diagonal_[node][5 * k] += time_terms_[node];
   }
 }
@@ -235,7 +231,7 @@ void ImplicitSystem::invert_diagonal() {
   no_slip_.hold(diagonal_);
   if (sense_ == Sense::transposed) std::ranges::transform(diagonal_, diagonal_.begin(), transposed);
   if (!lines_.empty()) lines_.factor(diagonal_);
-  for (std::size_t node = 0; node < mesh_.areas().size(); ++node) {
+  for (const NodeId node : mesh_.owned_ids()) {
     using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
     Matrix4 inverse;
     Eigen::Map<Matrix>(inverse.data()) = Eigen::Map<const Matrix>(diagonal_[node].data()).inverse();
@@ -243,7 +239,8 @@ void ImplicitSystem::invert_diagonal() {
   }
 }
 
-void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change) {
+void ImplicitSystem::relax(const IdVector<NodeId, Flux>& residual, int sweeps,
+                           IdVector<NodeId, Change>& change) {
   for (Change& c : change) c = {};
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (int step = sweep == 0 ? 0 : 1; step < colours_.count;
@@ -251,31 +248,31 @@ void ImplicitSystem::relax(const std::vector<Flux>& residual, int sweeps, std::v
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
       relax_rows(colour_starts_[colour], colour_starts_[colour + 1], residual, change);
       if (!lines_.empty()) change_lines(colour, change);
-      mesh_.exchange().update(change, [&](std::int32_t node) { return turn(node) == colour; });
+      mesh_.exchange().update(change, [&](std::int32_t node) { return turn(NodeId{node}) == colour; });
     }
   }
 }
 
-void ImplicitSystem::change_lines(int colour, std::vector<Change>& change) {
+void ImplicitSystem::change_lines(int colour, IdVector<NodeId, Change>& change) {
   lines_.solve(colour, line_rows_);
   for (std::size_t row = colour_starts_[colour]; row < colour_starts_[colour + 1]; ++row) {
-    const std::int32_t node = row_nodes_[row];
+    const NodeId node = row_nodes_[row];
     if (!lines_.links(node).any()) continue;
-    for (std::size_t k = 0; k < 4; ++k) change[node][k] = static_cast<float>(line_rows_[node][k]);
+    for (std::size_t k = 0; k < 4; ++k) change[node][k] = static_cast<float>(line_rows_[node.value()][k]);
   }
 }
 
-void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
-                                std::vector<Change>& change) {
+void ImplicitSystem::relax_rows(std::size_t begin, std::size_t end, const IdVector<NodeId, Flux>& residual,
+                                IdVector<NodeId, Change>& change) {
   for (std::size_t row = begin; row < end; ++row) {
-    const std::size_t node = row_nodes_[row];
+    const NodeId node = row_nodes_[row];
     Eigen::Vector4f right;
     for (int k = 0; k < 4; ++k) right[k] = static_cast<float>(-residual[node][k]);
     for (std::size_t slot = row_starts_[row]; slot < row_starts_[row + 1]; ++slot) {
       right.noalias() -= MatrixMap(blocks_[slot].data()) * VectorMap(change[columns_[slot]].data());
     }
-    if (lines_.links(row_nodes_[row]).any()) {
-      Eigen::Map<Eigen::Vector4d>(line_rows_[node].data()) = right.cast<double>();
+    if (lines_.links(node).any()) {
+      Eigen::Map<Eigen::Vector4d>(line_rows_[node.value()].data()) = right.cast<double>();
       continue;
     }
     Eigen::Map<Eigen::Vector4f>(change[node].data()).noalias() = MatrixMap(inverses_[node].data()) * right;

@@ -30,18 +30,19 @@ class ImplicitSystem {
 
   /// Assembles the system at these states (ghosts must be up to date), with local time steps: this CFL number
   /// times the owned node's share. Near shocks the fluxes are those of the sensor, if there is one.
-  void assemble(const std::vector<State>& states, double cfl, const std::vector<double>& shares,
+  void assemble(const IdVector<NodeId, State>& states, double cfl, const IdVector<NodeId, double>& shares,
                 const ShockSensor* shocks = nullptr);
 
   /// Assembles with `rate` instead of 1 / time step at all nodes.
-  void assemble_with_rate(const std::vector<State>& states, double rate, const ShockSensor* shocks = nullptr);
+  void assemble_with_rate(const IdVector<NodeId, State>& states, double rate,
+                          const ShockSensor* shocks = nullptr);
 
   /// Area / time step of each owned node, as assembled.
-  const std::vector<double>& time_terms() const { return time_terms_; }
+  const IdVector<NodeId, double>& time_terms() const { return time_terms_; }
 
   /// Performs this many sweeps from zero, every second one with the colours in reverse order. `change` has an
   /// entry for each node. *Collective.*
-  void relax(const std::vector<Flux>& residual, int sweeps, std::vector<Change>& change);
+  void relax(const IdVector<NodeId, Flux>& residual, int sweeps, IdVector<NodeId, Change>& change);
 
  private:
   using Block = std::array<float, 16>;  ///< column-major
@@ -51,43 +52,43 @@ class ImplicitSystem {
   struct Slots {
     std::int32_t in_low = nowhere, in_high = nowhere;
   };
-  std::int8_t turn(std::int32_t owned_node) const;
-  void place(std::int32_t slot, std::int32_t node, std::int32_t other, const Matrix4& block);
-  void change_lines(int colour, std::vector<Change>& change);
+  std::int8_t turn(NodeId owned_node) const;
+  void place(std::int32_t slot, NodeId node, NodeId other, const Matrix4& block);
+  void change_lines(int colour, IdVector<NodeId, Change>& change);
   void order_rows();
-  std::vector<std::size_t> lay_out_rows();
-  void place_edges(std::vector<std::size_t> next);
-  void add_fluxes(const std::vector<State>& states, const ShockSensor* shocks);
-  void add_edges(const std::vector<State>& states, const ShockSensor* shocks);
-  void add_faces(const std::vector<State>& states);
-  void find_time_terms(double cfl, const std::vector<double>& shares);
+  IdVector<NodeId, std::size_t> lay_out_rows();
+  void place_edges(IdVector<NodeId, std::size_t> next);
+  void add_fluxes(const IdVector<NodeId, State>& states, const ShockSensor* shocks);
+  void add_edges(const IdVector<NodeId, State>& states, const ShockSensor* shocks);
+  void add_faces(const IdVector<NodeId, State>& states);
+  void find_time_terms(double cfl, const IdVector<NodeId, double>& shares);
   void add_time_terms();
   void invert_diagonal();
-  void relax_rows(std::size_t begin, std::size_t end, const std::vector<Flux>& residual,
-                  std::vector<Change>& change);
+  void relax_rows(std::size_t begin, std::size_t end, const IdVector<NodeId, Flux>& residual,
+                  IdVector<NodeId, Change>& change);
 
   const DualMesh& mesh_;
   const FlowModel& model_;
   Sense sense_;
   NoSlipNodes no_slip_;
-  std::vector<char> held_;  ///< for each node: rows 1 to this one of its block row are prescribed
+  IdVector<NodeId, char> held_;  ///< for each node: rows 1 to this one of its block row are prescribed
   Colouring colours_;
   LineSystem lines_;
   std::vector<LineSystem::Row> line_rows_;  ///< right sides of the lines
-  std::vector<std::int32_t> row_nodes_;     ///< owned nodes, sorted by colour
+  std::vector<NodeId> row_nodes_;           ///< owned nodes, sorted by colour
   std::vector<std::size_t> colour_starts_;  ///< indices into row_nodes_
   std::vector<std::size_t> row_starts_;     ///< indices into the two vectors below
-  std::vector<std::int32_t> columns_;
+  std::vector<NodeId> columns_;
   std::vector<Block> blocks_;
-  std::vector<Slots> slots_;       ///< for each edge
-  std::vector<Matrix4> diagonal_;  ///< for each node
-  std::vector<Block> inverses_;    ///< inverse diagonal block of each owned node
+  std::vector<Slots> slots_;            ///< for each edge
+  IdVector<NodeId, Matrix4> diagonal_;  ///< for each node
+  IdVector<NodeId, Block> inverses_;    ///< inverse diagonal block of each owned node
   /// For each edge: bound on the contribution of SkewEdge to its flux, relative to the flux along the edge.
   std::vector<double> skewness_;
   /// For each node: half the sum over its faces of maximum wave speed times face size.
-  std::vector<double> wave_sums_;
-  std::vector<double> line_sums_;  ///< the same along lines
-  std::vector<double> time_terms_;
+  IdVector<NodeId, double> wave_sums_;
+  IdVector<NodeId, double> line_sums_;  ///< the same along lines
+  IdVector<NodeId, double> time_terms_;
 };
 
 }  // namespace quadloop::flow::euler

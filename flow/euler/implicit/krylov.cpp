@@ -17,14 +17,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity(),
 class Gmres {
  public:
   Gmres(const Communicator& comm, const KrylovSystem& system, int steps)
-      : comm_{comm},
-        system_{system},
-        steps_{steps},
-        nodes_{comm.sum(static_cast<std::int64_t>(system.owned))} {}
+      : comm_{comm}, system_{system}, steps_{steps}, nodes_{comm.sum(std::int64_t{system.owned})} {}
 
   double dot(const NodeRows& a, const NodeRows& b) const {
-    std::vector<double> terms(system_.owned);
-    for (std::size_t i = 0; i < system_.owned; ++i)
+    IdVector<NodeId, double> terms(system_.owned);
+    for (const NodeId i : terms.ids())
       terms[i] = a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3]);
     return reproducible_sum(comm_, terms);
   }
@@ -57,7 +54,7 @@ class Gmres {
     }
   }
   static void add(double factor, const NodeRows& a, NodeRows& sum) {
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const NodeId i : a.ids()) {
       for (std::size_t k = 0; k < 4; ++k) sum[i][k] += factor * a[i][k];
     }
   }
@@ -66,7 +63,7 @@ class Gmres {
   /// not finite.
   Column products(const NodeRows& a) const {
     double largest = 0;
-    for (std::size_t i = 0; i < system_.owned; ++i) {
+    for (const NodeId i : ids_below(NodeId{system_.owned})) {
       for (const double value : a[i])
         largest = std::isfinite(value) ? std::max(largest, std::abs(value)) : infinity;
       if (largest == infinity) break;
@@ -80,7 +77,7 @@ class Gmres {
     for (std::size_t j = 0; j <= basis_.size(); ++j) {
       const NodeRows& b = j < basis_.size() ? basis_[j] : a;
       const double scale = j < basis_.size() ? down : down * down;
-      for (std::size_t i = 0; i < system_.owned; ++i)
+      for (const NodeId i : ids_below(NodeId{system_.owned}))
         sums.add(j,
                  scale * (a[i][0] * b[i][0] + a[i][1] * b[i][1] + (a[i][2] * b[i][2] + a[i][3] * b[i][3])));
     }
@@ -160,7 +157,7 @@ class Gmres {
 KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, const NodeRows& right,
                          NodeRows& x, double tolerance, int iterations, int restart) {
   Gmres gmres(comm, system, restart);
-  x.assign(right.size(), {});
+  x = NodeRows(right.size());
   const double whole = gmres.norm(right);
   KrylovEnd end;
   if (whole == 0) return end;
@@ -170,7 +167,7 @@ KrylovEnd solve_by_gmres(const Communicator& comm, const KrylovSystem& system, c
     end.iterations += gmres.improve(left, 0.5 * tolerance * whole, x);
     NodeRows product;
     system.multiply(x, product);
-    for (std::size_t i = 0; i < left.size(); ++i) {
+    for (const NodeId i : left.ids()) {
       for (std::size_t k = 0; k < 4; ++k) left[i][k] = right[i][k] - product[i][k];
     }
     const double before = end.residual;

@@ -2,20 +2,20 @@
 
 #include <array>
 #include <functional>
-#include <vector>
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
 namespace quadloop::flow::euler {
 
 /// Four values for each owned node; further rows are ignored.
-using NodeRows = std::vector<std::array<double, 4>>;
+using NodeRows = IdVector<NodeId, std::array<double, 4>>;
 
 /// A linear system over all ranks with a preconditioner, which need not be linear.
 struct KrylovSystem {
   std::function<void(NodeRows& x, NodeRows& product)> multiply;
   std::function<void(const NodeRows& right, NodeRows& x)> precondition;
-  std::size_t owned = 0;
+  std::int32_t owned = 0;
 };
 
 struct KrylovEnd {

@@ -88,15 +88,14 @@ class LineFinder {
       strongest_[edge.low].add({strength, mesh_.global(edge.high).value()});
       strongest_[edge.high].add({strength, mesh_.global(edge.low).value()});
     }
-    for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node)
-      partners_[node] = strongest_[node].partners();
+    for (const NodeId node : mesh_.owned_ids()) partners_[node] = strongest_[node].partners();
     mesh_.exchange().update(partners_);
   }
 
   /// Keeps the edges that are strong at both of their nodes.
   void join() {
-    std::vector<Partners> common(mesh_.owned_nodes());
-    const auto note = [&](std::int32_t node, GlobalNodeId other) {
+    IdVector<NodeId, Partners> common(mesh_.owned_nodes());
+    const auto note = [&](NodeId node, GlobalNodeId other) {
       if (!mesh_.is_owned(node)) return;
       auto& nodes = common[node].nodes;
       nodes[nodes[0] == nobody ? 0 : 1] = other.value();
@@ -113,8 +112,7 @@ class LineFinder {
 
   /// Names each line by the smallest number of its nodes, propagated along the line, across ranks.
   void name_lines() {
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh_.nodes()); ++node)
-      names_.push_back(mesh_.global(node).value());
+    for (const NodeId node : mesh_.ids()) names_.push_back(mesh_.global(node).value());
     bool changed = true;
     while (comm_.any(changed)) {
       changed = false;
@@ -127,7 +125,7 @@ class LineFinder {
 
   bool names_spread() {
     bool changed = false;
-    const auto spread = [&](const std::array<std::int32_t, 2>& joint) {
+    const auto spread = [&](const std::array<NodeId, 2>& joint) {
       std::int64_t &a = names_[joint[0]], &b = names_[joint[1]];
       changed = changed || a != b;
       a = b = std::min(a, b);
@@ -145,12 +143,12 @@ class LineFinder {
   /// Sends members to the owner of the node that names the line.
   std::vector<Member> members() const {
     Outbox<Member> out;
-    for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) {
+    for (const NodeId node : mesh_.owned_ids()) {
       if (partners_[node].nodes[0] == nobody) continue;
       const std::int64_t name = names_[node];
       out.add(owners_.rank_of(GlobalNodeId{name}),
               {name, mesh_.global(node).value(), partners_[node], strongest_[node].edges[0].strength,
-               comm_.rank(), colours_.colour_of[NodeId{node}]});
+               comm_.rank(), colours_.colour_of[node]});
     }
     std::vector<Member> all = out.deliver(comm_);
     std::ranges::sort(all, [](const Member& a, const Member& b) {
@@ -222,10 +220,10 @@ class LineFinder {
   const DualMesh& mesh_;
   const Colouring& colours_;
   NodeOwners owners_;
-  std::vector<Strongest> strongest_;
-  std::vector<Partners> partners_;
-  std::vector<std::array<std::int32_t, 2>> joints_;
-  std::vector<std::int64_t> names_;  ///< line of each node
+  IdVector<NodeId, Strongest> strongest_;
+  IdVector<NodeId, Partners> partners_;
+  std::vector<std::array<NodeId, 2>> joints_;
+  IdVector<NodeId, std::int64_t> names_;  ///< line of each node
 };
 
 }  // namespace

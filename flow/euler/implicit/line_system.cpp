@@ -17,22 +17,24 @@ LineSystem::LineSystem(const Communicator& comm, const DualMesh& mesh, const Col
     : mesh_{mesh}, links_(mesh.nodes()), node_colours_(mesh.nodes(), -1) {
   const std::vector<NodeLine> found = find_lines(comm, mesh, colours);
   if (!comm.any(!found.empty())) return;
-  std::unordered_map<GlobalNodeId, std::int32_t> here;  // nodes of this rank's edges
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node)
-    here.emplace(mesh.global(node), node);
+  std::unordered_map<GlobalNodeId, NodeId> here;  // nodes of this rank's edges
+  for (const NodeId node : mesh.ids()) here.emplace(mesh.global(node), node);
   std::vector<GlobalNodeId> others;
   for (const NodeLine& line : found) {
-    std::vector<std::int32_t> locals, rows;
+    std::vector<NodeId> locals;
+    std::vector<std::int32_t> rows;
     for (const GlobalNodeId node : line.nodes) {
       const auto at = here.find(node);
-      locals.push_back(at == here.end() ? -1 : at->second);
-      const bool owned = locals.back() >= 0 && mesh.is_owned(locals.back());
-      rows.push_back(owned ? locals.back() : mesh.owned_nodes() + static_cast<std::int32_t>(others.size()));
+      locals.push_back(at == here.end() ? NodeId{} : at->second);
+      const bool owned = locals.back().valid() && mesh.is_owned(locals.back());
+      rows.push_back(owned ? locals.back().value()
+                           : mesh.owned_nodes() + static_cast<std::int32_t>(others.size()));
       if (!owned) others.push_back(node);
     }
     for (std::size_t k = 0; k < locals.size(); ++k) {
-      if (locals[k] < 0 || !mesh.is_owned(locals[k])) continue;
-      links_[locals[k]] = {k > 0 ? locals[k - 1] : -1, k + 1 < locals.size() ? locals[k + 1] : -1};
+      if (!locals[k].valid() || !mesh.is_owned(locals[k])) continue;
+      links_[locals[k]] = {k > 0 ? locals[k - 1] : NodeId{},
+                           k + 1 < locals.size() ? locals[k + 1] : NodeId{}};
       node_colours_[locals[k]] = line.colour;
     }
     lines_.push_back({std::move(rows), line.colour});
@@ -41,12 +43,12 @@ LineSystem::LineSystem(const Communicator& comm, const DualMesh& mesh, const Col
   blocks_.resize(mesh.owned_nodes() + others.size());
 }
 
-void LineSystem::set_block(std::int32_t node, std::int32_t neighbour, const Matrix4& block) {
-  (links_[node].before == neighbour ? blocks_[node].before : blocks_[node].after) = block;
+void LineSystem::set_block(NodeId node, NodeId neighbour, const Matrix4& block) {
+  (links_[node].before == neighbour ? blocks_[node.value()].before : blocks_[node.value()].after) = block;
 }
 
-void LineSystem::factor(const std::vector<Matrix4>& diagonal) {
-  for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) blocks_[node].inverse = diagonal[node];
+void LineSystem::factor(const IdVector<NodeId, Matrix4>& diagonal) {
+  for (const NodeId node : mesh_.owned_ids()) blocks_[node.value()].inverse = diagonal[node];
   exchange_->update(blocks_);
   for (const Line& line : lines_) {
     const Blocks* before = nullptr;
@@ -63,7 +65,7 @@ void LineSystem::factor(const std::vector<Matrix4>& diagonal) {
 }
 
 void LineSystem::solve(int colour, std::vector<Row>& rows) const {
-  exchange_->update(rows, [&](std::int32_t node) { return node_colours_[node] == colour; });
+  exchange_->update(rows, [&](std::int32_t node) { return node_colours_[NodeId{node}] == colour; });
   for (const Line& line : lines_) {
     if (line.colour != colour) continue;
     for (std::size_t k = 0; k < line.rows.size(); ++k) {

@@ -18,23 +18,23 @@ class LineSystem {
 
   /// Whether there are no lines on any rank.
   bool empty() const { return !exchange_.has_value(); }
-  /// Neighbours of a node along its line, or -1; nodes that are not owned have none.
+  /// Neighbours of a node along its line, or invalid; nodes that are not owned have none.
   struct Links {
-    std::int32_t before = -1, after = -1;
-    bool any() const { return before >= 0 || after >= 0; }
-    bool is_end() const { return any() && (before < 0 || after < 0); }
-    bool contains(std::int32_t node) const { return node >= 0 && (before == node || after == node); }
+    NodeId before, after;
+    bool any() const { return before.valid() || after.valid(); }
+    bool is_end() const { return any() && !(before.valid() && after.valid()); }
+    bool contains(NodeId node) const { return node.valid() && (before == node || after == node); }
   };
-  const Links& links(std::int32_t node) const { return links_[node]; }
+  const Links& links(NodeId node) const { return links_[node]; }
   /// Colour in which the owned node is updated; -1 if it is in no line.
-  std::int8_t colour(std::int32_t node) const { return node_colours_[node]; }
+  std::int8_t colour(NodeId node) const { return node_colours_[node]; }
 
   using Row = std::array<double, 4>;
 
   /// Sets the derivative of an owned node's row with respect to the previous or next node.
-  void set_block(std::int32_t node, std::int32_t neighbour, const Matrix4& block);
+  void set_block(NodeId node, NodeId neighbour, const Matrix4& block);
   /// Factorises the lines with these diagonal blocks of owned nodes. *Collective.*
-  void factor(const std::vector<Matrix4>& diagonal);
+  void factor(const IdVector<NodeId, Matrix4>& diagonal);
 
   /// Solves the lines of one colour. `rows` has an entry for each owned node, initially the right sides;
   /// further entries are ignored. *Collective.*
@@ -51,8 +51,8 @@ class LineSystem {
   };
   const DualMesh& mesh_;
   std::vector<Line> lines_;
-  std::vector<Links> links_;  ///< for each node
-  std::vector<std::int8_t> node_colours_;
+  IdVector<NodeId, Links> links_;  ///< for each node
+  IdVector<NodeId, std::int8_t> node_colours_;
   std::optional<NodeExchange> exchange_;  ///< rows: owned nodes, then other ranks' nodes of shared lines
   std::vector<Blocks> blocks_;            ///< for each row; empty without lines
 };

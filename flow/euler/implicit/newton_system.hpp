@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/implicit/implicit_system.hpp"
 #include "flow/euler/implicit/krylov.hpp"
 #include "flow/euler/scheme/residual.hpp"
@@ -24,7 +22,7 @@ class NewtonSystem {
   };
   /// `fluxes` are those of the states; the residual is evaluated at other states. Returns the remaining
   /// residual relative to the right side. *Collective.*
-  double solve(const std::vector<State>& states, const NodeRows& fluxes, const NodeRows& right,
+  double solve(const IdVector<NodeId, State>& states, const NodeRows& fluxes, const NodeRows& right,
                const Effort& effort, NodeRows& change);
 
   /// Returns the root of the sum of squares over the owned nodes. *Collective.*
@@ -38,11 +36,11 @@ class NewtonSystem {
   const FlowModel& model_;
   Residual& residual_;
   ImplicitSystem& system_;
-  const std::vector<State>* states_ = nullptr;  ///< of the current solve
+  const IdVector<NodeId, State>* states_ = nullptr;  ///< of the current solve
   const NodeRows* fluxes_ = nullptr;
-  std::vector<Flux> right_;             ///< of the preconditioner, for each node
-  std::vector<Change> preconditioned_;  ///< for each node
-  std::vector<State> moved_;
+  IdVector<NodeId, Flux> right_;             ///< of the preconditioner, for each node
+  IdVector<NodeId, Change> preconditioned_;  ///< for each node
+  IdVector<NodeId, State> moved_;
 };
 
 }  // namespace quadloop::flow::euler

@@ -40,7 +40,7 @@ BackwardDifference::Weights BackwardDifference::weights(double ratio) {
 }
 
 void BackwardDifference::find_known(const Weights& weights, double step) {
-  for (std::size_t node = 0; node < known_.size(); ++node) {
+  for (const NodeId node : known_.ids()) {
     const double over_step = run_.mesh.areas()[node] / step;
     for (std::size_t k = 0; k < 4; ++k)
       known_[node][k] = over_step * (weights.last * last_[node][k] + weights.before * before_[node][k]);
@@ -48,8 +48,8 @@ void BackwardDifference::find_known(const Weights& weights, double step) {
 }
 
 /// Computes the imbalance of the states with these fluxes; returns its norm.
-double BackwardDifference::measure(const std::vector<Flux>& fluxes, double rate) {
-  for (std::size_t node = 0; node < balance_.size(); ++node) {
+double BackwardDifference::measure(const IdVector<NodeId, Flux>& fluxes, double rate) {
+  for (const NodeId node : balance_.ids()) {
     const Row w = row_of(run_.model.gas.conserved(run_.states[node]));
     fluxes_[node] = fluxes[node];
     for (std::size_t k = 0; k < 4; ++k)
@@ -63,7 +63,7 @@ double BackwardDifference::measure(const std::vector<Flux>& fluxes, double rate)
 /// `size` is the present one.
 double BackwardDifference::go_on(double ratio, double rate, double size) {
   start_ = run_.states;
-  for (std::size_t node = 0; node < change_.size(); ++node) {
+  for (const NodeId node : change_.ids()) {
     for (std::size_t k = 0; k < 4; ++k) change_[node][k] = ratio * (last_[node][k] - before_[node][k]);
     run_.states[node] = updated(run_.model.gas, start_[node], change_[node]);
   }
@@ -88,7 +88,7 @@ double BackwardDifference::newton(double rate, double size, double enough) {
   newton_.solve(start_, fluxes, right, asked, change_);
   double share = 1;
   for (int attempt = 0; attempt < most_share_halvings; ++attempt, share *= 0.5) {
-    for (std::size_t node = 0; node < change_.size(); ++node) {
+    for (const NodeId node : change_.ids()) {
       Row change = change_[node];
       for (double& value : change) value *= share;
       run_.states[node] = updated(run_.model.gas, start_[node], change);
@@ -107,7 +107,7 @@ bool BackwardDifference::solve(double step, const NodeRows& fluxes) {
   const Weights weight = weights(ratio);
   const double rate = weight.next / step;
   NodeRows whole = last_;
-  for (std::size_t node = 0; node < whole.size(); ++node) {
+  for (const NodeId node : whole.ids()) {
     for (double& value : whole[node]) value *= rate * run_.mesh.areas()[node];
   }
   find_known(weight, step);
@@ -125,13 +125,16 @@ bool BackwardDifference::solve(double step, const NodeRows& fluxes) {
 
 /// Stores the states at the start of a step.
 void BackwardDifference::remember() {
-  for (std::size_t node = 0; node < last_.size(); ++node)
-    last_[node] = row_of(run_.model.gas.conserved(run_.states[node]));
+  for (const NodeId node : last_.ids()) last_[node] = row_of(run_.model.gas.conserved(run_.states[node]));
+}
+
+NodeRows BackwardDifference::of_owned(const IdVector<NodeId, Flux>& fluxes) const {
+  return NodeRows(std::vector<Flux>(fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()));
 }
 
 /// Returns whether the step, or each of its parts, was solved.
 bool BackwardDifference::take(double step, const NodeRows& fluxes, int halvings) {
-  const std::vector<State> start = run_.states;
+  const IdVector<NodeId, State> start = run_.states;
   const NodeRows earlier = before_;
   std::swap(before_, last_);
   remember();
@@ -144,15 +147,12 @@ bool BackwardDifference::take(double step, const NodeRows& fluxes, int halvings)
   before_ = earlier;
   run_.states = start;
   const bool first_is_solved = take(0.5 * step, fluxes, halvings - 1);
-  const std::vector<Flux>& evaluated = run_.residual.evaluate(run_.states);
-  return take(0.5 * step, {evaluated.begin(), evaluated.begin() + run_.mesh.owned_nodes()}, halvings - 1) &&
-         first_is_solved;
+  return take(0.5 * step, of_owned(run_.residual.evaluate(run_.states)), halvings - 1) && first_is_solved;
 }
 
 /// Always true, as updates keep density and pressure positive at every node.
-bool BackwardDifference::advance(double step, const std::vector<Flux>& fluxes) {
-  if (!take(step, {fluxes.begin(), fluxes.begin() + run_.mesh.owned_nodes()}, most_step_halvings))
-    ++unsolved_;
+bool BackwardDifference::advance(double step, const IdVector<NodeId, Flux>& fluxes) {
+  if (!take(step, of_owned(fluxes), most_step_halvings)) ++unsolved_;
   return true;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "flow/euler/implicit/newton_system.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
@@ -16,7 +15,7 @@ class BackwardDifference : public TimeScheme {
   BackwardDifference(FlowRun& run, double step);
 
   double longest_step() override { return step_; }
-  bool advance(double step, const std::vector<Flux>& fluxes) override;
+  bool advance(double step, const IdVector<NodeId, Flux>& fluxes) override;
   bool is_implicit() const override { return true; }
   int unsolved() const override { return unsolved_; }
 
@@ -28,11 +27,12 @@ class BackwardDifference : public TimeScheme {
   using Row = std::array<double, 4>;
 
   static Weights weights(double ratio);
+  NodeRows of_owned(const IdVector<NodeId, Flux>& fluxes) const;
   bool take(double step, const NodeRows& fluxes, int halvings);
   bool solve(double step, const NodeRows& fluxes);
   void remember();
   void find_known(const Weights& weights, double step);
-  double measure(const std::vector<Flux>& fluxes, double rate);
+  double measure(const IdVector<NodeId, Flux>& fluxes, double rate);
   double go_on(double ratio, double rate, double size);
   double newton(double rate, double size, double enough);
 
@@ -40,14 +40,14 @@ class BackwardDifference : public TimeScheme {
   double step_, last_step_ = 0;  ///< requested step; previous step, 0 if there is none
   ImplicitSystem system_;
   NewtonSystem newton_;
-  std::vector<char> held_;  ///< as NoSlipNodes::held_rows
+  IdVector<NodeId, char> held_;  ///< as NoSlipNodes::held_rows
   /// Conserved variables at the owned nodes, at the start of the step and one step earlier.
   NodeRows last_, before_;
   NodeRows known_;  ///< known part of the time difference: area / step times earlier states
   /// At the last measured states: net fluxes; their sum with the time difference.
   NodeRows fluxes_, balance_;
   NodeRows change_;
-  std::vector<State> start_;
+  IdVector<NodeId, State> start_;
   int unsolved_ = 0;
 };
 

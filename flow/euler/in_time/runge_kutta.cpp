@@ -23,11 +23,11 @@ struct Stage {
 };
 constexpr std::array<Stage, 3> stages{{{0, 1}, {0.75, 0.25}, {1.0 / 3, 2.0 / 3}}};
 
-void advance_stage(FlowRun& run, const Stage& stage, double step, const std::vector<Conserved>& start,
-                   const std::vector<Flux>& fluxes) {
+void advance_stage(FlowRun& run, const Stage& stage, double step, const IdVector<NodeId, Conserved>& start,
+                   const IdVector<NodeId, Flux>& fluxes) {
   const auto areas = run.mesh.areas();
   const Gas& gas = run.model.gas;
-  for (std::size_t node = 0; node < areas.size(); ++node) {
+  for (const NodeId node : areas.ids()) {
     const Conserved &w0 = start[node], w = gas.conserved(run.states[node]);
     const Flux& flux = fluxes[node];
     const auto mixed = [&](double before, double now, double out) {
@@ -51,7 +51,7 @@ RungeKutta::RungeKutta(FlowRun& run, double cfl)
 /// CFL number times the minimum over all nodes of all ranks of area over half the sum of wave speed times
 /// face size.
 double RungeKutta::longest_step() {
-  const auto speed = [&](std::int32_t node, Point normal) {
+  const auto speed = [&](NodeId node, Point normal) {
     const State& state = run_.states[node];
     return std::abs(state[1] * normal.x + state[2] * normal.y) + run_.model.gas.sound_speed(state);
   };
@@ -66,26 +66,24 @@ double RungeKutta::longest_step() {
     wave_sums_[edge.high] += sum;
   }
   for (const BoundaryFace& face : run_.mesh.faces()) {
-    for (const std::int32_t node : {face.from, face.to})
+    for (const NodeId node : {face.from, face.to})
       wave_sums_[node] += 0.5 * face.half_size * speed(node, face.normal);
   }
   double step = std::numeric_limits<double>::infinity();
   const auto areas = run_.mesh.areas();
-  for (std::size_t node = 0; node < areas.size(); ++node)
-    step = std::min(step, areas[node] / wave_sums_[node]);
+  for (const NodeId node : areas.ids()) step = std::min(step, areas[node] / wave_sums_[node]);
   return cfl_ * run_.comm.minimum(step);
 }
 
-bool RungeKutta::advance(double step, const std::vector<Flux>& fluxes) {
+bool RungeKutta::advance(double step, const IdVector<NodeId, Flux>& fluxes) {
   return take(step, fluxes, most_halvings_of_step);
 }
 
 /// With the shortest steps the states of the first failed stage are kept, as later stages spread the failure.
-bool RungeKutta::take(double step, const std::vector<Flux>& fluxes, int halvings) {
-  const std::vector<State> before = run_.states;
-  for (std::size_t node = 0; node < start_.size(); ++node)
-    start_[node] = run_.model.gas.conserved(before[node]);
-  std::optional<std::vector<State>> failed;  // also needed on ranks without nodes
+bool RungeKutta::take(double step, const IdVector<NodeId, Flux>& fluxes, int halvings) {
+  const IdVector<NodeId, State> before = run_.states;
+  for (const NodeId node : start_.ids()) start_[node] = run_.model.gas.conserved(before[node]);
+  std::optional<IdVector<NodeId, State>> failed;  // also needed on ranks without nodes
   for (std::size_t k = 0; k < stages.size(); ++k) {
     advance_stage(run_, stages[k], step, start_, k == 0 ? fluxes : run_.residual.evaluate(run_.states));
     if (halvings == 0 && !failed && !is_everywhere(is_gas)) failed = run_.states;

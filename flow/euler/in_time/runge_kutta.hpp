@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/in_time/time_scheme.hpp"
 
 namespace quadloop::flow::euler {
@@ -15,18 +13,18 @@ class RungeKutta : public TimeScheme {
   RungeKutta(FlowRun& run, double cfl);
 
   double longest_step() override;
-  bool advance(double step, const std::vector<Flux>& fluxes) override;
+  bool advance(double step, const IdVector<NodeId, Flux>& fluxes) override;
   bool is_implicit() const override { return false; }
 
  private:
-  bool take(double step, const std::vector<Flux>& fluxes, int halvings);
+  bool take(double step, const IdVector<NodeId, Flux>& fluxes, int halvings);
   /// *Collective.*
   bool is_everywhere(bool (*holds)(const State&)) const;
 
   FlowRun& run_;
   double cfl_;
-  std::vector<double> wave_sums_;
-  std::vector<Conserved> start_;
+  IdVector<NodeId, double> wave_sums_;
+  IdVector<NodeId, Conserved> start_;
 };
 
 }  // namespace quadloop::flow::euler

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/model/gas.hpp"
 #include "mesher/geometry/point.hpp"
 
@@ -12,18 +10,18 @@ namespace quadloop::flow::euler {
 class TimeAverage {
  public:
   /// Adds the states with the weight `duration`. `friction` may be empty.
-  void add(const std::vector<State>& states, const std::vector<Point>& friction, std::size_t owned,
+  void add(const IdVector<NodeId, State>& states, const IdVector<NodeId, Point>& friction, std::size_t owned,
            double duration);
 
   bool empty() const { return duration_ <= 0; }
   /// Writes the averages of the states to the owned nodes.
-  void take(std::vector<State>& states) const;
-  std::vector<Point> friction() const;
+  void take(IdVector<NodeId, State>& states) const;
+  IdVector<NodeId, Point> friction() const;
 
  private:
   double duration_ = 0;
-  std::vector<State> states_;  ///< times duration
-  std::vector<Point> friction_;
+  IdVector<NodeId, State> states_;  ///< times duration
+  IdVector<NodeId, Point> friction_;
 };
 
 }  // namespace quadloop::flow::euler

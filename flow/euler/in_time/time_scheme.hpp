@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "flow/euler/scheme/flow_run.hpp"
 
@@ -27,7 +26,7 @@ class TimeScheme {
 
   /// `fluxes` are those of the states; the residual is evaluated at other states. Returns whether the flow
   /// can continue; if not, the states are those of the first failure. *Collective.*
-  virtual bool advance(double step, const std::vector<Flux>& fluxes) = 0;
+  virtual bool advance(double step, const IdVector<NodeId, Flux>& fluxes) = 0;
 
   virtual bool is_implicit() const = 0;
   /// For implicit schemes: number of steps that were not solved to the tolerance.

@@ -117,7 +117,7 @@ void DualMesh::collect_edges() {
     const double size = length(sum.normal);
     const Point edge = halo_.point(sum.high) - halo_.point(sum.low),
                 normal = size > 0 ? (1 / size) * sum.normal : Point{};
-    edges_.push_back({sum.low.value(), sum.high.value(), normal, size, 0.5 * edge});
+    edges_.push_back({sum.low, sum.high, normal, size, 0.5 * edge});
     skew.push_back({edge, size, normal, sum.of_middle, sum.left_over, sum.sum});
     open_.push_back(end == i + 1 ? 1 : 0);
     i = end;
@@ -126,7 +126,7 @@ void DualMesh::collect_edges() {
 }
 
 void DualMesh::collect_skew_edges(const std::vector<SkewFace>& faces) {
-  std::vector<Nearness> nearness(nodes());
+  IdVector<NodeId, Nearness> nearness(nodes());
   for (const DualEdge& edge : edges_) {
     nearness[edge.low].add(2.0 * edge.half);
     nearness[edge.high].add(2.0 * edge.half);
@@ -144,7 +144,7 @@ void DualMesh::collect_faces() {
   std::vector<HaloEdge> outline = halo_.boundary_edges();
   std::erase_if(outline, [&](const HaloEdge& e) { return !halo_.owns(e.from) && !halo_.owns(e.to); });
   const auto key = [&](NodeId a, NodeId b) { return std::minmax({halo_.global(a), halo_.global(b)}); };
-  const auto key_of = [&](const DualEdge& edge) { return key(NodeId{edge.low}, NodeId{edge.high}); };
+  const auto key_of = [&](const DualEdge& edge) { return key(edge.low, edge.high); };
   std::sort(outline.begin(), outline.end(),
             [&](const HaloEdge& a, const HaloEdge& b) { return key(a.from, a.to) < key(b.from, b.to); });
   for (const HaloEdge& e : outline) {
@@ -163,8 +163,8 @@ void DualMesh::collect_faces() {
     }
     const Point outward = turned(to - from);
     const double size = length(outward);
-    faces_.push_back({e.from.value(), e.to.value(), e.boundary, (1 / size) * outward, 0.5 * size,
-                      share_left_over(size, found->size)});
+    faces_.push_back(
+        {e.from, e.to, e.boundary, (1 / size) * outward, 0.5 * size, share_left_over(size, found->size)});
     open = 0;
   }
   for (std::size_t i = 0; i < edges_.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/id_vector.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 
 namespace quadloop::flow::euler {
@@ -12,8 +13,8 @@ struct SkewFace;
 
 /// An edge between two nodes with its face of the median dual.
 struct DualEdge {
-  std::int32_t low, high;  ///< local nodes, ordered by their global numbers
-  Point normal;            ///< unit normal from the first to the second node
+  NodeId low, high;  ///< local nodes, ordered by their global numbers
+  Point normal;      ///< unit normal from the first to the second node
   /// Length of the face: of the vector sum of the two segments from the edge's midpoint to the centres of its
   /// cells.
   double size;
@@ -32,7 +33,7 @@ struct SkewEdge {
 
 /// A boundary edge with the domain to its left.
 struct BoundaryFace {
-  std::int32_t from, to;
+  NodeId from, to;
   std::int32_t boundary;
   Point normal;      ///< unit normal out of the domain
   double half_size;  ///< half the face length, the part of each of its two nodes
@@ -52,13 +53,15 @@ class DualMesh {
   std::int64_t first_node() const { return first_node_; }  ///< as in the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
   std::size_t nodes() const { return halo_.points().size(); }
-  bool is_owned(std::int32_t node) const { return node < owned_nodes(); }
-  Point point(std::int32_t node) const { return halo_.point(NodeId{node}); }
-  GlobalNodeId global(std::int32_t node) const { return halo_.global(NodeId{node}); }
+  auto owned_ids() const { return ids_below(NodeId{owned_nodes()}); }
+  auto ids() const { return ids_below(NodeId{size32(halo_.points())}); }
+  bool is_owned(NodeId node) const { return halo_.owns(node); }
+  Point point(NodeId node) const { return halo_.point(node); }
+  GlobalNodeId global(NodeId node) const { return halo_.global(node); }
   const HaloMesh& halo() const { return halo_; }
   const NodeExchange& exchange() const { return halo_.exchange(); }
 
-  std::span<const double> areas() const { return areas_; }  ///< of the owned nodes' dual cells
+  const IdVector<NodeId, double>& areas() const { return areas_; }  ///< of the owned nodes' dual cells
   std::span<const DualEdge> edges() const { return edges_; }
   std::span<const SkewEdge> skew_edges() const { return skew_edges_; }
   std::span<const BoundaryFace> faces() const { return faces_; }

@@ -13,7 +13,7 @@ FarField::FarField(const Communicator& comm, const DualMesh& mesh, const FlowMod
   std::vector<Point> walls;
   for (const BoundaryFace& face : mesh.faces()) {
     if (!feels_force(model.boundaries[face.boundary].condition)) continue;
-    for (const std::int32_t node : {face.from, face.to}) walls.push_back(mesh.point(node));
+    for (const NodeId node : {face.from, face.to}) walls.push_back(mesh.point(node));
   }
   centre_ = box_over_ranks(comm, walls).centre();
 }

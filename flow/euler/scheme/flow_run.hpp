@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "flow/euler/scheme/residual.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 
@@ -14,8 +12,8 @@ struct FlowRun {
   const DualMesh& mesh;
   const FlowModel& model;
   Residual residual;
-  std::vector<State> states;    ///< of each node
-  bool is_transferred = false;  ///< whether the states are those of a given flow
+  IdVector<NodeId, State> states;  ///< of each node
+  bool is_transferred = false;     ///< whether the states are those of a given flow
 };
 
 }  // namespace quadloop::flow::euler

@@ -13,7 +13,7 @@ LeastSquares::LeastSquares(const DualMesh& mesh) : mesh_{mesh}, inverse_(mesh.no
   for (const DualEdge& edge : mesh.edges()) {
     const Point d = edge.half;
     const double w = weight(edge);
-    for (const std::int32_t node : {edge.low, edge.high}) {
+    for (const NodeId node : {edge.low, edge.high}) {
       Symmetric& m = inverse_[node];
       m.xx += w * d.x * d.x;
       m.xy += w * d.x * d.y;
@@ -27,7 +27,8 @@ LeastSquares::LeastSquares(const DualMesh& mesh) : mesh_{mesh}, inverse_(mesh.no
   }
 }
 
-void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradient>& gradients) const {
+void LeastSquares::compute(const IdVector<NodeId, State>& states,
+                           IdVector<NodeId, Gradient>& gradients) const {
   for (Gradient& gradient : gradients) gradient = {};
   for (const DualEdge& edge : mesh_.edges()) {
     const double w = 0.5 * weight(edge);
@@ -42,7 +43,7 @@ void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradien
       at_high.y[k] += along_y;
     }
   }
-  for (std::size_t node = 0; node < inverse_.size(); ++node) {
+  for (const NodeId node : inverse_.ids()) {
     const Symmetric& m = inverse_[node];
     Gradient& gradient = gradients[node];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -53,9 +54,9 @@ void LeastSquares::compute(const std::vector<State>& states, std::vector<Gradien
   }
 }
 
-std::vector<Gradient> LeastSquares::solved(const std::vector<Gradient>& weights) const {
-  std::vector<Gradient> result(weights.size());
-  for (std::size_t node = 0; node < inverse_.size(); ++node) {
+IdVector<NodeId, Gradient> LeastSquares::solved(const IdVector<NodeId, Gradient>& weights) const {
+  IdVector<NodeId, Gradient> result(weights.size());
+  for (const NodeId node : inverse_.ids()) {
     const Symmetric& m = inverse_[node];
     for (std::size_t k = 0; k < 4; ++k) {
       const double x = weights[node].x[k], y = weights[node].y[k];
@@ -67,8 +68,9 @@ std::vector<Gradient> LeastSquares::solved(const std::vector<Gradient>& weights)
   return result;
 }
 
-void LeastSquares::add_transposed(const std::vector<Gradient>& weights, std::vector<State>& sums) const {
-  const std::vector<Gradient> of_sums = solved(weights);
+void LeastSquares::add_transposed(const IdVector<NodeId, Gradient>& weights,
+                                  IdVector<NodeId, State>& sums) const {
+  const IdVector<NodeId, Gradient> of_sums = solved(weights);
   for (const DualEdge& edge : mesh_.edges()) {
     const double w = 0.5 * weight(edge);
     const Gradient &at_low = of_sums[edge.low], &at_high = of_sums[edge.high];

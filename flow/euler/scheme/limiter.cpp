@@ -22,13 +22,13 @@ Limiter::Limiter(const DualMesh& mesh, double reference_length)
   }
 }
 
-void Limiter::apply(const std::vector<State>& states, std::vector<Gradient>& gradients) {
+void Limiter::apply(const IdVector<NodeId, State>& states, IdVector<NodeId, Gradient>& gradients) {
   if (!frozen_) {
     find_bounds(states);
     find_changes(gradients);
     find_factors(states);
   }
-  for (std::size_t node = 0; node < factors_.size(); ++node) {
+  for (const NodeId node : factors_.ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
       gradients[node].x[k] *= factors_[node][k];
       gradients[node].y[k] *= factors_[node][k];
@@ -36,10 +36,10 @@ void Limiter::apply(const std::vector<State>& states, std::vector<Gradient>& gra
   }
 }
 
-void Limiter::find_bounds(const std::vector<State>& states) {
-  for (std::size_t node = 0; node < states.size(); ++node) values_[node] = {states[node], states[node]};
+void Limiter::find_bounds(const IdVector<NodeId, State>& states) {
+  for (const NodeId node : states.ids()) values_[node] = {states[node], states[node]};
   for (const DualEdge& edge : mesh_.edges()) {
-    const std::size_t low = edge.low, high = edge.high;
+    const NodeId low = edge.low, high = edge.high;
     for (std::size_t k = 0; k < 4; ++k) {
       values_[low].low[k] = std::min(values_[low].low[k], states[high][k]);
       values_[low].high[k] = std::max(values_[low].high[k], states[high][k]);
@@ -49,10 +49,10 @@ void Limiter::find_bounds(const std::vector<State>& states) {
   }
 }
 
-void Limiter::find_changes(const std::vector<Gradient>& gradients) {
+void Limiter::find_changes(const IdVector<NodeId, Gradient>& gradients) {
   for (Bounds& bounds : changes_) bounds = {};
   for (const DualEdge& edge : mesh_.edges()) {
-    const std::size_t low = edge.low, high = edge.high;
+    const NodeId low = edge.low, high = edge.high;
     for (std::size_t k = 0; k < 4; ++k) {
       const double forth = gradients[low].x[k] * edge.half.x + gradients[low].y[k] * edge.half.y;
       const double back = -(gradients[high].x[k] * edge.half.x + gradients[high].y[k] * edge.half.y);
@@ -65,8 +65,8 @@ void Limiter::find_changes(const std::vector<Gradient>& gradients) {
 }
 
 /// Factors decrease with the change, so the largest change of a node in each direction decides.
-void Limiter::find_factors(const std::vector<State>& states) {
-  for (std::size_t node = 0; node < factors_.size(); ++node) {
+void Limiter::find_factors(const IdVector<NodeId, State>& states) {
+  for (const NodeId node : factors_.ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = states[node][k], small_squared = small_squared_[node];
       factors_[node][k] =

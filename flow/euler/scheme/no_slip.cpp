@@ -9,7 +9,7 @@ NoSlipNodes::NoSlipNodes(const DualMesh& mesh, const FlowModel& model) : gamma_{
     const BoundaryModel& boundary = model.boundaries[face.boundary];
     if (boundary.condition != Condition::no_slip) continue;
     const double energy = boundary.temperature.value_or(0) / (gamma_ * (gamma_ - 1));
-    for (const std::int32_t node : {face.from, face.to}) {
+    for (const NodeId node : {face.from, face.to}) {
       if (mesh.is_owned(node)) nodes_.push_back({node, energy});
     }
   }
@@ -21,7 +21,7 @@ NoSlipNodes::NoSlipNodes(const DualMesh& mesh, const FlowModel& model) : gamma_{
   nodes_.erase(same.begin(), same.end());
 }
 
-void NoSlipNodes::hold(std::vector<State>& states) const {
+void NoSlipNodes::hold(IdVector<NodeId, State>& states) const {
   for (const Node& node : nodes_) {
     State& state = states[node.node];
     state[1] = state[2] = 0;
@@ -29,7 +29,7 @@ void NoSlipNodes::hold(std::vector<State>& states) const {
   }
 }
 
-void NoSlipNodes::take_friction(std::vector<Flux>& sums, std::vector<Point>& friction) const {
+void NoSlipNodes::take_friction(IdVector<NodeId, Flux>& sums, IdVector<NodeId, Point>& friction) const {
   for (const Node& node : nodes_) {
     Flux& sum = sums[node.node];
     friction[node.node] = {sum[1], sum[2]};
@@ -38,13 +38,13 @@ void NoSlipNodes::take_friction(std::vector<Flux>& sums, std::vector<Point>& fri
   }
 }
 
-std::vector<char> NoSlipNodes::held_rows(std::size_t nodes) const {
-  std::vector<char> last(nodes, 0);
+IdVector<NodeId, char> NoSlipNodes::held_rows(std::size_t nodes) const {
+  IdVector<NodeId, char> last(nodes, 0);
   for (const Node& node : nodes_) last[node.node] = node.energy > 0 ? 3 : 2;
   return last;
 }
 
-void NoSlipNodes::hold(std::vector<Matrix4>& diagonal) const {
+void NoSlipNodes::hold(IdVector<NodeId, Matrix4>& diagonal) const {
   for (const Node& node : nodes_) {
     Matrix4& block = diagonal[node.node];
     const std::size_t last = node.energy > 0 ? 3 : 2;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "flow/euler/model/flow_model.hpp"
@@ -18,21 +17,21 @@ class NoSlipNodes {
   bool empty() const { return nodes_.empty(); }
 
   /// Sets the velocity to 0, and the temperature of isothermal walls.
-  void hold(std::vector<State>& states) const;
+  void hold(IdVector<NodeId, State>& states) const;
 
   /// Moves the momentum of the owned nodes' net fluxes to `friction`: the wall friction, as force per unit
   /// depth on the fluid. At isothermal walls the energy flux is removed too.
-  void take_friction(std::vector<Flux>& sums, std::vector<Point>& friction) const;
+  void take_friction(IdVector<NodeId, Flux>& sums, IdVector<NodeId, Point>& friction) const;
 
   /// Returns for each of `nodes` nodes the last prescribed row, counted from 1; 0 if there is none.
-  std::vector<char> held_rows(std::size_t nodes) const;
+  IdVector<NodeId, char> held_rows(std::size_t nodes) const;
 
   /// Writes the prescribed rows to the owned nodes' diagonal blocks; in other blocks they are 0.
-  void hold(std::vector<Matrix4>& diagonal) const;
+  void hold(IdVector<NodeId, Matrix4>& diagonal) const;
 
  private:
   struct Node {
-    std::int32_t node;
+    NodeId node;
     double energy;  ///< per unit mass at rest, at the wall temperature; 0: adiabatic
   };
   double gamma_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <type_traits>
-#include <vector>
 
 #include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -22,13 +21,13 @@ class LeastSquares {
 
   /// Computes the gradients of the owned nodes; `gradients` has an entry for each node. The states of ghosts
   /// must be up to date.
-  void compute(const std::vector<State>& states, std::vector<Gradient>& gradients) const;
+  void compute(const IdVector<NodeId, State>& states, IdVector<NodeId, Gradient>& gradients) const;
 
   /// Transpose of compute(): adds to the owned nodes' `sums` the weights of the states due to `weights` of
   /// the gradients. `weights` has an entry for each node; only those of owned nodes are used. *Collective.*
-  void add_transposed(const std::vector<Gradient>& weights, std::vector<State>& sums) const;
+  void add_transposed(const IdVector<NodeId, Gradient>& weights, IdVector<NodeId, State>& sums) const;
   /// Returns the inverse normal matrices times such weights, for all nodes. *Collective.*
-  std::vector<Gradient> solved(const std::vector<Gradient>& weights) const;
+  IdVector<NodeId, Gradient> solved(const IdVector<NodeId, Gradient>& weights) const;
 
  private:
   struct Symmetric {
@@ -36,7 +35,7 @@ class LeastSquares {
   };
 
   const DualMesh& mesh_;
-  std::vector<Symmetric> inverse_;  ///< inverse of each owned node's normal matrix
+  IdVector<NodeId, Symmetric> inverse_;  ///< inverse of each owned node's normal matrix
 };
 
 /// Returns the factor that limits a change to the allowed value, both positive.
@@ -72,7 +71,7 @@ class Limiter {
   Limiter(const DualMesh& mesh, double reference_length);
 
   /// Scales the owned nodes' gradients. The states of ghosts must be up to date.
-  void apply(const std::vector<State>& states, std::vector<Gradient>& gradients);
+  void apply(const IdVector<NodeId, State>& states, IdVector<NodeId, Gradient>& gradients);
 
   /// Freezes the factors of the last call.
   void freeze() { frozen_ = true; }
@@ -85,21 +84,21 @@ class Limiter {
   };
   /// Data of the last call at the owned nodes: the factors and the values they depend on (with frozen
   /// factors, those of the call that computed them).
-  const std::vector<std::array<double, 4>>& factors() const { return factors_; }
-  const Bounds& values(std::size_t node) const { return values_[node]; }
-  const Bounds& changes(std::size_t node) const { return changes_[node]; }
-  double small_squared(std::size_t node) const { return small_squared_[node]; }
+  const IdVector<NodeId, std::array<double, 4>>& factors() const { return factors_; }
+  const Bounds& values(NodeId node) const { return values_[node]; }
+  const Bounds& changes(NodeId node) const { return changes_[node]; }
+  double small_squared(NodeId node) const { return small_squared_[node]; }
 
  private:
-  void find_bounds(const std::vector<State>& states);
-  void find_changes(const std::vector<Gradient>& gradients);
-  void find_factors(const std::vector<State>& states);
+  void find_bounds(const IdVector<NodeId, State>& states);
+  void find_changes(const IdVector<NodeId, Gradient>& gradients);
+  void find_factors(const IdVector<NodeId, State>& states);
 
   const DualMesh& mesh_;
-  std::vector<double> small_squared_;  ///< (K h)^3 of each owned node
-  std::vector<Bounds> values_;         ///< of the states
-  std::vector<Bounds> changes_;        ///< of the increments by the gradients at the midpoints of edges
-  std::vector<std::array<double, 4>> factors_;
+  IdVector<NodeId, double> small_squared_;  ///< (K h)^3 of each owned node
+  IdVector<NodeId, Bounds> values_;         ///< of the states
+  IdVector<NodeId, Bounds> changes_;        ///< of the increments by the gradients at the midpoints of edges
+  IdVector<NodeId, std::array<double, 4>> factors_;
   bool frozen_ = false;
 };
 

@@ -48,7 +48,7 @@ void Residual::release_limiter() {
   if (shocks_) shocks_->release();
 }
 
-const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
+const IdVector<NodeId, Flux>& Residual::evaluate(IdVector<NodeId, State>& states) {
   mesh_.exchange().update(states);
   least_squares_.compute(states, gradients_);
   if (model_.is_viscous()) find_viscous_gradients(states);
@@ -67,16 +67,15 @@ const std::vector<Flux>& Residual::evaluate(std::vector<State>& states) {
   return sums_;
 }
 
-void Residual::find_viscous_gradients(const std::vector<State>& states) {
-  const std::size_t owned = mesh_.owned_nodes();
-  for (std::size_t node = 0; node < owned; ++node)
+void Residual::find_viscous_gradients(const IdVector<NodeId, State>& states) {
+  for (const NodeId node : mesh_.owned_ids())
     viscous_gradients_[node] = viscous_gradient(model_.gas, states[node], gradients_[node]);
   mesh_.exchange().update(viscous_gradients_);
 }
 
-void Residual::take_viscous_edges(const std::vector<State>& states) {
+void Residual::take_viscous_edges(const IdVector<NodeId, State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
-    const std::size_t low = edge.low, high = edge.high;
+    const NodeId low = edge.low, high = edge.high;
     State mean;
     for (std::size_t k = 0; k < 4; ++k) mean[k] = 0.5 * (states[low][k] + states[high][k]);
     const ViscousGradient gradient =
@@ -90,7 +89,7 @@ void Residual::take_viscous_edges(const std::vector<State>& states) {
   }
 }
 
-void Residual::take_viscous_faces(const std::vector<State>& states) {
+void Residual::take_viscous_faces(const IdVector<NodeId, State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     const BoundaryModel& boundary = model_.boundaries[face.boundary];
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
@@ -101,9 +100,9 @@ void Residual::take_viscous_faces(const std::vector<State>& states) {
   }
 }
 
-EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& states,
-                            const std::vector<Gradient>& gradients) {
-  const std::size_t low = edge.low, high = edge.high;
+EdgeStates states_at_middle(const DualEdge& edge, const IdVector<NodeId, State>& states,
+                            const IdVector<NodeId, Gradient>& gradients) {
+  const NodeId low = edge.low, high = edge.high;
   const State left = extrapolated(states[low], gradients[low], edge.half.x, edge.half.y);
   const State right = extrapolated(states[high], gradients[high], -edge.half.x, -edge.half.y);
   if (!keeps_enough(left, states[low]) || !keeps_enough(right, states[high]))
@@ -111,9 +110,9 @@ EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& stat
   return {left, right, true};
 }
 
-void Residual::add_edges(const std::vector<State>& states) {
+void Residual::add_edges(const IdVector<NodeId, State>& states) {
   for (const DualEdge& edge : mesh_.edges()) {
-    const std::size_t low = edge.low, high = edge.high;
+    const NodeId low = edge.low, high = edge.high;
     const auto [left, right, reconstructed] = states_at_middle(edge, states, gradients_);
     const Flux flux = roe_flux(model_.gas, left, right, edge.normal, shock_share(edge.low, edge.high));
     for (std::size_t k = 0; k < 4; ++k) {
@@ -124,10 +123,10 @@ void Residual::add_edges(const std::vector<State>& states) {
   }
 }
 
-void Residual::add_skew(const std::vector<State>& states) {
+void Residual::add_skew(const IdVector<NodeId, State>& states) {
   const auto edges = mesh_.edges();
   for (const SkewEdge& skew : mesh_.skew_edges()) {
-    const std::size_t low = edges[skew.edge].low, high = edges[skew.edge].high;
+    const NodeId low = edges[skew.edge].low, high = edges[skew.edge].high;
     State state, along_x, along_y;
     for (std::size_t k = 0; k < 4; ++k) {
       state[k] = 0.5 * (states[low][k] + states[high][k]);
@@ -151,7 +150,7 @@ Flux Residual::through(const BoundaryFace& face, const State& state) const {
   return roe_flux(model_.gas, state, far_field_->at(middle), face.normal);
 }
 
-void Residual::add_faces(const std::vector<State>& states) {
+void Residual::add_faces(const IdVector<NodeId, State>& states) {
   for (const BoundaryFace& face : mesh_.faces()) {
     for (const auto& [own, other] : {std::pair{face.from, face.to}, {face.to, face.from}}) {
       const State state = state_at_half(face, states[own], states[other]);

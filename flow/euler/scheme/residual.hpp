@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/model/flux.hpp"
@@ -24,12 +23,12 @@ class Residual {
 
   /// `states` has an entry for each node; those of ghosts are updated first. The result has an entry for each
   /// node, valid for owned nodes; components prescribed by no-slip walls are 0. *Collective.*
-  const std::vector<Flux>& evaluate(std::vector<State>& states);
+  const IdVector<NodeId, Flux>& evaluate(IdVector<NodeId, State>& states);
 
   const NoSlipNodes& no_slip() const { return no_slip_; }
   /// Friction force of the walls on the fluid per unit depth, from the last evaluation: an entry for each
   /// node; empty in inviscid flow.
-  const std::vector<Point>& friction() const { return friction_; }
+  const IdVector<NodeId, Point>& friction() const { return friction_; }
 
   /// Sets the flow beyond far-field boundaries; initially the free stream.
   void surround(const FarField& far_field) { far_field_ = far_field; }
@@ -41,33 +40,33 @@ class Residual {
   bool limiter_is_frozen() const { return limiter_ && limiter_->frozen(); }
 
   /// Limited gradients of all nodes, from the last evaluation.
-  const std::vector<Gradient>& gradients() const { return gradients_; }
+  const IdVector<NodeId, Gradient>& gradients() const { return gradients_; }
   const LeastSquares& least_squares() const { return least_squares_; }
   const Limiter* limiter() const { return limiter_ ? &*limiter_ : nullptr; }
   /// Null without a limiter.
   const ShockSensor* shocks() const { return shocks_ ? &*shocks_ : nullptr; }
-  double shock_share(std::int32_t a, std::int32_t b) const { return shocks_ ? shocks_->share(a, b) : 0; }
+  double shock_share(NodeId a, NodeId b) const { return shocks_ ? shocks_->share(a, b) : 0; }
 
  private:
-  void add_edges(const std::vector<State>& states);
-  void add_skew(const std::vector<State>& states);
-  void add_faces(const std::vector<State>& states);
+  void add_edges(const IdVector<NodeId, State>& states);
+  void add_skew(const IdVector<NodeId, State>& states);
+  void add_faces(const IdVector<NodeId, State>& states);
   Flux through(const BoundaryFace& face, const State& state) const;
-  void find_viscous_gradients(const std::vector<State>& states);
-  void take_viscous_edges(const std::vector<State>& states);
-  void take_viscous_faces(const std::vector<State>& states);
+  void find_viscous_gradients(const IdVector<NodeId, State>& states);
+  void take_viscous_edges(const IdVector<NodeId, State>& states);
+  void take_viscous_faces(const IdVector<NodeId, State>& states);
 
   const DualMesh& mesh_;
   const FlowModel& model_;
   LeastSquares least_squares_;
   std::optional<Limiter> limiter_;
   std::optional<ShockSensor> shocks_;
-  std::vector<Gradient> gradients_;
-  std::vector<Flux> sums_;
+  IdVector<NodeId, Gradient> gradients_;
+  IdVector<NodeId, Flux> sums_;
   NoSlipNodes no_slip_;
   std::optional<FarField> far_field_;
-  std::vector<ViscousGradient> viscous_gradients_;  ///< in viscous flow
-  std::vector<Point> friction_;
+  IdVector<NodeId, ViscousGradient> viscous_gradients_;  ///< in viscous flow
+  IdVector<NodeId, Point> friction_;
 };
 
 /// States on both sides of an edge's midpoint.
@@ -78,8 +77,8 @@ struct EdgeStates {
 
 /// If a reconstructed density or pressure would be close to zero, the edge uses the states of the nodes:
 /// first order.
-EdgeStates states_at_middle(const DualEdge& edge, const std::vector<State>& states,
-                            const std::vector<Gradient>& gradients);
+EdgeStates states_at_middle(const DualEdge& edge, const IdVector<NodeId, State>& states,
+                            const IdVector<NodeId, Gradient>& gradients);
 
 /// Returns the contribution of a SkewEdge to the flux through its edge's face, from the means of the two
 /// nodes' states and gradients.

@@ -5,7 +5,7 @@ namespace quadloop::flow::euler {
 ShockSensor::ShockSensor(const DualMesh& mesh, double least_pressure)
     : mesh_{mesh}, least_pressure_{least_pressure}, jumps_(mesh.nodes()), shares_(mesh.nodes()) {}
 
-void ShockSensor::find(const std::vector<State>& states) {
+void ShockSensor::find(const IdVector<NodeId, State>& states) {
   if (frozen_) return;
   std::ranges::fill(jumps_, 0.0);
   for (const DualEdge& edge : mesh_.edges()) {
@@ -13,7 +13,7 @@ void ShockSensor::find(const std::vector<State>& states) {
     jumps_[edge.low] = std::max(jumps_[edge.low], jump);
     jumps_[edge.high] = std::max(jumps_[edge.high], jump);
   }
-  for (std::int32_t node = 0; node < mesh_.owned_nodes(); ++node) shares_[node] = shock_share(jumps_[node]);
+  for (const NodeId node : mesh_.owned_ids()) shares_[node] = shock_share(jumps_[node]);
   mesh_.exchange().update(shares_);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include "flow/euler/model/gas.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
@@ -36,12 +35,12 @@ class ShockSensor {
   ShockSensor(const DualMesh& mesh, double least_pressure);
 
   /// Evaluates the states; ghosts must be up to date. *Collective.*
-  void find(const std::vector<State>& states);
+  void find(const IdVector<NodeId, State>& states);
 
   /// Damping of the edge between these nodes.
-  double share(std::int32_t a, std::int32_t b) const { return shares_[decider(a, b)]; }
+  double share(NodeId a, NodeId b) const { return shares_[decider(a, b)]; }
   /// Returns the node with the larger share.
-  std::int32_t decider(std::int32_t a, std::int32_t b) const { return shares_[b] > shares_[a] ? b : a; }
+  NodeId decider(NodeId a, NodeId b) const { return shares_[b] > shares_[a] ? b : a; }
 
   /// Freezes the shares of the last call.
   void freeze() { frozen_ = true; }
@@ -49,13 +48,13 @@ class ShockSensor {
   bool frozen() const { return frozen_; }
 
   /// Largest jump to a neighbour of an owned node, from the last call.
-  double jump(std::int32_t node) const { return jumps_[node]; }
+  double jump(NodeId node) const { return jumps_[node]; }
   double least_pressure() const { return least_pressure_; }
 
  private:
   const DualMesh& mesh_;
   double least_pressure_;
-  std::vector<double> jumps_, shares_;  ///< for each node
+  IdVector<NodeId, double> jumps_, shares_;  ///< for each node
   bool frozen_ = false;
 };
 

@@ -22,20 +22,19 @@ struct AdjointRun {
             dual,
             model,
             flow::euler::Residual(dual, model, options),
-            std::vector<flow::euler::State>(dual.nodes(), model.free_stream)} {
+            IdVector<NodeId, flow::euler::State>(dual.nodes(), model.free_stream)} {
     for (const BoundaryEdges& boundary : mesh.boundaries) names.push_back(boundary.name);
-    for (std::size_t node = 0; node < dual.nodes(); ++node) {
-      const std::int64_t number = dual.global(static_cast<std::int32_t>(node)).value();
+    for (const NodeId node : dual.ids()) {
+      const std::int64_t number = dual.global(node).value();
       for (int k = 0; k < 4; ++k) states[node][k] *= 1 + strength * scattered(7, number, k);
     }
   }
 
   /// Values for all nodes that their numbers alone decide.
-  std::vector<flow::euler::State> made_up(std::uint64_t seed) const {
-    std::vector<flow::euler::State> rows(dual.nodes());
-    for (std::size_t node = 0; node < rows.size(); ++node) {
-      for (int k = 0; k < 4; ++k)
-        rows[node][k] = scattered(seed, dual.global(static_cast<std::int32_t>(node)).value(), k);
+  IdVector<NodeId, flow::euler::State> made_up(std::uint64_t seed) const {
+    IdVector<NodeId, flow::euler::State> rows(dual.nodes());
+    for (const NodeId node : rows.ids()) {
+      for (int k = 0; k < 4; ++k) rows[node][k] = scattered(seed, dual.global(node).value(), k);
     }
     return rows;
   }
@@ -47,7 +46,7 @@ struct AdjointRun {
   flow::euler::FlowModel model;
   flow::euler::FlowRun run;
   flow::euler::Residual& residual = run.residual;
-  std::vector<flow::euler::State>& states = run.states;
+  IdVector<NodeId, flow::euler::State>& states = run.states;
 };
 
 }  // namespace quadloop::test

@@ -24,9 +24,9 @@ EulerOptions options_at(double mach) {
   return options;
 }
 
-double dot(const FlowRun& run, const std::vector<State>& a, const std::vector<State>& b) {
+double dot(const FlowRun& run, const IdVector<NodeId, State>& a, const IdVector<NodeId, State>& b) {
   std::vector<double> terms;
-  for (std::int32_t node = 0; node < run.mesh.owned_nodes(); ++node) {
+  for (const NodeId node : run.mesh.owned_ids()) {
     for (std::size_t k = 0; k < 4; ++k) terms.push_back(a[node][k] * b[node][k]);
   }
   return reproducible_sum(run.comm, terms);
@@ -34,23 +34,23 @@ double dot(const FlowRun& run, const std::vector<State>& a, const std::vector<St
 
 /// The largest of what the derivative along a direction is off from central differences, over the largest of
 /// them.
-double worst_difference(AdjointRun& made, const std::vector<State>& direction, double step) {
+double worst_difference(AdjointRun& made, const IdVector<NodeId, State>& direction, double step) {
   const LinearResidual linear(made.run);
-  std::vector<State> change = direction;
-  std::vector<Flux> slope;
+  IdVector<NodeId, State> change = direction;
+  IdVector<NodeId, Flux> slope;
   linear.apply(change, slope);
-  const std::vector<State> held = made.states;
+  const IdVector<NodeId, State> held = made.states;
   const auto at = [&](double share) {
-    for (std::size_t node = 0; node < held.size(); ++node) {
+    for (const NodeId node : held.ids()) {
       for (std::size_t k = 0; k < 4; ++k)
         made.states[node][k] = held[node][k] + share * step * direction[node][k];
     }
-    return std::vector<Flux>(made.residual.evaluate(made.states));
+    return IdVector<NodeId, Flux>(made.residual.evaluate(made.states));
   };
-  const std::vector<Flux> up = at(1), down = at(-1);
+  const IdVector<NodeId, Flux> up = at(1), down = at(-1);
   made.states = held;
   double worst = 0, largest = 0;
-  for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node) {
+  for (const NodeId node : made.dual.owned_ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double difference = (up[node][k] - down[node][k]) / (2 * step);
       worst = std::max(worst, std::abs(difference - slope[node][k]));
@@ -62,8 +62,8 @@ double worst_difference(AdjointRun& made, const std::vector<State>& direction, d
 
 void expect_transposed(AdjointRun& made) {
   const LinearResidual linear(made.run);
-  std::vector<State> w = made.made_up(11), transposed;
-  std::vector<Flux> v = made.made_up(12), product;
+  IdVector<NodeId, State> w = made.made_up(11), transposed;
+  IdVector<NodeId, Flux> v = made.made_up(12), product;
   linear.apply(w, product);
   linear.apply_transposed(v, transposed);
   const double there = dot(made.run, v, product), back = dot(made.run, transposed, w);
@@ -75,7 +75,7 @@ void expect_transposed(AdjointRun& made) {
 TEST(LinearResidual, IsTheDerivativeWithTheLimiter) {
   for (const double mach : {0.5, 0.9, 2.0}) {
     AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(mach));
-    const std::vector<State> direction = made.made_up(3);
+    const IdVector<NodeId, State> direction = made.made_up(3);
     EXPECT_LT(worst_difference(made, direction, 1e-7), 1e-6) << mach;
   }
 }
@@ -83,10 +83,10 @@ TEST(LinearResidual, IsTheDerivativeWithTheLimiter) {
 /// Pressures of neighbours that differ up to threefold.
 TEST(LinearResidual, IsTheDerivativeBesideStrongShocks) {
   AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(2.0), 0.5);
-  const std::vector<State> direction = made.made_up(3);
+  const IdVector<NodeId, State> direction = made.made_up(3);
   EXPECT_LT(worst_difference(made, direction, 1e-7), 1e-6);
   bool live = false;
-  for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node) {
+  for (const NodeId node : made.dual.owned_ids()) {
     const double share = shock_share(made.residual.shocks()->jump(node));
     live = live || (share > 0.1 && share < 0.9);
   }
@@ -99,7 +99,7 @@ TEST(LinearResidual, IsTheDerivativeWhereLittlePressureIsLeft) {
   EulerOptions options = options_at(0.8);
   options.reference_length = 1e-3;
   AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options, 0.95);
-  const std::vector<State> direction = made.made_up(3);
+  const IdVector<NodeId, State> direction = made.made_up(3);
   EXPECT_LT(worst_difference(made, direction, 1e-8), 1e-6);
   made.residual.evaluate(made.states);
   bool decides = false;
@@ -113,7 +113,7 @@ TEST(LinearResidual, IsTheDerivativeWhereFactorsAreKept) {
   AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options_at(0.8));
   made.residual.evaluate(made.states);
   made.residual.freeze_limiter();
-  const std::vector<State> direction = made.made_up(3);
+  const IdVector<NodeId, State> direction = made.made_up(3);
   EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8);
 }
 
@@ -125,7 +125,7 @@ TEST(LinearResidual, IsTheDerivativeWithoutLimiterAndOnEachBoundary) {
     for (const std::optional<double> pressure : {std::optional(0.9), std::optional<double>()}) {
       options.boundaries[1] = {"far", condition, pressure};
       AdjointRun made(world(), test::irregular_grid(9, {1, 1}, 0.2), options);
-      const std::vector<State> direction = made.made_up(4);
+      const IdVector<NodeId, State> direction = made.made_up(4);
       EXPECT_LT(worst_difference(made, direction, 1e-6), 1e-8) << condition.word();
     }
   }
@@ -170,11 +170,11 @@ struct PlaceCase {
     if (keeps_) made.residual.freeze_limiter();
     const LinearResidual linear(made.run);
     const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
-    std::vector<Point> of_goal(made.dual.nodes());
+    IdVector<NodeId, Point> of_goal(made.dual.nodes());
     functional.add_place_derivative(made.states, of_goal);
-    const std::vector<Point> all = place_derivative(linear, functional, made.made_up(5));
+    const IdVector<NodeId, Point> all = place_derivative(linear, functional, made.made_up(5));
     std::vector<double> terms;
-    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+    for (const NodeId node : made.dual.owned_ids())
       terms.push_back(dot_of(way(made.dual.point(node)), of_goal[node] - all[node]));
     return reproducible_sum(made.run.comm, terms);
   }
@@ -185,10 +185,10 @@ struct PlaceCase {
   double goal_derivative(const Goal& goal) const {
     const AdjointRun made(world(), moved(0), options_);
     const GoalFunctional functional(made.run.comm, made.dual, made.model, made.names, goal, 1);
-    std::vector<Point> sums(made.dual.nodes());
+    IdVector<NodeId, Point> sums(made.dual.nodes());
     functional.add_place_derivative(made.states, sums);
     std::vector<double> terms;
-    for (std::int32_t node = 0; node < made.dual.owned_nodes(); ++node)
+    for (const NodeId node : made.dual.owned_ids())
       terms.push_back(dot_of(way(made.dual.point(node)), sums[node]));
     return reproducible_sum(made.run.comm, terms);
   }
@@ -231,16 +231,17 @@ TEST(LinearResidual, HasTheSameBitsOnAnyNumberOfRanks) {
   AdjointRun part(world(), whole, options_at(0.8)), all(self, whole, options_at(0.8));
   const auto products = [](AdjointRun& made) {
     const LinearResidual linear(made.run);
-    std::vector<State> w = made.made_up(11), transposed;
-    std::vector<Flux> v = made.made_up(12), product;
+    IdVector<NodeId, State> w = made.made_up(11), transposed;
+    IdVector<NodeId, Flux> v = made.made_up(12), product;
     linear.apply(w, product);
     linear.apply_transposed(v, transposed);
     return std::pair{product, transposed};
   };
   const auto here = products(part), alone = products(all);
-  for (std::int32_t node = 0; node < part.dual.owned_nodes(); ++node) {
-    EXPECT_EQ(here.first[node], alone.first[part.mesh.first_node + node]);
-    EXPECT_EQ(here.second[node], alone.second[part.mesh.first_node + node]);
+  for (const NodeId node : part.dual.owned_ids()) {
+    const NodeId of_all{static_cast<std::int32_t>(part.dual.global(node).value())};
+    EXPECT_EQ(here.first[node], alone.first[of_all]);
+    EXPECT_EQ(here.second[node], alone.second[of_all]);
   }
 }
 

@@ -36,7 +36,7 @@ struct RingRun {
             dual,
             model,
             Residual(dual, model, options),
-            std::vector<State>(dual.nodes(), model.free_stream)} {}
+            IdVector<NodeId, State>(dual.nodes(), model.free_stream)} {}
   static EulerOptions options_at(double alpha) {
     EulerOptions options;
     options.mach = 0.5;
@@ -46,8 +46,7 @@ struct RingRun {
   /// Every node's pressure, copies too.
   template <class Pressure>
   void set_pressure(const Pressure& pressure) {
-    for (std::int32_t node = 0; node < static_cast<std::int32_t>(dual.nodes()); ++node)
-      states[node][3] = pressure(dual.point(node));
+    for (const NodeId node : dual.ids()) states[node][3] = pressure(dual.point(node));
   }
   ForceCoefficients forces(double length = 1) const {
     return wall_forces(run.comm, dual, model, states, {}, length);
@@ -58,7 +57,7 @@ struct RingRun {
   EulerOptions options;
   FlowModel model;
   FlowRun run;
-  std::vector<State>& states = run.states;
+  IdVector<NodeId, State>& states = run.states;
 };
 
 /// Of the polygon whose corners are the body's nodes.
@@ -104,17 +103,17 @@ TEST(WallForces, AreNoneWhereTheFreeStreamRests) {
 
 TEST(MassResidual, IsTheRootMeanSquareOverAllRanks) {
   const RingRun ring;
-  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{-3, 7, 7, 7});
+  IdVector<NodeId, Flux> fluxes(ring.dual.nodes(), Flux{-3, 7, 7, 7});
   EXPECT_EQ(mass_residual(ring.run, fluxes), 3);
-  for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node)
+  for (const NodeId node : ring.dual.owned_ids())
     fluxes[node][0] = ring.dual.global(node).value() % 2 == 0 ? 4 : 0;
   EXPECT_NEAR(mass_residual(ring.run, fluxes), std::sqrt(8), 1e-14);
 }
 
 TEST(MassResidual, IsNoNumberWhereAnyIsNone) {
   const RingRun ring;
-  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
-  for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+  IdVector<NodeId, Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  for (const NodeId node : ring.dual.owned_ids()) {
     if (ring.dual.global(node) == GlobalNodeId{5}) fluxes[node][0] = std::numeric_limits<double>::quiet_NaN();
   }
   EXPECT_FALSE(std::isfinite(mass_residual(ring.run, fluxes)));
@@ -122,9 +121,9 @@ TEST(MassResidual, IsNoNumberWhereAnyIsNone) {
 
 TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
   RingRun ring;
-  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  IdVector<NodeId, Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
   const auto set = [&](std::int64_t number, double flux, double density) {
-    for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+    for (const NodeId node : ring.dual.owned_ids()) {
       if (ring.dual.global(node).value() != number) continue;
       fluxes[node][0] = flux;
       ring.states[node][0] = density;
@@ -140,16 +139,16 @@ TEST(WorstPlace, IsThatOfTheLargestFluxOrTheFirstThatIsNone) {
 TEST(WorstPlace, IsTheFirstWithoutGasRatherThanANeighbourThatItSpoils) {
   RingRun ring;
   const double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
-  const auto at = [&ring](std::int64_t number) -> std::int32_t {
-    for (std::int32_t node = 0; node < ring.dual.owned_nodes(); ++node) {
+  IdVector<NodeId, Flux> fluxes(ring.dual.nodes(), Flux{1, 0, 0, 0});
+  const auto at = [&ring](std::int64_t number) -> NodeId {
+    for (const NodeId node : ring.dual.owned_ids()) {
       if (ring.dual.global(node).value() == number) return node;
     }
-    return -1;
+    return NodeId{};
   };
-  if (at(20) >= 0) fluxes[at(20)][0] = none;
+  if (at(20).valid()) fluxes[at(20)][0] = none;
   for (const auto& [number, entry, value] : {std::tuple{70, 0, -0.25}, {40, 3, 0.0}, {30, 2, none}}) {
-    if (at(number) >= 0) ring.states[at(number)][entry] = value;
+    if (at(number).valid()) ring.states[at(number)][entry] = value;
     const std::string said = worst_place(ring.run, fluxes);
     const std::string words = entry == 0   ? "where density is -0.25,"
                               : entry == 3 ? "and pressure 0"
@@ -164,7 +163,8 @@ std::optional<EulerResult> spoilt_below(double residual) {
   ring.options.progress_every = 1;
   ring.options.iterations = 300;
   ring.options.progress = [&](const EulerProgress& now) {
-    if (now.residual < residual && now.cfl > 0) ring.states[0][3] = std::numeric_limits<double>::quiet_NaN();
+    if (now.residual < residual && now.cfl > 0)
+      ring.states[NodeId{0}][3] = std::numeric_limits<double>::quiet_NaN();
   };
   try {
     return march_to_steady(ring.run);

@@ -21,13 +21,13 @@ TEST(MirroredStates, AreMeansOfNodesAndTheirImages) {
   model.free_stream = {1, 0.8, 0, 1};
   const auto mirrored = MirroredStates::find(world(), dual, model, MirrorAxis::x);
   ASSERT_TRUE(mirrored);
-  std::vector<State> states(dual.nodes());
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+  IdVector<NodeId, State> states(dual.nodes());
+  for (const NodeId node : dual.owned_ids()) {
     const auto [x, y] = dual.point(node);
     states[node] = {1 + x + y, x - y * y + y, 0.5 + 2 * y, 3 - y};
   }
   mirrored->average(states);
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+  for (const NodeId node : dual.owned_ids()) {
     const auto [x, y] = dual.point(node);
     const State expected{1 + x, x - y * y, 2 * y, 3};
     for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(states[node][k], expected[k], 1e-14);

@@ -29,13 +29,12 @@ TEST(NewtonStep, FallsFasterTheNearerTheEnd) {
   const EulerResult near = solve_euler(world(), mesh, options);
   const DualMesh dual(world(), mesh);
   const FlowModel model = flow_model(world(), mesh, options);
-  std::vector<State> states(dual.nodes(), model.free_stream);
-  for (std::size_t node = 0; node < dual.areas().size(); ++node)
-    std::copy_n(near.flow.values.begin() + static_cast<std::ptrdiff_t>(4 * node), 4, states[node].begin());
+  IdVector<NodeId, State> states(dual.nodes(), model.free_stream);
+  for (const NodeId node : dual.owned_ids()) std::ranges::copy(near.flow.row(node), states[node].begin());
   FlowRun run{world(), options, dual, model, Residual(dual, model, options), std::move(states)};
   ImplicitSystem system(world(), dual, model);
   NewtonStep newton(run, system);
-  const std::vector<double> shares(dual.owned_nodes(), 1.0);
+  const IdVector<NodeId, double> shares(dual.owned_nodes(), 1.0);
   double before = mass_residual(run, run.residual.evaluate(run.states));
   for (int step = 0; step < 4; ++step) {
     const NewtonStep::Taken taken = newton.take(run.residual.evaluate(run.states), 1e6, shares);

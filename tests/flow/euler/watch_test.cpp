@@ -13,22 +13,24 @@ TEST(StepFractions, FallWhereChangesSwingAndGrowAgain) {
   StepFractions shares(2);
   for (int step = 0; step < 30; ++step) {
     const float sign = step % 2 == 0 ? 1.F : -1.F;
-    shares.follow({Change{sign, 0, 0, sign}, Change{1, 0, 0, 1}});
+    shares.follow(IdVector<NodeId, Change>({Change{sign, 0, 0, sign}, Change{1, 0, 0, 1}}));
   }
-  EXPECT_LT(shares.shares()[0], 0.1);
-  EXPECT_EQ(shares.shares()[1], 1);
-  const double least = shares.shares()[0];
-  for (int step = 0; step < 50; ++step) shares.follow({Change{1, 0, 0, 1}, Change{1, 0, 0, 1}});
-  EXPECT_GT(shares.shares()[0], 2 * least);
+  EXPECT_LT(shares.shares()[NodeId{0}], 0.1);
+  EXPECT_EQ(shares.shares()[NodeId{1}], 1);
+  const double least = shares.shares()[NodeId{0}];
+  for (int step = 0; step < 50; ++step)
+    shares.follow(IdVector<NodeId, Change>({Change{1, 0, 0, 1}, Change{1, 0, 0, 1}}));
+  EXPECT_GT(shares.shares()[NodeId{0}], 2 * least);
   shares.restart();
-  EXPECT_EQ(shares.shares()[0], 1);
+  EXPECT_EQ(shares.shares()[NodeId{0}], 1);
 }
 
 TEST(StepFractions, StayWhereSwingsDieOutFast) {
   StepFractions shares(1);
   float change = 1;
-  for (int step = 0; step < 30; ++step) shares.follow({Change{change *= -0.7F, 0, 0, 0}});
-  EXPECT_EQ(shares.shares()[0], 1);
+  for (int step = 0; step < 30; ++step)
+    shares.follow(IdVector<NodeId, Change>({Change{change *= -0.7F, 0, 0, 0}}));
+  EXPECT_EQ(shares.shares()[NodeId{0}], 1);
 }
 
 TEST(StallWatch, TellsASlowFallFromAFastOne) {

@@ -80,7 +80,7 @@ TEST(TidyMesh, TurnsCellsAndBoundaryEdges) {
   expect_same(loaded.mesh, square().mesh);
   ASSERT_EQ(loaded.warnings.size(), 2U);
   EXPECT_EQ(loaded.warnings[0], "m.mesh: reversed 6 cells with clockwise nodes");
-  EXPECT_EQ(loaded.warnings[1], "m.mesh: 1 boundary edges had their cell to the right and were reversed");
+  EXPECT_EQ(loaded.warnings[1], "m.mesh: reversed 1 boundary edge with the cell to the right");
 }
 
 TEST(TidyMesh, InvertedCellsStay) {
@@ -104,9 +104,9 @@ TEST(TidyMesh, EdgesOfNoBoundaryBecomeOne) {
   EXPECT_EQ(added.edges.size(), 5U);
   EXPECT_TRUE(validate(loaded.mesh).empty());
   ASSERT_EQ(loaded.warnings.size(), 2U);
-  EXPECT_EQ(loaded.warnings[0], "m.mesh: 1 boundaries without edges were left out");
+  EXPECT_EQ(loaded.warnings[0], "m.mesh: left out 1 named boundary curve without edges");
   EXPECT_EQ(loaded.warnings[1],
-            "m.mesh: 5 outer edges belong to no boundary; they form the boundary \"boundary_2\" now");
+            "m.mesh: added 5 outer edges without a boundary, as boundary \"boundary_2\"");
 }
 
 TEST(TidyMesh, AMeshWithoutBoundariesGetsOne) {
@@ -133,7 +133,7 @@ TEST(TidyMesh, EdgesInsideABlockBecomeInnerCurves) {
     EXPECT_EQ(loaded.inner_curves[0].name, "wall");
     EXPECT_EQ(loaded.inner_curves[0].edges, (std::vector{std::array{node(4), node(7)}}));
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("left out: those of 'wall'"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("boundary edges: those of 'wall'"), std::string::npos);
   }
 }
 

@@ -37,35 +37,35 @@ struct Ring {
   DualMesh dual;
   EulerOptions options;
   FlowModel model;
-  std::vector<State> states;
+  IdVector<NodeId, State> states;
 };
 
 TEST(ColourEdges, NoEdgeJoinsTwoOfOneColour) {
   const Ring ring;
   const Colouring colours = colour_dual_nodes(world(), ring.dual);
   for (const DualEdge& edge : ring.dual.edges()) {
-    EXPECT_NE(colours.colour_of[NodeId{edge.low}], colours.colour_of[NodeId{edge.high}]);
-    EXPECT_GE(colours.colour_of[NodeId{edge.low}], 0);
+    EXPECT_NE(colours.colour_of[edge.low], colours.colour_of[edge.high]);
+    EXPECT_GE(colours.colour_of[edge.low], 0);
   }
   EXPECT_LE(colours.count, 5);
 }
 
-std::vector<Flux> made_up_residual(const DualMesh& mesh) {
-  std::vector<Flux> residual(mesh.nodes());
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(mesh.nodes()); ++node) {
+IdVector<NodeId, Flux> made_up_residual(const DualMesh& mesh) {
+  IdVector<NodeId, Flux> residual(mesh.nodes());
+  for (const NodeId node : mesh.ids()) {
     for (int k = 0; k < 4; ++k) residual[node][k] = 0.01 * test::scattered(11, mesh.global(node).value(), k);
   }
   return residual;
 }
 
-std::vector<Change> relaxed(const Ring& ring, double cfl, int sweeps, double scale = 1) {
+IdVector<NodeId, Change> relaxed(const Ring& ring, double cfl, int sweeps, double scale = 1) {
   ImplicitSystem system(ring.comm, ring.dual, ring.model);
-  system.assemble(ring.states, cfl, std::vector<double>(ring.dual.owned_nodes(), 1));
-  std::vector<Flux> residual = made_up_residual(ring.dual);
+  system.assemble(ring.states, cfl, IdVector<NodeId, double>(ring.dual.owned_nodes(), 1));
+  IdVector<NodeId, Flux> residual = made_up_residual(ring.dual);
   for (Flux& flux : residual) {
     for (double& part : flux) part *= scale;
   }
-  std::vector<Change> change(ring.dual.nodes());
+  IdVector<NodeId, Change> change(ring.dual.nodes());
   system.relax(residual, sweeps, change);
   change.resize(ring.dual.owned_nodes());
   return change;
@@ -75,13 +75,14 @@ TEST(ImplicitSystem, HasTheSameBitsOnAnyNumberOfRanks) {
   const Communicator self(MPI_COMM_SELF);
   const Ring together, alone{self};
   const auto part = relaxed(together, 20, 5), whole = relaxed(alone, 20, 5);
-  for (std::size_t i = 0; i < part.size(); ++i) EXPECT_EQ(part[i], whole[together.mesh.first_node + i]);
+  for (const NodeId i : part.ids())
+    EXPECT_EQ(part[i], whole[NodeId{static_cast<std::int32_t>(together.mesh.global(i).value())}]);
 }
 
 TEST(ImplicitSystem, IsLinear) {
   const Ring ring;
   const auto once = relaxed(ring, 20, 5), twice = relaxed(ring, 20, 5, 2);
-  for (std::size_t i = 0; i < once.size(); ++i) {
+  for (const NodeId i : once.ids()) {
     for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(twice[i][k], 2 * once[i][k]);
   }
   for (const Change& change : relaxed(ring, 20, 3, 0)) EXPECT_EQ(change, Change{});
@@ -92,7 +93,7 @@ TEST(ImplicitSystem, ASmallStepIsAnExplicitOne) {
   const Ring ring;
   const auto once = relaxed(ring, 1e-6, 1), often = relaxed(ring, 1e-6, 8);
   const auto residual = made_up_residual(ring.dual);
-  for (std::size_t i = 0; i < once.size(); ++i) {
+  for (const NodeId i : once.ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_NEAR(once[i][k], often[i][k], 1e-4F * std::abs(often[i][k]) + 1e-12F);
       EXPECT_LE(often[i][k] * residual[i][k], 0);
@@ -102,9 +103,9 @@ TEST(ImplicitSystem, ASmallStepIsAnExplicitOne) {
 
 TEST(ImplicitSystem, SweepsConverge) {
   const Ring ring;
-  const auto distance = [](const std::vector<Change>& a, const std::vector<Change>& b) {
+  const auto distance = [](const IdVector<NodeId, Change>& a, const IdVector<NodeId, Change>& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const NodeId i : a.ids()) {
       for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, std::abs(1.0 * a[i][k] - b[i][k]));
     }
     return world().maximum(largest);

@@ -10,14 +10,14 @@
 namespace quadloop::flow::euler {
 namespace {
 
-constexpr std::size_t own_rows = 7;
+constexpr std::int32_t own_rows = 7;
 
 /// Each rank's own rows, coupled within the row alone: not symmetric, and of another size in each row.
 void multiply(NodeRows& x, NodeRows& product) {
-  product.assign(x.size(), {});
-  for (std::size_t i = 0; i < own_rows; ++i) {
+  product = NodeRows(x.size());
+  for (const NodeId i : ids_below(NodeId{own_rows})) {
     for (std::size_t k = 0; k < 4; ++k)
-      product[i][k] = static_cast<double>(2 + i + k) * x[i][k] + 0.7 * x[i][(k + 1) % 4];
+      product[i][k] = (2 + i.value() + static_cast<double>(k)) * x[i][k] + 0.7 * x[i][(k + 1) % 4];
   }
 }
 
@@ -31,8 +31,8 @@ KrylovSystem system_of_rows() {
 
 NodeRows right_side() {
   NodeRows right(own_rows + 2);  // two that do not count
-  for (std::size_t i = 0; i < right.size(); ++i) {
-    for (std::size_t k = 0; k < 4; ++k) right[i][k] = std::cos(static_cast<double>(4 * i + k));
+  for (const NodeId i : right.ids()) {
+    for (std::size_t k = 0; k < 4; ++k) right[i][k] = std::cos(4 * i.value() + static_cast<double>(k));
   }
   return right;
 }
@@ -45,7 +45,7 @@ TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
     EXPECT_LE(end.residual, 1e-12) << restart;
     EXPECT_LE(end.iterations, restart == 40 ? 28 : 200);
     multiply(x, product);
-    for (std::size_t i = 0; i < own_rows; ++i) {
+    for (const NodeId i : ids_below(NodeId{own_rows})) {
       for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(product[i][k], right[i][k], 1e-11);
     }
   }
@@ -54,10 +54,10 @@ TEST(Krylov, SolvesASystemThatIsNotSymmetric) {
 /// Of sizes that differ by a factor of 1e7: what is left over of the basis does not spoil the end.
 TEST(Krylov, SolvesABadlyScaledSystemInOneGo) {
   KrylovSystem system = system_of_rows();
-  const auto factor = [](std::size_t i) { return std::pow(10.0, static_cast<double>(i)); };
+  const auto factor = [](NodeId i) { return std::pow(10.0, i.value()); };
   system.multiply = [&](NodeRows& x, NodeRows& product) {
     multiply(x, product);
-    for (std::size_t i = 0; i < own_rows; ++i) {
+    for (const NodeId i : ids_below(NodeId{own_rows})) {
       for (double& value : product[i]) value *= factor(i);
     }
   };
@@ -70,7 +70,7 @@ TEST(Krylov, StopsAtWhatIsNoNumber) {
   KrylovSystem system = system_of_rows();
   system.multiply = [&](NodeRows& x, NodeRows& product) {
     multiply(x, product);
-    if (test::world().is_root()) product[3][1] = std::numeric_limits<double>::quiet_NaN();
+    if (test::world().is_root()) product[NodeId{3}][1] = std::numeric_limits<double>::quiet_NaN();
   };
   NodeRows x;
   EXPECT_LE(solve_by_gmres(test::world(), system, right_side(), x, 1e-9, 28, 28).iterations, 1);

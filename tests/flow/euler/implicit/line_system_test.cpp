@@ -38,7 +38,7 @@ TEST(FindLines, CrossThinCellsFromSideToSide) {
     ASSERT_EQ(line.nodes.size(), n + 1);
     for (std::size_t k = 0; k < line.nodes.size(); ++k) {
       line_of[line.nodes[k]] = &line;
-      const Point p = whole.point(static_cast<std::int32_t>(line.nodes[k].value()));
+      const Point p = whole.point(NodeId{static_cast<std::int32_t>(line.nodes[k].value())});
       const double upwards = static_cast<double>(k) / n, place = p.y / 0.01;
       EXPECT_LT(std::min(std::abs(place - upwards), std::abs(1 - place - upwards)), 0.1);
     }
@@ -50,8 +50,7 @@ TEST(FindLines, CrossThinCellsFromSideToSide) {
     EXPECT_EQ(line.nodes, line_of[line.nodes[0]]->nodes);
     EXPECT_EQ(line.colour, line_of[line.nodes[0]]->colour);
   }
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node)
-    EXPECT_TRUE(here.contains(dual.global(node)));
+  for (const NodeId node : dual.owned_ids()) EXPECT_TRUE(here.contains(dual.global(node)));
 }
 
 TEST(FindLines, AreNoneInCellsOfModerateShape) {
@@ -71,8 +70,8 @@ TEST(FindLines, BeginWhereCellsAreThinnest) {
   const std::vector<NodeLine> lines = find_lines(self, dual, colour_dual_nodes(self, dual));
   EXPECT_EQ(lines.size(), 13);
   for (const NodeLine& line : lines) {
-    EXPECT_EQ(dual.point(static_cast<std::int32_t>(line.nodes.front().value())).y, 0);
-    EXPECT_LT(dual.point(static_cast<std::int32_t>(line.nodes.back().value())).y, 0.5);
+    EXPECT_EQ(dual.point(NodeId{static_cast<std::int32_t>(line.nodes.front().value())}).y, 0);
+    EXPECT_LT(dual.point(NodeId{static_cast<std::int32_t>(line.nodes.back().value())}).y, 0.5);
   }
 }
 
@@ -102,14 +101,15 @@ TEST(LineSystem, SolvesEachLineAsADenseSystem) {
   const Colouring colours = colour_dual_nodes(world(), dual);
   LineSystem system(world(), dual, colours);
   ASSERT_FALSE(system.empty());
-  std::vector<Matrix4> diagonal(dual.nodes());
+  IdVector<NodeId, Matrix4> diagonal(dual.nodes());
   std::vector<LineSystem::Row> rows(system.rows());
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+  for (const NodeId node : dual.owned_ids()) {
     const std::int64_t number = dual.global(node).value();
     diagonal[node] = made_up_block(number, number);
-    for (std::size_t k = 0; k < 4; ++k) rows[node][k] = test::scattered(5, number, static_cast<int>(k));
-    for (const std::int32_t other : {system.links(node).before, system.links(node).after}) {
-      if (other >= 0) system.set_block(node, other, made_up_block(number, dual.global(other).value()));
+    for (std::size_t k = 0; k < 4; ++k)
+      rows[node.value()][k] = test::scattered(5, number, static_cast<int>(k));
+    for (const NodeId other : {system.links(node).before, system.links(node).after}) {
+      if (other.valid()) system.set_block(node, other, made_up_block(number, dual.global(other).value()));
     }
   }
   system.factor(diagonal);
@@ -128,9 +128,9 @@ TEST(LineSystem, SolvesEachLineAsADenseSystem) {
     }
     const Eigen::VectorXd exact = dense.partialPivLu().solve(right);
     for (std::int64_t i = 0; i < count; ++i) {
-      for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+      for (const NodeId node : dual.owned_ids()) {
         if (dual.global(node) != line.nodes[i]) continue;
-        for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(rows[node][k], exact[4 * i + k], 1e-12);
+        for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(rows[node.value()][k], exact[4 * i + k], 1e-12);
       }
     }
   }

@@ -51,13 +51,12 @@ struct VortexRun {
              dual,
              model,
              Residual(dual, model, options),
-             std::vector<State>(dual.nodes(), model.free_stream)} {
+             IdVector<NodeId, State>(dual.nodes(), model.free_stream)} {
     const Vortex vortex{model.gas, model.free_stream, {4.6, 4.7}, 1};
-    for (std::int32_t node = 0; node < dual.owned_nodes(); ++node)
-      states[node] = vortex.state(dual.point(node), 0);
+    for (const NodeId node : dual.owned_ids()) states[node] = vortex.state(dual.point(node), 0);
   }
   /// To the end in steps of these sizes, again and again.
-  std::vector<State> go(TimeScheme& scheme, const std::vector<double>& steps) {
+  IdVector<NodeId, State> go(TimeScheme& scheme, const std::vector<double>& steps) {
     double time = 0;
     for (std::size_t k = 0; time < end * (1 - 1e-9); ++k) {
       const double step = std::min(steps[k % steps.size()], end - time);
@@ -74,27 +73,27 @@ struct VortexRun {
   FlowModel model;
   FlowRun flow;
   Residual& residual = flow.residual;
-  std::vector<State>& states = flow.states;
+  IdVector<NodeId, State>& states = flow.states;
 };
 
-std::vector<State> by_backward_difference(const std::vector<double>& steps) {
+IdVector<NodeId, State> by_backward_difference(const std::vector<double>& steps) {
   VortexRun run;
   BackwardDifference scheme(run.flow, steps[0]);
-  std::vector<State> states = run.go(scheme, steps);
+  IdVector<NodeId, State> states = run.go(scheme, steps);
   EXPECT_EQ(scheme.unsolved(), 0);
   return states;
 }
 
-std::vector<State> by_runge_kutta(double step) {
+IdVector<NodeId, State> by_runge_kutta(double step) {
   VortexRun run;
   RungeKutta scheme(run.flow, 0.8);
   EXPECT_LT(step, scheme.longest_step());
   return run.go(scheme, {step});
 }
 
-double distance(const std::vector<State>& a, const std::vector<State>& b) {
+double distance(const IdVector<NodeId, State>& a, const IdVector<NodeId, State>& b) {
   std::vector<double> squares;
-  for (std::size_t node = 0; node < a.size(); ++node) {
+  for (const NodeId node : a.ids()) {
     for (std::size_t k = 0; k < 4; ++k)
       squares.push_back((a[node][k] - b[node][k]) * (a[node][k] - b[node][k]));
   }
@@ -102,7 +101,7 @@ double distance(const std::vector<State>& a, const std::vector<State>& b) {
 }
 
 TEST(BackwardDifference, IsOfOrderTwo) {
-  const std::vector<State> exact = by_runge_kutta(0.02);
+  const IdVector<NodeId, State> exact = by_runge_kutta(0.02);
   const double coarse = distance(by_backward_difference({0.12}), exact),
                fine = distance(by_backward_difference({0.06}), exact),
                finest = distance(by_backward_difference({0.03}), exact);
@@ -112,14 +111,14 @@ TEST(BackwardDifference, IsOfOrderTwo) {
 }
 
 TEST(BackwardDifference, IsOfOrderTwoInUnequalSteps) {
-  const std::vector<State> exact = by_runge_kutta(0.02);
+  const IdVector<NodeId, State> exact = by_runge_kutta(0.02);
   const double coarse = distance(by_backward_difference({0.04, 0.08}), exact),
                fine = distance(by_backward_difference({0.02, 0.04}), exact);
   EXPECT_GT(coarse / fine, 3.2);
 }
 
 TEST(RungeKutta, IsOfOrderThree) {
-  const std::vector<State> exact = by_runge_kutta(0.006);
+  const IdVector<NodeId, State> exact = by_runge_kutta(0.006);
   const double coarse = distance(by_runge_kutta(0.048), exact), fine = distance(by_runge_kutta(0.024), exact);
   EXPECT_GT(coarse / fine, 6.5);
 }
@@ -127,15 +126,15 @@ TEST(RungeKutta, IsOfOrderThree) {
 /// Gas beside all but a vacuum, in a step eight times as long as is stable: in halves it is not.
 TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
   VortexRun run;
-  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+  for (const NodeId node : run.dual.owned_ids()) {
     if (run.dual.point(node).x > 5) run.states[node] = {0.05, 0, 0, 0.02};
   }
   RungeKutta scheme(run.flow, 0.8);
   const double step = 8 * scheme.longest_step();
   scheme.advance(step, run.residual.evaluate(run.states));
-  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
-    EXPECT_GT(run.states[node][0], 0) << node;
-    EXPECT_GT(run.states[node][3], 0) << node;
+  for (const NodeId node : run.dual.owned_ids()) {
+    EXPECT_GT(run.states[node][0], 0) << node.value();
+    EXPECT_GT(run.states[node][3], 0) << node.value();
   }
 }
 
@@ -143,14 +142,14 @@ TEST(RungeKutta, TakesAStepInHalvesRatherThanLeaveNoGas) {
 /// without nodes.
 void expect_states_of_first_failure(std::int32_t cells) {
   VortexRun run(cells);
-  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+  for (const NodeId node : run.dual.owned_ids()) {
     if (run.dual.point(node).x > 5) run.states[node] = {0.05, 40, 0, 1e-5};
   }
-  const std::vector<State> start = run.states;
+  const IdVector<NodeId, State> start = run.states;
   RungeKutta scheme(run.flow, 0.8);
   EXPECT_FALSE(scheme.advance(1e5 * scheme.longest_step(), run.residual.evaluate(run.states)));
   std::int64_t without_gas = 0, not_finite = 0;
-  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+  for (const NodeId node : run.dual.owned_ids()) {
     without_gas += is_gas(run.states[node]) ? 0 : 1;
     not_finite += std::isnan(run.states[node][3]) ? 1 : 0;
   }
@@ -165,7 +164,7 @@ TEST(RungeKutta, LeavesTheStatesInWhichItFirstFailed) {
 
 TEST(BackwardDifference, CountsAStepOnceHoweverManyOfItsPartsWereNotSolved) {
   VortexRun run;
-  for (std::int32_t node = 0; node < run.dual.owned_nodes(); ++node) {
+  for (const NodeId node : run.dual.owned_ids()) {
     if (run.dual.point(node).x > 5) run.states[node] = {1, 8, 0, 0.01};
     if (run.dual.point(node).x < 3) run.states[node] = {0.01, -8, 0, 0.001};
   }
@@ -184,18 +183,20 @@ TEST(TimeScheme, IsImplicitWhereAStepIsGiven) {
 }
 
 TEST(TimeAverage, WeighsByDuration) {
+  const auto states_of = [](State first) { return IdVector<NodeId, State>({first, {5, 5, 5, 5}}); };
+  const auto pulls_of = [](Point first) { return IdVector<NodeId, Point>({first, {9, 9}}); };
   TimeAverage average;
   EXPECT_TRUE(average.empty());
-  average.add({{1, 0, 0, 2}, {5, 5, 5, 5}}, {{1, 2}, {9, 9}}, 1, 1);
-  average.add({{2, 4, 0, 1}, {5, 5, 5, 5}}, {{2, 0}, {9, 9}}, 1, 3);
+  average.add(states_of({1, 0, 0, 2}), pulls_of({1, 2}), 1, 1);
+  average.add(states_of({2, 4, 0, 1}), pulls_of({2, 0}), 1, 3);
   EXPECT_FALSE(average.empty());
-  std::vector<State> states(2, State{7, 7, 7, 7});
+  IdVector<NodeId, State> states(2, State{7, 7, 7, 7});
   average.take(states);
-  EXPECT_EQ(states[0], (State{1.75, 3, 0, 1.25}));
-  EXPECT_EQ(states[1], (State{7, 7, 7, 7}));  // not owned
+  EXPECT_EQ(states[NodeId{0}], (State{1.75, 3, 0, 1.25}));
+  EXPECT_EQ(states[NodeId{1}], (State{7, 7, 7, 7}));  // not owned
   ASSERT_EQ(average.friction().size(), 1U);
-  EXPECT_EQ(average.friction()[0].x, 1.75);
-  EXPECT_EQ(average.friction()[0].y, 0.5);
+  EXPECT_EQ(average.friction()[NodeId{0}].x, 1.75);
+  EXPECT_EQ(average.friction()[NodeId{0}].y, 0.5);
 }
 
 /// A pulse leaves a ring: nothing is steady meanwhile.

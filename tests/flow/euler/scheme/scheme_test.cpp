@@ -26,14 +26,14 @@ TEST(DualMesh, FillsTheMeshAndClosesRoundEachNode) {
   double area = 0;
   for (const double part : dual.areas()) area += part;
   EXPECT_NEAR(area, 6, 1e-12);
-  std::vector<Point> sums(dual.nodes());
+  IdVector<NodeId, Point> sums(dual.nodes());
   for (const DualEdge& edge : dual.edges()) {
     EXPECT_LT(dual.global(edge.low), dual.global(edge.high));
     sums[edge.low] = sums[edge.low] + edge.size * edge.normal;
     sums[edge.high] = sums[edge.high] - edge.size * edge.normal;
   }
   for (const BoundaryFace& face : dual.faces()) {
-    for (const std::int32_t node : {face.from, face.to}) {
+    for (const NodeId node : {face.from, face.to}) {
       sums[node] = sums[node] + face.half_size * face.normal;
     }
   }
@@ -53,15 +53,15 @@ TEST(LeastSquares, IsExactForLinearFields) {
   const Mesh mesh = test::irregular_grid(12, {3, 2}, 0.24);
   const DualMesh dual(world(), mesh);
   const std::array<Point, 4> slopes{{{1, 2}, {-0.5, 0.25}, {0, 3}, {-2, 0}}};
-  std::vector<State> states(dual.nodes());
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+  IdVector<NodeId, State> states(dual.nodes());
+  for (const NodeId node : dual.owned_ids()) {
     for (std::size_t k = 0; k < 4; ++k) states[node][k] = 1.0 + dot(slopes[k], dual.point(node));
   }
-  std::vector<Gradient> gradients(dual.nodes());
+  IdVector<NodeId, Gradient> gradients(dual.nodes());
   LeastSquares(dual).compute(states, gradients);
-  const std::vector<Gradient> full = gradients;
+  const IdVector<NodeId, Gradient> full = gradients;
   Limiter(dual, 1).apply(states, gradients);
-  for (std::size_t node = 0; node < gradients.size(); ++node) {
+  for (const NodeId node : gradients.ids()) {
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_NEAR(full[node].x[k], slopes[k].x, 1e-12);
       EXPECT_NEAR(full[node].y[k], slopes[k].y, 1e-12);
@@ -73,16 +73,16 @@ TEST(LeastSquares, IsExactForLinearFields) {
 TEST(Limiter, FlattensAPeakAndLeavesAConstantAlone) {
   const Mesh mesh = test::irregular_grid(8, {1, 1}, 0);
   const DualMesh dual(world(), mesh);
-  std::vector<State> states(dual.nodes(), State{1, 0, 0, 1});
-  std::vector<Gradient> gradients(dual.nodes(), Gradient{{8, 0, 0, 0}, {0, 0, 0, 0}});
-  const std::size_t middle = 40;
+  IdVector<NodeId, State> states(dual.nodes(), State{1, 0, 0, 1});
+  IdVector<NodeId, Gradient> gradients(dual.nodes(), Gradient{{8, 0, 0, 0}, {0, 0, 0, 0}});
+  constexpr NodeId middle{40};
   states[middle][0] = 3;
   Limiter limiter(dual, 1e6);  // in units so large that nothing counts as small
   limiter.apply(states, gradients);
   EXPECT_LT(std::abs(gradients[middle].x[0]), 1e-6);
   limiter.freeze();
-  gradients.assign(dual.nodes(), Gradient{{8, 1, 0, 0}, {0, 0, 0, 0}});
-  states.assign(dual.nodes(), State{1, 0, 0, 1});
+  gradients = IdVector<NodeId, Gradient>(dual.nodes(), Gradient{{8, 1, 0, 0}, {0, 0, 0, 0}});
+  states = IdVector<NodeId, State>(dual.nodes(), State{1, 0, 0, 1});
   limiter.apply(states, gradients);
   EXPECT_LT(std::abs(gradients[middle].x[0]), 1e-6);  // kept from before
 }
@@ -91,8 +91,8 @@ TEST(Limiter, FlattensAPeakAndLeavesAConstantAlone) {
 TEST(Limiter, LeavesDensityAndPressureAFifth) {
   const Mesh mesh = test::irregular_grid(8, {1, 1}, 0);
   const DualMesh dual(world(), mesh);
-  const std::vector<State> states(dual.nodes(), State{0.1, 1, 0, 0.01});
-  std::vector<Gradient> gradients(dual.nodes(), Gradient{{4, 4, 0, 4}, {0, 0, 0, 0}});
+  const IdVector<NodeId, State> states(dual.nodes(), State{0.1, 1, 0, 0.01});
+  IdVector<NodeId, Gradient> gradients(dual.nodes(), Gradient{{4, 4, 0, 4}, {0, 0, 0, 0}});
   Limiter(dual, 1e-3).apply(states, gradients);
   bool falls = false;
   for (const DualEdge& edge : dual.edges()) {
@@ -117,10 +117,10 @@ TEST(Residual, OfALinearPressureIsExact) {
     const DualMesh dual(world(), mesh);
     const FlowModel model = flow_model(world(), mesh, options);
     Residual residual(dual, model, options);
-    std::vector<State> states;
+    IdVector<NodeId, State> states;
     for (const Point p : mesh.points) states.push_back({1, 0, 0, 1 + 0.125 * p.x - 0.25 * p.y});
-    const std::vector<Flux>& sums = residual.evaluate(states);
-    for (std::size_t node = 0; node < states.size(); ++node) {
+    const IdVector<NodeId, Flux>& sums = residual.evaluate(states);
+    for (const NodeId node : states.ids()) {
       EXPECT_NEAR(sums[node][1], 0.125 * dual.areas()[node], 1e-15);
       EXPECT_NEAR(sums[node][2], -0.25 * dual.areas()[node], 1e-15);
     }
@@ -134,7 +134,7 @@ TEST(Residual, ConservesWhateverTheFlowIs) {
   const DualMesh dual(world(), mesh);
   const FlowModel model = flow_model(world(), mesh, options);
   Residual residual(dual, model, options);
-  std::vector<State> states;
+  IdVector<NodeId, State> states;
   for (int node = 0; node < mesh.owned_nodes; ++node) states.push_back(made_up_state(node));
   double mass = 0, energy = 0, largest = 0;
   for (const Flux& flux : residual.evaluate(states)) {

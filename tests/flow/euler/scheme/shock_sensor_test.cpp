@@ -26,8 +26,8 @@ TEST(ShockSensor, FindsNodesBesideAJumpUntilItIsKept) {
   const Mesh whole = test::irregular_grid(9, {1, 1}, 0.2);
   const Mesh mesh = scatter_mesh(test::world(), whole, space_filling_order(whole));
   const DualMesh dual(test::world(), mesh);
-  std::vector<State> states(dual.nodes(), State{1, 0, 0, 1});
-  for (std::int32_t node = 0; node < static_cast<std::int32_t>(dual.nodes()); ++node) {
+  IdVector<NodeId, State> states(dual.nodes(), State{1, 0, 0, 1});
+  for (const NodeId node : dual.ids()) {
     if (dual.point(node).x > 0.5) states[node][3] = 3;
   }
   ShockSensor sensor(dual, 0.7);
@@ -45,7 +45,7 @@ TEST(ShockSensor, FindsNodesBesideAJumpUntilItIsKept) {
   EXPECT_EQ(largest, 1);
   EXPECT_EQ(alone, 0);
   sensor.freeze();
-  sensor.find(std::vector<State>(dual.nodes(), State{1, 0, 0, 1}));
+  sensor.find(IdVector<NodeId, State>(dual.nodes(), State{1, 0, 0, 1}));
   double kept = 0;
   for (const DualEdge& edge : dual.edges()) kept = std::max(kept, sensor.share(edge.low, edge.high));
   EXPECT_EQ(kept, 1);

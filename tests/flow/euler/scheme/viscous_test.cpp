@@ -87,7 +87,7 @@ TEST(ViscousMatrix, IsTheDerivativeOfTheThinLayerFlux) {
 }
 
 /// What viscosity adds to the net fluxes of a flow given at each place, all boundaries open.
-std::vector<Flux> viscous_part(Mesh mesh, const std::function<State(Point)>& flow) {
+IdVector<NodeId, Flux> viscous_part(Mesh mesh, const std::function<State(Point)>& flow) {
   test::relabel(mesh, [](Point) { return "farfield"; });
   const DualMesh dual(world(), mesh);
   EulerOptions options;
@@ -95,12 +95,12 @@ std::vector<Flux> viscous_part(Mesh mesh, const std::function<State(Point)>& flo
   FlowModel with = flow_model(world(), mesh, options), without = with;
   with.viscosity = 0.3;
   with.prandtl = 0.72;
-  std::vector<State> states(dual.nodes());
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) states[node] = flow(dual.point(node));
+  IdVector<NodeId, State> states(dual.nodes());
+  for (const NodeId node : dual.owned_ids()) states[node] = flow(dual.point(node));
   Residual viscous(dual, with, options), inviscid(dual, without, options);
-  std::vector<Flux> part = viscous.evaluate(states);
-  const std::vector<Flux>& rest = inviscid.evaluate(states);
-  for (std::size_t node = 0; node < part.size(); ++node) {
+  IdVector<NodeId, Flux> part = viscous.evaluate(states);
+  const IdVector<NodeId, Flux>& rest = inviscid.evaluate(states);
+  for (const NodeId node : part.ids()) {
     for (std::size_t k = 0; k < 4; ++k) part[node][k] -= rest[node][k];
   }
   return part;
@@ -140,7 +140,7 @@ TEST(ViscousTerms, OfCouettesFlowBalanceInLayers) {
   int inner = 0;
   for (std::int32_t node = 0; node < 49; ++node) {
     if (!grid.inner(node)) continue;
-    for (const double value : part[node]) EXPECT_NEAR(value, 0, 1e-14) << node;
+    for (const double value : part[NodeId{node}]) EXPECT_NEAR(value, 0, 1e-14) << node;
     ++inner;
   }
   EXPECT_EQ(inner, 25);
@@ -155,15 +155,15 @@ TEST(NoSlip, HoldsVelocityAndTemperature) {
   const FlowModel model = flow_model(world(), mesh, options);
   const DualMesh dual(world(), mesh);
   const NoSlipNodes walls(dual, model);
-  std::vector<State> states(dual.nodes(), State{1.5, 0.5, 0.2, 0.7});
+  IdVector<NodeId, State> states(dual.nodes(), State{1.5, 0.5, 0.2, 0.7});
   walls.hold(states);
-  std::vector<Flux> sums(dual.nodes(), Flux{1, 2, 3, 4});
-  std::vector<Point> friction(dual.nodes());
+  IdVector<NodeId, Flux> sums(dual.nodes(), Flux{1, 2, 3, 4});
+  IdVector<NodeId, Point> friction(dual.nodes());
   walls.take_friction(sums, friction);
-  const std::vector<char> held = walls.held_rows(dual.nodes());
-  std::vector<Matrix4> diagonal(dual.nodes(), Matrix4{7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7});
+  const IdVector<NodeId, char> held = walls.held_rows(dual.nodes());
+  IdVector<NodeId, Matrix4> diagonal(dual.nodes(), Matrix4{7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7});
   walls.hold(diagonal);
-  for (std::int32_t node = 0; node < dual.owned_nodes(); ++node) {
+  for (const NodeId node : dual.owned_ids()) {
     const Point p = dual.point(node);
     const bool cold = p.y == 0, stuck = cold || p.x == 1;
     EXPECT_EQ(states[node][1], stuck ? 0 : 0.5);
