@@ -156,9 +156,10 @@ const KeyTable<LayerLine>& wake_keys() {
                                {.unit = "length",
                                 .needs = {{"no path"}},
                                 .required = {{"how far the wake goes on, or with path where", "no path"}}}),
-       key<&LayerLine::path>("path", path(), "The points that the wake leads to."),
-       key<&LayerLine::spacing>("spacing", number(io::Range::positive()),
-                                "Target cell length along the line.",
+       key<&LayerLine::path>("path", path(),
+                             "The points of the wake line behind the trailing edge. The line starts at the "
+                             "trailing edge, which is not listed."),
+       key<&LayerLine::spacing>("spacing", number(io::Range::positive()), "Target cell length along the line.",
                                 {.unit = "length", .required = {{"the length of cells along the line"}}})}};
   return keys;
 }

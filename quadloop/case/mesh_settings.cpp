@@ -147,10 +147,10 @@ const KeyTable<Settings>& geometry_keys() {
        key<&Settings::inside>("inside", flag(),
                               "Mesh the inside of an airfoil (`.dat`) without outer boundary. Without this "
                               "key such a case is an error."),
-       key<&Settings::mesh, &MeshOptions::may_vanish>("vanish",
-                                                      choice<bool>({{"error", false}, {"allow", true}}),
-                                                      "Treatment of a named boundary whose loops are all "
-                                                      "smaller than `spacing.min`: an error, or drop it.")}};
+       key<&Settings::mesh, &MeshOptions::may_vanish>(
+           "vanish", choice<bool>({{"error", false}, {"allow", true}}),
+           "Treatment of a named boundary whose loops are all "
+           "smaller than `spacing.min`: `\"error\"` stops the run, `\"allow\"` drops the boundary.")}};
   return keys;
 }
 
