@@ -135,7 +135,7 @@ const KeyTable<Settings>& geometry_keys() {
            {.fallback = "`\"none\"`"}),
        key<&Settings::placement, &Placement::spline>(
            "spline", flag(),
-           "Points are joined by cubic splines from corner to corner; without it by straight lines.",
+           "Join the points by cubic splines from corner to corner instead of straight lines, see below.",
            {.fallback = "`true` for `.dat`, else `false`"}),
        key<&Settings::outline, &AssembleOptions::unite_islands>(
            "overlap", choice<bool>({{"error", false}, {"union", true}}),
