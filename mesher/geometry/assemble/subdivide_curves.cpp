@@ -27,6 +27,8 @@ constexpr double turn_share = 0.25;
 constexpr double height_share = 1.0 / 32, height_in_layers = 1.0 / 500;
 /// Curves shorter than this fraction of the extent are not subdivided.
 constexpr double shortest_share = 1e-12;
+/// Pieces that may be added to separate curves. Those that run along each other double at each step.
+constexpr std::size_t most_added = 100000;
 
 /// A segment of a chain, while it is subdivided.
 struct Piece {
@@ -170,6 +172,7 @@ class Subdivision {
       if (!curve.straight() && curve.spacing == 0) curve.spacing = chord_of(piece);
     }
     halve_while([&](const Piece& piece) { return !limits_.hold(piece, chains_[piece.chain].name); });
+    most_pieces_ = pieces_.size() + most_added;
     while (separate()) {
     }
   }
@@ -246,17 +249,17 @@ class Subdivision {
   }
 
   /// Whether two pieces have more in common than an end. Throws InputError if they are too short to be
-  /// halved; pieces with a common end may touch each other there in a cusp.
+  /// halved, or too many; pieces with a common end may touch each other there in a cusp.
   bool overlap(std::int32_t i, std::int32_t j, const std::vector<std::vector<Point>>& hulls) const {
     const Piece &a = pieces_[i], &b = pieces_[j];
-    if (const std::optional<Point> corner = common_end(a.segment, b.segment))
-      return Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j]));
-    if (!hulls_meet(hulls[i], hulls[j])) return false;
-    if (can_be_halved(a) || can_be_halved(b)) return true;
+    const std::optional<Point> corner = common_end(a.segment, b.segment);
+    const bool meet = corner ? Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j])) : hulls_meet(hulls[i], hulls[j]);
+    if (!meet) return false;
+    if (pieces_.size() <= most_pieces_ && (corner || can_be_halved(a) || can_be_halved(b))) return true;
     const Point at = a.segment.from;
     throw InputError(fmt::format(
-        "{}: boundaries '{}' and '{}' touch or cross at ({}, {}); move them apart, or let both have a point "
-        "there",
+        "{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move them apart, remove one, "
+        "or let both have a point there",
         chains_[a.chain].source, chains_[a.chain].name, chains_[b.chain].name, at.x, at.y));
   }
 
@@ -264,6 +267,7 @@ class Subdivision {
   ChordLimitsByName limits_;
   std::vector<Piece> pieces_;
   double shortest_ = 0;
+  std::size_t most_pieces_ = 0;
 };
 
 }  // namespace

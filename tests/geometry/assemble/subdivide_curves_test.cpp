@@ -100,6 +100,21 @@ TEST(SubdivideCurves, TouchingCurvesAreRefusedWithAPlace) {
             std::string::npos);
 }
 
+TEST(SubdivideCurves, CurvesThatRunAlongEachOtherAreRefused) {
+  const auto arc = [](double begin, double end) {
+    const EllipticArc on_circle{{0, 0}, {1, 0}, {0, 1}, begin, end};
+    Chain chain{"rim", true, {on_circle.point_at(begin)}, "drawing.dxf: rim"};
+    append_arc(chain, on_circle);
+    return chain;
+  };
+  for (const std::vector<Chain>& twice :
+       {std::vector{circle({0, 0}, 1), arc(0, 3), arc(3, 2 * std::numbers::pi)}, {circle({0, 0}, 1), circle({0, 0}, 1, "rim")},
+        {arc(0, 3), arc(1, 4), arc(4, 2 * std::numbers::pi)}}) {
+    const std::string said = refusal_of_curves(twice);
+    EXPECT_NE(said.find("run along each other at ("), std::string::npos) << said;
+  }
+}
+
 TEST(SubdivideCurves, CurvesJoinInEitherDirection) {
   Chain top{"top", true, {{1, 0}}, "f:1"}, bottom{"bottom", true, {{1, 0}}, "f:2"};
   append_bulge(top, 1, {-1, 0});
