@@ -14,9 +14,10 @@ std::string line_of(const FileExtent& extent) {
   const std::string unit = extent.declared.name.empty() ? "no unit declared" : "in " + extent.declared.name;
   const std::string taken =
       extent.metres > 0 ? fmt::format("meshed in metres (unit: {:.6g} m)", extent.metres) : "meshed as given";
-  return fmt::format("{}: coordinates from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), {}, {}",
+  const std::string plane = extent.declared.plane.empty() ? "" : " in the " + extent.declared.plane + " plane";
+  return fmt::format("{}: coordinates from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}){}, {}, {}",
                      std::filesystem::path(extent.path).filename().string(), low.x, low.y, high.x, high.y,
-                     unit, taken);
+                     plane, unit, taken);
 }
 
 JsonObject json_of_extent(const FileExtent& extent) {
@@ -24,6 +25,7 @@ JsonObject json_of_extent(const FileExtent& extent) {
   json.add("file", extent.path);
   json.add("extent", std::vector{extent.box.low.x, extent.box.low.y, extent.box.high.x, extent.box.high.y});
   json.add_raw("unit", extent.declared.name.empty() ? "null" : json_of(extent.declared.name));
+  if (!extent.declared.plane.empty()) json.add("plane", extent.declared.plane);
   json.add_raw("metres", extent.metres > 0 ? json_of(extent.metres) : "null");
   return json;
 }

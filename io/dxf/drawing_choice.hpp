@@ -32,11 +32,12 @@ struct DrawingChoice {
   bool has_layer(const std::string& layer) const;
 };
 
-/// What a file declares: the unit of length of its coordinates, and its layers.
+/// What a file declares: the unit of length of its coordinates, its layers, and the plane of its curves.
 struct FileUnit {
   std::string name;                 ///< empty where it declares none
   double metres = 0;                ///< in one of it; 0: not known
   std::vector<std::string> layers;  ///< of a drawing or map; ascending
+  std::string plane = {};           ///< "XZ" or "YZ" if these axes of the file are x and y; else empty
 };
 
 /// Returns the name as one word, for a boundary: blanks, commas and # become underscores.

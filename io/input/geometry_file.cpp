@@ -9,8 +9,9 @@
 #include "io/dxf/dxf_reader.hpp"
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
-#include "io/input/length_units.hpp"
+#include "io/step/step_reader.hpp"
 #include "io/text/clean_names.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
@@ -26,7 +27,9 @@ std::map<std::string, GeometryReader>& readers() {
       {".dat", [](const std::string& path, const DrawingChoice&, std::vector<std::string>& warnings, FileUnit&) {
          return read_airfoil(path, warnings);
        }},
-      {".dxf", io::read_dxf}};
+      {".dxf", io::read_dxf},
+      {".stp", io::read_step},
+      {".step", io::read_step}};
   return all;
 }
 
@@ -35,7 +38,7 @@ std::map<std::string, GeometryReader>& readers() {
 bool is_airfoil_file(const std::string& path) { return suffix_of(path) == ".dat"; }
 
 std::vector<std::string> geometry_suffixes() {
-  std::vector<std::string> all{".geom", ".dat", ".dxf"};
+  std::vector<std::string> all{".geom", ".dat", ".dxf", ".stp", ".step"};
   all.insert(all.end(), gis_suffixes.begin(), gis_suffixes.end());
   return all;
 }
@@ -43,7 +46,8 @@ std::vector<std::string> geometry_suffixes() {
 void add_geometry_reader(const std::string& suffix, GeometryReader reader) { readers()[suffix] = reader; }
 
 bool has_layers_of_drawings(const std::string& path) {
-  return suffix_of(path) == ".dxf" || std::ranges::count(gis_suffixes, suffix_of(path)) > 0;
+  const std::string suffix = suffix_of(path);
+  return suffix == ".dxf" || suffix == ".stp" || suffix == ".step" || std::ranges::count(gis_suffixes, suffix) > 0;
 }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,

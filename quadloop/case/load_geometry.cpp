@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/input/geometry_file.hpp"
-#include "io/input/length_units.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/base/nearest_word.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "io/input/length_units.hpp"
+#include "io/text/length_units.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -99,7 +99,7 @@ const KeyTable<Settings>& geometry_keys() {
       "geometry",
       {key<&Settings::placement, &Placement::files>(
            "file", texts(),
-           "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.geojson`, `.shp`, `.gpkg` "
+           "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.stp`, `.step`, `.geojson`, `.shp`, `.gpkg` "
            "([formats](formats.md)).",
            {.example = "\"box.geom\"", .required = {{"name the outline, as in file = \"outline.geom\""}}}),
        key<&Settings::placement, &Placement::scale>(
