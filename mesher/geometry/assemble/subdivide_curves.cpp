@@ -28,7 +28,7 @@ constexpr double height_share = 1.0 / 32, height_in_layers = 1.0 / 500;
 /// Curves shorter than this fraction of the extent are not subdivided.
 constexpr double shortest_share = 1e-12;
 /// Pieces that may be added to separate curves. Those that run along each other double at each step.
-constexpr std::size_t most_added = 100000;
+constexpr std::size_t most_added = 20000;
 
 /// A segment of a chain, while it is subdivided.
 struct Piece {

@@ -32,7 +32,7 @@ TEST(StrayChains, CentreLinesAreLeftOutAndNamed) {
   const Left left(chains);
   EXPECT_EQ(left.chains.size(), 3u);
   ASSERT_EQ(left.warnings.size(), 1u);
-  EXPECT_EQ(left.warnings[0].find("left out 2 lines that join nothing: a.dxf:7: layer 'CENTER', LINE of handle 2F; "
+  EXPECT_EQ(left.warnings[0].find("left out 2 lines that join no other line: a.dxf:7: layer 'CENTER', LINE of handle 2F; "
                                   "a.dxf:7: layer 'CENTER', LINE of handle 2F; if"),
             0u)
       << left.warnings[0];
