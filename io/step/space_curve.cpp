@@ -61,7 +61,8 @@ void insert_knot(SpaceSpline& spline, double t) {
 }
 
 void raise_multiplicity(SpaceSpline& spline, double t) {
-  for (auto count = std::ranges::count(spline.knots, t); count < spline.degree; ++count) insert_knot(spline, t);
+  for (auto count = std::ranges::count(spline.knots, t); count < spline.degree; ++count)
+    insert_knot(spline, t);
 }
 
 /// The parameter itself, or a knot that differs from it by rounding.
@@ -178,10 +179,12 @@ SpaceSpline part_of(SpaceSpline spline, double from, double to) {
 
 double nearest_parameter(const SpaceSpline& spline, const SpacePoint& p) {
   constexpr double longest = 2;  // length of the curve between two samples by that of its chord
-  const std::vector<double> parameters = sampled_parameters(spline, spline.degree == 1 ? 1 : 4 * spline.degree);
+  const std::vector<double> parameters =
+      sampled_parameters(spline, spline.degree == 1 ? 1 : 4 * spline.degree);
   std::vector<SpacePoint> points;
   for (const double t : parameters) points.push_back(spline.point_at(t));
-  const auto nearest = std::ranges::min_element(points, {}, [&](const SpacePoint& q) { return length(q - p); });
+  const auto nearest =
+      std::ranges::min_element(points, {}, [&](const SpacePoint& q) { return length(q - p); });
   const std::size_t first = nearest - points.begin();
   double best = parameters[first], least = length(*nearest - p);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {

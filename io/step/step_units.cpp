@@ -16,10 +16,23 @@ namespace quadloop::io {
 namespace {
 
 double factor_of(std::string_view prefix, const StepEntity& unit) {
-  constexpr std::array<std::pair<std::string_view, double>, 17> prefixes{
-      {{"", 1}, {"EXA", 1e18}, {"PETA", 1e15}, {"TERA", 1e12}, {"GIGA", 1e9}, {"MEGA", 1e6}, {"KILO", 1e3},
-       {"HECTO", 1e2}, {"DECA", 10}, {"DECI", 0.1}, {"CENTI", 1e-2}, {"MILLI", 1e-3}, {"MICRO", 1e-6},
-       {"NANO", 1e-9}, {"PICO", 1e-12}, {"FEMTO", 1e-15}, {"ATTO", 1e-18}}};
+  constexpr std::array<std::pair<std::string_view, double>, 17> prefixes{{{"", 1},
+                                                                          {"EXA", 1e18},
+                                                                          {"PETA", 1e15},
+                                                                          {"TERA", 1e12},
+                                                                          {"GIGA", 1e9},
+                                                                          {"MEGA", 1e6},
+                                                                          {"KILO", 1e3},
+                                                                          {"HECTO", 1e2},
+                                                                          {"DECA", 10},
+                                                                          {"DECI", 0.1},
+                                                                          {"CENTI", 1e-2},
+                                                                          {"MILLI", 1e-3},
+                                                                          {"MICRO", 1e-6},
+                                                                          {"NANO", 1e-9},
+                                                                          {"PICO", 1e-12},
+                                                                          {"FEMTO", 1e-15},
+                                                                          {"ATTO", 1e-18}}};
   for (const auto& [name, factor] : prefixes) {
     if (name == prefix) return factor;
   }
