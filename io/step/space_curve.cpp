@@ -26,7 +26,7 @@ Pole pole_of(const SpaceSpline& spline, std::size_t i) {
   return {weight * (spline.poles[i] - spline.poles.front()), weight};
 }
 
-SpacePoint point_of(const SpaceSpline& spline, const Pole& pole) {
+SpacePoint point_of_pole(const SpaceSpline& spline, const Pole& pole) {
   return spline.poles.front() + (1 / pole.weight) * pole.p;
 }
 
@@ -133,7 +133,7 @@ SpacePoint SpaceSpline::point_at(double t) const {
       work[j] = blend(work[j - 1], work[j], (t - low) / (high - low));
     }
   }
-  return point_of(*this, work[p]);
+  return point_of_pole(*this, work[p]);
 }
 
 SpaceSpline polyline(std::vector<SpacePoint> points) {

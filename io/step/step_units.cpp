@@ -40,7 +40,7 @@ double factor_of(std::string_view prefix, const StepEntity& unit) {
 }
 
 /// The size of a unit in metres or radians: of an SI unit, or of one that is defined by others.
-double size_of(const StepEntity& unit, int depth) {
+double base_size_of(const StepEntity& unit, int depth) {
   if (depth > deepest_nesting) unit.refuse("the unit is defined by itself, or by too many others");
   if (unit.is("SI_UNIT")) {
     const StepValues values = unit.own("SI_UNIT", 1);
@@ -49,12 +49,12 @@ double size_of(const StepEntity& unit, int depth) {
   const StepValues values = unit.own("CONVERSION_BASED_UNIT", 1);
   const StepEntity measure = values[1].entity();
   const StepValues of_measure = measure.own("MEASURE_WITH_UNIT", 0);
-  return of_measure[0].number() * size_of(of_measure[1].entity(), depth + 1);
+  return of_measure[0].number() * base_size_of(of_measure[1].entity(), depth + 1);
 }
 
 void set_length(StepUnits& units, const StepEntity& unit) {
   constexpr double rounding = 1e-9;
-  units.metres = size_of(unit, 0);
+  units.metres = base_size_of(unit, 0);
   if (!(units.metres > 0)) unit.refuse("the unit has no positive length; export the file again");
   for (const auto& [name, metres] : length_units) {
     if (std::abs(units.metres - metres) <= rounding * metres) units.length = name;
@@ -68,7 +68,7 @@ void set_length(StepUnits& units, const StepEntity& unit) {
 /// Many files give the degree with ten digits only.
 void set_angle(StepUnits& units, const StepEntity& unit) {
   constexpr double degree = std::numbers::pi / 180, rounding = 1e-6;
-  units.radians = size_of(unit, 0);
+  units.radians = base_size_of(unit, 0);
   if (!(units.radians > 0)) unit.refuse("the unit has no positive angle; export the file again");
   if (std::abs(units.radians - degree) <= rounding * degree) units.radians = degree;
 }
