@@ -201,11 +201,10 @@ void add_part(std::vector<SpaceCurve>& curves, const SpaceSpline& spline, const 
 /// The part of a B-spline between two ends; of a closed one that in its direction.
 std::vector<SpaceCurve> trimmed(const StepEntity& curve, const SpaceSpline& spline, const Trim& trim,
                                 Deviation& deviation) {
-  SplineEnd from = spline_end(curve, spline, trim.from, deviation),
-            to = spline_end(curve, spline, trim.to, deviation);
+  const SplineEnd from = spline_end(curve, spline, trim.from, deviation);
+  SplineEnd to = spline_end(curve, spline, trim.to, deviation);
   std::vector<SpaceCurve> parts;
   const bool closed = is_closed(spline);
-  if (closed && from.parameter == spline.end()) from.parameter = spline.begin();
   if (closed && (to.parameter == spline.begin() || (trim.is_whole_turn && from.parameter == spline.begin())))
     to.parameter = spline.end();
   if (from.parameter < to.parameter) {

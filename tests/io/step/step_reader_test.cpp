@@ -146,6 +146,18 @@ TEST_F(StepReader, ReadsTrimmedCirclesInBothSenses) {
   for (const int rest : {1, 3}) EXPECT_NEAR(length_of(chains[rest]), 3 * pi, 1e-4);
 }
 
+TEST_F(StepReader, ReadsEdgesOnReversedTrimmedCurves) {
+  const std::string circle = step_.add("CIRCLE(''," + step_.placement(1, 2) + ",2.)");
+  const std::string east = step_.point(3, 2), north = step_.point(1, 4);
+  const std::string rest = trimmed(circle, east, north, false, "CARTESIAN");  // clockwise
+  const std::string a = step_.vertex(3, 2), b = step_.vertex(1, 4);
+  const auto chains = read_items({step_.add("CONNECTED_EDGE_SET('',(" + step_.edge(a, b, rest) + "," +
+                                            step_.edge(a, b, rest, false) + "))")});
+  ASSERT_EQ(chains.size(), 2u);
+  EXPECT_NEAR(length_of(chains[0]), 3 * pi, 1e-4);
+  EXPECT_NEAR(length_of(chains[1]), pi, 1e-4) << "against the direction of the trimmed curve";
+}
+
 TEST_F(StepReader, TakesParametersOfCirclesInTheUnitOfAngle) {
   step_.angle_unit = "CONVERSION_BASED_UNIT('DEGREE'," +
                      step_.add("PLANE_ANGLE_MEASURE_WITH_UNIT(PLANE_ANGLE_MEASURE(1.745329252E-2)," +
@@ -747,10 +759,11 @@ TEST_F(StepReader, RefusesAnEdgeWhoseVertexIsFarFromItsCurve) {
   const std::string circle = step_.add("CIRCLE(''," + step_.placement(0, 0) + ",1.)");
   const auto edge = [&](double off) {
     test::StepText only = step_;
-    const std::string e = only.edge(only.vertex(1 + off, 0), only.vertex(0, 1), circle);
+    const std::string e = only.edge(only.vertex(1 + off, 0), only.vertex(0, 1 + off), circle);
     return only.file({only.add("CONNECTED_EDGE_SET('',(" + e + "))")});
   };
   EXPECT_EQ(read(edge(1e-5))[0].points.front(), (Point{1 + 1e-5, 0}));
+  EXPECT_EQ(read(edge(1e-5))[0].points.back(), (Point{0, 1 + 1e-5}));
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("vertices are up to 1e-05 off the curves of their edges"), std::string::npos)
       << warnings_[0];
