@@ -457,6 +457,24 @@ TEST_F(StepReader, ReadsArcsInOtherPlanes) {
   expect_on_circle(chains[0], {1, 2}, 2);
 }
 
+TEST_F(StepReader, KnowsTheAxesThatPlacementsLeaveOut) {
+  const auto quarter = [&](const std::string& placement) {
+    test::StepText only = step_;
+    const std::string circle = only.add("CIRCLE(''," + only.add(placement) + ",1.)");
+    return read(only.file({only.set({only.add(
+        fmt::format("TRIMMED_CURVE('',{},(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({})),.T.,.PARAMETER.)",
+                    circle, pi / 2))})}))[0];
+  };
+  const std::string o = step_.point(0, 0), x = step_.direction(1, 0), y = step_.direction(0, 1);
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + ",$,$)"), {1, 0}, {0, 1});
+  expect_ends(quarter("AXIS2_PLACEMENT_2D(''," + o + ",$)"), {1, 0}, {0, 1});
+  expect_ends(quarter("AXIS2_PLACEMENT_2D(''," + o + "," + y + ")"), {0, 1}, {-1, 0});
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + "," + y + ",$)"), {1, 0}, {0, -1});
+  EXPECT_EQ(unit_.plane, "XZ");
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + "," + x + ",$)"), {1, 0}, {0, 1});
+  EXPECT_EQ(unit_.plane, "YZ");
+}
+
 TEST_F(StepReader, RefusesCurvesThatAreNotInOnePlane) {
   const auto line = [&](double x, double y, double z) {
     return step_.add("POLYLINE('',(" + step_.point(0, 0, 0) + "," + step_.point(x, y, z) + "))");
