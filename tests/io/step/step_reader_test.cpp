@@ -333,6 +333,8 @@ TEST_F(StepReader, CutsClosedBSplinesAcrossTheirSeam) {
   ASSERT_EQ(whole.size(), 1u);
   EXPECT_FALSE(whole[0].open);
   for (const Point p : {Point{0, 1}, {-1, 0}, {0, -1}, {1, 0}}) EXPECT_TRUE(passes(whole[0], p));
+  const std::string rounded = step_.vertex(1 + 1e-12, 0);
+  EXPECT_FALSE(count(step_.edge(rounded, rounded, curve))[0].open) << "the vertex differs by rounding";
   const auto across = count(step_.edge(left, top, curve));  // through the lower side and the seam
   ASSERT_EQ(across.size(), 2u);
   expect_ends(across[0], {-1, 0}, {1, 0});
