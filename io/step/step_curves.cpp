@@ -205,8 +205,7 @@ std::vector<SpaceCurve> trimmed(const StepEntity& curve, const SpaceSpline& spli
   SplineEnd to = spline_end(curve, spline, trim.to, deviation);
   std::vector<SpaceCurve> parts;
   const bool closed = is_closed(spline);
-  if (closed && (to.parameter == spline.begin() || (trim.is_whole_turn && from.parameter == spline.begin())))
-    to.parameter = spline.end();
+  if (closed && to.parameter == spline.begin()) to.parameter = spline.end();
   if (from.parameter < to.parameter) {
     add_part(parts, spline, from, to);
   } else if (closed && (from.parameter > to.parameter || trim.is_whole_turn)) {

@@ -333,6 +333,8 @@ TEST_F(StepReader, CutsClosedBSplinesAcrossTheirSeam) {
   ASSERT_EQ(whole.size(), 1u);
   EXPECT_FALSE(whole[0].open);
   for (const Point p : {Point{0, 1}, {-1, 0}, {0, -1}, {1, 0}}) EXPECT_TRUE(passes(whole[0], p));
+  const std::string rounded = step_.vertex(1 + 1e-12, 0);
+  EXPECT_FALSE(count(step_.edge(rounded, rounded, curve))[0].open) << "the vertex differs by rounding";
   const auto across = count(step_.edge(left, top, curve));  // through the lower side and the seam
   ASSERT_EQ(across.size(), 2u);
   expect_ends(across[0], {-1, 0}, {1, 0});
@@ -455,6 +457,24 @@ TEST_F(StepReader, ReadsArcsInOtherPlanes) {
   EXPECT_EQ(unit_.plane, "XZ");
   expect_ends(chains[0], {1, 4}, {3, 2});  // from z to y x z = x
   expect_on_circle(chains[0], {1, 2}, 2);
+}
+
+TEST_F(StepReader, KnowsTheAxesThatPlacementsLeaveOut) {
+  const auto quarter = [&](const std::string& placement) {
+    test::StepText only = step_;
+    const std::string circle = only.add("CIRCLE(''," + only.add(placement) + ",1.)");
+    return read(only.file({only.set({only.add(
+        fmt::format("TRIMMED_CURVE('',{},(PARAMETER_VALUE(0.)),(PARAMETER_VALUE({})),.T.,.PARAMETER.)",
+                    circle, pi / 2))})}))[0];
+  };
+  const std::string o = step_.point(0, 0), x = step_.direction(1, 0), y = step_.direction(0, 1);
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + ",$,$)"), {1, 0}, {0, 1});
+  expect_ends(quarter("AXIS2_PLACEMENT_2D(''," + o + ",$)"), {1, 0}, {0, 1});
+  expect_ends(quarter("AXIS2_PLACEMENT_2D(''," + o + "," + y + ")"), {0, 1}, {-1, 0});
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + "," + y + ",$)"), {1, 0}, {0, -1});
+  EXPECT_EQ(unit_.plane, "XZ");
+  expect_ends(quarter("AXIS2_PLACEMENT_3D(''," + o + "," + x + ",$)"), {1, 0}, {0, 1});
+  EXPECT_EQ(unit_.plane, "YZ");
 }
 
 TEST_F(StepReader, RefusesCurvesThatAreNotInOnePlane) {
