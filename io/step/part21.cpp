@@ -59,7 +59,8 @@ class Part21Parser {
       if (next_is('#')) {
         read_entity();
       } else {
-        if (keyword() != "ENDSEC") refuse("an entity '#number=' or ENDSEC is expected, but " + found() + " is written" + cure);
+        if (keyword() != "ENDSEC")
+          refuse("an entity '#number=' or ENDSEC is expected, but " + found() + " is written" + cure);
         expect(';');
         return;
       }
@@ -148,7 +149,9 @@ class Part21Parser {
     file_.values_.push_back({kind, 0, number, {}});
     return file_.values_.size() - 1;
   }
-  void close(std::size_t value) { file_.values_[value].end = static_cast<std::uint32_t>(file_.values_.size()); }
+  void close(std::size_t value) {
+    file_.values_[value].end = static_cast<std::uint32_t>(file_.values_.size());
+  }
 
   void skip_blanks() {
     while (at_ < text_.size()) {
@@ -208,7 +211,8 @@ class Part21Parser {
 
   double number() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_digit(text_[at_]) || std::string_view("+-.eE").find(text_[at_]) != std::string_view::npos))
+    while (at_ < text_.size() &&
+           (is_digit(text_[at_]) || std::string_view("+-.eE").find(text_[at_]) != std::string_view::npos))
       ++at_;
     const std::string_view written = text_.substr(begin, at_ - begin);
     double value = 0;
@@ -251,8 +255,8 @@ class Part21Parser {
   }
 
   [[noreturn]] void refuse(const std::string& message) {
-    throw InputError(fmt::format("{}:{}: {}{}", file_.path_, line(), number_ ? fmt::format("#{}: ", *number_) : "",
-                                 message));
+    throw InputError(fmt::format("{}:{}: {}{}", file_.path_, line(),
+                                 number_ ? fmt::format("#{}: ", *number_) : "", message));
   }
 
   Part21File& file_;
@@ -276,13 +280,15 @@ std::optional<StepEntity> Part21File::find(std::uint64_t number) const {
 }
 
 void StepValue::refuse(std::string_view expected) const {
-  StepEntity(*file_, entity_).refuse(fmt::format("{} is expected as a parameter; the file is damaged, export it again", expected));
+  StepEntity(*file_, entity_)
+      .refuse(fmt::format("{} is expected as a parameter; the file is damaged, export it again", expected));
 }
 
 bool StepValue::is_omitted() const { return kind() == Kind::omitted || kind() == Kind::derived; }
 
 double StepValue::number() const {
-  if (kind() == Kind::record && value().end == value_ + 2) return StepValue(*file_, entity_, value_ + 1).number();
+  if (kind() == Kind::record && value().end == value_ + 2)
+    return StepValue(*file_, entity_, value_ + 1).number();
   if (kind() != Kind::number) refuse("a number");
   return value().number;
 }
@@ -316,7 +322,8 @@ StepEntity StepValue::entity() const {
   if (kind() != Kind::reference) refuse("a reference to an entity");
   const auto number = static_cast<std::uint64_t>(value().number);
   if (const std::optional<StepEntity> found = file_->find(number)) return *found;
-  StepEntity(*file_, entity_).refuse(fmt::format("refers to #{}, which is not in the file; export it again", number));
+  StepEntity(*file_, entity_)
+      .refuse(fmt::format("refers to #{}, which is not in the file; export it again", number));
 }
 
 StepValues StepValue::list() const {
@@ -324,7 +331,9 @@ StepValues StepValue::list() const {
   return {*file_, entity_, value_ + 1, value().end};
 }
 
-bool StepValue::is_record(std::string_view type) const { return kind() == Kind::record && value().text == type; }
+bool StepValue::is_record(std::string_view type) const {
+  return kind() == Kind::record && value().text == type;
+}
 
 StepValues::Iterator& StepValues::Iterator::operator++() {
   at_ = values_->file_->values_[at_].end;
@@ -386,7 +395,9 @@ std::string StepEntity::name() const {
 }
 
 std::string StepEntity::title() const { return fmt::format("{} #{}", type(), number()); }
-std::string StepEntity::place() const { return fmt::format("{}:{}: {}", file_->path_, entity().line, title()); }
+std::string StepEntity::place() const {
+  return fmt::format("{}:{}: {}", file_->path_, entity().line, title());
+}
 void StepEntity::refuse(const std::string& message) const { throw InputError(place() + ": " + message); }
 
 }  // namespace quadloop::io

@@ -150,8 +150,8 @@ class StepEntity {
   std::uint32_t index_;
 };
 
-/// The text of a Part-21 string in UTF-8: '' for a quote, \\ for a backslash, \S\, \X\, \X2\ and \X4\ for other
-/// characters. Line ends are dropped.
+/// The text of a Part-21 string in UTF-8: '' for a quote, \\ for a backslash, \S\, \X\, \X2\ and \X4\ for
+/// other characters. Line ends are dropped.
 std::string text_of_part21(std::string_view written);
 
 }  // namespace quadloop::io

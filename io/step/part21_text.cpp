@@ -33,15 +33,16 @@ std::optional<std::uint32_t> hexadecimal(std::string_view text, std::size_t digi
   return error == std::errc() && end == text.data() + digits ? std::optional(number) : std::nullopt;
 }
 
-/// Appends the characters of \X2\...\X0\ (UTF-16) or \X4\...\X0\ (UTF-32) behind its first four bytes; returns
-/// the number of bytes read.
+/// Appends the characters of \X2\...\X0\ (UTF-16) or \X4\...\X0\ (UTF-32) behind its first four bytes;
+/// returns the number of bytes read.
 std::size_t append_wide(std::string& text, std::string_view written, std::size_t digits) {
   std::size_t at = 0;
   std::uint32_t high = 0;
   while (const auto code = hexadecimal(written.substr(at), digits)) {
     at += digits;
     const bool is_low = *code >= 0xdc00 && *code < 0xe000;
-    if (high != 0) append_utf8(text, is_low ? 0x10000 + ((high - 0xd800) << 10) + (*code - 0xdc00) : replacement);
+    if (high != 0)
+      append_utf8(text, is_low ? 0x10000 + ((high - 0xd800) << 10) + (*code - 0xdc00) : replacement);
     const bool is_used = high != 0 && is_low;
     high = digits == 4 && *code >= 0xd800 && *code < 0xdc00 ? *code : 0;
     if (!is_used && high == 0) append_utf8(text, *code);
@@ -60,7 +61,8 @@ std::size_t append_directive(std::string& text, std::string_view written) {
   if (written.starts_with("\\S\\") && written.size() > 3)
     return append_utf8(text, 0x80 + (static_cast<unsigned char>(written[3]) & 0x7fu)), 4;
   if (written.starts_with("\\N\\") || written.starts_with("\\F\\")) return text += ' ', 3;
-  if (written.size() > 3 && written[1] == 'P' && written[3] == '\\') return 4;  // the alphabet of \S\ (Latin-1)
+  if (written.size() > 3 && written[1] == 'P' && written[3] == '\\')
+    return 4;  // the alphabet of \S\ (Latin-1)
   return text += '\\', 1;
 }
 

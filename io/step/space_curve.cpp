@@ -1,6 +1,7 @@
 #include "io/step/space_curve.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -26,7 +27,7 @@ Pole pole_of(const SpaceSpline& spline, std::size_t i) {
   return {weight * (spline.poles[i] - spline.poles.front()), weight};
 }
 
-SpacePoint point_of(const SpaceSpline& spline, const Pole& pole) {
+SpacePoint point_of_pole(const SpaceSpline& spline, const Pole& pole) {
   return spline.poles.front() + (1 / pole.weight) * pole.p;
 }
 
@@ -61,7 +62,8 @@ void insert_knot(SpaceSpline& spline, double t) {
 }
 
 void raise_multiplicity(SpaceSpline& spline, double t) {
-  for (auto count = std::ranges::count(spline.knots, t); count < spline.degree; ++count) insert_knot(spline, t);
+  for (auto count = std::ranges::count(spline.knots, t); count < spline.degree; ++count)
+    insert_knot(spline, t);
 }
 
 /// The parameter itself, or a knot that differs from it by rounding.
@@ -73,7 +75,7 @@ double at_knot(const SpaceSpline& spline, double t) {
   return t;
 }
 
-double distance(const SpaceSpline& spline, double t, const SpacePoint& p) {
+double distance_at(const SpaceSpline& spline, double t, const SpacePoint& p) {
   return length(spline.point_at(t) - p);
 }
 
@@ -82,28 +84,57 @@ double refined(const SpaceSpline& spline, double low, double high, const SpacePo
   constexpr int steps = 80;
   constexpr double ratio = 0.6180339887498949;
   double left = high - ratio * (high - low), right = low + ratio * (high - low);
-  double at_left = distance(spline, left, p), at_right = distance(spline, right, p);
+  double at_left = distance_at(spline, left, p), at_right = distance_at(spline, right, p);
   for (int i = 0; i < steps; ++i) {
     if (at_left < at_right) {
       high = std::exchange(right, left), at_right = at_left;
-      left = high - ratio * (high - low), at_left = distance(spline, left, p);
+      left = high - ratio * (high - low), at_left = distance_at(spline, left, p);
     } else {
       low = std::exchange(left, right), at_left = at_right;
-      right = low + ratio * (high - low), at_right = distance(spline, right, p);
+      right = low + ratio * (high - low), at_right = distance_at(spline, right, p);
     }
   }
   return at_left < at_right ? left : right;
 }
 
-/// Parameters with `pieces` intervals between two different knots.
-std::vector<double> sampled_parameters(const SpaceSpline& spline, int pieces) {
-  std::vector<double> parameters;
-  for (std::size_t i = spline.degree; i < spline.poles.size(); ++i) {
-    const double low = spline.knots[i], high = spline.knots[i + 1];
-    for (int k = 0; low < high && k < pieces; ++k) parameters.push_back(low + (high - low) * k / pieces);
+/// The distance of p from the box of the control points of an interval, which contains the curve there.
+double distance_of_box(const SpaceSpline& spline, std::size_t span, const SpacePoint& p) {
+  SpacePoint outside;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto first = spline.poles.begin() + span - spline.degree;
+    const auto [least, most] = std::minmax_element(
+        first, first + spline.degree + 1,
+        [axis](const SpacePoint& a, const SpacePoint& b) { return a.at[axis] < b.at[axis]; });
+    outside.at[axis] = std::max({least->at[axis] - p.at[axis], p.at[axis] - most->at[axis], 0.0});
   }
-  parameters.push_back(spline.end());
-  return parameters;
+  return length(outside);
+}
+
+/// A parameter, and the distance of its point from another one.
+struct Nearest {
+  double parameter = 0, distance = std::numeric_limits<double>::infinity();
+
+  void take(const SpaceSpline& spline, double t, const SpacePoint& p) {
+    if (const double d = distance_at(spline, t, p); d < distance) *this = {t, d};
+  }
+};
+
+/// The nearest point within the interval that begins with knot `span`: samples, and a search about each
+/// sample that is nearer than its neighbours.
+void search_interval(const SpaceSpline& spline, std::size_t span, const SpacePoint& p, Nearest& nearest) {
+  const int pieces = spline.degree == 1 ? 1 : 4 * spline.degree;
+  const double low = spline.knots[span], high = spline.knots[span + 1];
+  const auto parameter = [&](int i) {
+    return i <= 0 ? low : i >= pieces ? high : low + (high - low) * i / pieces;
+  };
+  std::vector<double> distances;
+  for (int i = 0; i <= pieces; ++i) distances.push_back(distance_at(spline, parameter(i), p));
+  for (int i = 0; i <= pieces; ++i) {
+    if ((i > 0 && distances[i - 1] < distances[i]) || (i < pieces && distances[i + 1] < distances[i]))
+      continue;
+    nearest.take(spline, parameter(i), p);
+    nearest.take(spline, refined(spline, parameter(i - 1), parameter(i + 1), p), p);
+  }
 }
 
 }  // namespace
@@ -132,7 +163,7 @@ SpacePoint SpaceSpline::point_at(double t) const {
       work[j] = blend(work[j - 1], work[j], (t - low) / (high - low));
     }
   }
-  return point_of(*this, work[p]);
+  return point_of_pole(*this, work[p]);
 }
 
 SpaceSpline polyline(std::vector<SpacePoint> points) {
@@ -177,21 +208,19 @@ SpaceSpline part_of(SpaceSpline spline, double from, double to) {
 }
 
 double nearest_parameter(const SpaceSpline& spline, const SpacePoint& p) {
-  constexpr double longest = 2;  // length of the curve between two samples by that of its chord
-  const std::vector<double> parameters = sampled_parameters(spline, spline.degree == 1 ? 1 : 4 * spline.degree);
-  std::vector<SpacePoint> points;
-  for (const double t : parameters) points.push_back(spline.point_at(t));
-  const auto nearest = std::ranges::min_element(points, {}, [&](const SpacePoint& q) { return length(q - p); });
-  const std::size_t first = nearest - points.begin();
-  double best = parameters[first], least = length(*nearest - p);
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const bool may_hold_p =
-        length(points[i] - p) + length(points[i + 1] - p) <= longest * length(points[i + 1] - points[i]);
-    if (!may_hold_p && i != first && i + 1 != first) continue;
-    const double t = refined(spline, parameters[i], parameters[i + 1], p);
-    if (const double d = distance(spline, t, p); d < least) best = t, least = d;
+  std::vector<std::pair<double, std::size_t>> intervals;  // with the nearest box at the front
+  for (std::size_t span = spline.degree; span < spline.poles.size(); ++span) {
+    if (spline.knots[span] < spline.knots[span + 1])
+      intervals.emplace_back(distance_of_box(spline, span, p), span);
   }
-  return best;
+  std::ranges::make_heap(intervals, std::greater<>());
+  Nearest nearest{spline.begin(), std::numeric_limits<double>::infinity()};
+  while (!intervals.empty() && intervals.front().first < nearest.distance) {
+    search_interval(spline, intervals.front().second, p, nearest);
+    std::ranges::pop_heap(intervals, std::greater<>());
+    intervals.pop_back();
+  }
+  return nearest.parameter;
 }
 
 std::vector<SpacePoint> sample_of(const SpaceCurve& curve) {

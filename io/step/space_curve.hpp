@@ -68,7 +68,7 @@ std::string fault_of(const SpaceSpline& spline);
 SpaceSpline part_of(SpaceSpline spline, double from, double to);
 
 /// The parameter of the point of a well-formed B-spline that is nearest to p; accurate to rounding if p is on
-/// the curve. O(n degree^3).
+/// the curve. O(n degree) if few intervals of the curve are near p.
 double nearest_parameter(const SpaceSpline& spline, const SpacePoint& p);
 
 /// A curve of bounded length, with the coordinates of its ends, which may differ from the exact ones by the

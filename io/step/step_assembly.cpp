@@ -14,7 +14,8 @@ SpaceMotion motion_to(const StepPlacement& place) { return {place.x, place.y, pl
 
 SpaceMotion inverse(const SpaceMotion& motion) {
   const auto& [x, y, z, origin] = motion;
-  SpaceMotion back{{{x.at[0], y.at[0], z.at[0]}}, {{x.at[1], y.at[1], z.at[1]}}, {{x.at[2], y.at[2], z.at[2]}}, {}};
+  SpaceMotion back{
+      {{x.at[0], y.at[0], z.at[0]}}, {{x.at[1], y.at[1], z.at[1]}}, {{x.at[2], y.at[2], z.at[2]}}, {}};
   back.origin = -1 * back.of_vector(origin);
   return back;
 }
@@ -23,14 +24,17 @@ SpaceMotion inverse(const SpaceMotion& motion) {
 SpaceMotion motion_between(const StepEntity& entity, const StepEntity& from, const StepEntity& to) {
   if (from.number() == to.number()) return {};
   if (!from.is("AXIS2_PLACEMENT_3D") || !to.is("AXIS2_PLACEMENT_3D"))
-    entity.refuse("moves a part by a " + std::string(to.type()) + ", which is not read; export the part alone");
+    entity.refuse("moves a part by a " + std::string(to.type()) +
+                  ", which is not read; export the part alone");
   const SpaceMotion first = motion_to(placement_of(from)), second = motion_to(placement_of(to));
   return first == second ? SpaceMotion() : second.after(inverse(first));
 }
 
 }  // namespace
 
-SpacePoint SpaceMotion::of_vector(const SpacePoint& v) const { return v.at[0] * x + v.at[1] * y + v.at[2] * z; }
+SpacePoint SpaceMotion::of_vector(const SpacePoint& v) const {
+  return v.at[0] * x + v.at[1] * y + v.at[2] * z;
+}
 
 SpaceMotion SpaceMotion::after(const SpaceMotion& first) const {
   return {of_vector(first.x), of_vector(first.y), of_vector(first.z), of_point(first.origin)};
@@ -69,8 +73,8 @@ StepAssembly::StepAssembly(const Part21File& file) {
     parts_[group_of(child)].push_back({group_of(part.parent), part.motion});
 }
 
-/// The product of an assembly tells which of two related representations contains the other one: programs write
-/// them in either order.
+/// The product of an assembly tells which of two related representations contains the other one: programs
+/// write them in either order.
 void StepAssembly::find_assemblies(const Part21File& file) {
   std::unordered_map<Number, Number> shapes;  // product definition -> representation
   for (std::size_t i = 0; i < file.size(); ++i) {
@@ -105,7 +109,8 @@ void StepAssembly::add_relationship(const StepEntity& relationship) {
     relationship.refuse("moves a part by a " + moved.title() + ", which is not read; export the part alone");
   const StepValues items = moved.own("ITEM_DEFINED_TRANSFORMATION", 2);
   SpaceMotion motion = motion_between(relationship, items[0].entity(), items[1].entity());
-  if (const auto found = assemblies_.find(relationship.number()); found != assemblies_.end() && found->second == child) {
+  if (const auto found = assemblies_.find(relationship.number());
+      found != assemblies_.end() && found->second == child) {
     std::swap(child, parent);
     motion = motion == SpaceMotion() ? motion : inverse(motion);
   }
@@ -124,7 +129,8 @@ void StepAssembly::add_mapped_items(const StepEntity& representation) {
 
 StepAssembly::Number StepAssembly::group_of(Number representation) {
   Number root = representation;
-  for (auto above = groups_.find(root); above != groups_.end() && above->second != root; above = groups_.find(root))
+  for (auto above = groups_.find(root); above != groups_.end() && above->second != root;
+       above = groups_.find(root))
     root = above->second;
   for (auto above = groups_.find(representation); above != groups_.end() && above->second != root;) {
     above = groups_.find(std::exchange(above->second, root));
@@ -140,14 +146,16 @@ const std::vector<SpaceMotion>& StepAssembly::places_of_group(Number group, cons
                                                               int depth) {
   constexpr std::size_t most = 100000;
   if (const auto found = places_.find(group); found != places_.end()) return found->second;
-  if (depth > deepest_nesting) representation.refuse("is part of an assembly that contains itself, or is nested too deep");
+  if (depth > deepest_nesting)
+    representation.refuse("is part of an assembly that contains itself, or is nested too deep");
   std::vector<SpaceMotion> places;
   const auto parts = parts_.find(group);
   if (parts == parts_.end()) places.emplace_back();
   for (std::size_t i = 0; parts != parts_.end() && i < parts->second.size(); ++i) {
     const auto& [parent, motion] = parts->second[i];
     for (const SpaceMotion& place : places_of_group(parent, representation, depth + 1)) {
-      if (++count_ > most) representation.refuse("is part of an assembly with more than 100000 parts; export the part alone");
+      if (++count_ > most)
+        representation.refuse("is part of an assembly with more than 100000 parts; export the part alone");
       places.push_back(motion == SpaceMotion() ? place : place.after(motion));
     }
   }

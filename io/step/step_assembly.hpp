@@ -25,16 +25,16 @@ struct SpaceMotion {
 /// Whether a representation has the shape of a part.
 bool is_shape(const StepEntity& entity);
 
-/// Where the parts of an assembly are: by relationships of representations with a transformation, and by mapped
-/// items.
+/// Where the parts of an assembly are: by relationships of representations with a transformation, and by
+/// mapped items.
 class StepAssembly {
  public:
   /// Throws InputError for motions that are not rigid.
   explicit StepAssembly(const Part21File& file);
 
   /// The places of a representation in the whole: the one without motion if it is no part of another, one for
-  /// each path of parts else. Throws InputError for an assembly that contains itself, and for more than 100000
-  /// places.
+  /// each path of parts else. Throws InputError for an assembly that contains itself, and for more than
+  /// 100000 places.
   const std::vector<SpaceMotion>& places_of(const StepEntity& representation);
 
  private:

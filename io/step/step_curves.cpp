@@ -28,7 +28,8 @@ SpacePoint triple_of(const StepEntity& entity, const StepValues& list) {
 
 SpacePoint unit_of(const StepEntity& entity, const SpacePoint& vector) {
   const double size = length(vector);
-  if (!(size > 0) || !std::isfinite(size)) entity.refuse("the direction has no length; export the file again");
+  if (!(size > 0) || !std::isfinite(size))
+    entity.refuse("the direction has no length; export the file again");
   return (1 / size) * vector;
 }
 
@@ -69,9 +70,10 @@ struct Deviation {
     constexpr double farthest = 1e-3;
     const double distance = length(given - on_curve);
     if (distance > farthest * size)
-      curve.refuse(fmt::format("its end {} is {:.3g} off the curve, which ends at {}; repair the geometry in the CAD "
-                               "program",
-                               text_of(given), distance, text_of(on_curve)));
+      curve.refuse(
+          fmt::format("its end {} is {:.3g} off the curve, which ends at {}; repair the geometry in the CAD "
+                      "program",
+                      text_of(given), distance, text_of(on_curve)));
     largest = std::max(largest, distance);
   }
 };
@@ -86,7 +88,8 @@ std::vector<double> knots_of(const StepEntity& curve, const StepValues& own, std
     knots.insert(knots.end(), times, values[i++]);
   }
   if (i != values.size() || knots.size() != count)
-    curve.refuse(fmt::format("its knots and multiplicities do not make {} knots; export the file again", count));
+    curve.refuse(
+        fmt::format("its knots and multiplicities do not make {} knots; export the file again", count));
   return knots;
 }
 
@@ -116,9 +119,11 @@ SpaceSpline bspline_of(const StepEntity& curve) {
   spline.degree = own[0].small_integer();
   for (const StepValue pole : own[1].list()) spline.poles.push_back(point_of(pole.entity()));
   if (spline.degree < 1 || spline.poles.size() <= static_cast<std::size_t>(spline.degree))
-    curve.refuse(fmt::format("its degree {} does not suit {} control points", spline.degree, spline.poles.size()));
+    curve.refuse(
+        fmt::format("its degree {} does not suit {} control points", spline.degree, spline.poles.size()));
   spline.knots = curve.is("B_SPLINE_CURVE_WITH_KNOTS")
-                     ? knots_of(curve, curve.own("B_SPLINE_CURVE_WITH_KNOTS", 6), spline.poles.size() + spline.degree + 1)
+                     ? knots_of(curve, curve.own("B_SPLINE_CURVE_WITH_KNOTS", 6),
+                                spline.poles.size() + spline.degree + 1)
                      : implied_knots(curve, spline.degree, spline.poles.size());
   if (curve.is_complex() && curve.is("RATIONAL_B_SPLINE_CURVE")) {
     for (const StepValue weight : curve.own("RATIONAL_B_SPLINE_CURVE", 0)[0].list())
@@ -146,7 +151,8 @@ double size_of(const SpaceSpline& spline) {
 
 bool is_closed(const SpaceSpline& spline) {
   constexpr double rounding = 1e-9;
-  return length(spline.point_at(spline.begin()) - spline.point_at(spline.end())) <= rounding * size_of(spline);
+  return length(spline.point_at(spline.begin()) - spline.point_at(spline.end())) <=
+         rounding * size_of(spline);
 }
 
 /// The whole B-spline; its ends become equal if they differ by rounding.
@@ -162,7 +168,8 @@ struct SplineEnd {
   SpacePoint point;
 };
 
-SplineEnd spline_end(const StepEntity& curve, const SpaceSpline& spline, const TrimEnd& end, Deviation& deviation) {
+SplineEnd spline_end(const StepEntity& curve, const SpaceSpline& spline, const TrimEnd& end,
+                     Deviation& deviation) {
   constexpr double rounding = 1e-9;
   const double size = size_of(spline);
   const auto clamped = [&](double t) {
@@ -184,7 +191,8 @@ SplineEnd spline_end(const StepEntity& curve, const SpaceSpline& spline, const T
   return {t, *end.point};
 }
 
-void add_part(std::vector<SpaceCurve>& curves, const SpaceSpline& spline, const SplineEnd& from, const SplineEnd& to) {
+void add_part(std::vector<SpaceCurve>& curves, const SpaceSpline& spline, const SplineEnd& from,
+              const SplineEnd& to) {
   constexpr double rounding = 1e-11;
   if (to.parameter - from.parameter > rounding * (spline.end() - spline.begin()))
     curves.push_back({part_of(spline, from.parameter, to.parameter), from.point, to.point});
@@ -193,12 +201,11 @@ void add_part(std::vector<SpaceCurve>& curves, const SpaceSpline& spline, const 
 /// The part of a B-spline between two ends; of a closed one that in its direction.
 std::vector<SpaceCurve> trimmed(const StepEntity& curve, const SpaceSpline& spline, const Trim& trim,
                                 Deviation& deviation) {
-  SplineEnd from = spline_end(curve, spline, trim.from, deviation), to = spline_end(curve, spline, trim.to, deviation);
+  const SplineEnd from = spline_end(curve, spline, trim.from, deviation);
+  SplineEnd to = spline_end(curve, spline, trim.to, deviation);
   std::vector<SpaceCurve> parts;
   const bool closed = is_closed(spline);
-  if (closed && from.parameter == spline.end()) from.parameter = spline.begin();
-  if (closed && (to.parameter == spline.begin() || (trim.is_whole_turn && from.parameter == spline.begin())))
-    to.parameter = spline.end();
+  if (closed && to.parameter == spline.begin()) to.parameter = spline.end();
   if (from.parameter < to.parameter) {
     add_part(parts, spline, from, to);
   } else if (closed && (from.parameter > to.parameter || trim.is_whole_turn)) {
@@ -228,10 +235,7 @@ std::vector<SpaceCurve> trimmed(const StepEntity& curve, SpaceArc arc, const Tri
   constexpr double turn = 2 * std::numbers::pi, rounding = 1e-12;
   const double size = std::max(length(arc.major), length(arc.minor));
   const auto angle_of = [&](const TrimEnd& end) {
-    if (!end.point) return *end.parameter * radians;
-    const double t = arc.parameter_of(*end.point);
-    deviation.take(curve, *end.point, arc.point_at(t), size);
-    return t;
+    return end.point ? arc.parameter_of(*end.point) : *end.parameter * radians;
   };
   const double from = angle_of(trim.from), to = angle_of(trim.to);
   const SpacePoint first = trim.from.point.value_or(arc.point_at(from));
@@ -241,6 +245,9 @@ std::vector<SpaceCurve> trimmed(const StepEntity& curve, SpaceArc arc, const Tri
   if (is_whole) last = first;
   arc.begin = std::remainder(from, turn);
   arc.end = arc.begin + (is_whole || sweep == 0 ? turn : sweep);
+  const double reach = size * std::min(1.0, arc.end - arc.begin);
+  deviation.take(curve, first, arc.point_at(from), reach);
+  deviation.take(curve, last, arc.point_at(to), reach);
   return {{arc, first, last}};
 }
 
@@ -252,16 +259,19 @@ std::vector<SpaceCurve> trimmed_line(const StepEntity& line, const Trim& trim) {
   const StepValues of_vector = vector.own("VECTOR", 1);
   const auto at = [&](const TrimEnd& end) {
     if (end.point) return *end.point;
-    return point_of(own[0].entity()) + (*end.parameter * of_vector[1].number()) * direction_of(of_vector[0].entity());
+    return point_of(own[0].entity()) +
+           (*end.parameter * of_vector[1].number()) * direction_of(of_vector[0].entity());
   };
   const SpacePoint from = at(trim.from), to = at(trim.to);
   if (from == to) return {};
   return {{polyline({from, to}), from, to}};
 }
 
-std::vector<SpaceCurve> trimmed_curve(const StepEntity& basis, const Trim& trim, double radians, Deviation& deviation) {
+std::vector<SpaceCurve> trimmed_curve(const StepEntity& basis, const Trim& trim, double radians,
+                                      Deviation& deviation) {
   if (basis.is("LINE")) return trimmed_line(basis, trim);
-  if (basis.is("CIRCLE") || basis.is("ELLIPSE")) return trimmed(basis, conic_of(basis), trim, radians, deviation);
+  if (basis.is("CIRCLE") || basis.is("ELLIPSE"))
+    return trimmed(basis, conic_of(basis), trim, radians, deviation);
   if (basis.is("POLYLINE")) return trimmed(basis, polyline_of(basis), trim, deviation);
   if (is_bspline(basis)) return trimmed(basis, bspline_of(basis), trim, deviation);
   basis.refuse("curves of this type are not read; convert it to a B-spline in the CAD program");
@@ -291,7 +301,9 @@ std::vector<SpaceCurve> read_trimmed(const StepEntity& curve, double radians) {
   const StepEntity basis = untrimmed(own[0].entity(), is_same_below);
   const TrimEnd from = trim_end(curve, own[1].list()), to = trim_end(curve, own[2].list());
   if (!is_same_below && !(from.point && to.point))
-    curve.refuse("is a part by parameters of a reversed trimmed curve, which is not read; export the points of its ends");
+    curve.refuse(
+        "is a part by parameters of a reversed trimmed curve, which is not read; export the points of its "
+        "ends");
   Deviation deviation;
   return trimmed_curve(basis, directed(from, to, is_same == is_same_below), radians, deviation);
 }
@@ -330,7 +342,8 @@ StepPlacement placement_of(const StepEntity& entity) {
 StepEntity without_surface(const StepEntity& curve) {
   StepEntity inner = curve;
   for (int depth = 0; depth < deepest_nesting; ++depth) {
-    const bool is_wrapped = inner.is("SURFACE_CURVE") || inner.is("SEAM_CURVE") || inner.is("INTERSECTION_CURVE");
+    const bool is_wrapped =
+        inner.is("SURFACE_CURVE") || inner.is("SEAM_CURVE") || inner.is("INTERSECTION_CURVE");
     if (!is_wrapped) return inner;
     inner = inner.own("SURFACE_CURVE", 1)[0].entity();
   }
@@ -354,7 +367,8 @@ std::vector<SpaceCurve> bounded_curve(const StepEntity& entity, double radians) 
 
 std::vector<SpaceCurve> curve_of_edge(const StepEntity& edge, double radians, double& off) {
   const StepValues vertices = edge.own("EDGE", 1), own = edge.own("EDGE_CURVE", 3);
-  const TrimEnd from{point_of(vertices[0].entity()), std::nullopt}, to{point_of(vertices[1].entity()), std::nullopt};
+  const TrimEnd from{point_of(vertices[0].entity()), std::nullopt},
+      to{point_of(vertices[1].entity()), std::nullopt};
   bool is_same = own[1].flag();
   const StepEntity curve = untrimmed(own[0].entity(), is_same);
   Deviation deviation;

@@ -23,10 +23,10 @@ StepPlacement placement_of(const StepEntity& entity);
 /// Whether the entity is a curve that bounded_curve() reads.
 bool is_bounded_curve(const StepEntity& entity);
 
-/// Reads a curve of bounded length: POLYLINE, B-splines, CIRCLE, ELLIPSE, TRIMMED_CURVE, or a SURFACE_CURVE on
-/// one of these. `radians`: of the unit of angle. The direction along the curve is not kept. The result are
-/// several curves where a part of a closed B-spline contains the spline's ends, none if a part has no length.
-/// Throws InputError for a curve that is not well formed or of another type.
+/// Reads a curve of bounded length: POLYLINE, B-splines, CIRCLE, ELLIPSE, TRIMMED_CURVE, or a SURFACE_CURVE
+/// on one of these. `radians`: of the unit of angle. The direction along the curve is not kept. The result
+/// are several curves where a part of a closed B-spline contains the spline's ends, none if a part has no
+/// length. Throws InputError for a curve that is not well formed or of another type.
 std::vector<SpaceCurve> bounded_curve(const StepEntity& entity, double radians);
 
 /// Reads the curve of an EDGE_CURVE between its vertices. `off` becomes the larger distance of a vertex from

@@ -98,9 +98,10 @@ class StepCollector {
     if (model_.curves.size() == before) return;
     move_to_places(representation, before);
     if (units_are_known_ && (units.metres != model_.units.metres || units.length != model_.units.length))
-      representation.refuse(fmt::format("is in {}, but other parts of the file are in {}; export all in one unit",
-                                        units.length.empty() ? "no unit" : units.length,
-                                        model_.units.length.empty() ? "no unit" : model_.units.length));
+      representation.refuse(
+          fmt::format("is in {}, but other parts of the file are in {}; export all in one unit",
+                      units.length.empty() ? "no unit" : units.length,
+                      model_.units.length.empty() ? "no unit" : model_.units.length));
     model_.units = units;
     units_are_known_ = true;
   }
@@ -118,7 +119,8 @@ class StepCollector {
     edge_order_.clear();
   }
 
-  /// Moves the curves from `first` on to the place of the representation, and copies them to its other places.
+  /// Moves the curves from `first` on to the place of the representation, and copies them to its other
+  /// places.
   void move_to_places(const StepEntity& representation, std::size_t first) {
     const std::vector<StepCurve> own(model_.curves.begin() + first, model_.curves.end());
     model_.curves.erase(model_.curves.begin() + first, model_.curves.end());
@@ -147,9 +149,11 @@ class StepCollector {
         !read_.insert(entity.number()).second)
       return;
     const Inherited inherited = inherited_by(entity, from);
-    if (choice_.layers.empty() && layers_.is_invisible(entity)) return skip(fmt::format("invisible {}", entity.type()));
+    if (choice_.layers.empty() && layers_.is_invisible(entity))
+      return skip(fmt::format("invisible {}", entity.type()));
     if (entity.is("ADVANCED_FACE") || entity.is("FACE_SURFACE")) return read_face(entity, inherited);
-    if (!read_container(entity, inherited) && is_chosen(entity, inherited.layer)) read_leaf(entity, inherited);
+    if (!read_container(entity, inherited) && is_chosen(entity, inherited.layer))
+      read_leaf(entity, inherited);
   }
 
   /// Whether an entity of a layer is to be read; counts it if the layer is invisible.
@@ -222,9 +226,10 @@ class StepCollector {
     const StepEntity shell = solid.own("MANIFOLD_SOLID_BREP", 1)[0].entity();
     const StepValues faces = shell.own("CONNECTED_FACE_SET", 1)[0].list();
     if (faces.size() != 1)
-      solid.refuse(fmt::format(
-          "is a solid with {} faces, but the geometry must be plane; export one planar face, a sketch or a section of it",
-          faces.size()));
+      solid.refuse(
+          fmt::format("is a solid with {} faces, but the geometry must be plane; export one planar face, a "
+                      "sketch or a section of it",
+                      faces.size()));
     read_all(faces, inherited);
   }
 
@@ -256,15 +261,17 @@ class StepCollector {
   static void require_plane(const StepEntity& face) {
     const StepEntity surface = face.own("FACE_SURFACE", 2)[0].entity();
     if (!surface.is("PLANE"))
-      face.refuse(fmt::format("lies on a {}, but only planar faces are read; export one planar face, or its edges as a "
-                              "wireframe",
-                              surface.title()));
+      face.refuse(fmt::format(
+          "lies on a {}, but only planar faces are read; export one planar face, or its edges as a "
+          "wireframe",
+          surface.title()));
   }
 
   void count_edges(const StepEntity& loop, const Inherited& inherited) {
     for (const StepValue value : loop.own("PATH", 1)[0].list()) {
       const StepEntity edge = edge_of(value.entity());
-      const auto [found, is_new] = edges_.try_emplace(edge.number(), FaceEdge{edge, inherited_by(edge, inherited), 0});
+      const auto [found, is_new] =
+          edges_.try_emplace(edge.number(), FaceEdge{edge, inherited_by(edge, inherited), 0});
       if (is_new) edge_order_.push_back(edge.number());
       ++found->second.uses;
     }
@@ -284,7 +291,8 @@ class StepCollector {
 
   void add_poly_loop(const StepEntity& loop, const Inherited& inherited) {
     std::vector<SpacePoint> points;
-    for (const StepValue value : loop.own("POLY_LOOP", 1)[0].list()) points.push_back(point_of(value.entity()));
+    for (const StepValue value : loop.own("POLY_LOOP", 1)[0].list())
+      points.push_back(point_of(value.entity()));
     if (points.size() < 3) loop.refuse("has fewer than three points; export the file again");
     points.push_back(points.front());
     const SpacePoint first = points.front();
@@ -295,7 +303,8 @@ class StepCollector {
     const std::string own = entity.name();
     if (curves.empty()) skip(fmt::format("{} without length", entity.type()));
     for (SpaceCurve& curve : curves)
-      model_.curves.push_back({std::move(curve), own.empty() ? inherited.name : own, inherited.layer, entity});
+      model_.curves.push_back(
+          {std::move(curve), own.empty() ? inherited.name : own, inherited.layer, entity});
   }
 
   void skip(const std::string& kind) { model_.left_out.add(kind); }

@@ -21,7 +21,8 @@ struct Place {
   const StepCurve* curve = nullptr;
 
   std::string text() const {
-    return fmt::format("{} has the point ({:.9g}, {:.9g}, {:.9g})", curve->entity.title(), p.at[0], p.at[1], p.at[2]);
+    return fmt::format("{} has the point ({:.9g}, {:.9g}, {:.9g})", curve->entity.title(), p.at[0], p.at[1],
+                       p.at[2]);
   }
 };
 
@@ -62,7 +63,8 @@ Chain chain_of(const StepPlane& plane, const SpaceSpline& spline, Point first) {
 Chain chain_of(const StepPlane& plane, const SpaceArc& arc, Point first) {
   Chain chain;
   chain.points = {first};
-  append_arc(chain, {plane.project(arc.centre), plane.project(arc.major), plane.project(arc.minor), arc.begin, arc.end});
+  append_arc(chain, {plane.project(arc.centre), plane.project(arc.major), plane.project(arc.minor), arc.begin,
+                     arc.end});
   return chain;
 }
 
@@ -88,7 +90,8 @@ std::string StepPlane::name() const {
 
 StepPlane plane_of(std::span<const StepCurve> curves) {
   constexpr double flat = 1e-6;
-  constexpr std::array<std::array<int, 3>, 3> planes{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};  // the last axis is normal
+  constexpr std::array<std::array<int, 3>, 3> planes{
+      {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};  // the last axis is normal
   const std::array<Range, 3> ranges = ranges_of(curves);
   const double extent = std::max({ranges[0].width(0), ranges[1].width(1), ranges[2].width(2)});
   for (const auto& [first, second, normal] : planes) {
@@ -99,10 +102,11 @@ StepPlane plane_of(std::span<const StepCurve> curves) {
     if (ranges[axis].width(axis) < ranges[thinnest].width(thinnest)) thinnest = axis;
   }
   const auto& [low, high] = ranges[thinnest];
-  throw InputError(fmt::format(
-      "{}: the curves are not in one plane parallel to the XY, XZ or YZ plane: {}, and {}; place the sketch or face in "
-      "one of these planes, and export it alone",
-      low.curve->entity.place(), low.text(), high.text()));
+  throw InputError(
+      fmt::format("{}: the curves are not in one plane parallel to the XY, XZ or YZ plane: {}, and {}; place "
+                  "the sketch or face in "
+                  "one of these planes, and export it alone",
+                  low.curve->entity.place(), low.text(), high.text()));
 }
 
 Chain chain_in(const StepPlane& plane, const SpaceCurve& curve) {

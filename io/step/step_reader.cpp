@@ -11,15 +11,19 @@ namespace quadloop::io {
 
 namespace {
 
-void add_warnings(const std::string& path, const StepModel& model, double extent, std::vector<std::string>& warnings) {
+void add_warnings(const std::string& path, const StepModel& model, double extent,
+                  std::vector<std::string>& warnings) {
   constexpr double rounding = 1e-6;
-  if (!model.left_out.empty()) warnings.push_back(fmt::format("{}: left out: {}", path, model.left_out.text()));
+  if (!model.left_out.empty())
+    warnings.push_back(fmt::format("{}: left out: {}", path, model.left_out.text()));
   if (model.inner_edges > 0)
-    warnings.push_back(fmt::format("{}: {} edges between faces of a sheet are left out", path, model.inner_edges));
+    warnings.push_back(
+        fmt::format("{}: {} edges between faces of a sheet are left out", path, model.inner_edges));
   if (model.largest_deviation > rounding * extent)
-    warnings.push_back(fmt::format("{}: vertices are up to {:.3g} off the curves of their edges; the curves are joined "
-                                   "at the vertices",
-                                   path, model.largest_deviation));
+    warnings.push_back(
+        fmt::format("{}: vertices are up to {:.3g} off the curves of their edges; the curves are joined "
+                    "at the vertices",
+                    path, model.largest_deviation));
 }
 
 std::string name_of(const StepCurve& curve, const DrawingChoice& choice, const std::string& path) {
@@ -32,8 +36,8 @@ std::string name_of(const StepCurve& curve, const DrawingChoice& choice, const s
 
 }  // namespace
 
-std::vector<Chain> read_step(const std::string& path, const DrawingChoice& choice, std::vector<std::string>& warnings,
-                             FileUnit& unit) {
+std::vector<Chain> read_step(const std::string& path, const DrawingChoice& choice,
+                             std::vector<std::string>& warnings, FileUnit& unit) {
   const Part21File file(path);
   const StepModel model = read_step_model(file, choice);
   unit = {model.units.length, model.units.metres, {model.layers.begin(), model.layers.end()}, {}};

@@ -202,6 +202,32 @@ class MeshWarnings(ProgramTest):
             self.assertEqual(record["geometry"], [{"file": "a.dxf", "extent": [0, 0, 80, 40], "unit": "mm", "metres": metres}])
             self.assertAlmostEqual(json.loads(self.done("check", f"{unit}.mesh", "--json")[0])["area"], 3200 * metres**2)
 
+    def test_a_step_file_is_meshed_on_its_curves(self):
+        """A square with a round hole, drawn in the XZ plane."""
+        points = [(0, 0), (4, 0), (4, 4), (0, 4), (2, 2)]
+        data = "".join(f"#{i}=CARTESIAN_POINT('',({x:.1f},7.,{z:.1f}));\n" for i, (x, z) in enumerate(points, 1))
+        data += """#6=DIRECTION('',(0.,1.,0.));
+#7=DIRECTION('',(0.,0.,1.));
+#8=AXIS2_PLACEMENT_3D('',#5,#6,#7);
+#9=CIRCLE('hole',#8,1.);
+#10=POLYLINE('box',(#1,#2,#3,#4,#1));
+#11=GEOMETRIC_CURVE_SET('',(#9,#10));
+#12=(LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.));
+#13=(GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNIT_ASSIGNED_CONTEXT((#12)) REPRESENTATION_CONTEXT('',''));
+#14=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11),#13);
+"""
+        self.write("a.stp", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n")
+        case = '[geometry]\nfile = "a.stp"\n[spacing]\nmax = 0.5\n[boundary.hole]\nspacing = 0.1\n'
+        self.same_on_ranks(case)
+        table = self.done("mesh", "case.toml", "-o", "m")[0]
+        self.assertIn("a.stp: coordinates from (0, 0) to (4, 4) in the XZ plane, in mm, meshed as given", table)
+        rows = (self.folder / "m.mesh").read_text().split("\n")
+        nodes = [tuple(map(float, row.split())) for row in rows[2:2 + int(rows[1])]]
+        begin = next(i for i, row in enumerate(rows) if row.startswith("#Number of edges") and "(hole)" in row)
+        hole = {int(n) for row in rows[begin + 2:begin + 2 + int(rows[begin + 1])] for n in row.split()}
+        self.assertGreater(len(hole), 60)
+        self.assertLess(max(abs(math.dist(nodes[n - 1], (2, 2)) - 1) for n in hole), 4e-12)
+
     def test_a_drawing_of_curves_with_a_centre_line(self):
         def arc(handle, begin, end):
             return f"0\nARC\n5\n{handle}\n8\nrim\n10\n1\n20\n0\n40\n2\n50\n{begin}\n51\n{end}\n"

@@ -64,7 +64,7 @@ void read_file(std::string_view name, std::string_view input) {
     io::read_solution(path);
   } else if (name.ends_with(".toml")) {
     read_case_file(path);
-  } else if (has_one_of(name, {".geom", ".dat", ".dxf", ".geojson"})) {
+  } else if (has_one_of(name, {".geom", ".dat", ".dxf", ".stp", ".geojson"})) {
     read_outline_file(path);
   } else {
     read_and_look(path);

@@ -83,10 +83,20 @@ TEST_F(GeometryFile, RefusesWithTheLine) {
 
 TEST_F(GeometryFile, RefusesAMissingFile) {
   std::vector<std::string> warnings;
-  for (const char* name : {"none.geom", "none.dat", "none.dxf"}) {
+  for (const char* name : {"none.geom", "none.dat", "none.dxf", "none.stp"}) {
     const std::string message =
         test::refusal(folder_, [&] { read_geometry((folder_.path() / name).string(), warnings); });
     EXPECT_EQ(message.find(std::string(name) + ": "), 0u) << message;
+  }
+}
+
+TEST_F(GeometryFile, ReadsStepFilesByBothSuffixes) {
+  for (const char* name : {"a.stp", "b.step", "C.STP"}) {
+    const auto chains = read(name, "ISO-10303-21;DATA;#1=CARTESIAN_POINT('',(0.,0.));#2=CARTESIAN_POINT('',(1.,2.));"
+                                   "#3=POLYLINE('',(#1,#2));#4=SHAPE_REPRESENTATION('',(#3),$);ENDSEC;END-ISO-10303-21;");
+    ASSERT_EQ(chains.size(), 1u);
+    EXPECT_EQ(chains[0].points, (std::vector<Point>{{0, 0}, {1, 2}}));
+    EXPECT_TRUE(has_layers_of_drawings(name));
   }
 }
 

@@ -13,7 +13,14 @@ namespace {
 SpaceSpline sample(bool rational) {
   SpaceSpline spline{3,
                      {0, 0, 0, 0, 1, 2, 2, 3.5, 5, 5, 5, 5},
-                     {{{0, 0, 1}}, {{1, 2, 0}}, {{3, 3, -1}}, {{4, 0, 2}}, {{6, -1, 1}}, {{7, 2, 0}}, {{9, 2, 1}}, {{9, 4, 3}}},
+                     {{{0, 0, 1}},
+                      {{1, 2, 0}},
+                      {{3, 3, -1}},
+                      {{4, 0, 2}},
+                      {{6, -1, 1}},
+                      {{7, 2, 0}},
+                      {{9, 2, 1}},
+                      {{9, 4, 3}}},
                      {}};
   if (rational) spline.weights = {1, 2, 0.5, 1, 3, 1, 0.7, 1};
   return spline;
@@ -29,14 +36,16 @@ SpaceSpline uniform() {
 
 TEST(SpaceSpline, PartsAreOnTheCurve) {
   for (const SpaceSpline& spline : {sample(false), sample(true), uniform()}) {
-    for (const auto& [from, to] : {std::pair(0.0, 5.0), {0.3, 4.9}, {1.0, 2.0}, {2.0, 3.5}, {1.2, 1.3}, {0.0, 2.7}, {3.6, 5.0}}) {
+    for (const auto& [from, to] :
+         {std::pair(0.0, 5.0), {0.3, 4.9}, {1.0, 2.0}, {2.0, 3.5}, {1.2, 1.3}, {0.0, 2.7}, {3.6, 5.0}}) {
       const SpaceSpline part = part_of(spline, from, to);
       EXPECT_EQ(fault_of(part), "");
       EXPECT_EQ(part.begin(), from);
       EXPECT_EQ(part.end(), to);
       for (int i = 0; i <= 50; ++i) {
         const double t = from + (to - from) * i / 50;
-        EXPECT_LT(length(part.point_at(t) - spline.point_at(t)), 1e-13) << from << " to " << to << " at " << t;
+        EXPECT_LT(length(part.point_at(t) - spline.point_at(t)), 1e-13)
+            << from << " to " << to << " at " << t;
       }
     }
   }

@@ -17,7 +17,9 @@ class StepText {
   std::string point(double x, double y, double z = 0) {
     return add(fmt::format("CARTESIAN_POINT('',({},{},{}))", real(x), real(y), real(z)));
   }
-  std::string vertex(double x, double y, double z = 0) { return add("VERTEX_POINT(''," + point(x, y, z) + ")"); }
+  std::string vertex(double x, double y, double z = 0) {
+    return add("VERTEX_POINT(''," + point(x, y, z) + ")");
+  }
   std::string direction(double x, double y, double z = 0) {
     return add(fmt::format("DIRECTION('',({},{},{}))", real(x), real(y), real(z)));
   }
@@ -44,7 +46,9 @@ class StepText {
     }
     return add("EDGE_LOOP(''," + list(oriented) + ")");
   }
-  std::string set(const std::vector<std::string>& items) { return add("GEOMETRIC_CURVE_SET(''," + list(items) + ")"); }
+  std::string set(const std::vector<std::string>& items) {
+    return add("GEOMETRIC_CURVE_SET(''," + list(items) + ")");
+  }
   static std::string list(const std::vector<std::string>& items) {
     std::string text = "(";
     for (const std::string& item : items) text += (text.size() > 1 ? "," : "") + item;
@@ -59,7 +63,7 @@ class StepText {
     const std::string length = add("(LENGTH_UNIT() NAMED_UNIT(*) " + length_unit + ")");
     const std::string angle = add("(NAMED_UNIT(*) PLANE_ANGLE_UNIT() " + angle_unit + ")");
     const std::string uncertainty =
-        add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.),"+ length + ",'distance_accuracy_value','')");
+        add("UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.)," + length + ",'distance_accuracy_value','')");
     const std::string context =
         add(fmt::format("(GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({})) "
                         "GLOBAL_UNIT_ASSIGNED_CONTEXT(({},{})) REPRESENTATION_CONTEXT('',''))",
