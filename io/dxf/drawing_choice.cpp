@@ -32,8 +32,8 @@ std::string LeftOut::text() const {
   return fmt::format("{}", fmt::join(kinds, ", "));
 }
 
-void refuse_empty(const std::string& path, const DrawingChoice& choice, const std::vector<std::string>& layers,
-                  const LeftOut& left_out) {
+void refuse_empty(const std::string& path, const DrawingChoice& choice,
+                  const std::vector<std::string>& layers, const LeftOut& left_out) {
   if (!choice.layers.empty() && left_out.empty())
     throw InputError(
         fmt::format("{}: no layer of the file has lines or polygons and is one of [{}]; its layers are: {}",

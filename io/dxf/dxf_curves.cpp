@@ -28,7 +28,9 @@ Extrusion extrusion_of(const DxfRecord& entity) {
   return {normal.x / size, normal.y / size, normal.z / size};
 }
 
-Chain chain_from(Point p) { return {.name = {}, .open = true, .points = {p}, .source = {}, .directed = false}; }
+Chain chain_from(Point p) {
+  return {.name = {}, .open = true, .points = {p}, .source = {}, .directed = false};
+}
 
 Chain line_of(const DxfRecord& entity) {
   Chain chain = chain_from(point_at(entity, 10));
@@ -61,7 +63,8 @@ Chain arc_of(const DxfRecord& entity) {
   if (sweep < rounding || sweep > whole_turn - rounding) return ellipse_of(centre, {radius, 0}, {0, radius});
   const Point major = radius * unit_vector(begin), minor = radius * unit_vector(begin + 90);
   Chain chain = chain_from(centre + major);
-  append_arc(chain, {centre, major, minor, 0, sweep * (std::numbers::pi / 180)}, centre + radius * unit_vector(end));
+  append_arc(chain, {centre, major, minor, 0, sweep * (std::numbers::pi / 180)},
+             centre + radius * unit_vector(end));
   return chain;
 }
 
@@ -157,7 +160,8 @@ std::vector<Vertex> heavy_vertices(std::span<const DxfRecord> following) {
   std::vector<Vertex> vertices;
   for (const DxfRecord& vertex : following) {
     if (vertex.type() != "VERTEX") break;
-    if ((vertex.whole(70) & controls_spline) == 0) vertices.push_back({point_at(vertex, 10), vertex.real(42)});
+    if ((vertex.whole(70) & controls_spline) == 0)
+      vertices.push_back({point_at(vertex, 10), vertex.real(42)});
   }
   return vertices;
 }

@@ -26,7 +26,8 @@ bool is_dxf_curve(const DxfRecord& entity);
 
 /// The first entity, for which is_dxf_curve() holds, as a chain placed by the map: closed if the entity says
 /// so or its ends coincide. A polyline's vertices follow it in `entities`. None if it has no extent. The
-/// chain has no name and no source yet. Throws InputError with layer and handle for data that define no curve.
+/// chain has no name and no source yet. Throws InputError with layer and handle for data that define no
+/// curve.
 std::optional<Chain> dxf_curve(std::span<const DxfRecord> entities, const DxfPlacement& placement);
 
 }  // namespace quadloop::io

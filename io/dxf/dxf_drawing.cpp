@@ -51,7 +51,8 @@ std::string key_of(std::string_view name) { return small_letters(std::string(nam
 }  // namespace
 
 std::string colour_of(const DxfRecord& record, const std::string& by_layer, const std::string& by_block) {
-  constexpr std::array<const char*, 8> words{"", "red", "yellow", "green", "cyan", "blue", "magenta", "white"};
+  constexpr std::array<const char*, 8> words{"",     "red",  "yellow",  "green",
+                                             "cyan", "blue", "magenta", "white"};
   constexpr std::int64_t of_block = 0, of_layer = 256;
   if (record.has(420)) return fmt::format("colour_{:06x}", record.whole(420) & 0xffffff);
   const std::int64_t index = std::abs(record.whole(62, of_layer));  // negative: a layer that is off
@@ -107,8 +108,9 @@ void DxfDrawing::take_layer(const DxfRecord& entry) {
 void DxfDrawing::take_blocks(std::span<const DxfRecord> records) {
   constexpr std::int64_t external = 4;  // the content is in another file
   for (auto head = records.begin(); head != records.end();) {
-    const auto next = std::find_if(head + 1, records.end(),
-                                   [](const DxfRecord& r) { return r.type() == "BLOCK" || r.type() == "ENDBLK"; });
+    const auto next = std::find_if(head + 1, records.end(), [](const DxfRecord& r) {
+      return r.type() == "BLOCK" || r.type() == "ENDBLK";
+    });
     if (head->type() == "BLOCK" && (head->whole(70) & external) == 0) {
       const DxfBlock block{std::string(head->text(2)), {head->real(10), head->real(20)}, {head + 1, next}};
       blocks_.emplace(key_of(block.name), block);

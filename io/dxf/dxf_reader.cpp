@@ -74,16 +74,22 @@ class DxfReader {
     if (in_paper_space(reference)) return leave_out(reference, "in paper space");
     if (block == nullptr) {
       if (choice_.has_layer(layer.name))
-        leave_out(reference, fmt::format("of block '{}', whose content is not in the file", reference.text(2)));
+        leave_out(reference,
+                  fmt::format("of block '{}', whose content is not in the file", reference.text(2)));
       return;
     }
     if (within.depth == most_nested)
-      reference.refuse(fmt::format("it inserts block '{}', which contains itself or is nested too deep", block->name));
+      reference.refuse(
+          fmt::format("it inserts block '{}', which contains itself or is nested too deep", block->name));
     const auto columns = static_cast<double>(std::max<std::int64_t>(1, reference.whole(70, 1))),
                rows = static_cast<double>(std::max<std::int64_t>(1, reference.whole(71, 1)));
     count(reference, columns * rows);
-    Insertion inner{{}, &layer, colour_in(reference, layer, within), block->name,
-                    within.hidden || layer.frozen || is_invisible(reference), within.depth + 1};
+    Insertion inner{{},
+                    &layer,
+                    colour_in(reference, layer, within),
+                    block->name,
+                    within.hidden || layer.frozen || is_invisible(reference),
+                    within.depth + 1};
     for (double row = 0; row < rows; ++row) {
       for (double column = 0; column < columns; ++column) {
         inner.placement = within.placement.after(placement_of(reference, block->base, column, row));
@@ -95,13 +101,15 @@ class DxfReader {
   static DxfPlacement placement_of(const DxfRecord& reference, Point base, double column, double row) {
     const Point x = unit_vector(reference.real(50)), y = unit_vector(reference.real(50) + 90);
     const DxfPlacement turn{x, y, {reference.real(10), reference.real(20)}};
-    const DxfPlacement in_row{
-        {reference.real(41, 1), 0}, {0, reference.real(42, 1)}, {column * reference.real(44), row * reference.real(45)}};
+    const DxfPlacement in_row{{reference.real(41, 1), 0},
+                              {0, reference.real(42, 1)},
+                              {column * reference.real(44), row * reference.real(45)}};
     return plane_of(reference).after(turn).after(in_row).after({{1, 0}, {0, 1}, -1 * base});
   }
 
   std::string colour_in(const DxfRecord& entity, const DxfLayer& layer, const Insertion& within) const {
-    return choice_.names.from == BoundaryNames::From::colour ? colour_of(entity, layer.colour, within.colour) : "";
+    return choice_.names.from == BoundaryNames::From::colour ? colour_of(entity, layer.colour, within.colour)
+                                                             : "";
   }
 
   /// Why an entity is not part of the geometry, or not visible; empty if it is to be read.
@@ -115,7 +123,8 @@ class DxfReader {
   void add(std::span<const DxfRecord> entities, const DxfLayer& layer, const Insertion& within) {
     const DxfRecord& entity = entities.front();
     if (!choice_.has_layer(layer.name)) return;
-    if (const std::string why = why_left_out(entity, layer, within); !why.empty()) return leave_out(entity, why);
+    if (const std::string why = why_left_out(entity, layer, within); !why.empty())
+      return leave_out(entity, why);
     std::optional<Chain> chain = dxf_curve(entities, within.placement);
     if (!chain) return leave_out(entity, fmt::format("without extent on layer '{}'", layer.name));
     chain->name = one_word(name_of(entity, layer, within));

@@ -32,9 +32,7 @@ Box saved_far_field(const Box& square, const TreeAttributes& saved) {
 /// Records bounding box and unit of a file. Throws InputError if the file must declare a unit and does not.
 void note_extent(const GeometryInput& input, const std::vector<Chain>& chains, FileExtent& extent) {
   extent.path = input.path;
-  for (const Chain& chain : chains) {
-    for (const Point p : chain.points) extent.box.include(p);
-  }
+  extent.box = box_of(chains);
   if (input.unit == "none") return;
   extent.metres = input.unit == "file" ? extent.declared.metres : *io::metres_in(input.unit);
   if (extent.metres > 0) return;
@@ -99,7 +97,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     if (extents != nullptr) extents->push_back(extent);
     const Transform transform = in_metres(input.transform, extent);
     if (input.spline) {
-      for (Chain& chain : of_file) join_by_splines(chain, options.default_corner_degrees);
+      for (Chain& chain : of_file) {
+        if (chain.curves.empty()) join_by_splines(chain, options.default_corner_degrees);
+      }
     }
     apply(transform, of_file);
     if (!settings.inside && io::is_airfoil_file(input.path)) {

@@ -372,7 +372,7 @@ class Inputs(FilesTest):
         for name, arguments in self.USES:
             with self.subTest(name=name):
                 os.mkfifo(self.folder / name)
-                ranks = 3 if name in ("zero.toml", "zero.geom", "zero.mesh", "zero.vtu") else 1  # one rank alone waits for a writer
+                ranks = 3 if name in ("zero.toml", "zero.geom", "zero.dxf", "zero.mesh", "zero.vtu") else 1  # one rank alone waits for a writer
                 self.expect_refusal(self.ended(self.start(*arguments, ranks=ranks)), 1, name, "is a pipe")
 
     def test_a_pipe_that_ends(self):

@@ -228,6 +228,23 @@ class MeshWarnings(ProgramTest):
         self.assertGreater(len(hole), 60)
         self.assertLess(max(abs(math.dist(nodes[n - 1], (2, 2)) - 1) for n in hole), 4e-12)
 
+    def test_a_drawing_of_curves_with_a_centre_line(self):
+        def arc(handle, begin, end):
+            return f"0\nARC\n5\n{handle}\n8\nrim\n10\n1\n20\n0\n40\n2\n50\n{begin}\n51\n{end}\n"
+
+        line = "0\nLINE\n5\nC7\n8\nCENTER\n10\n-4\n20\n0\n11\n4\n21\n0\n"
+        self.write("a.dxf", "0\nSECTION\n2\nENTITIES\n" + arc("A1", 30, 190) + line + arc("A2", 190, 30) + "0\nENDSEC\n0\nEOF\n")
+        self.write("case.toml", '[geometry]\nfile = "a.dxf"\n')
+        for ranks in (1, 2, 3, 5):
+            table, warnings = self.done("mesh", "case.toml", "-o", f"on_{ranks}", ranks=ranks)
+            self.assertIn("a.dxf: coordinates from (-4, -2) to (4, 2)", table)
+            self.assertIn("left out 1 line that joins no other line: a.dxf:21: layer 'CENTER', LINE of handle C7; if it is", warnings)
+            self.assertEqual((self.folder / f"on_{ranks}.mesh").read_bytes(), (self.folder / "on_1.mesh").read_bytes())
+        # the mesh is inscribed in the circle: with cells of 15 degrees it lacks about a hundredth of its area
+        area = json.loads(self.done("check", "on_1.mesh", "--json")[0])["area"]
+        self.assertLess(area, 4 * math.pi)
+        self.assertGreater(area, 0.98 * 4 * math.pi)
+
     def test_a_warning_that_comes_again_is_printed_once(self):
         """One drawing for two bodies is read twice."""
         square = "  0\nLWPOLYLINE\n  8\nwall\n 90\n4\n 70\n1\n" + "".join(f" 10\n{x}\n 20\n{y}\n" for x, y in ((0, 0), (2, 0), (2, 2), (0, 2)))

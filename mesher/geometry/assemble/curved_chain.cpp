@@ -184,6 +184,18 @@ std::optional<Point> unit(std::optional<Point> p) {
   return p ? std::optional((1 / length(*p)) * *p) : std::nullopt;
 }
 
+/// Extends the box by a curve, which is halved where its control points are outside.
+void include(const CurvedSegment& segment, int halvings, Box& box) {
+  box.include(segment.to);
+  const auto is_outside = [&](Point p) {  // not one that is no number
+    return p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y;
+  };
+  if (halvings == 0 || std::ranges::none_of(segment.curve.inner, is_outside)) return;
+  const auto [first, second] = halves(segment);
+  include(first, halvings - 1, box);
+  include(second, halvings - 1, box);
+}
+
 }  // namespace
 
 std::pair<std::int64_t, Point> drop_repeats(Chain& chain, double within) {
@@ -215,6 +227,19 @@ std::vector<Curve> reversed(std::vector<Curve> curves) {
   std::ranges::reverse(curves);
   for (Curve& curve : curves) curve = reversed(std::move(curve));
   return curves;
+}
+
+Box box_of(std::span<const Chain> chains) {
+  constexpr int to_rounding = 26;  // each halving of a curve leaves a quarter of its height
+  Box box;
+  for (const Chain& chain : chains) {
+    for (const Point p : chain.points) box.include(p);
+  }
+  for (const Chain& chain : chains) {
+    for (std::size_t i = 0; i < chain.curves.size(); ++i)
+      include({chain.points[i], chain.curves[i], chain.points[(i + 1) % chain.points.size()]}, to_rounding, box);
+  }
+  return box;
 }
 
 void append_segment(Chain& chain, Curve curve, Point to) {

@@ -19,6 +19,9 @@ std::pair<std::int64_t, Point> drop_repeats(Chain& chain, double within);
 /// The segments in reverse order, each from its other end.
 std::vector<Curve> reversed(std::vector<Curve> curves);
 
+/// The box of chains with their curves, up to rounding.
+Box box_of(std::span<const Chain> chains);
+
 /// Continues a chain by a segment from its last point. The chain must have a point.
 void append_segment(Chain& chain, Curve curve, Point to);
 inline void append_line(Chain& chain, Point to) { append_segment(chain, {}, to); }

@@ -72,8 +72,9 @@ void leave_out_strays(std::vector<Chain>& chains, const std::string& far_field,
   constexpr std::size_t most_named = 5;
   const LoosePlaces loose(chains);
   const auto is_stray = [&](const Chain& chain) { return loose.is_stray(chain); };
-  const bool all = std::ranges::all_of(
-      chains, [&](const Chain& chain) { return is_stray(chain) || (!far_field.empty() && chain.source == far_field); });
+  const bool all = std::ranges::all_of(chains, [&](const Chain& chain) {
+    return is_stray(chain) || (!far_field.empty() && chain.source == far_field);
+  });
   if (all) return;
   std::size_t count = 0;
   std::vector<std::string> sources;
@@ -83,10 +84,13 @@ void leave_out_strays(std::vector<Chain>& chains, const std::string& far_field,
     return true;
   });
   if (count == 0) return;
-  warnings.push_back(fmt::format("left out {} line{} that join{} nothing: {}{}; if they are part of an outline, make their ends "
-                                 "meet those of other lines",
-                                 count, count == 1 ? "" : "s", count == 1 ? "s" : "", fmt::join(sources, "; "),
-                                 count > most_named ? fmt::format("; and {} more", count - most_named) : ""));
+  const std::string more = count > most_named ? fmt::format("; and {} more", count - most_named) : "";
+  const bool one = count == 1;
+  warnings.push_back(
+      fmt::format("left out {} line{} that {} no other line: {}{}; if {} part of an outline, make {} ends "
+                  "meet those of other lines",
+                  count, one ? "" : "s", one ? "joins" : "join", fmt::join(sources, "; "), more,
+                  one ? "it is" : "they are", one ? "its" : "their"));
 }
 
 }  // namespace quadloop

@@ -28,7 +28,7 @@ constexpr double height_share = 1.0 / 32, height_in_layers = 1.0 / 500;
 /// Curves shorter than this fraction of the extent are not subdivided.
 constexpr double shortest_share = 1e-12;
 /// Pieces that may be added to separate curves. Those that run along each other double at each step.
-constexpr std::size_t most_added = 100000;
+constexpr std::size_t most_added = 20000;
 
 /// A segment of a chain, while it is subdivided.
 struct Piece {
@@ -181,7 +181,8 @@ class Subdivision {
   std::vector<Chain> chains() const {
     std::vector<Chain> chains = chains_;
     for (Chain& chain : chains) {
-      if (chain.open && chain.points.size() > 1) chain.points.erase(chain.points.begin(), chain.points.end() - 1);
+      if (chain.open && chain.points.size() > 1)
+        chain.points.erase(chain.points.begin(), chain.points.end() - 1);
       if (!chain.open) chain.points.clear();
       chain.curves.clear();
     }
@@ -253,14 +254,15 @@ class Subdivision {
   bool overlap(std::int32_t i, std::int32_t j, const std::vector<std::vector<Point>>& hulls) const {
     const Piece &a = pieces_[i], &b = pieces_[j];
     const std::optional<Point> corner = common_end(a.segment, b.segment);
-    const bool meet = corner ? Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j])) : hulls_meet(hulls[i], hulls[j]);
+    const bool meet =
+        corner ? Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j])) : hulls_meet(hulls[i], hulls[j]);
     if (!meet) return false;
     if (pieces_.size() <= most_pieces_ && (corner || can_be_halved(a) || can_be_halved(b))) return true;
     const Point at = a.segment.from;
-    throw InputError(fmt::format(
-        "{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move them apart, remove one, "
-        "or let both have a point there",
-        chains_[a.chain].source, chains_[a.chain].name, chains_[b.chain].name, at.x, at.y));
+    throw InputError(
+        fmt::format("{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move "
+                    "them apart, remove one, or let both have a point there",
+                    chains_[a.chain].source, chains_[a.chain].name, chains_[b.chain].name, at.x, at.y));
   }
 
   const std::vector<Chain>& chains_;

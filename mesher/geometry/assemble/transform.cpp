@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
 
 namespace quadloop {
 
@@ -44,7 +45,6 @@ namespace {
 
 /// The bounding box of the chains. Throws InputError if one of them already is a far field.
 Box box_without_far_field(const std::vector<Chain>& chains, const std::string& where) {
-  Box box;
   for (const Chain& chain : chains) {
     if (chain.name == "farfield") {
       throw InputError(
@@ -52,9 +52,8 @@ Box box_without_far_field(const std::vector<Chain>& chains, const std::string& w
                       "rename the boundary",
                       where, chain.source));
     }
-    for (const Point p : chain.points) box.include(p);
   }
-  return box;
+  return box_of(chains);
 }
 
 }  // namespace

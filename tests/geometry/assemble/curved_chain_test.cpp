@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace quadloop {
@@ -206,6 +207,19 @@ TEST(CurvedChain, TheClosingSegmentKeepsItsCurve) {
   ASSERT_EQ(chain.points.size(), 3U);
   ASSERT_EQ(chain.curves.size(), 3U);
   EXPECT_FALSE(chain.curves[2].straight());
+}
+
+TEST(CurvedChain, TheBoxHoldsTheCurvesAndNoMore) {
+  Chain arc{"arc", true, {{std::cos(0.2), std::sin(0.2)}}, "file"};
+  append_arc(arc, {{0, 0}, {1, 0}, {0, 1}, 0.2, 4});
+  const Box box = box_of(std::vector{arc, Chain{"line", true, {{0, 0}, {0.5, 3}}, "file"}});
+  EXPECT_NEAR(box.low.x, -1, 1e-15);
+  EXPECT_EQ(box.high.x, std::cos(0.2));
+  EXPECT_NEAR(box.low.y, std::sin(4), 1e-15);
+  EXPECT_EQ(box.high.y, 3);
+  EXPECT_NEAR(box_of(std::vector{arc}).high.y, 1, 1e-15);
+  arc.curves[0].inner[0].x = std::numeric_limits<double>::quiet_NaN();
+  box_of(std::vector{arc});  // in no time
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/curved_chain.hpp"
+#include "mesher/geometry/assemble/mirrored_curves.hpp"
 
 namespace quadloop {
 namespace {
@@ -40,7 +42,7 @@ TEST(MirroredOutline, RoundingIsMendedAndTold) {
   EXPECT_EQ(chains[0].points[0], (Point{-4, -4}));
   EXPECT_EQ(chains[3].points[0], (Point{-3, 0}));
   ASSERT_EQ(warnings.size(), 1);
-  EXPECT_EQ(warnings[0].substr(0, 8), "3 points");
+  EXPECT_EQ(warnings[0].substr(0, 7), "moved 3");
 }
 
 TEST(MirroredOutline, NothingIsToldWhereAllIsExact) {
@@ -130,6 +132,52 @@ TEST(MirroredOutline, ItsHalfHasABoundaryAlongTheAxis) {
     EXPECT_EQ(cut, 4) << "3 before the wedge, 1 behind it; the domain to its left";
     for (const Boundary& boundary : half.boundaries()) EXPECT_NE(boundary.name, "lower");
   }
+}
+
+/// An airfoil of curves whose nose crosses the x-axis within a segment, in a box.
+std::vector<Chain> curved_airfoil() {
+  std::vector<Chain> chains{{"box", false, {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, "box"},
+                            {"airfoil", false, {{1, 0}, {0.5, -0.1}, {0.1, -0.07}, {0.01, -0.02}, {0.01, 0.02}, {0.1, 0.07}, {0.5, 0.1}}, "a.dat"}};
+  join_by_splines(chains[1], 30);
+  return chains;
+}
+
+TEST(MirroredCurves, CurvesBecomeExactImages) {
+  std::vector<Chain> chains = curved_airfoil();
+  chains[1].curves[1].inner[0].y -= 1e-12;
+  Warnings warnings;
+  fit_to_mirror(chains, MirrorAxis::x, warnings);
+  const std::vector<Curve>& curves = chains[1].curves;
+  ASSERT_EQ(curves.size(), 7U);
+  for (std::size_t s = 0; s < 7; ++s) {
+    Curve image = reversed(curves[6 - s]);
+    for (Point& p : image.inner) p = image_of(MirrorAxis::x, p);
+    EXPECT_EQ(image, curves[s]) << s;
+  }
+}
+
+TEST(MirroredCurves, TheHalfFollowsTheCurveAcrossTheAxis) {
+  std::vector<Chain> chains = curved_airfoil();
+  Warnings warnings;
+  fit_to_mirror(chains, MirrorAxis::x, warnings);
+  const Geometry whole = assemble(chains, {}, warnings);
+  require_mirror_images(whole, MirrorAxis::x);
+  AssembleOptions options;
+  const Geometry half = assemble(half_outline(whole, MirrorAxis::x, "axis"), options, warnings);
+  EXPECT_TRUE(half.has_curves());
+  double nose = 1;
+  for (std::int32_t v = 0; v < half.size(); ++v) {
+    if (half.boundary(half.boundary_of(v)).name == "airfoil") nose = std::min(nose, half.point(v).x);
+    EXPECT_GE(half.point(v).y, 0);
+  }
+  EXPECT_LT(nose, 0.01) << "the curve bulges beyond its ends";
+}
+
+TEST(MirroredCurves, ACurveWithoutAnImageIsRefused) {
+  std::vector<Chain> chains = curved_airfoil();
+  chains[1].curves[5].inner[0].y += 1e-3;
+  const std::string text = refusal([&] { fit_curves_to_mirror(chains, MirrorAxis::x, 1e-9); });
+  EXPECT_NE(text.find("a.dat: boundary airfoil: the curve from (0.5, -0.1) to (0.1, -0.07)"), std::string::npos) << text;
 }
 
 }  // namespace

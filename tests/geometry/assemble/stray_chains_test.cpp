@@ -14,7 +14,8 @@ Chain drawn(const std::string& name, std::vector<Point> points) {
 }
 
 std::vector<Chain> square() {
-  return {drawn("wall", {{0, 0}, {4, 0}}), drawn("wall", {{4, 0}, {4, 4}}), drawn("wall", {{4, 4}, {0, 4}, {0, 0}})};
+  return {drawn("wall", {{0, 0}, {4, 0}}), drawn("wall", {{4, 0}, {4, 4}}),
+          drawn("wall", {{4, 4}, {0, 4}, {0, 0}})};
 }
 
 struct Left {
@@ -32,8 +33,9 @@ TEST(StrayChains, CentreLinesAreLeftOutAndNamed) {
   const Left left(chains);
   EXPECT_EQ(left.chains.size(), 3u);
   ASSERT_EQ(left.warnings.size(), 1u);
-  EXPECT_EQ(left.warnings[0].find("left out 2 lines that join nothing: a.dxf:7: layer 'CENTER', LINE of handle 2F; "
-                                  "a.dxf:7: layer 'CENTER', LINE of handle 2F; if"),
+  EXPECT_EQ(left.warnings[0].find(
+                "left out 2 lines that join no other line: a.dxf:7: layer 'CENTER', LINE of handle 2F; "
+                "a.dxf:7: layer 'CENTER', LINE of handle 2F; if"),
             0u)
       << left.warnings[0];
   Warnings warnings;

@@ -18,7 +18,8 @@ using namespace test;
 class DxfCurves : public DxfTest {
  protected:
   Chain only(const std::string& entities) {
-    std::vector<Chain> chains = read(entities.find("SECTION") < entities.size() ? entities : dxf_of(entities));
+    std::vector<Chain> chains =
+        read(entities.find("SECTION") < entities.size() ? entities : dxf_of(entities));
     EXPECT_EQ(chains.size(), 1u);
     return chains.empty() ? Chain{} : chains.front();
   }
@@ -69,7 +70,8 @@ TEST_F(DxfCurves, AnExtrusionDownwardsMirrorsAnArc) {
 }
 
 std::string dxf_ellipse(double begin, double end, const std::string& more = "") {
-  return groups(0, "ELLIPSE", 8, "wall", 10, 1, 20, 2, 11, 3, 21, 4, 40, 0.5) + groups(41, begin, 42, end) + more;
+  return groups(0, "ELLIPSE", 8, "wall", 10, 1, 20, 2, 11, 3, 21, 4, 40, 0.5) + groups(41, begin, 42, end) +
+         more;
 }
 
 void expect_on_ellipse(const Chain& chain) {  // half axes 5 along (3, 4), and 2.5
@@ -116,9 +118,9 @@ std::string numbers(int code, std::initializer_list<double> values) {
 
 TEST_F(DxfCurves, ASplineHasAPointAtEachKnot) {
   // Two parabolas that meet in a kink at (2, 0), where the knot has the degree for its multiplicity.
-  const Chain chain = only(entity("SPLINE", "B1", groups(8, "wall", 70, 8, 71, 2, 72, 8, 73, 5)) +
-                           numbers(40, {0, 0, 0, 1, 1, 3, 3, 3}) +
-                           poles({{0, 0}, {1, 2}, {2, 0}, {3, 2}, {4, 0}}));
+  const Chain chain =
+      only(entity("SPLINE", "B1", groups(8, "wall", 70, 8, 71, 2, 72, 8, 73, 5)) +
+           numbers(40, {0, 0, 0, 1, 1, 3, 3, 3}) + poles({{0, 0}, {1, 2}, {2, 0}, {3, 2}, {4, 0}}));
   EXPECT_EQ(chain.points, (std::vector<Point>{{0, 0}, {2, 0}, {4, 0}}));
   for (const Point p : along(chain)) {
     const double x = p.x < 2 ? p.x : p.x - 2;
@@ -128,18 +130,18 @@ TEST_F(DxfCurves, ASplineHasAPointAtEachKnot) {
 
 TEST_F(DxfCurves, ARationalSplineIsACircle) {
   const double w = std::numbers::sqrt2 / 2;
-  const Chain circle = only(entity("SPLINE", "B1", groups(8, "wall", 70, 12, 71, 2)) +
-                            numbers(40, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}) +
-                            numbers(41, {1, w, 1, w, 1, w, 1, w, 1}) +
-                            poles({{7, 1}, {7, 5}, {3, 5}, {-1, 5}, {-1, 1}, {-1, -3}, {3, -3}, {7, -3}, {7, 1}}));
+  const Chain circle =
+      only(entity("SPLINE", "B1", groups(8, "wall", 70, 12, 71, 2)) +
+           numbers(40, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}) + numbers(41, {1, w, 1, w, 1, w, 1, w, 1}) +
+           poles({{7, 1}, {7, 5}, {3, 5}, {-1, 5}, {-1, 1}, {-1, -3}, {3, -3}, {7, -3}, {7, 1}}));
   EXPECT_FALSE(circle.open);
   EXPECT_EQ(circle.points.size(), 4u);
   expect_on_circle(circle, {3, 1}, 4);
 }
 
 TEST_F(DxfCurves, ALoopOfOneCurveHasFourSegments) {
-  const Chain leaf = only(entity("SPLINE", "B1", groups(8, "wall", 71, 3)) + numbers(40, {0, 0, 0, 0, 1, 1, 1, 1}) +
-                          poles({{0, 0}, {4, 4}, {-4, 4}, {0, 0}}));
+  const Chain leaf = only(entity("SPLINE", "B1", groups(8, "wall", 71, 3)) +
+                          numbers(40, {0, 0, 0, 0, 1, 1, 1, 1}) + poles({{0, 0}, {4, 4}, {-4, 4}, {0, 0}}));
   EXPECT_FALSE(leaf.open);
   EXPECT_EQ(leaf.points.size(), 4u);
   EXPECT_EQ(leaf.points[2], (Point{0, 3}));
@@ -187,16 +189,19 @@ TEST_F(DxfCurves, ASplineOfFitPointsRunsThroughThem) {
 TEST_F(DxfCurves, RefusesSplinesThatDefineNoCurve) {
   const std::string spline = entity("SPLINE", "B7", groups(8, "rim", 71, 3));
   const std::string said = refused(dxf_of(spline + numbers(40, {0, 1, 2}) + poles({{0, 0}, {1, 1}})));
-  EXPECT_EQ(said.find("a.dxf:5: layer 'rim', SPLINE of handle B7: it has 2 control points, but its degree 3"), 0u)
+  EXPECT_EQ(said.find("a.dxf:5: layer 'rim', SPLINE of handle B7: it has 2 control points, but its degree 3"),
+            0u)
       << said;
   EXPECT_NE(refused(dxf_of(spline)).find("B7: it has too few different fit points"), std::string::npos);
   EXPECT_NE(refused(dxf_of(fit_points(groups(70, 1), {{1, 0}, {0, 1}, {1, 0}}))).find("too few different"),
             std::string::npos);
 }
 
-std::string dxf_polyline(const std::string& type, int flags, std::initializer_list<std::array<double, 3>> vertices) {
+std::string dxf_polyline(const std::string& type, int flags,
+                         std::initializer_list<std::array<double, 3>> vertices) {
   const bool light = type == "LWPOLYLINE";
-  std::string text = entity(type, "C1", groups(8, "slot", light ? 90 : 66, light ? vertices.size() : 1, 70, flags));
+  std::string text =
+      entity(type, "C1", groups(8, "slot", light ? 90 : 66, light ? vertices.size() : 1, 70, flags));
   for (const auto& [x, y, bulge] : vertices) {
     if (!light) text += groups(0, "VERTEX", 8, "slot");
     text += groups(10, x, 20, y);
@@ -241,7 +246,8 @@ TEST_F(DxfCurves, TwoBulgesAreALoop) {
   const Chain lens = only(dxf_polyline("POLYLINE", 1, {{-1, 0, 0.25}, {1, 0, 0.25}}));
   EXPECT_FALSE(lens.open);
   EXPECT_GE(lens.points.size(), 4u) << "a loop needs three points";
-  for (const Point p : along(lens)) EXPECT_NEAR(length(p + Point{0, p.y > 0 ? 1.875 : -1.875}), 2.125, precise);
+  for (const Point p : along(lens))
+    EXPECT_NEAR(length(p + Point{0, p.y > 0 ? 1.875 : -1.875}), 2.125, precise);
 }
 
 TEST_F(DxfCurves, ClosedFlagsAndRepeatedVertices) {
@@ -249,7 +255,8 @@ TEST_F(DxfCurves, ClosedFlagsAndRepeatedVertices) {
   const Chain drawn = only(dxf_polyline("LWPOLYLINE", 0, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}}));
   EXPECT_FALSE(drawn.open) << "the ends coincide";
   EXPECT_EQ(drawn.points.size(), 3u);
-  const Chain twice = only(dxf_polyline("LWPOLYLINE", 1, {{0, 0, 0}, {2, 0, 1}, {2, 0, 1}, {0, 2, 0}, {0, 0, 1}}));
+  const Chain twice =
+      only(dxf_polyline("LWPOLYLINE", 1, {{0, 0, 0}, {2, 0, 1}, {2, 0, 1}, {0, 2, 0}, {0, 0, 1}}));
   EXPECT_FALSE(twice.open);
   EXPECT_EQ(twice.points.size(), twice.curves.size());
   for (std::size_t i = 0; i < segments_of(twice); ++i) {
@@ -260,13 +267,15 @@ TEST_F(DxfCurves, ClosedFlagsAndRepeatedVertices) {
 
 TEST_F(DxfCurves, VerticesThatControlASplineAreNoPoints) {
   std::string text = entity("POLYLINE", "C1", groups(8, "slot", 66, 1, 70, 4));
-  for (const auto& [x, y, flags] : {std::array<int, 3>{0, 0, 16}, {1, 5, 16}, {2, 0, 16}, {0, 0, 8}, {1, 2, 8}, {2, 0, 8}})
+  for (const auto& [x, y, flags] :
+       {std::array<int, 3>{0, 0, 16}, {1, 5, 16}, {2, 0, 16}, {0, 0, 8}, {1, 2, 8}, {2, 0, 8}})
     text += groups(0, "VERTEX", 8, "slot", 10, x, 20, y, 70, flags);
   EXPECT_EQ(only(text + groups(0, "SEQEND")).points, (std::vector<Point>{{0, 0}, {1, 2}, {2, 0}}));
 }
 
 TEST_F(DxfCurves, AMirroredScaleMirrorsCurves) {
-  const std::string arc = dxf_arc("0", 1, 2, 3, 20, 300), spline = fit_points("", {{0, 0}, {1, 1}, {2, 0.5}, {3, 2}}),
+  const std::string arc = dxf_arc("0", 1, 2, 3, 20, 300),
+                    spline = fit_points("", {{0, 0}, {1, 1}, {2, 0.5}, {3, 2}}),
                     bulge = dxf_polyline("LWPOLYLINE", 1, {{0, 0, .3}, {4, 0, -2}, {4, 2, 0}});
   for (const std::string& curve : {arc, spline, bulge}) {
     const Chain drawn = only(curve);
@@ -277,14 +286,16 @@ TEST_F(DxfCurves, AMirroredScaleMirrorsCurves) {
     EXPECT_EQ(mirrored.points, drawn.points);
     EXPECT_EQ(mirrored.curves, drawn.curves);
   }
-  const std::string in_blocks = section("BLOCKS", block_of("a", arc) + block_of("b", insert_of("a", "0", groups(42, -1))));
+  const std::string in_blocks =
+      section("BLOCKS", block_of("a", arc) + block_of("b", insert_of("a", "0", groups(42, -1))));
   const Chain back = only(in_blocks + dxf_of(insert_of("b", "w", groups(42, -1))));
   EXPECT_EQ(back.curves, only(arc).curves);
 }
 
 TEST_F(DxfCurves, AnUnequalScaleMakesAnEllipse) {
   const std::string blocks = section("BLOCKS", block_of("b", dxf_circle("A1", "0", 1)));
-  const Chain ellipse = only(blocks + dxf_of(insert_of("b", "w", groups(10, 1, 20, 2, 41, 5, 42, 2.5, 50, 30))));
+  const Chain ellipse =
+      only(blocks + dxf_of(insert_of("b", "w", groups(10, 1, 20, 2, 41, 5, 42, 2.5, 50, 30))));
   const Point along_x{std::sqrt(3) / 2, 0.5};
   for (const Point p : along(ellipse)) {
     const Point arm = p - Point{1, 2};

@@ -26,13 +26,16 @@ inline std::string section(const std::string& name, const std::string& content) 
 }
 
 /// A file that has nothing but entities.
-inline std::string dxf_of(const std::string& entities) { return section("ENTITIES", entities) + groups(0, "EOF"); }
+inline std::string dxf_of(const std::string& entities) {
+  return section("ENTITIES", entities) + groups(0, "EOF");
+}
 
 inline std::string dxf_line(const std::string& layer, double x0, double y0, double x1, double y1) {
   return groups(0, "LINE", 8, layer, 10, x0, 20, y0, 30, 0, 11, x1, 21, y1, 31, 0);
 }
 
-inline std::string dxf_arc(const std::string& layer, double x, double y, double radius, double from, double to) {
+inline std::string dxf_arc(const std::string& layer, double x, double y, double radius, double from,
+                           double to) {
   return groups(0, "ARC", 8, layer, 10, x, 20, y, 40, radius, 50, from, 51, to);
 }
 
@@ -60,7 +63,8 @@ inline std::string table_of_layers(const std::string& entries) {
 }
 
 inline std::string block_of(const std::string& name, const std::string& content, double x = 0, double y = 0) {
-  return groups(0, "BLOCK", 8, 0, 2, name, 70, 0, 10, x, 20, y, 3, name) + content + groups(0, "ENDBLK", 8, 0);
+  return groups(0, "BLOCK", 8, 0, 2, name, 70, 0, 10, x, 20, y, 3, name) + content +
+         groups(0, "ENDBLK", 8, 0);
 }
 
 inline std::string insert_of(const std::string& block, const std::string& layer, const std::string& more) {

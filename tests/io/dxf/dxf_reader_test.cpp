@@ -51,8 +51,8 @@ TEST_F(DxfReader, RefusesADrawingThatEndsWithinASection) {
 }
 
 TEST_F(DxfReader, ReadsLinesByLayer) {
-  const auto chains =
-      read(dxf_of(dxf_line("wall", 0, 0, 1, 0) + dxf_line("wall", 1, 1, 1, 0) + dxf_line("inlet", 0, 0, 1, 1)));
+  const auto chains = read(
+      dxf_of(dxf_line("wall", 0, 0, 1, 0) + dxf_line("wall", 1, 1, 1, 0) + dxf_line("inlet", 0, 0, 1, 1)));
   ASSERT_EQ(chains.size(), 3u);
   EXPECT_EQ(chains[0].name, "wall");
   EXPECT_EQ(chains[2].name, "inlet");
@@ -63,8 +63,9 @@ TEST_F(DxfReader, ReadsLinesByLayer) {
 }
 
 TEST_F(DxfReader, TakesWhatOtherProgramsWrite) {
-  std::string text = "\xEF\xBB\xBF" + groups(999, "written by hand") +
-                     dxf_of(groups(0, "LINE", 8, "wall 1,a", 10, "+1.5D0", 20, " 2. ", 11, ".5e+01", 21, "1e-400"));
+  std::string text =
+      "\xEF\xBB\xBF" + groups(999, "written by hand") +
+      dxf_of(groups(0, "LINE", 8, "wall 1,a", 10, "+1.5D0", 20, " 2. ", 11, ".5e+01", 21, "1e-400"));
   for (const char* const end : {"\r\n", "\r"}) {
     std::string ends;
     for (const char c : text) ends += c == '\n' ? std::string(end) : std::string(1, c);
@@ -94,8 +95,9 @@ TEST_F(DxfReader, NamesPlaceLayerAndHandleOfWhatIsWrong) {
               std::string::npos)
         << bad;
   }
-  EXPECT_NE(refused(dxf_of(groups(0, "CIRCLE", 10, 1, 40, -2))).find("layer '0', CIRCLE without handle: its "
-                                                                     "radius is negative"),
+  EXPECT_NE(refused(dxf_of(groups(0, "CIRCLE", 10, 1, 40, -2)))
+                .find("layer '0', CIRCLE without handle: its "
+                      "radius is negative"),
             std::string::npos);
   EXPECT_NE(refused("AutoCAD Binary DXF\r\n\x1a").find("binary DXF"), std::string::npos);
 }
@@ -119,11 +121,12 @@ TEST_F(DxfReader, LeavesOutWhatIsNotSeenOrNoOutline) {
   ASSERT_EQ(chains.size(), 1u);
   EXPECT_EQ(chains[0].name, "wall");
   EXPECT_NEAR(length(chains[0].points[0]), 4, 1e-12);
-  EXPECT_EQ(warnings_, std::vector<std::string>{
-                           (folder_.path() / "a.dxf").string() +
-                           ": left out: 1 CIRCLE in paper space, 1 CIRCLE not visible on layer 'old', 1 CIRCLE "
-                           "not visible on layer 'wall', 1 LINE without extent on layer 'wall', 1 POINT on layer "
-                           "'wall', 1 POLYLINE on layer 'net', 1 SOLID on layer 'notes', 1 TEXT on layer 'notes'"});
+  EXPECT_EQ(warnings_,
+            std::vector<std::string>{
+                (folder_.path() / "a.dxf").string() +
+                ": left out: 1 CIRCLE in paper space, 1 CIRCLE not visible on layer 'old', 1 CIRCLE "
+                "not visible on layer 'wall', 1 LINE without extent on layer 'wall', 1 POINT on layer "
+                "'wall', 1 POLYLINE on layer 'net', 1 SOLID on layer 'notes', 1 TEXT on layer 'notes'"});
 }
 
 TEST_F(DxfReader, ReadsTheLayersThatAreNamed) {
@@ -140,8 +143,9 @@ TEST_F(DxfReader, ReadsTheLayersThatAreNamed) {
 
 TEST_F(DxfReader, NamesWhatAFileWithoutOutlinesHas) {
   const std::string said = refused(drawing_of(dxf_circle("A2", "old", 2)));
-  EXPECT_NE(said.find("holds no lines and no polygons; a geometry needs closed outlines. Left out: 1 CIRCLE not"),
-            std::string::npos)
+  EXPECT_NE(
+      said.find("holds no lines and no polygons; a geometry needs closed outlines. Left out: 1 CIRCLE not"),
+      std::string::npos)
       << said;
 }
 
@@ -160,14 +164,16 @@ TEST_F(DxfReader, LayersWithinABlockAreHiddenAsElsewhere) {
 }
 
 TEST_F(DxfReader, AReferenceThatIsNotVisibleHidesItsBlock) {
-  const std::string frozen = insert_of("Hole", "old", at_three), off = insert_of("Hole", "dark", groups(10, 9)),
+  const std::string frozen = insert_of("Hole", "old", at_three),
+                    off = insert_of("Hole", "dark", groups(10, 9)),
                     content = dxf_square("wall", 0, 2) + dxf_line("0", 0, 0, 1, 0);
   EXPECT_EQ(read(drawing_with_block(content, off)).size(), 4u) << "what is on layer 0 is off";
   expect_warning("1 LINE not visible on layer 'dark'");
   EXPECT_NE(refused(drawing_with_block(content, frozen)).find("4 LINE not visible on layer 'wall'"),
             std::string::npos);
-  EXPECT_NE(refused(drawing_with_block(content, insert_of("Hole", "wall", groups(67, 1)))).find("1 INSERT in "
-                                                                                                "paper space"),
+  EXPECT_NE(refused(drawing_with_block(content, insert_of("Hole", "wall", groups(67, 1))))
+                .find("1 INSERT in "
+                      "paper space"),
             std::string::npos);
 }
 
@@ -198,15 +204,16 @@ TEST_F(DxfReader, WarnsOfReferencesToMissingBlocks) {
 TEST_F(DxfReader, PlacesBlocksByOffsetScaleAndRotation) {
   const std::string blocks =
       section("BLOCKS", block_of("arrow", dxf_line("0", 1, 1, 3, 2), 1, 1));  // from the base point by (2, 1)
-  const auto chains = read(blocks + dxf_of(insert_of("ARROW", "a", groups(10, 10, 20, 20, 41, -2, 42, 3, 50, 90))));
+  const auto chains =
+      read(blocks + dxf_of(insert_of("ARROW", "a", groups(10, 10, 20, 20, 41, -2, 42, 3, 50, 90))));
   ASSERT_EQ(chains.size(), 1u);
   EXPECT_EQ(chains[0].points, (std::vector<Point>{{10, 20}, {10 - 3, 20 - 4}}));
 }
 
 TEST_F(DxfReader, RepeatsBlocksInColumnsAndRows) {
   const std::string blocks = section("BLOCKS", block_of("dash", dxf_line("0", 0, 0, 1, 0)));
-  const auto chains = read(
-      blocks + dxf_of(insert_of("dash", "a", groups(41, 2, 50, 90, 70, 3, 71, 2, 44, 10, 45, 100))));
+  const auto chains =
+      read(blocks + dxf_of(insert_of("dash", "a", groups(41, 2, 50, 90, 70, 3, 71, 2, 44, 10, 45, 100))));
   ASSERT_EQ(chains.size(), 6u);
   EXPECT_EQ(chains[0].points, (std::vector<Point>{{0, 0}, {0, 2}}));
   EXPECT_EQ(chains[2].points, (std::vector<Point>{{0, 20}, {0, 22}})) << "spacings turn, but do not scale";
@@ -224,10 +231,12 @@ TEST_F(DxfReader, PlacesBlocksWithinBlocks) {
 }
 
 TEST_F(DxfReader, RefusesBlocksWithoutEnd) {
-  const std::string self = section("BLOCKS", block_of("a", insert_of("b", "0", "")) +
-                                                 block_of("b", insert_of("A", "0", "") + dxf_line("0", 0, 0, 1, 0)));
-  EXPECT_NE(refused(self + dxf_of(insert_of("a", "w", ""))).find("it inserts block 'a', which contains itself"),
-            std::string::npos);
+  const std::string self =
+      section("BLOCKS", block_of("a", insert_of("b", "0", "")) +
+                            block_of("b", insert_of("A", "0", "") + dxf_line("0", 0, 0, 1, 0)));
+  EXPECT_NE(
+      refused(self + dxf_of(insert_of("a", "w", ""))).find("it inserts block 'a', which contains itself"),
+      std::string::npos);
   const std::string wide = section("BLOCKS", block_of("a", dxf_line("0", 0, 0, 1, 0)));
   EXPECT_NE(refused(wide + dxf_of(insert_of("a", "w", groups(70, 2000000000, 71, 2000000000))))
                 .find("more than a million"),
@@ -264,7 +273,8 @@ TEST_F(DxfReader, NamesBoundariesByBlockColourOrFile) {
 }
 
 TEST_F(DxfReader, ReadsADrawingThatBeginsWithItsBlocks) {
-  const auto chains = read(section("BLOCKS", "") + dxf_of(dxf_line("0", 0, 0, 1, 0) + dxf_line("0", 1, 0, 0, 1)));
+  const auto chains =
+      read(section("BLOCKS", "") + dxf_of(dxf_line("0", 0, 0, 1, 0) + dxf_line("0", 1, 0, 0, 1)));
   EXPECT_EQ(chains.size(), 2u);
   EXPECT_NE(refused(section("ENTITIES", dxf_line("0", 0, 0, 1, 0)) + dxf_of(dxf_line("0", 0, 0, 1, 0)))
                 .find("the second one"),

@@ -120,7 +120,8 @@ Drawing autocad_r12() {
           "PLATE HOLE"};
 }
 
-/// R2000: handles, classes of entities, blocks for model and paper space, a dimension with its block, a hatch, the sheet.
+/// R2000: handles, classes of entities, blocks for model and paper space, a dimension with its block, a
+/// hatch, the sheet.
 Drawing autocad_2000() {
   return {"AutoCAD_2000", rows(R"(0 SECTION
 2 HEADER
@@ -364,10 +365,12 @@ Drawing autocad_2000() {
 0 EOF
 )"),
           "Outline",
-          "1 DIMENSION on layer 'Outline', 1 HATCH on layer 'Outline', 1 LINE in paper space, 1 VIEWPORT in paper space"};
+          "1 DIMENSION on layer 'Outline', 1 HATCH on layer 'Outline', 1 LINE in paper space, 1 VIEWPORT in "
+          "paper space"};
 }
 
-/// R2018: true colours, groups of reactors and dictionaries, a text with an embedded object, a leader, thumbnail and data sections.
+/// R2018: true colours, groups of reactors and dictionaries, a text with an embedded object, a leader,
+/// thumbnail and data sections.
 Drawing autocad_2018() {
   return {"AutoCAD_2018", rows(R"(0 SECTION
 2 HEADER
@@ -1010,7 +1013,8 @@ Drawing inkscape() {
   int handle = 0x100;
   const auto curve = [&](const std::string& layer, std::array<Point, 4> poles) {
     entities += fmt::format(
-        "0 SPLINE\n5 {:x}\n100 AcDbEntity\n8 {}\n62 7\n100 AcDbSpline\n70 8\n71 3\n72 8\n73 4\n74 0\n", handle++, layer);
+        "0 SPLINE\n5 {:x}\n100 AcDbEntity\n8 {}\n62 7\n100 AcDbSpline\n70 8\n71 3\n72 8\n73 4\n74 0\n",
+        handle++, layer);
     for (const int knot : {0, 0, 0, 0, 1, 1, 1, 1}) entities += fmt::format("40 {}\n", knot);
     for (const Point p : poles) entities += fmt::format("10 {:f}\n20 {:f}\n30 0.0\n", p.x, p.y);
   };
@@ -1019,19 +1023,23 @@ Drawing inkscape() {
     curve(layer, {centre + x, centre + x + arm * y, centre + y + arm * x, centre + y});
   };
   for (const double side : {-1., 1.}) {
-    entities += fmt::format("0 LINE\n5 {:x}\n100 AcDbEntity\n8 Layer 1\n62 7\n100 AcDbLine\n10 {:f}\n20 {:f}\n30 0.0\n11 "
-                            "{:f}\n21 {:f}\n31 0.0\n",
-                            handle++, -2 * side, side, 2 * side, side);
+    entities += fmt::format(
+        "0 LINE\n5 {:x}\n100 AcDbEntity\n8 Layer 1\n62 7\n100 AcDbLine\n10 {:f}\n20 {:f}\n30 0.0\n11 "
+        "{:f}\n21 {:f}\n31 0.0\n",
+        handle++, -2 * side, side, 2 * side, side);
     for (const double up : {-1., 1.}) quarter("Layer 1", {2 * side, 0}, {side, 0}, {0, up});
   }
   for (const double x : {-.5, .5}) {
     for (const double y : {-.5, .5}) quarter("Layer 2", {0, 0}, {x, 0}, {0, y});
   }
-  return {"Inkscape",
-          rows("0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1014\n9 $HANDSEED\n5 FFFF\n0 ENDSEC\n0 SECTION\n2 TABLES\n0 "
-               "TABLE\n2 VPORT\n5 8\n330 0\n100 AcDbSymbolTable\n70 4\n0 ENDTAB\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n" +
-               entities + "0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 C\n330 0\n100 AcDbDictionary\n0 ENDSEC\n0 EOF\n"),
-          "Layer_1 Layer_2", "", 3e-4};
+  return {
+      "Inkscape",
+      rows("0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1014\n9 $HANDSEED\n5 FFFF\n0 ENDSEC\n0 SECTION\n2 TABLES\n0 "
+           "TABLE\n2 VPORT\n5 8\n330 0\n100 AcDbSymbolTable\n70 4\n0 ENDTAB\n0 ENDSEC\n0 SECTION\n2 "
+           "ENTITIES\n" +
+           entities +
+           "0 ENDSEC\n0 SECTION\n2 OBJECTS\n0 DICTIONARY\n5 C\n330 0\n100 AcDbDictionary\n0 ENDSEC\n0 EOF\n"),
+      "Layer_1 Layer_2", "", 3e-4};
 }
 
 /// Rhino keeps parts in blocks within blocks, one of them mirrored.
@@ -1301,11 +1309,13 @@ Drawing ezdxf() {
 /// SolidWorks draws what is seen: edges twice, centre lines across, arcs from below.
 Drawing solidworks() {
   const std::string line = "0 LINE\n5 {}\n100 AcDbEntity\n8 {}\n100 AcDbLine\n10 {}\n20 {}\n11 {}\n21 {}\n";
-  const auto drawn = [&](const char* handle, const char* layer, double x, double y, double to_x, double to_y) {
+  const auto drawn = [&](const char* handle, const char* layer, double x, double y, double to_x,
+                         double to_y) {
     return fmt::format(fmt::runtime(line), handle, layer, x, y, to_x, to_y);
   };
   return {"SolidWorks",
-          rows("0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1018\n9 $MEASUREMENT\n70 1\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n" +
+          rows("0 SECTION\n2 HEADER\n9 $ACADVER\n1 AC1018\n9 $MEASUREMENT\n70 1\n0 ENDSEC\n0 SECTION\n2 "
+               "ENTITIES\n" +
                drawn("A1", "SLD-0", -2, -1, 2, -1) + drawn("A2", "SLD-0", 2, 1, -2, 1) +
                drawn("A3", "SLD-0", -2, 1, 2, 1) + drawn("A4", "CENTER", -3.5, 0, 3.5, 0) +
                drawn("A5", "CENTER", 0, -1.5, 0, 1.5) + R"(0 ARC
@@ -1420,7 +1430,7 @@ Drawing kicad() {
 }
 
 std::vector<Drawing> drawings() {
-  return {autocad_r12(), autocad_2000(), autocad_2018(), qcad(),     librecad(), freecad(),    openscad(),
+  return {autocad_r12(), autocad_2000(), autocad_2018(), qcad(),  librecad(),   freecad(), openscad(),
           cadquery(),    inkscape(),     rhino(),        ezdxf(), solidworks(), kicad()};
 }
 
@@ -1470,13 +1480,15 @@ TEST_F(DxfTest, RefusesDamagedDrawingsByLayerAndHandle) {
     changed.replace(changed.find(from), from.size(), to);
     return refused(changed);
   };
-  const std::string spline = "layer 'Körper', SPLINE of handle 1C3F2E: ", arc = "layer 'Körper', ARC of handle 1C3F2B: ";
+  const std::string spline = "layer 'Körper', SPLINE of handle 1C3F2E: ",
+                    arc = "layer 'Körper', ARC of handle 1C3F2B: ";
   EXPECT_NE(with("40\n6.283185307179586\n", "").find(spline + "it has 11 knots"), std::string::npos);
   EXPECT_NE(with("41\n0.7071067811865476\n", "").find(spline + "it has 8 weights"), std::string::npos);
   EXPECT_NE(with("41\n0.7071067811865476\n", "41\n-1\n").find(spline + "a weight is not"), std::string::npos);
   EXPECT_NE(with("40\n3.14", "40\n9").find(spline + "its knots are not in ascending"), std::string::npos);
   EXPECT_NE(with("50\n270.0", "50\n270,0").find(arc + "'270,0' of group 50 is not"), std::string::npos);
-  EXPECT_NE(with("50\n270.0", "50\n270.0\n210\n0.0\n230\n0.0").find(arc + "its extrusion has no"), std::string::npos);
+  EXPECT_NE(with("50\n270.0", "50\n270.0\n210\n0.0\n230\n0.0").find(arc + "its extrusion has no"),
+            std::string::npos);
 }
 
 }  // namespace
