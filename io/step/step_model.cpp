@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -124,12 +124,24 @@ class StepCollector {
   void move_to_places(const StepEntity& representation, std::size_t first) {
     const std::vector<StepCurve> own(model_.curves.begin() + first, model_.curves.end());
     model_.curves.erase(model_.curves.begin() + first, model_.curves.end());
-    for (const SpaceMotion& place : assembly_.places_of(representation)) {
+    const std::vector<SpaceMotion>& places = assembly_.places_of(representation);
+    refuse_many_copies(representation, own, places.size());
+    for (const SpaceMotion& place : places) {
       for (StepCurve curve : own) {
         curve.curve = place.of_curve(std::move(curve.curve));
         model_.curves.push_back(std::move(curve));
       }
     }
+  }
+
+  static void refuse_many_copies(const StepEntity& representation, std::span<const StepCurve> curves,
+                                 std::size_t places) {
+    constexpr double most_points = 1e7;
+    double points = 0;
+    for (const StepCurve& curve : curves) points += static_cast<double>(sample_of(curve.curve).size());
+    if (places > 1 && points * static_cast<double>(places) > most_points)
+      representation.refuse(fmt::format(
+          "has {} places in an assembly, which makes more than 1e7 points; export the part alone", places));
   }
 
   Inherited inherited_by(const StepEntity& entity, Inherited from) const {

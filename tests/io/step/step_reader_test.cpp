@@ -723,6 +723,17 @@ TEST_F(StepReader, MovesAllKindsOfCurves) {
   expect_on_circle(chains[0], {1, 3}, 2);
 }
 
+TEST_F(StepReader, RefusesCopiesBeyondMemory) {
+  const Assembly assembly(step_);
+  std::vector<std::string> points;
+  for (int i = 0; i < 15000; ++i) points.push_back(step_.point(i, i % 7));
+  const std::string part = step_.shape({step_.add("POLYLINE(''," + test::StepText::list(points) + ")")});
+  for (int i = 0; i < 700; ++i) assembly.relate(step_, part, assembly.whole, assembly.here, assembly.here);
+  const std::string said = test::refusal(folder_, [&] { read(step_.text()); });
+  EXPECT_NE(said.find("has 700 places in an assembly, which makes more than 1e7 points"), std::string::npos)
+      << said;
+}
+
 TEST_F(StepReader, RefusesEndlessAndScaledAssemblies) {
   Assembly assembly(step_);
   const test::StepText parts = step_;
