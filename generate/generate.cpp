@@ -107,9 +107,9 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
 void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult& result) {
   const NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, result.mesh);
   if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
-  count_triangles(restore_delaunay_nearby(comm, result.mesh, moved,
-                                          order_of_nodes(input, result.report.finest_allowed)),
-                  result.tree.leaves);
+  count_triangles(
+      restore_delaunay_nearby(comm, result.mesh, moved, order_of_nodes(input, result.report.finest_allowed)),
+      result.tree.leaves);
 }
 
 /// Builds a mesh without smoothing. *Collective.*

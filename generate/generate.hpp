@@ -21,8 +21,8 @@ namespace quadloop {
 struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
-  smoother::SmoothOptions smooth;      ///< without the geometry
-  std::uint64_t digest = 0;  ///< case_digest() of the case's mesh options and lines
+  smoother::SmoothOptions smooth;  ///< without the geometry
+  std::uint64_t digest = 0;        ///< case_digest() of the case's mesh options and lines
   /// Wakes and interior layer lines.
   std::vector<LayerLine> lines = {};
   /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/r_adaptation); empty: no
@@ -51,9 +51,9 @@ smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_le
 /// the cell counts in the tree record. *Collective.*
 using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
 
-/// Generates and smooths a mesh (smooth_options_for()). If layers specify a y+, their first heights follow from
-/// the measured wall friction, which is stored in the tree record. Throws InputError as build_mesh does, and
-/// Fault if the mesh is not valid (require_sound()). *Collective.*
+/// Generates and smooths a mesh (smooth_options_for()). If layers specify a y+, their first heights follow
+/// from the measured wall friction, which is stored in the tree record. Throws InputError as build_mesh does,
+/// and Fault if the mesh is not valid (require_sound()). *Collective.*
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
                             const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
                             const MeshChange& change = {});

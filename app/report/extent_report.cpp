@@ -16,7 +16,8 @@ std::string line_of(const FileExtent& extent) {
   const std::string unit = extent.declared.name.empty() ? "no unit declared" : "in " + extent.declared.name;
   const std::string taken =
       extent.metres > 0 ? fmt::format("meshed in metres (unit: {:.6g} m)", extent.metres) : "meshed as given";
-  const std::string plane = extent.declared.plane.empty() ? "" : " in the " + extent.declared.plane + " plane";
+  const std::string plane =
+      extent.declared.plane.empty() ? "" : " in the " + extent.declared.plane + " plane";
   return fmt::format("{}: coordinates from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}){}, {}, {}",
                      std::filesystem::path(extent.path).filename().string(), low.x, low.y, high.x, high.y,
                      plane, unit, taken);

@@ -13,7 +13,8 @@ namespace quadloop::app {
 std::vector<std::string> extent_lines(const std::vector<FileExtent>& extents);
 
 /// Adds these lines to the table, and the member "geometry" to the record: for each file its path, bounding
-/// box, declared unit (null: none), plane (of a STEP file, unless XY) and metres per unit (null: no conversion).
+/// box, declared unit (null: none), plane (of a STEP file, unless XY) and metres per unit (null: no
+/// conversion).
 void add_extents(Statistics& statistics, const std::vector<FileExtent>& extents);
 
 }  // namespace quadloop::app

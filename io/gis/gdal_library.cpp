@@ -11,10 +11,10 @@ namespace {
 
 [[noreturn]] void refuse() {
   const char* reason = dlerror();
-  throw InputError(fmt::format(
-      "maps are read by GDAL, which cannot be loaded ({}); install it, or convert the "
-      "file to .geom",
-      reason != nullptr ? reason : QUADLOOP_GDAL));
+  throw InputError(
+      fmt::format("maps are read by GDAL, which cannot be loaded ({}); install it, or convert the "
+                  "file to .geom",
+                  reason != nullptr ? reason : QUADLOOP_GDAL));
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ Curve read_curve(const LineReader& lines) {
     curve.inner.push_back({x, lines.real(w++)});
   }
   if (curve.straight() || curve.degree() > Curve::largest_degree)
-    lines.refuse(fmt::format("a curve has 1 to {} control points between its ends", Curve::largest_degree - 1));
+    lines.refuse(
+        fmt::format("a curve has 1 to {} control points between its ends", Curve::largest_degree - 1));
   if (w < words.size() && words[w] == "weights") {
     for (++w; is_number();) curve.weights.push_back(lines.real(w++));
     if (curve.weights.size() != curve.inner.size() + 2 || std::ranges::min(curve.weights) <= 0)

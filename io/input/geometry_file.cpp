@@ -24,9 +24,8 @@ std::map<std::string, GeometryReader>& readers() {
   static std::map<std::string, GeometryReader> all{
       {".geom", [](const std::string& path, const DrawingChoice&, std::vector<std::string>&,
                    FileUnit&) { return read_geom(path); }},
-      {".dat", [](const std::string& path, const DrawingChoice&, std::vector<std::string>& warnings, FileUnit&) {
-         return read_airfoil(path, warnings);
-       }},
+      {".dat", [](const std::string& path, const DrawingChoice&, std::vector<std::string>& warnings,
+                  FileUnit&) { return read_airfoil(path, warnings); }},
       {".dxf", io::read_dxf},
       {".stp", io::read_step},
       {".step", io::read_step}};
@@ -47,7 +46,8 @@ void add_geometry_reader(const std::string& suffix, GeometryReader reader) { rea
 
 bool has_layers_of_drawings(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  return suffix == ".dxf" || suffix == ".stp" || suffix == ".step" || std::ranges::count(gis_suffixes, suffix) > 0;
+  return suffix == ".dxf" || suffix == ".stp" || suffix == ".step" ||
+         std::ranges::count(gis_suffixes, suffix) > 0;
 }
 
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,

@@ -11,9 +11,10 @@
 namespace quadloop::io {
 
 /// Reads the chains of a geometry file. The suffix selects the format: .geom, .dat (airfoil), .dxf, .stp
-/// and .step, and those of gis_suffixes if add_geometry_reader() has registered a reader. `choice` applies to drawings and maps.
-/// On the calling rank only. Throws InputError "file:line: ..." if the content does not match the suffix. A
-/// warning reports each kind of content that is left out. `unit` receives the unit that the file declares.
+/// and .step, and those of gis_suffixes if add_geometry_reader() has registered a reader. `choice` applies to
+/// drawings and maps. On the calling rank only. Throws InputError "file:line: ..." if the content does not
+/// match the suffix. A warning reports each kind of content that is left out. `unit` receives the unit that
+/// the file declares.
 std::vector<Chain> read_geometry(const std::string& path, std::vector<std::string>& warnings,
                                  const DrawingChoice& choice = {}, FileUnit* unit = nullptr);
 

@@ -146,9 +146,7 @@ Point direction_at_start(const CurvedSegment& segment) {
   return polygon.size() < 2 ? Point{} : unit_or_zero(polygon[1] - polygon[0]);
 }
 
-Point direction_at_end(const CurvedSegment& segment) {
-  return -1 * direction_at_start(reversed(segment));
-}
+Point direction_at_end(const CurvedSegment& segment) { return -1 * direction_at_start(reversed(segment)); }
 
 double height_of_hull(const CurvedSegment& segment) {
   const Point along = unit_or_zero(segment.to - segment.from);

@@ -115,8 +115,8 @@ class Geometry {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : chord_turn_degrees(v);
   }
   /// The size that the segment requests of the quadtree cells which contain it: its boundary's spacing, else
-  /// that of its curve, else its own length. Between two feature points closer than the spacing, their distance
-  /// (arc length) is requested instead, so that no cell contains both.
+  /// that of its curve, else its own length. Between two feature points closer than the spacing, their
+  /// distance (arc length) is requested instead, so that no cell contains both.
   double spacing_of(std::int32_t segment) const;
   /// The part of the geometry between two consecutive kept vertices.
   struct Stretch {

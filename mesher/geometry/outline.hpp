@@ -14,8 +14,8 @@ namespace quadloop {
 struct OutlineLoop {
   std::vector<Point> points;
   std::vector<BoundaryId> boundary;
-  std::string source;    ///< source of its first chain, for messages
-  bool directed = true;  ///< whether its chains are
+  std::string source;              ///< source of its first chain, for messages
+  bool directed = true;            ///< whether its chains are
   std::vector<Curve> curves = {};  ///< the shape of each segment; empty: all are straight
 };
 

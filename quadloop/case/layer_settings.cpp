@@ -159,7 +159,8 @@ const KeyTable<LayerLine>& wake_keys() {
        key<&LayerLine::path>("path", path(),
                              "The points of the wake line behind the trailing edge. The line starts at the "
                              "trailing edge, which is not listed."),
-       key<&LayerLine::spacing>("spacing", number(io::Range::positive()), "Target cell length along the line.",
+       key<&LayerLine::spacing>("spacing", number(io::Range::positive()),
+                                "Target cell length along the line.",
                                 {.unit = "length", .required = {{"the length of cells along the line"}}})}};
   return keys;
 }

@@ -50,8 +50,8 @@ std::vector<std::string> unit_words() {
 ValueForm<io::BoundaryNames> boundary_names() {
   using From = io::BoundaryNames::From;
   const std::string prefix = "attribute:";
-  const ValueForm<From> words =
-      choice<From>({{"layer", From::layer}, {"block", From::block}, {"colour", From::colour}, {"file", From::file}});
+  const ValueForm<From> words = choice<From>(
+      {{"layer", From::layer}, {"block", From::block}, {"colour", From::colour}, {"file", From::file}});
   return {words.text + ", or `\"attribute:NAME\"`", "\"block\"",
           [words, prefix](const io::CaseTable& table, const std::string& key) {
             const std::string given = *table.text(key);

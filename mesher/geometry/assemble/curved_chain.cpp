@@ -117,7 +117,8 @@ std::vector<Point> slopes_from_start(std::span<const Point> points, const EndDir
   const std::size_t second = std::min<std::size_t>(1, last - 1), before = last >= 2 ? last - 2 : 0;
   const bool parabola = n == 3;
   const EndRow first = end_row(directions.start, h[0], d[0], length_at(second), d[second], parabola);
-  const EndRow final = end_row(directions.end, h[last - 1], d[last - 1], length_at(before), d[before], parabola);
+  const EndRow final =
+      end_row(directions.end, h[last - 1], d[last - 1], length_at(before), d[before], parabola);
   diagonal[0] = first.at_end, above[0] = first.at_next, right[0] = first.right;
   for (std::size_t i = 1; i < last; ++i) {
     below[i] = h[i];
@@ -129,7 +130,8 @@ std::vector<Point> slopes_from_start(std::span<const Point> points, const EndDir
   return solve_tridiagonal(below, std::move(diagonal), above, std::move(right));
 }
 
-/// The mean of the solutions from both ends, so that the reversed points have the reversed slopes, bit by bit.
+/// The mean of the solutions from both ends, so that the reversed points have the reversed slopes, bit by
+/// bit.
 std::vector<Point> slopes_of(std::span<const Point> points, const EndDirections& directions) {
   const auto turned = [](std::optional<Point> p) { return p ? std::optional(-1 * *p) : std::nullopt; };
   const std::vector<Point> backwards(points.rbegin(), points.rend());
@@ -237,7 +239,8 @@ Box box_of(std::span<const Chain> chains) {
   }
   for (const Chain& chain : chains) {
     for (std::size_t i = 0; i < chain.curves.size(); ++i)
-      include({chain.points[i], chain.curves[i], chain.points[(i + 1) % chain.points.size()]}, to_rounding, box);
+      include({chain.points[i], chain.curves[i], chain.points[(i + 1) % chain.points.size()]}, to_rounding,
+              box);
   }
   return box;
 }
@@ -248,13 +251,12 @@ void append_segment(Chain& chain, Curve curve, Point to) {
   chain.points.push_back(to);
 }
 
-Point EllipticArc::point_at(double t) const {
-  return centre + std::cos(t) * major + std::sin(t) * minor;
-}
+Point EllipticArc::point_at(double t) const { return centre + std::cos(t) * major + std::sin(t) * minor; }
 
 void append_arc(Chain& chain, const EllipticArc& arc, std::optional<Point> to) {
   const double sweep = arc.end - arc.begin;
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (0.5 * std::numbers::pi) - 1e-9)));
+  const int pieces =
+      std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / (0.5 * std::numbers::pi) - 1e-9)));
   const double half = 0.5 * sweep / pieces;
   const Point end = to.value_or(arc.point_at(arc.end));
   for (int i = 0; i < pieces; ++i) {

@@ -108,8 +108,8 @@ class OuterOutline {
   bool is_base(std::int32_t s) const { return is_base_[s] != 0; }
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
-  void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept,
-                  double bend, const Curve& curve = {}) {
+  void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept, double bend,
+                  const Curve& curve = {}) {
     builder_.add(p, boundary, curve);
     station_of_.push_back(station);
     spacing_.push_back(spacing);

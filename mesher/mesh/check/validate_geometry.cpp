@@ -33,8 +33,8 @@ class SegmentSet {
     for (const auto& [a, b] : segments_) boxes.push_back(box_of(a, b));
     tree_ = BoxTree(boxes);
   }
-  /// Returns the nearest segment, the lowest number of equals, and its distance, from a curve along the normal
-  /// of its chord; infinite if there is none.
+  /// Returns the nearest segment, the lowest number of equals, and its distance, from a curve along the
+  /// normal of its chord; infinite if there is none.
   std::pair<std::uint32_t, double> nearest(Point p) const {
     if (segments_.empty()) return {0, std::numeric_limits<double>::infinity()};
     const std::uint32_t found = tree_.nearest(p, [&](std::int32_t number) {
@@ -164,7 +164,8 @@ class Comparison {
     if (!all_segments_) {
       all_segments_.emplace();
       for (const Chain& chain : geometry_)
-        for_each_segment(chain, [&](Point a, Point b, const Curve& curve) { all_segments_->add(a, b, curve); });
+        for_each_segment(chain,
+                         [&](Point a, Point b, const Curve& curve) { all_segments_->add(a, b, curve); });
       all_segments_->build();
     }
     return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
@@ -231,7 +232,8 @@ class Comparison {
   void compare_area() {
     long double wanted = 0, meshed = 0;
     for (const Chain& chain : geometry_)
-      for_each_segment(chain, [&](Point a, Point b, const Curve&) { wanted += cross(a - centre_, b - centre_) / 2; });
+      for_each_segment(
+          chain, [&](Point a, Point b, const Curve&) { wanted += cross(a - centre_, b - centre_) / 2; });
     for (const auto& edge : topology_.outer_edges())
       meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
     fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));

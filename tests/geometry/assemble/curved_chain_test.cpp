@@ -51,7 +51,8 @@ TEST(CurvedChain, BulgesAreCircularArcs) {
     const Point chord = Point{2, 1}, left{-chord.y, chord.x};
     const Point centre = Point{2, 1.5} + (0.5 / std::tan(angle / 2)) * left;
     const double radius = length(Point{1, 1} - centre);
-    for_each_point(chain, [&](Point p) { EXPECT_NEAR(length(p - centre), radius, 1e-14 * radius) << degrees; });
+    for_each_point(chain,
+                   [&](Point p) { EXPECT_NEAR(length(p - centre), radius, 1e-14 * radius) << degrees; });
     double turned = 0;
     for (std::size_t s = 0; s < chain.curves.size(); ++s) {
       const Point a = direction_at_start(segment(chain, s)), b = direction_at_end(segment(chain, s));
@@ -83,7 +84,8 @@ Point de_boor(const BSpline& s, double t) {
     for (int j = s.degree; j >= r; --j) {
       const std::size_t i = j + k - s.degree;
       const double a = (t - s.knots[i]) / (s.knots[i + s.degree - r + 1] - s.knots[i]);
-      d[j] = {(1 - a) * d[j - 1].x + a * d[j].x, (1 - a) * d[j - 1].y + a * d[j].y, (1 - a) * d[j - 1].w + a * d[j].w};
+      d[j] = {(1 - a) * d[j - 1].x + a * d[j].x, (1 - a) * d[j - 1].y + a * d[j].y,
+              (1 - a) * d[j - 1].w + a * d[j].w};
     }
   }
   return {d[s.degree].x / d[s.degree].w, d[s.degree].y / d[s.degree].w};
@@ -151,7 +153,8 @@ TEST(CurvedChain, SplinesConvergeToACircleAndAreSmooth) {
     }
     before = error;
     for (int i = 0; i < n; ++i) {
-      const Point in = direction_at_end(segment(circle, i)), out = direction_at_start(segment(circle, (i + 1) % n));
+      const Point in = direction_at_end(segment(circle, i)),
+                  out = direction_at_start(segment(circle, (i + 1) % n));
       EXPECT_LT(std::abs(cross(in, out)), 1e-13);
     }
   }
@@ -171,7 +174,8 @@ TEST(CurvedChain, SplinesKeepCorners) {
   constexpr int n = 20;
   for (int i = 0; i < 2 * n; ++i) {
     const double t = pi * i / n, x = 0.5 * (1 + std::cos(t));
-    const double y = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
+    const double y = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x -
+                            0.1036 * x * x * x * x);
     airfoil.points.push_back({x, i <= n ? -y : y});
   }
   join_by_splines(airfoil, 30);

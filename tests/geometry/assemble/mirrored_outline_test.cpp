@@ -137,7 +137,18 @@ TEST(MirroredOutline, ItsHalfHasABoundaryAlongTheAxis) {
 /// An airfoil of curves whose nose crosses the x-axis within a segment, in a box.
 std::vector<Chain> curved_airfoil() {
   std::vector<Chain> chains{{"box", false, {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}, "box"},
-                            {"airfoil", false, {{1, 0}, {0.5, -0.1}, {0.1, -0.07}, {0.03, -0.04}, {0.005, -0.015}, {0.005, 0.015}, {0.03, 0.04}, {0.1, 0.07}, {0.5, 0.1}}, "a.dat"}};
+                            {"airfoil",
+                             false,
+                             {{1, 0},
+                              {0.5, -0.1},
+                              {0.1, -0.07},
+                              {0.03, -0.04},
+                              {0.005, -0.015},
+                              {0.005, 0.015},
+                              {0.03, 0.04},
+                              {0.1, 0.07},
+                              {0.5, 0.1}},
+                             "a.dat"}};
   join_by_splines(chains[1], 30);
   return chains;
 }
@@ -177,7 +188,9 @@ TEST(MirroredCurves, ACurveWithoutAnImageIsRefused) {
   std::vector<Chain> chains = curved_airfoil();
   chains[1].curves[7].inner[0].y += 1e-3;
   const std::string text = refusal([&] { fit_curves_to_mirror(chains, MirrorAxis::x, 1e-9); });
-  EXPECT_NE(text.find("a.dat: boundary airfoil: the curve from (0.5, -0.1) to (0.1, -0.07)"), std::string::npos) << text;
+  EXPECT_NE(text.find("a.dat: boundary airfoil: the curve from (0.5, -0.1) to (0.1, -0.07)"),
+            std::string::npos)
+      << text;
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(SubdivideCurves, BoundarySpacingAndLayersLimitTheHeight) {
   layers.first = 1e-5;
   layers.growth = layers.growth_to = 1.2;
   layers.count = 10;
-  EXPECT_LE(coarsest(curved_geometry({box(), circle({0, 0}, 1)}, options)), layers_thickness(*options.rules[0].layers) / 500);
+  EXPECT_LE(coarsest(curved_geometry({box(), circle({0, 0}, 1)}, options)),
+            layers_thickness(*options.rules[0].layers) / 500);
 }
 
 TEST(SubdivideCurves, CirclesCloseTogetherAreSeparated) {
@@ -96,8 +97,9 @@ TEST(SubdivideCurves, ANestedCircleInsideItsNeighboursChordStaysOutside) {
 }
 
 TEST(SubdivideCurves, TouchingCurvesAreRefusedWithAPlace) {
-  EXPECT_NE(refusal_of_curves({box(), circle({0, 0.1}, 1, "a"), circle({1.5, 0.3}, 0.7, "b")}).find("'a' and 'b'"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of_curves({box(), circle({0, 0.1}, 1, "a"), circle({1.5, 0.3}, 0.7, "b")}).find("'a' and 'b'"),
+      std::string::npos);
 }
 
 TEST(SubdivideCurves, CurvesThatRunAlongEachOtherAreRefused) {
@@ -108,7 +110,8 @@ TEST(SubdivideCurves, CurvesThatRunAlongEachOtherAreRefused) {
     return chain;
   };
   for (const std::vector<Chain>& twice :
-       {std::vector{circle({0, 0}, 1), arc(0, 3), arc(3, 2 * std::numbers::pi)}, {circle({0, 0}, 1), circle({0, 0}, 1, "rim")},
+       {std::vector{circle({0, 0}, 1), arc(0, 3), arc(3, 2 * std::numbers::pi)},
+        {circle({0, 0}, 1), circle({0, 0}, 1, "rim")},
         {arc(0, 3), arc(1, 4), arc(4, 2 * std::numbers::pi)}}) {
     const std::string said = refusal_of_curves(twice);
     EXPECT_NE(said.find("run along each other at ("), std::string::npos) << said;

@@ -92,8 +92,10 @@ TEST_F(GeometryFile, RefusesAMissingFile) {
 
 TEST_F(GeometryFile, ReadsStepFilesByBothSuffixes) {
   for (const char* name : {"a.stp", "b.step", "C.STP"}) {
-    const auto chains = read(name, "ISO-10303-21;DATA;#1=CARTESIAN_POINT('',(0.,0.));#2=CARTESIAN_POINT('',(1.,2.));"
-                                   "#3=POLYLINE('',(#1,#2));#4=SHAPE_REPRESENTATION('',(#3),$);ENDSEC;END-ISO-10303-21;");
+    const auto chains =
+        read(name,
+             "ISO-10303-21;DATA;#1=CARTESIAN_POINT('',(0.,0.));#2=CARTESIAN_POINT('',(1.,2.));"
+             "#3=POLYLINE('',(#1,#2));#4=SHAPE_REPRESENTATION('',(#3),$);ENDSEC;END-ISO-10303-21;");
     ASSERT_EQ(chains.size(), 1u);
     EXPECT_EQ(chains[0].points, (std::vector<Point>{{0, 0}, {1, 2}}));
     EXPECT_TRUE(has_layers_of_drawings(name));
@@ -178,8 +180,10 @@ TEST_F(GeometryFile, FaultsOfCurvesAreNamed) {
   EXPECT_NE(refused("a.geom", with("curve 1")).find("two numbers"), std::string::npos);
   EXPECT_NE(refused("a.geom", with("curve 1 2 weights 1 1")).find("needs 3 weights"), std::string::npos);
   EXPECT_NE(refused("a.geom", with("curve 1 2 weights 1 0 1")).find("above 0"), std::string::npos);
-  EXPECT_NE(refused("a.geom", with("curve 1 2 spacing")).find("'spacing' is not part of a curve"), std::string::npos);
-  EXPECT_NE(refused("a.geom", "1\nlens open\n2\n1 0\n-1 0 curve 0 1\n").find("begins no curve"), std::string::npos);
+  EXPECT_NE(refused("a.geom", with("curve 1 2 spacing")).find("'spacing' is not part of a curve"),
+            std::string::npos);
+  EXPECT_NE(refused("a.geom", "1\nlens open\n2\n1 0\n-1 0 curve 0 1\n").find("begins no curve"),
+            std::string::npos);
 }
 
 }  // namespace

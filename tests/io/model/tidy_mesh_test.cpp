@@ -105,8 +105,7 @@ TEST(TidyMesh, EdgesOfNoBoundaryBecomeOne) {
   EXPECT_TRUE(validate(loaded.mesh).empty());
   ASSERT_EQ(loaded.warnings.size(), 2U);
   EXPECT_EQ(loaded.warnings[0], "m.mesh: left out 1 named boundary curve without edges");
-  EXPECT_EQ(loaded.warnings[1],
-            "m.mesh: added 5 outer edges without a boundary, as boundary \"boundary_2\"");
+  EXPECT_EQ(loaded.warnings[1], "m.mesh: added 5 outer edges without a boundary, as boundary \"boundary_2\"");
 }
 
 TEST(TidyMesh, AMeshWithoutBoundariesGetsOne) {

@@ -76,8 +76,7 @@ TEST_F(SettingsTest, EachEntryOfLayersMatchesALayer) {
 }
 
 TEST_F(SettingsTest, NamesTheBoundariesOfADrawing) {
-  folder_.write("ring.dxf",
-                "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nwall\n62\n1\n40\n1\n0\nENDSEC\n0\nEOF\n");
+  folder_.write("ring.dxf", "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\nwall\n62\n1\n40\n1\n0\nENDSEC\n0\nEOF\n");
   const auto name_by = [&](const std::string& names) {
     const std::string text = "[geometry]\nfile = \"ring.dxf\"\nnames = \"" + names + "\"\n";
     return load(read_settings(folder_.write("ring.toml", text), {})).boundary(BoundaryId{0}).name;
@@ -86,7 +85,8 @@ TEST_F(SettingsTest, NamesTheBoundariesOfADrawing) {
   EXPECT_EQ(name_by("colour"), "red");
   EXPECT_EQ(name_by("file"), "ring");
   EXPECT_EQ(name_by("attribute:id"), "wall");
-  EXPECT_NE(test::refusal(folder_, [&] { name_by("color"); }).find("do you mean 'colour'?"), std::string::npos);
+  EXPECT_NE(test::refusal(folder_, [&] { name_by("color"); }).find("do you mean 'colour'?"),
+            std::string::npos);
   EXPECT_THROW(name_by("attribute:"), InputError);
   EXPECT_NE(refused("names = \"layer\"\n").find("no file is one"), std::string::npos);
 }

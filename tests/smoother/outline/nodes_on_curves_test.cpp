@@ -34,7 +34,8 @@ Mesh five_below() {
   mesh.points.insert(mesh.points.end(), {{1, 1}, {0, 1}});
   mesh.owned_nodes = 7;
   const auto n = [](int i) { return NodeId{i}; };
-  mesh.triangles = {{n(0), n(1), n(6)}, {n(1), n(2), n(6)}, {n(2), n(5), n(6)}, {n(2), n(3), n(5)}, {n(3), n(4), n(5)}};
+  mesh.triangles = {
+      {n(0), n(1), n(6)}, {n(1), n(2), n(6)}, {n(2), n(5), n(6)}, {n(2), n(3), n(5)}, {n(3), n(4), n(5)}};
   BoundaryEdges below, box;
   below.name = "curve";
   box.name = "box";
