@@ -21,7 +21,7 @@ namespace quadloop {
 struct MeshInput {
   Geometry geometry;
   MeshOptions mesh;
-  smoother::SmoothOptions smooth;  ///< without the geometry
+  smoother::SmoothOptions smooth;  ///< its geometry is not set: smooth_options_for() sets it
   std::uint64_t digest = 0;        ///< case_digest() of the case's mesh options and lines
   /// Wakes and interior layer lines.
   std::vector<LayerLine> lines = {};
@@ -29,11 +29,12 @@ struct MeshInput {
   /// r-adaptation.
   std::optional<double> stretch = {};
 
-  /// Returns the background grid of the whole domain, which is also that of the mesh outside layers.
+  /// Returns the background grid of the whole domain. The mesh outside the layers uses the same grid.
   TreeGrid grid() const { return choose_root(geometry, mesh.size.root); }
 };
 
-/// A smoothed mesh and its tree record, without the attributes that are set on writing.
+/// A smoothed mesh and its tree record (the quadtree as it is stored in a file), without the attributes that
+/// are set on writing.
 struct GeneratedMesh {
   MeshResult result;
   StageTimes times;    ///< stages of the report, "smooth" and "check"

@@ -76,7 +76,8 @@ class Geometry {
   }
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
 
-  /// Whether any segment is a curve. Decisions are made on chords; nodes of the final mesh lie on the curves.
+  /// Whether any segment is a curve. Cells are refined and cut by the chords of the curves; then the boundary
+  /// nodes move onto the curves.
   bool has_curves() const { return !curves_.empty(); }
   bool is_curved(std::int32_t segment) const { return has_curves() && !curves_[segment].straight(); }
   Curve curve(std::int32_t segment) const { return has_curves() ? curves_[segment] : Curve{}; }
@@ -114,9 +115,10 @@ class Geometry {
   double bend_degrees(std::int32_t v) const {
     return !bend_.empty() ? bend_[v] : kept(v) ? 0 : chord_turn_degrees(v);
   }
-  /// The size that the segment requests of the quadtree cells which contain it: its boundary's spacing, else
-  /// that of its curve, else its own length. Between two feature points closer than the spacing, their
-  /// distance (arc length) is requested instead, so that no cell contains both.
+  /// The size that the segment requests of the quadtree cells which contain it: the spacing of its boundary.
+  /// If that is 0: the spacing of its curve (Curve::spacing), or the length of a straight segment. Between
+  /// two feature points closer than the spacing, their distance (arc length) is requested instead, so that no
+  /// cell contains both.
   double spacing_of(std::int32_t segment) const;
   /// The part of the geometry between two consecutive kept vertices.
   struct Stretch {
