@@ -66,7 +66,7 @@ PointAndDerivative evaluate(std::span<Pole> poles, double t) {
 }
 
 CurvedSegment segment_of(std::span<const Pole> poles, Point from, Point to, Point origin, const Curve& like) {
-  CurvedSegment part{from, {{}, {}, like.spacing}, to};
+  CurvedSegment part{from, {{}, {}, like.spacing, like.interpolates}, to};
   for (std::size_t i = 1; i + 1 < poles.size(); ++i) part.curve.inner.push_back(origin + poles[i].point());
   if (like.weights.empty()) return part;
   for (const Pole& pole : poles) part.curve.weights.push_back(pole.weight);

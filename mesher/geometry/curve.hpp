@@ -17,6 +17,7 @@ struct Curve {
   /// The cell size that the curve requests, as the length of a straight segment does; 0: the length of its
   /// chord.
   double spacing = 0;
+  bool interpolates = false;  ///< joins given points: the shape between them is not given
 
   bool straight() const { return inner.empty(); }
   std::size_t degree() const { return inner.size() + 1; }

@@ -148,7 +148,7 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   clean_chains(chains, warnings);
   join_rounded_ends(chains, options.join, warnings);
   leave_out_strays(chains, options.far_field, warnings);
-  subdivide_curves(chains, options);
+  subdivide_curves(chains, options, warnings);
   if (chains.empty())
     throw InputError(
         "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "

@@ -130,6 +130,40 @@ std::vector<Point> slopes_from_start(std::span<const Point> points, const EndDir
   return solve_tridiagonal(below, std::move(diagonal), above, std::move(right));
 }
 
+double angle_between(Point a, Point b) { return std::abs(std::atan2(cross(a, b), dot(a, b))); }
+
+Point mirrored_at(Point direction, Point p) {
+  return (2 * dot(direction, p) / dot(direction, direction)) * direction - p;
+}
+
+/// Replaces slopes that swing out: at a point between two intervals that differ from one of their directions
+/// by more than the polygon turns there and at both neighbours, by the slope of the parabola through the
+/// three points; at an end that differ from its interval by more than twice the angle at the other side of
+/// the interval, by the slope of a parabola. Points with rounded coordinates and uneven distances cause
+/// these.
+void limit_slopes(std::span<const Point> points, const EndDirections& directions,
+                  std::vector<Point>& slopes) {
+  const std::size_t last = points.size() - 1;
+  const auto interval = [&](std::size_t i) { return points[i + 1] - points[i]; };
+  std::vector<double> turns(points.size(), 0);
+  for (std::size_t i = 1; i < last; ++i) turns[i] = angle_between(interval(i - 1), interval(i));
+  const std::vector<Point> given = slopes;
+  for (std::size_t i = 1; i < last; ++i) {
+    const Point before = interval(i - 1), after = interval(i);
+    const double most = turns[i - 1] + turns[i] + turns[i + 1];
+    if (std::max(angle_between(before, given[i]), angle_between(after, given[i])) <= most) continue;
+    const double h = length(before), k = length(after);
+    slopes[i] = (1 / (h + k)) * ((k / h) * before + (h / k) * after);
+  }
+  const auto limit_end = [&](Point direction, Point beside, Point& slope) {
+    if (angle_between(direction, slope) > 2 * angle_between(direction, beside))
+      slope = mirrored_at(direction, beside);
+  };
+  if (last < 2) return;
+  if (!directions.start) limit_end(interval(0), slopes[1], slopes[0]);
+  if (!directions.end) limit_end(interval(last - 1), slopes[last - 1], slopes[last]);
+}
+
 /// The mean of the solutions from both ends, so that the reversed points have the reversed slopes, bit by
 /// bit.
 std::vector<Point> slopes_of(std::span<const Point> points, const EndDirections& directions) {
@@ -139,12 +173,13 @@ std::vector<Point> slopes_of(std::span<const Point> points, const EndDirections&
   const std::vector<Point> back =
       slopes_from_start(backwards, {turned(directions.end), turned(directions.start)});
   for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = 0.5 * (slopes[i] - back[back.size() - 1 - i]);
+  limit_slopes(points, directions, slopes);
   return slopes;
 }
 
 Curve hermite_curve(Point from, Point slope_from, Point to, Point slope_to) {
   const double h = length(to - from);
-  return {{from + (h / 3) * slope_from, to - (h / 3) * slope_to}, {}, h};
+  return {{from + (h / 3) * slope_from, to - (h / 3) * slope_to}, {}, h, true};
 }
 
 /// Joins the points of a closed chain by a periodic cubic spline in the chord length.

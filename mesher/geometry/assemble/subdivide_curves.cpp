@@ -6,9 +6,11 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
+#include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/box_tree.hpp"
@@ -33,7 +35,9 @@ constexpr std::size_t most_added = 20000;
 /// A segment of a chain, while it is subdivided.
 struct Piece {
   CurvedSegment segment;
-  std::size_t chain = 0;
+  std::size_t chain = 0, part = 0;  ///< number of its chain, and of the segment in it
+
+  Piece with(CurvedSegment half) const { return {std::move(half), chain, part}; }
 };
 
 /// The largest turning angle of a curve over its chord, and its largest height above it.
@@ -157,7 +161,7 @@ class Subdivision {
       const std::size_t segments = chain.points.size() - (chain.open ? 1 : 0);
       for (std::size_t s = 0; s < segments; ++s) {
         const Curve curve = chain.curves.empty() ? Curve{} : chain.curves[s];
-        pieces_.push_back({{chain.points[s], curve, chain.points[(s + 1) % chain.points.size()]}, c});
+        pieces_.push_back({{chain.points[s], curve, chain.points[(s + 1) % chain.points.size()]}, c, s});
       }
     }
     shortest_ = shortest_share * std::max(box.width(), box.height());
@@ -176,6 +180,9 @@ class Subdivision {
     while (separate()) {
     }
   }
+
+  /// The interpolating curves that touch another one: number of the chain and of the segment in it.
+  const std::set<std::pair<std::size_t, std::size_t>>& touching() const { return touching_; }
 
   /// The chains with the pieces as their segments.
   std::vector<Chain> chains() const {
@@ -214,8 +221,8 @@ class Subdivision {
           continue;
         }
         const auto [first, second] = halves(next.segment);
-        waiting.push_back({second, next.chain});
-        waiting.push_back({first, next.chain});
+        waiting.push_back(next.with(second));
+        waiting.push_back(next.with(first));
       }
     }
     pieces_ = std::move(halved);
@@ -242,22 +249,26 @@ class Subdivision {
       }
       any = true;
       const auto [first, second] = halves(pieces_[i].segment);
-      separated.push_back({first, pieces_[i].chain});
-      separated.push_back({second, pieces_[i].chain});
+      separated.push_back(pieces_[i].with(first));
+      separated.push_back(pieces_[i].with(second));
     }
     pieces_ = std::move(separated);
     return any;
   }
 
-  /// Whether two pieces have more in common than an end. Throws InputError if they are too short to be
-  /// halved, or too many; pieces with a common end may touch each other there in a cusp.
-  bool overlap(std::int32_t i, std::int32_t j, const std::vector<std::vector<Point>>& hulls) const {
+  /// Whether two pieces have more in common than an end and may be separated. If they are too short to be
+  /// halved, or too many, they are touching() or an InputError is thrown; pieces with a common end may touch
+  /// each other there in a cusp.
+  bool overlap(std::int32_t i, std::int32_t j, const std::vector<std::vector<Point>>& hulls) {
     const Piece &a = pieces_[i], &b = pieces_[j];
     const std::optional<Point> corner = common_end(a.segment, b.segment);
     const bool meet =
         corner ? Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j])) : hulls_meet(hulls[i], hulls[j]);
     if (!meet) return false;
     if (pieces_.size() <= most_pieces_ && (corner || can_be_halved(a) || can_be_halved(b))) return true;
+    if (a.segment.curve.interpolates) touching_.emplace(a.chain, a.part);
+    if (b.segment.curve.interpolates) touching_.emplace(b.chain, b.part);
+    if (!touching_.empty()) return false;
     const Point at = a.segment.from;
     throw InputError(
         fmt::format("{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move "
@@ -268,18 +279,35 @@ class Subdivision {
   const std::vector<Chain>& chains_;
   ChordLimitsByName limits_;
   std::vector<Piece> pieces_;
+  std::set<std::pair<std::size_t, std::size_t>> touching_;
   double shortest_ = 0;
   std::size_t most_pieces_ = 0;
 };
 
 }  // namespace
 
-void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options) {
+void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options, Warnings& warnings) {
   const auto is_curved = [](const Chain& chain) { return !chain.curves.empty(); };
   if (std::ranges::none_of(chains, is_curved)) return;
-  Subdivision subdivision(chains, options);
-  subdivision.run();
-  chains = subdivision.chains();
+  std::size_t straightened = 0;
+  Point first;
+  for (;;) {
+    Subdivision subdivision(chains, options);
+    subdivision.run();
+    if (subdivision.touching().empty()) {
+      chains = subdivision.chains();
+      break;
+    }
+    for (const auto& [chain, part] : subdivision.touching()) {
+      if (straightened++ == 0) first = chains[chain].points[part];
+      chains[chain].curves[part] = {};
+    }
+  }
+  if (straightened > 0)
+    warnings.push_back(
+        fmt::format("{} of a spline through points, the first at ({:.6g}, {:.6g}): the points are joined by "
+                    "straight lines there, as the spline would touch itself or another curve",
+                    counted(std::int64_t(straightened), "segment"), first.x, first.y));
 }
 
 }  // namespace quadloop

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -12,7 +13,9 @@ struct AssembleOptions;
 /// curve turns by more than 15 degrees nor is farther from its chord than a fraction of the cells there, and
 /// the convex hulls of the control points of two curves are disjoint, except for a common end. Then curves
 /// and chords are isotopic, as the curves can be deformed into their chords within these hulls. Throws
-/// InputError with a place if two curves touch.
-void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options);
+/// InputError with a place if two curves touch. Of curves that interpolate points, those that touch become
+/// straight, with a warning.
+void subdivide_curves(std::vector<Chain>& chains, const AssembleOptions& options,
+                      std::vector<std::string>& warnings);
 
 }  // namespace quadloop

@@ -118,6 +118,39 @@ TEST(SubdivideCurves, CurvesThatRunAlongEachOtherAreRefused) {
   }
 }
 
+TEST(SubdivideCurves, ASplineThatWouldCrossItselfIsStraightThere) {
+  // The last points of a thin trailing edge: the spline through the lower ones swings through the upper side.
+  Chain foil{"foil",
+             false,
+             {{1, 0},
+              {0.9961, 0.0},
+              {0.985, -0.0022},
+              {0.9677, -0.0057},
+              {0.8, -0.03},
+              {0.4, -0.05},
+              {0.05, -0.03},
+              {0, 0},
+              {0.05, 0.03},
+              {0.4, 0.05},
+              {0.8, 0.03},
+              {0.9676, 0.0033},
+              {0.985, 0.0012},
+              {0.9961, 0.0002}},
+             "foil.dat"};
+  join_by_splines(foil, 30);
+  Warnings warnings;
+  const Geometry g = assemble({box(), foil}, {}, warnings);
+  int straight = 0, curved = 0;
+  for (std::int32_t s = 0; s < g.size(); ++s) {
+    if (g.boundary(g.boundary_of(s)).name == "foil") (g.is_curved(s) ? curved : straight) += 1;
+  }
+  EXPECT_GT(straight, 0);
+  EXPECT_LE(straight, 4);
+  EXPECT_GT(curved, 50);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("joined by straight lines there"), std::string::npos) << warnings[0];
+}
+
 TEST(SubdivideCurves, CurvesJoinInEitherDirection) {
   Chain top{"top", true, {{1, 0}}, "f:1"}, bottom{"bottom", true, {{1, 0}}, "f:2"};
   append_bulge(top, 1, {-1, 0});
