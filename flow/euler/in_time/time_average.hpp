@@ -1,6 +1,7 @@
 #pragma once
 
 #include "flow/euler/model/gas.hpp"
+#include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop::flow::euler {
