@@ -6,6 +6,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "mesher/base/trimmed.hpp"
+
 namespace quadloop::flow {
 
 namespace {
@@ -33,17 +35,10 @@ std::string end_of_file(const std::string& path) {
   return bytes;
 }
 
-std::string trimmed(std::string line) {
-  constexpr const char* blanks = " \t\r";
-  line.erase(line.find_last_not_of(blanks) + 1);
-  line.erase(0, line.find_first_not_of(blanks));
-  return line;
-}
-
 /// Trims a line and truncates it to `length` bytes between characters; tabs become blanks and other control
 /// characters '?'.
 std::string fit_for_message(std::string line, std::size_t length) {
-  line = trimmed(std::move(line));
+  line = std::string(trimmed(line));
   if (line.size() > length) {
     std::size_t end = length;
     while (end > 0 && inside_character(line[end])) --end;
@@ -93,9 +88,9 @@ std::string foam_error(const std::string& path, std::size_t length) {
       message = trimmed(line.substr(at + 4));
       continue;
     }
-    std::string words = trimmed(line);
+    std::string words(trimmed(line));
     if (!words.starts_with(of_rank)) continue;
-    words = trimmed(words.substr(of_rank.size()));
+    words = std::string(trimmed(std::string_view(words).substr(of_rank.size())));
     if (ends_message(words)) break;
     if (!words.empty()) message += " " + words;
   }

@@ -6,17 +6,11 @@
 #include <string_view>
 
 #include "mesher/base/error.hpp"
+#include "mesher/base/trimmed.hpp"
 
 namespace quadloop::flow {
 
 namespace {
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
 
 std::string upper(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -32,7 +26,7 @@ Su2Config::Su2Config(const std::string& text, const std::string& path) {
   for (std::string row; std::getline(input, row);) {
     const int first = ++number;
     Line line{row, {}, {}};
-    std::string meaning = trimmed(row.substr(0, row.find('%')));
+    std::string meaning(trimmed(row.substr(0, row.find('%'))));
     while (meaning.ends_with('\\') && std::getline(input, row)) {
       ++number;
       line.text += "\n" + row;
@@ -45,8 +39,8 @@ Su2Config::Su2Config(const std::string& text, const std::string& path) {
     if (!meaning.empty() && equals == std::string::npos)
       refuse("expected KEY= value, found '" + meaning.substr(0, 40) + "'");
     if (equals != std::string::npos) {
-      line.key = upper(trimmed(meaning.substr(0, equals)));
-      line.value = trimmed(meaning.substr(equals + 1));
+      line.key = upper(std::string(trimmed(std::string_view(meaning).substr(0, equals))));
+      line.value = trimmed(std::string_view(meaning).substr(equals + 1));
       if (find(line.key) != nullptr) refuse(line.key + " is there twice");
     }
     lines_.push_back(std::move(line));

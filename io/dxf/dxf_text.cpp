@@ -10,17 +10,11 @@
 #include "io/files/reading/input_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/trimmed.hpp"
 
 namespace quadloop::io {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// Takes a line from the text; LF, CRLF and CR end it.
 std::string_view take_line(std::string_view& text) {

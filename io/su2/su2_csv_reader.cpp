@@ -6,15 +6,14 @@
 
 #include "io/su2/su2_csv_file.hpp"
 #include "io/text/text_scanner.hpp"
+#include "mesher/base/trimmed.hpp"
 
 namespace quadloop::io {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  return first == std::string_view::npos ? std::string_view() : text.substr(first, last - first + 1);
-}
+/// Names of columns may be quoted.
+constexpr std::string_view blanks_and_quotes = " \t\r\"";
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -45,7 +44,7 @@ class Su2CsvReader {
       const std::size_t end = std::min(text.find('\n', line_begin_), text.size());
       next_ = end + 1;
       line_ = text.substr(line_begin_, end - line_begin_);
-      if (!trimmed(line_).empty()) return true;
+      if (!trimmed(line_, blanks_and_quotes).empty()) return true;
     }
     return false;
   }
@@ -55,10 +54,10 @@ class Su2CsvReader {
     std::size_t begin = 0;
     for (std::size_t comma = line_.find(','); comma != std::string_view::npos;
          comma = line_.find(',', begin)) {
-      fields.push_back(trimmed(line_.substr(begin, comma - begin)));
+      fields.push_back(trimmed(line_.substr(begin, comma - begin), blanks_and_quotes));
       begin = comma + 1;
     }
-    const std::string_view last = trimmed(line_.substr(begin));
+    const std::string_view last = trimmed(line_.substr(begin), blanks_and_quotes);
     if (!last.empty() || fields.empty()) fields.push_back(last);  // a line may end with a comma
     return fields;
   }
