@@ -16,6 +16,7 @@
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
@@ -271,8 +272,13 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
                 double gamma) {
   const FileFormat* format = format_of(path);
   QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
-  if (format->holds(Content::mesh))
+  if (format->holds(Content::mesh) && mesh.blocks.names.empty()) {
     format->write(outputs, MeshStream(outputs.communicator(), mesh, solution), path);
+  } else if (format->holds(Content::mesh)) {
+    QUADLOOP_REQUIRE(solution == nullptr || solution->cells.width() == 0, "cell values are not sorted by block");
+    const Mesh sorted = sorted_by_block(mesh);
+    format->write(outputs, MeshStream(outputs.communicator(), sorted, solution, sorted.blocks), path);
+  }
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
@@ -330,6 +336,8 @@ std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, cons
   if (row == nullptr) return {};
   MeshContent content = content_of(mesh, solution);
   content.knows_walls = true;
+  content.blocks = std::max<std::size_t>(1, mesh.blocks.names.size());
+  content.block_names = mesh.blocks.names;
   return losses_of(content, *row, path);
 }
 

@@ -116,12 +116,14 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   return shares;
 }
 
-/// Returns for each boundary whether it consists of complete loops and thus encloses an area.
+/// Returns for each boundary whether it consists of complete loops and thus encloses an area. The two
+/// directions of one between blocks cancel.
 std::vector<char> encloses_area(const Geometry& geometry) {
   std::vector<char> whole(geometry.boundaries().size(), 1);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     const BoundaryId here = geometry.boundary_of(s), next = geometry.boundary_of(geometry.next(s));
     if (here != next) whole[here.value()] = whole[next.value()] = 0;
+    if (geometry.twin(s) >= 0) whole[here.value()] = 0;
   }
   return whole;
 }

@@ -55,6 +55,13 @@ struct StripLayers {
   friend bool operator==(const StripLayers&, const StripLayers&) = default;
 };
 
+/// The blocks of a mesh: the block of each of this rank's cells, as index into the names, which are the same
+/// on all ranks.
+struct MeshBlocks {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_triangles, of_quads;
+};
+
 using NodeFlags = IdVector<NodeId, char>;  ///< 1 or 0 for each node
 
 template <class Nodes>
@@ -104,6 +111,7 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
   std::vector<StripLayers> strips;
+  MeshBlocks blocks = {};  ///< without names there is one block, and the lists are empty
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }

@@ -87,6 +87,8 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
+  for (const CaseTable& block : root.tables("block"))
+    settings.outline.blocks.push_back(read_block(block));
   for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
@@ -100,6 +102,25 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "design", [&](const CaseTable& table) { read_design_table(table, settings); });
   read_table(root, "solver", [&](const CaseTable& table) { read_solver_table(table, settings.solver); });
   read_table(root, "output", [&](const CaseTable& table) { read_output_table(table, settings); });
+}
+
+/// Throws InputError for settings that do not work with several blocks yet.
+void require_blocks_alone(const Settings& settings) {
+  if (settings.outline.blocks.empty()) return;
+  const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
+  const std::pair<bool, const char*> others[] = {
+      {std::ranges::any_of(settings.outline.rules, has_layers), "boundary layers; remove 'layers'"},
+      {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
+      {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
+      {settings.outline.unite_islands, "a union of islands; remove geometry.overlap"},
+      {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
+      {settings.adapt.has_value(), "adaptation; remove [adapt]"},
+      {settings.partitions > 0, "partitions; remove output.partitions"}};
+  for (const auto& [is_set, what] : others) {
+    if (!is_set) continue;
+    const BlockRule& block = settings.outline.blocks.front();
+    throw InputError(fmt::format("{}: a mesh of several blocks cannot have {} or [[block]]", block.where, what));
+  }
 }
 
 /// Returns warnings about keys of the case that have no effect.
@@ -168,6 +189,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
     root.refuse("geometry", "is missing; name the outline, as in [geometry] file = \"outline.geom\"");
   read_geometry_table(*root.table("geometry"), case_path, settings);
   read_tables(root, settings);
+  require_blocks_alone(settings);
   settings.solver.euler.mirror = settings.mesh.mirror;
   const bool is_built_in = settings.solver.kind == SolverSettings::Kind::euler;
   if (settings.flow && !is_built_in) settings.stream = settings.flow->stream();

@@ -205,13 +205,13 @@ TEST(CutForest, SnapsThatWouldSwallowAThinSpikeAreTakenBack) {
     CutSquare thin(spike, 0.5, 0.4);
     EXPECT_NEAR(thin.area(), area_of(spike), 1e-13 * 64) << trial;
     thin.expect_states();
-    EXPECT_TRUE(OpposedChords(test::world(), thin.graph, thin.cut).ends().empty());
+    EXPECT_TRUE(OpposedChords(test::world(), thin.geometry, thin.graph, thin.cut).ends().empty());
     const std::vector<Points> slit{
         {{0.5, y - 3}, {7.5, y - 3}, {7.5, y + 3}, {0.5, y + 3}, {0.5, y + half}, {tip, y}, {0.5, y - half}}};
     CutSquare split(slit, 0.5, 0.4);
     EXPECT_NEAR(split.area(), area_of(slit), 1e-13 * 64) << trial;
     split.expect_states();
-    EXPECT_TRUE(OpposedChords(test::world(), split.graph, split.cut).ends().empty());
+    EXPECT_TRUE(OpposedChords(test::world(), split.geometry, split.graph, split.cut).ends().empty());
   }
 }
 
