@@ -84,8 +84,22 @@ void add_stop(const Box& box, Stop stop, std::pmr::vector<Stop>& stops) {
   stops.push_back(stop);
 }
 
-/// Returns corners, hanging nodes and crossings in their order around the leaf.
-std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource* memory) {
+/// Whether a vertex is an end of a segment between two blocks.
+bool is_on_interface(const Geometry& geometry, std::int32_t v) {
+  return geometry.has_twins() && (geometry.twin(v) >= 0 || geometry.twin(geometry.previous(v)) >= 0);
+}
+
+/// The side of the leaf that holds the point, without its corners, if any.
+std::optional<Side> side_at(const Box& box, Point p) {
+  const bool on_x = p.x == box.low.x || p.x == box.high.x, on_y = p.y == box.low.y || p.y == box.high.y;
+  if (on_x == on_y) return std::nullopt;
+  if (on_y) return p.y == box.low.y ? Side::bottom : Side::top;
+  return p.x == box.low.x ? Side::left : Side::right;
+}
+
+/// Returns corners, hanging nodes, crossings and kept points between blocks in their order around the leaf.
+std::pmr::vector<Stop> stops_round(const Geometry& geometry, const Input& input,
+                                   std::pmr::memory_resource* memory) {
   const Box& box = input.trace.box;
   const Point centre = input.centre;
   const std::array<Point, 4> corner = corners_of(box);
@@ -110,6 +124,11 @@ std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource
     const Side side = side_of(site);
     const Point p = input.snaps[s].snap->position, from = corner[index_of(start_of(side))];
     add(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
+  }
+  for (const std::int32_t v : geometry.has_twins() ? input.trace.vertices : std::span<const std::int32_t>()) {
+    const Point p = geometry.point(v);
+    const std::optional<Side> side = side_at(box, p);
+    if (side && geometry.kept(v) && is_on_interface(geometry, v)) add(*side, p, elsewhere_on(*side), -1, -1);
   }
   const auto comes_first = [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
@@ -301,6 +320,7 @@ struct RunPoint {
   bool turns = false;         ///< whether the boundary turns here
   bool fixed = false;         ///< whether a chord must end here
   bool chosen = false;        ///< whether a chord ends here
+  bool on_side = false;       ///< of a segment between blocks on a side: the leaf across has no node here
 };
 
 /// Creates the chords of a leaf whose sides have their nodes.
@@ -382,7 +402,9 @@ class ChordMaker {
       if (!run.empty()) add_hanging_nodes(p, run);
       const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
                                           [&](const LeafSnap& s) { return s.snap->position == p; });
-      run.push_back({p, v, !geometry_.straight(v), geometry_.kept(v) || holds_node || is_side_node(v)});
+      const bool of_side = is_side_node(v);
+      run.push_back({p, v, !geometry_.straight(v) || of_side, geometry_.kept(v) || holds_node || of_side, false,
+                     !of_side && geometry_.twin(v) >= 0 && side_at(input_.trace.box, p)});
     }
     const Point last = closed ? run.front().position : node_position(piece.exit);
     add_hanging_nodes(last, run);
@@ -429,7 +451,8 @@ class ChordMaker {
     leaf_.refined = leaf_.refined || closed;
     run.front().chosen = run.back().chosen = true;
     if (closed || detail_ != Detail::merged) {
-      for (RunPoint& p : run) p.chosen = p.chosen || p.turns || detail_ == Detail::exact;
+      for (RunPoint& p : run)
+        p.chosen = p.chosen || p.turns || (detail_ == Detail::exact && !p.on_side);
       return;
     }
     std::size_t from = 0;
@@ -564,7 +587,7 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   leaf_.loop_blocks.clear();
   leaf_.refined = false;
   ShortLists<4096> lists;
-  std::pmr::vector<Stop> stops = stops_round(input, lists.memory());
+  std::pmr::vector<Stop> stops = stops_round(outline_->geometry(), input, lists.memory());
   const std::pmr::vector<NamedCrossing> crossings = name_stops(input, stops, leaf_);
   std::optional<Sides> sides = walk_sides(outline_->geometry(), input, stops, *inside_);
   if (!sides) return false;
