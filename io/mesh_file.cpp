@@ -16,7 +16,6 @@
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
-#include "io/stream/stream_blocks.hpp"
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
@@ -272,13 +271,12 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
                 double gamma) {
   const FileFormat* format = format_of(path);
   QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
-  if (format->holds(Content::mesh) && mesh.blocks.names.empty()) {
-    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution), path);
-  } else if (format->holds(Content::mesh)) {
-    QUADLOOP_REQUIRE(solution == nullptr || solution->cells.width() == 0, "cell values are not sorted by block");
-    const Mesh sorted = sorted_by_block(mesh);
-    format->write(outputs, MeshStream(outputs.communicator(), sorted, solution, sorted.blocks), path);
-  }
+  std::optional<PlaneBlocks> blocks;
+  if (!mesh.blocks.names.empty()) blocks = mesh.blocks;
+  QUADLOOP_REQUIRE(!blocks || solution == nullptr || solution->cells.width() == 0,
+                   "cell values are not sorted by block");
+  if (format->holds(Content::mesh))
+    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks)), path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }

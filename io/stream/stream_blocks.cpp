@@ -1,7 +1,6 @@
 #include "io/stream/stream_blocks.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace quadloop::io {
 
@@ -24,20 +23,6 @@ PlaneBlocks plane_blocks(const LoadedMesh& whole) {
   for (std::size_t b = blocks.names.size(); std::ssize(blocks.names) < whole.blocks; ++b)
     blocks.names.push_back("block_" + std::to_string(b + 1));
   return blocks;
-}
-
-Mesh sorted_by_block(Mesh mesh) {
-  const auto sort = [](auto& cells, std::vector<std::int32_t>& blocks) {
-    std::vector<std::int32_t> order(cells.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::int32_t cell) { return blocks[cell]; });
-    const auto unsorted = cells;
-    for (std::size_t i = 0; i < order.size(); ++i) cells[i] = unsorted[order[i]];
-    std::ranges::sort(blocks);
-  };
-  sort(mesh.triangles, mesh.blocks.of_triangles);
-  sort(mesh.quads, mesh.blocks.of_quads);
-  return mesh;
 }
 
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks) {
