@@ -25,6 +25,9 @@ class Assembler {
     edge_leaves_.resize(geometry.boundaries().size());
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
     mesh_.blocks.names = geometry.block_names();
+    for (std::int32_t s = 0; geometry.has_twins() && s < geometry.size(); ++s) {
+      if (geometry.twin(s) >= 0) mesh_.boundaries[geometry.boundary_of(s).value()].between_blocks = true;
+    }
   }
 
   void add(LeafId leaf) {
@@ -81,6 +84,7 @@ class Assembler {
       if (geometry_.has_blocks()) put_in_block(cut_.quad_blocks[i]);
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
+      if (geometry_.is_second(e.segment)) continue;
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
       mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
       edge_leaves_[boundary.value()].push_back(graph_.local_index(leaf));

@@ -27,6 +27,8 @@ struct BoundaryEdges {
   BoundaryCondition condition = {};
   std::vector<std::array<NodeId, 2>> edges;
   WallLayers layers = {};
+  /// Whether its edges lie between two blocks: each is listed once, with the first of the blocks to its left.
+  bool between_blocks = false;
 };
 
 /// Layers on both sides of an interior line, e.g. a wake, stored as columns of nodes across the line. The

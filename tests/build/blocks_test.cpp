@@ -12,6 +12,7 @@
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/check/require_sound.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/support/world.hpp"
@@ -86,6 +87,7 @@ void expect_meshes(const Blocks& blocks, const MeshOptions& given, double tolera
     MeshOptions options = given;
     options.type = type;
     const MeshResult made = build_mesh(world(), geometry, options);
+    require_sound(world(), made.mesh);
     const Mesh whole = gather_whole(world(), made.mesh);
     const MeshResult alone = build_mesh(self, geometry, options);
     if (!world().is_root()) continue;

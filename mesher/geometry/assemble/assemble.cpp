@@ -163,7 +163,8 @@ AssembleOptions without_required_rules(AssembleOptions options) {
 }
 
 Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
-  join_rounded_ends(chains, options.join, warnings);
+  Warnings of_twins;  // a line between two blocks may be given for each of them
+  join_rounded_ends(chains, options.join, of_twins);
   subdivide_curves(chains, without_required_rules(options), warnings);
   require_countable(chains);
   const Box box = box_of(chains);

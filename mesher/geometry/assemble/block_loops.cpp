@@ -259,21 +259,7 @@ class LoopMaker {
   BlockOutline run() {
     BlockOutline result;
     result.names = blocks_.names();
-    std::vector<char> used(graph_.size(), 0);
-    for (std::int32_t h = 0; h < graph_.size(); ++h) {
-      if (used[h] != 0 || !blocks_.bounds(h)) continue;
-      OutlineLoop loop;
-      loop.source = lines_.chain(h).source;
-      loop.directed = false;
-      for (std::int32_t along = h; std::exchange(used[along], 1) == 0; along = next(along)) {
-        loop.points.push_back(lines_.start(along));
-        loop.boundary.push_back(number_of(name_of(along), result.outline.names));
-        loop.curves.push_back(lines_.curve(along));
-      }
-      if (std::ranges::all_of(loop.curves, &Curve::straight)) loop.curves.clear();
-      result.outline.loops.push_back(std::move(loop));
-      result.block_of_loop.push_back(blocks_.left_of(h));
-    }
+    for (std::int32_t block = 0; block < size32(result.names); ++block) add_loops_of(block, result);
     return result;
   }
 
@@ -294,6 +280,24 @@ class LoopMaker {
   }
 
  private:
+  void add_loops_of(std::int32_t block, BlockOutline& result) const {
+    std::vector<char> used(graph_.size(), 0);
+    for (std::int32_t h = 0; h < graph_.size(); ++h) {
+      if (used[h] != 0 || !blocks_.bounds(h) || blocks_.left_of(h) != block) continue;
+      OutlineLoop loop;
+      loop.source = lines_.chain(h).source;
+      loop.directed = false;
+      for (std::int32_t along = h; std::exchange(used[along], 1) == 0; along = next(along)) {
+        loop.points.push_back(lines_.start(along));
+        loop.boundary.push_back(number_of(name_of(along), result.outline.names));
+        loop.curves.push_back(lines_.curve(along));
+      }
+      if (std::ranges::all_of(loop.curves, &Curve::straight)) loop.curves.clear();
+      result.outline.loops.push_back(std::move(loop));
+      result.block_of_loop.push_back(block);
+    }
+  }
+
   std::pair<std::int32_t, std::int32_t> sides(std::int32_t h) const {
     return std::minmax({blocks_.left_of(h), blocks_.left_of(h ^ 1)});
   }
