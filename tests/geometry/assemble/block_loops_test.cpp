@@ -136,9 +136,10 @@ TEST(BlockLoops, CrossingsBecomePointsAndWhatBoundsNothingIsLeftOut) {
   EXPECT_DOUBLE_EQ(area_of(blocks, "a"), 3);
   EXPECT_DOUBLE_EQ(area_of(blocks, "b"), 5);
   EXPECT_DOUBLE_EQ(area_of(blocks, "c"), 5);
-  ASSERT_EQ(warnings.size(), 1U);
+  ASSERT_EQ(warnings.size(), 2U) << "the wall round the fourth region, and the stray line";
   EXPECT_NE(warnings[0].find("'stray'"), std::string::npos) << warnings[0];
   EXPECT_NE(warnings[0].find("(0.5, 0.25)"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("'wall'"), std::string::npos) << warnings[1];
 }
 
 TEST(BlockLoops, RefusesWithThePlace) {
@@ -149,7 +150,7 @@ TEST(BlockLoops, RefusesWithThePlace) {
                  "block 'solid' has no region of its own");
   std::vector<Chain> open{box_chain("wall", 0, 4)};
   open.push_back({"line", true, {{0, 1}, {4, 1}}, {}});
-  expect_refusal(open, {between("low", {"line"})}, "(0, 1)");
+  expect_refusal(open, {between("low", {"line"})}, "one ends at (4, 1)");
 }
 
 }  // namespace
