@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <random>
 
 #include "mesher/base/error.hpp"
@@ -125,6 +126,24 @@ TEST(Blocks, ADiscInASquareAndAHollowOne) {
   const Geometry g = hollow.geometry();
   ASSERT_EQ(g.boundaries().size(), 3U);
   EXPECT_EQ(g.boundaries()[1].name, "ring");
+}
+
+TEST(Blocks, AnInterfaceTurnsOnceAndIsNoGap) {
+  const std::vector<Point> ring = circle({0.48, 0.53}, 0.31, 200, 0);
+  const Blocks two{{loop("wall", box_points(0, 1, 0, 1)), loop("ring", ring)},
+                   {of_loop("fluid", "wall"), of_loop("solid", "ring")}},
+      hole{two.chains, {at("fluid", {0.01, 0.01})}};
+  const auto report = [](const Blocks& blocks, std::optional<double> gap) {
+    MeshOptions options = between(0.004, 0.1);
+    options.size.curvature = 10;
+    options.size.gap = gap;
+    const Geometry geometry = blocks.geometry();
+    LocalDemands demands{std::vector<double>(geometry.size(), 1), std::vector<char>(geometry.size(), 0), {}};
+    for (std::int32_t v = 0; v < geometry.size(); ++v) demands.bend_degrees.push_back(geometry.bend_degrees(v));
+    return build_mesh(world(), geometry.with(demands), options).report;
+  };
+  EXPECT_EQ(report(two, {}).finest_level, report(hole, {}).finest_level);
+  EXPECT_EQ(report(two, 2).leaves, report(two, {}).leaves);
 }
 
 TEST(Blocks, ThreeMeetAtAPoint) {
