@@ -86,8 +86,7 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
     }
   });
   Flipper().flip_first(
-      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut,
-      blocks);
+      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut, blocks);
   for_each_triangle([](std::array<NodeId, 3>& nodes, const Flipper::Triangle& flipped) {
     const auto& [a, b, c] = flipped;
     nodes = {NodeId{a}, NodeId{b}, NodeId{c}};

@@ -42,7 +42,7 @@ class LeafCellMaker {
   double smallest_sine_ = 1;
   std::vector<Point> points_;
   std::vector<std::span<const std::int32_t>> loops_;  ///< of one block
-  std::vector<TieRank> ranks_;  ///< of the leaf's nodes; computed on first use
+  std::vector<TieRank> ranks_;                        ///< of the leaf's nodes; computed on first use
 };
 
 /// A triangle of a template, by the sites of its nodes.

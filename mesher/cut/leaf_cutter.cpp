@@ -204,8 +204,8 @@ std::pmr::vector<NamedCrossing> name_stops(const Input& input, std::pmr::vector<
 
 constexpr std::int32_t outside = -1;  ///< instead of a block
 
-/// The changes of the blocks beside a side at one position, in the direction around the leaf: the block on the
-/// left of a boundary that leaves the leaf begins, that of one that enters ends.
+/// The changes of the blocks beside a side at one position, in the direction around the leaf: the block on
+/// the left of a boundary that leaves the leaf begins, that of one that enters ends.
 class BlockChanges {
  public:
   BlockChanges(const Geometry& geometry, const Input& input, std::pmr::memory_resource* memory)
@@ -403,8 +403,8 @@ class ChordMaker {
       const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
                                           [&](const LeafSnap& s) { return s.snap->position == p; });
       const bool of_side = is_side_node(v);
-      run.push_back({p, v, !geometry_.straight(v) || of_side, geometry_.kept(v) || holds_node || of_side, false,
-                     !of_side && geometry_.twin(v) >= 0 && side_at(input_.trace.box, p)});
+      run.push_back({p, v, !geometry_.straight(v) || of_side, geometry_.kept(v) || holds_node || of_side,
+                     false, !of_side && geometry_.twin(v) >= 0 && side_at(input_.trace.box, p)});
     }
     const Point last = closed ? run.front().position : node_position(piece.exit);
     add_hanging_nodes(last, run);
@@ -451,8 +451,7 @@ class ChordMaker {
     leaf_.refined = leaf_.refined || closed;
     run.front().chosen = run.back().chosen = true;
     if (closed || detail_ != Detail::merged) {
-      for (RunPoint& p : run)
-        p.chosen = p.chosen || p.turns || (detail_ == Detail::exact && !p.on_side);
+      for (RunPoint& p : run) p.chosen = p.chosen || p.turns || (detail_ == Detail::exact && !p.on_side);
       return;
     }
     std::size_t from = 0;
@@ -545,8 +544,7 @@ bool is_between_blocks(const Geometry& geometry, const CutLeaf& leaf, const CutL
 
 /// Cancels a chord along a side of the leaf against that side: neither bounds a cell here. Returns false for
 /// two opposite chords, which would lose what lies between them, unless they lie between two blocks.
-bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf,
-                      std::pmr::vector<CutLeaf::Edge>& edges) {
+bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf, std::pmr::vector<CutLeaf::Edge>& edges) {
   const std::span<const CutLeaf::Edge> outline = leaf.outline;
   edges.reserve(edges.size() + outline.size());  // avoids reallocation of the side edges
   const EdgesByEnds chords(outline), sides(edges);

@@ -54,10 +54,10 @@ class UnusedEdges {
     const std::int32_t node = edges_[e].to;
     for (std::int32_t k = node > 0 ? end_of_[node - 1] : 0; k < end_of_[node]; ++k) {
       const std::int32_t i = by_start_[k];
-      const bool better = has(i) && edges_[i].block == edges_[e].block &&
-                          (best == edges_.size() ||
-                                     clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
-                                                      at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
+      const bool better =
+          has(i) && edges_[i].block == edges_[e].block &&
+          (best == edges_.size() || clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
+                                                     at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
       if (better) best = i;
     }
     return best;
@@ -71,11 +71,11 @@ class UnusedEdges {
   std::pmr::vector<std::int32_t> end_of_;  ///< end of each node's edges in by_start_
 };
 
-/// Splits off each closed part of the walk through one block as a separate loop. Uses two work lists: `open`, and
-/// `place_in_open`, which is -1 for all nodes before and after.
+/// Splits off each closed part of the walk through one block as a separate loop. Uses two work lists: `open`,
+/// and `place_in_open`, which is -1 for all nodes before and after.
 void split_into_loops(std::span<const std::int32_t> walk, std::int32_t block,
-                      std::pmr::vector<std::int32_t>& open,
-                      std::pmr::vector<std::int32_t>& place_in_open, CutLeaf& leaf) {
+                      std::pmr::vector<std::int32_t>& open, std::pmr::vector<std::int32_t>& place_in_open,
+                      CutLeaf& leaf) {
   open.clear();
   const auto forget = [&](std::int32_t node) { place_in_open[node] = -1; };
   for (const std::int32_t node : walk) {
@@ -200,7 +200,8 @@ bool nesting_is_sound(const CutLeaf& leaf) {
     const auto loop = leaf.loop(i);
     int around = 0;
     boxes.for_each_meeting(box_of_loop(i), [&](std::int32_t j) {
-      if (i != j && leaf.loop_blocks[i] == leaf.loop_blocks[j]) around += times_round(leaf, leaf.loop(j), loop);
+      if (i != j && leaf.loop_blocks[i] == leaf.loop_blocks[j])
+        around += times_round(leaf, leaf.loop(j), loop);
     });
     if (around != (winding_of(leaf, loop) > 0 ? 0 : 1)) return false;
   }

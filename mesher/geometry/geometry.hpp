@@ -52,8 +52,8 @@ struct LoopBlocks {
 };
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
-/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment with
-/// domain on both sides, between two blocks, is stored twice, once in each direction: the two are twins.
+/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment
+/// with domain on both sides, between two blocks, is stored twice, once in each direction: the two are twins.
 class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
@@ -172,11 +172,11 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<Curve> curves_;    ///< of each segment; empty: all are straight
+  std::vector<Curve> curves_;  ///< of each segment; empty: all are straight
   LoopBlocks blocks_;
   std::vector<std::int32_t> twins_;  ///< of each segment; empty: none has one
-  std::vector<double> spacing_;  ///< of each segment, if some differ from their boundary's
-  std::vector<double> bend_;     ///< of each vertex, if set by LocalDemands
+  std::vector<double> spacing_;      ///< of each segment, if some differ from their boundary's
+  std::vector<double> bend_;         ///< of each vertex, if set by LocalDemands
   std::vector<char> kept_;
   // Bits of flags_: first and last vertex of a loop, straight.
   static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;

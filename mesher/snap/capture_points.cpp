@@ -224,9 +224,9 @@ std::optional<Snap> hanging_snap(const TreeGrid& grid, const Geometry& geometry,
 std::vector<Snap> settle_edges(const Geometry& geometry, std::vector<Snap> claims) {
   const auto same = [](const Snap& a, const Snap& b) { return a.corner == b.corner; };
   std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) {
-    return a.corner != b.corner                       ? a.corner < b.corner
+    return a.corner != b.corner                     ? a.corner < b.corner
            : a.absorbed.size() != b.absorbed.size() ? a.absorbed.size() > b.absorbed.size()
-                                                      : a.absorbed < b.absorbed;
+                                                    : a.absorbed < b.absorbed;
   });
   drop_copies(geometry, claims,
               [&](const Snap& a, const Snap& b) { return same(a, b) && a.position == b.position; });

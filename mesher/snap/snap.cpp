@@ -42,8 +42,7 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 void settle_absorbed(const Geometry& geometry, Snap& snap) {
   for (std::size_t i = 0, count = snap.absorbed.size(); i < count; ++i) {
     const Snap::Absorbed one = snap.absorbed[i];
-    if (geometry.twin(one.segment) >= 0)
-      snap.absorbed.push_back({geometry.twin(one.segment), one.vertical});
+    if (geometry.twin(one.segment) >= 0) snap.absorbed.push_back({geometry.twin(one.segment), one.vertical});
   }
   std::sort(snap.absorbed.begin(), snap.absorbed.end());
   snap.absorbed.erase(std::unique(snap.absorbed.begin(), snap.absorbed.end()), snap.absorbed.end());

@@ -87,8 +87,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
-  for (const CaseTable& block : root.tables("block"))
-    settings.outline.blocks.push_back(read_block(block));
+  for (const CaseTable& block : root.tables("block")) settings.outline.blocks.push_back(read_block(block));
   for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
@@ -108,7 +107,9 @@ void read_tables(const CaseTable& root, Settings& settings) {
 void require_blocks_alone(const Settings& settings) {
   if (settings.outline.blocks.empty()) return;
   const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
-  const auto is_written = [&](const char* format) { return std::ranges::count(settings.formats, format) > 0; };
+  const auto is_written = [&](const char* format) {
+    return std::ranges::count(settings.formats, format) > 0;
+  };
   const std::pair<bool, const char*> others[] = {
       {std::ranges::any_of(settings.outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
@@ -122,7 +123,8 @@ void require_blocks_alone(const Settings& settings) {
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;
     const BlockRule& block = settings.outline.blocks.front();
-    throw InputError(fmt::format("{}: a mesh of several blocks cannot have {} or [[block]]", block.where, what));
+    throw InputError(
+        fmt::format("{}: a mesh of several blocks cannot have {} or [[block]]", block.where, what));
   }
 }
 

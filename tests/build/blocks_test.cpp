@@ -35,7 +35,9 @@ struct Blocks {
   }
 };
 
-Chain loop(const std::string& name, std::vector<Point> points) { return {name, false, std::move(points), {}}; }
+Chain loop(const std::string& name, std::vector<Point> points) {
+  return {name, false, std::move(points), {}};
+}
 Chain line(const std::string& name, std::vector<Point> points) { return {name, true, std::move(points), {}}; }
 std::vector<Point> box_points(double x0, double x1, double y0, double y1) {
   return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
@@ -149,9 +151,10 @@ TEST(Blocks, AnInterfaceTurnsOnceAndIsNoGap) {
 }
 
 TEST(Blocks, OfTwoEquallyFarPointsBothSidesKeepTheSame) {
-  const Blocks blocks{{loop("wall", box_points(0, 1, 0, 1)),
-                       line("line", {{0, 0.6}, {0.535, 0.6}, {0.615, 0.64}, {0.635, 0.64}, {0.715, 0.6}, {1, 0.6}})},
-                      {at("low", {0.1, 0.1}), at("high", {0.1, 0.9})}};
+  const Blocks blocks{
+      {loop("wall", box_points(0, 1, 0, 1)),
+       line("line", {{0, 0.6}, {0.535, 0.6}, {0.615, 0.64}, {0.635, 0.64}, {0.715, 0.6}, {1, 0.6}})},
+      {at("low", {0.1, 0.1}), at("high", {0.1, 0.9})}};
   const MeshResult made = build_mesh(world(), blocks.geometry(), between(0.2, 0.25));
   std::int64_t edges = 0;
   for (const BoundaryEdges& boundary : made.mesh.boundaries) {
@@ -217,11 +220,10 @@ Blocks random_blocks(std::mt19937& random) {
     const int kind = static_cast<int>(random() % 3);
     const auto eighth = [](double x) { return std::round(8 * x) / 8; };
     std::vector<Point> points =
-        kind == 0 ? circle(centre, size, 9 + static_cast<int>(random() % 30), number(0, 1))
-        : kind == 1
-            ? box_points(centre.x - size, centre.x + size, centre.y - size, centre.y + size)
-            : box_points(eighth(centre.x) - 0.125, eighth(centre.x) + 0.125, eighth(centre.y) - 0.125,
-                         eighth(centre.y) + 0.125);
+        kind == 0   ? circle(centre, size, 9 + static_cast<int>(random() % 30), number(0, 1))
+        : kind == 1 ? box_points(centre.x - size, centre.x + size, centre.y - size, centre.y + size)
+                    : box_points(eighth(centre.x) - 0.125, eighth(centre.x) + 0.125, eighth(centre.y) - 0.125,
+                                 eighth(centre.y) + 0.125);
     blocks.chains.push_back(loop(name, std::move(points)));
     blocks.rules.push_back(of_loop("b" + std::to_string(i), name));
   }

@@ -168,9 +168,9 @@ Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& optio
   subdivide_curves(chains, without_required_rules(options), warnings);
   require_countable(chains);
   const Box box = box_of(chains);
-  return to_geometry(block_loops(chains, options.blocks,
-                                 options.join * std::max(box.width(), box.height()), warnings),
-                     options);
+  return to_geometry(
+      block_loops(chains, options.blocks, options.join * std::max(box.width(), box.height()), warnings),
+      options);
 }
 
 Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {

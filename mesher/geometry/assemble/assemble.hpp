@@ -33,10 +33,11 @@ struct AssembleOptions {
 };
 
 /// Builds the geometry of the domain from polylines. Joins open chains end to end into loops (ends must be
-/// bit-identical after join_rounded_ends; either direction), or finds the loops of blocks (block_loops()). Chains of one name form one boundary. Drops
-/// consecutive points that coincide. Reverses loops so that the domain is to their left; the domain is inside
-/// loops of even nesting depth and outside loops of odd depth. Boundaries and loops keep the order of the
-/// input. Throws InputError with boundary and coordinates if the chains do not bound a domain.
+/// bit-identical after join_rounded_ends; either direction), or finds the loops of blocks (block_loops()).
+/// Chains of one name form one boundary. Drops consecutive points that coincide. Reverses loops so that the
+/// domain is to their left; the domain is inside loops of even nesting depth and outside loops of odd depth.
+/// Boundaries and loops keep the order of the input. Throws InputError with boundary and coordinates if the
+/// chains do not bound a domain.
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings);
 
 }  // namespace quadloop

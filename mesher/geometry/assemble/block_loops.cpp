@@ -47,9 +47,8 @@ class LineGraph {
     return reversed(std::vector<Curve>{lines(h).along}).front();
   }
   bool is_on(std::int32_t h, const std::vector<std::string>& names) const {
-    return std::ranges::any_of(lines(h).chains, [&](std::int32_t c) {
-      return std::ranges::count(names, chains_[c].name) > 0;
-    });
+    return std::ranges::any_of(
+        lines(h).chains, [&](std::int32_t c) { return std::ranges::count(names, chains_[c].name) > 0; });
   }
   Point start(std::int32_t h) const { return graph_.point(graph_.tail(h)); }
   Point end(std::int32_t h) const { return graph_.point(graph_.head(h)); }
@@ -129,8 +128,8 @@ class Faces {
     const int low =
         s_low.y >= t_low.y ? orientation(t_low, t_high, s_low) : -orientation(s_low, s_high, t_low);
     if (low != 0) return low < 0;
-    return (s_high.y <= t_high.y ? orientation(t_low, t_high, s_high)
-                                 : -orientation(s_low, s_high, t_high)) < 0;
+    return (s_high.y <= t_high.y ? orientation(t_low, t_high, s_high) : -orientation(s_low, s_high, t_high)) <
+           0;
   }
 
   const LineGraph& lines_;

@@ -84,7 +84,8 @@ void HalfEdges::number_walks() {
   walk_.assign(head_.size(), no_half_edge);
   for (std::int32_t h = 0; h < size(); ++h) {
     if (walk_[h] != no_half_edge) continue;
-    for (std::int32_t along = h; walk_[along] == no_half_edge; along = before_[along ^ 1]) walk_[along] = walks_;
+    for (std::int32_t along = h; walk_[along] == no_half_edge; along = before_[along ^ 1])
+      walk_[along] = walks_;
     ++walks_;
   }
 }

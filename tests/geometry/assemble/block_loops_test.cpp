@@ -27,7 +27,8 @@ double area_of(const BlockOutline& blocks, const std::string& name) {
   for (std::size_t l = 0; l < blocks.outline.loops.size(); ++l) {
     if (blocks.names[blocks.block_of_loop[l]] != name) continue;
     const std::vector<Point>& points = blocks.outline.loops[l].points;
-    for (std::size_t i = 0; i < points.size(); ++i) twice += cross(points[i], points[(i + 1) % points.size()]);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      twice += cross(points[i], points[(i + 1) % points.size()]);
   }
   return twice / 2;
 }
@@ -80,7 +81,8 @@ TEST(BlockLoops, BoundariesEncloseABlockWhateverTheirDirection) {
   for (const bool turned : {false, true}) {
     std::vector<Chain> chains = nested();
     if (turned) std::ranges::reverse(chains[1].points);
-    const BlockOutline blocks = found(chains, {between("plate", {"wall", "ring"}), between("hole", {"ring"})});
+    const BlockOutline blocks =
+        found(chains, {between("plate", {"wall", "ring"}), between("hole", {"ring"})});
     EXPECT_DOUBLE_EQ(area_of(blocks, "plate"), 96);
     EXPECT_DOUBLE_EQ(area_of(blocks, "hole"), 4);
   }
