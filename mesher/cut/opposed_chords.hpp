@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"
@@ -14,6 +17,7 @@ class OpposedChords {
 
   /// The end points of such chords of this rank's leaves, in ascending order.
   const std::vector<Point>& ends() const { return ends_; }
+  std::vector<Point> take_ends() { return std::move(ends_); }
 
  private:
   std::vector<Point> ends_;
