@@ -109,7 +109,7 @@ class Geometry {
   static constexpr double straight_degrees = 1e-6;
   /// Turning angle of the geometry at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
-  /// Turning angle of the chords at the vertex, in degrees; that of the geometry where it has no curve.
+  /// Turning angle of the chords at the vertex, in degrees: turn_degrees() if both segments are straight.
   double chord_turn_degrees(std::int32_t v) const;
   /// Turning angle for spacing.curvature, in degrees; 0 at kept vertices.
   double bend_degrees(std::int32_t v) const {
@@ -181,8 +181,9 @@ class GeometryBuilder {
   std::vector<Curve> curves_;
 };
 
-/// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else an
-/// open chain for each part of a boundary, with shared end points in both. The domain lies to their left.
+/// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else one
+/// open chain for each part of a boundary; the point where two chains meet is in both of them. The domain
+/// lies to their left.
 std::vector<Chain> chains_of(const Geometry& geometry);
 
 }  // namespace quadloop
