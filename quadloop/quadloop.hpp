@@ -85,12 +85,13 @@ struct NewMesh {
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Smooths a mesh with the case's settings; boundary nodes slide along the case's geometry. The mesh may be
-/// any valid mesh of that geometry. Connectivity is preserved, with one exception: if the case generates
-/// triangles only and the mesh is Delaunay, edges are flipped so that it remains Delaunay. (To find out
-/// whether it is, the mesh is gathered on one rank.) With quads = "parallel", smoothing tries to keep
-/// parallelograms. make_mesh() then splits the quadrilaterals that are not parallelograms into triangles;
-/// smooth() leaves them as they are. The nodes of layer cells do not move. The quality of the worst cell does
-/// not decrease. Untangles as many inverted cells as possible; check() reports the others.
+/// any mesh of that geometry that is valid except for inverted cells. Connectivity is preserved, with one
+/// exception: if the case generates triangles only and the mesh is Delaunay, edges are flipped so that it
+/// remains Delaunay. (To find out whether it is, the mesh is gathered on one rank.) With quads = "parallel",
+/// smoothing tries to keep parallelograms. make_mesh() then splits the quadrilaterals that are not
+/// parallelograms into triangles; smooth() leaves them as they are. The nodes of layer cells do not move. The
+/// quality of the worst cell does not decrease. Inverted cells are untangled as far as possible; check()
+/// reports those that remain.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
@@ -108,8 +109,8 @@ class RefinementFlags {
   std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
   const std::vector<std::string>& warnings() const;  ///< e.g. why no cell is refined, or limits not met
-  /// Whether remesh() returns a different mesh: refined or coarsened quadtree cells, a metric, target sizes
-  /// for the nodes, or new first-layer heights.
+  /// Whether remesh() returns a different mesh. It does if any quadtree cell is refined or coarsened, or if
+  /// the flags contain a metric, target sizes for the nodes or new first-layer heights.
   bool changes_mesh() const;
 
  private:

@@ -21,17 +21,18 @@ struct SmoothReport {
   std::int64_t free_nodes = 0, moves = 0;
   double worst_cost_before = 0, worst_cost_after = 0;    ///< Eq. 3.2, over all cells
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
-  /// For each of this rank's original triangles, the number of triangles that are now in its place (0, 1 or
-  /// more). Filled only if the mesh is kept Delaunay without `keep_slots`.
+  /// For each of this rank's original triangles, the number of triangles now stored at its position in the
+  /// list: 1 if it was not flipped, otherwise 0, 1 or more. Filled only if the mesh is kept Delaunay without
+  /// `keep_slots`.
   std::vector<std::int32_t> standing;
 };
 
 /// Moves nodes to improve the cells' shapes (thesis 3.7). Connectivity changes only by the flips of a
-/// Delaunay mesh. Positions, ghost copies included, have the same bits on any number of ranks. Neither the
-/// mesh's largest cost nor (without targets) its smallest angle gets worse: if the flips after
-/// smoothing raise the largest cost, smoothing is repeated with the nodes near these triangles fixed. A mesh
-/// with inverted cells is untangled as far as possible; the report counts the inverted cells that remain.
-/// Lengths may have any magnitude of a double. *Collective.*
+/// Delaunay mesh. Positions, ghost copies included, have the same bits on any number of ranks. The mesh's
+/// largest cost does not increase, and without targets its smallest angle does not decrease. If the flips
+/// after smoothing produce triangles above the original largest cost, smoothing is repeated with the nodes
+/// near those triangles fixed. A mesh with inverted cells is untangled as far as possible; the report counts
+/// the inverted cells that remain. Lengths may have any magnitude of a double. *Collective.*
 SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptions& options);
 
 }  // namespace quadloop::smoother
