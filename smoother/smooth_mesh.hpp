@@ -21,9 +21,9 @@ struct SmoothReport {
   std::int64_t free_nodes = 0, moves = 0;
   double worst_cost_before = 0, worst_cost_after = 0;    ///< Eq. 3.2, over all cells
   std::int64_t inverted_before = 0, inverted_after = 0;  ///< cells
-  /// For each of this rank's original triangles, the number of triangles now stored at its position in the
-  /// list: 1 if it was not flipped, otherwise 0, 1 or more. Filled only if the mesh is kept Delaunay without
-  /// `keep_slots`.
+  /// Filled only if the mesh is kept Delaunay without `keep_slots`. The flips then rebuild the list of
+  /// triangles: it contains, for each original triangle i in order, standing[i] consecutive triangles. This
+  /// number is 1 if the triangle was not flipped; otherwise it is that of the new triangles in its place.
   std::vector<std::int32_t> standing;
 };
 
