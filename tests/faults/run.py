@@ -253,19 +253,25 @@ class Judge:
         wanted = self.trial.fault.status
         return status != 0 if wanted is None else status == wanted
 
-    def faults_of_files(self, may_leave_temporaries):
+    def faults_of_files(self, killed):
+        """`killed`: SIGKILL may have ended the run at any moment, also between two renames."""
         left = self.trial.left()
         temporaries = [name for name in left if is_temporary(name)]
-        if temporaries and not may_leave_temporaries:
+        if temporaries and not killed:
             yield f"temporaries are left: {temporaries}"
         whole = {name: path for name, path in left.items() if not is_temporary(name)}
         if self.trial.command.arguments[0] == "adapt":
             yield from self.faults_of_cycles(whole)
+        elif killed:
+            yield from (f"{name} is not whole" for name, path in whole.items() if not self.is_whole(name, path))
         elif whole and not self.is_set(whole):
             yield f"half a set is left: {sorted(whole)}"
         beside = sorted(name for name in files_in(self.trial.folder).keys() - self.trial.inputs if not name.startswith(("out/", "tmp/ompi")))
         if beside:
             yield f"files are left elsewhere: {beside}"
+
+    def is_whole(self, name, path):
+        return any(name in files and is_same(name, files[name], path) for files in (self.wanted, self.older))
 
     def is_set(self, files):
         return not differences(self.wanted, files) or not differences(self.older, files)
@@ -330,7 +336,7 @@ class Runs:
             self.signals += 1
             self.interrupted += status != 0
         yield from judge.faults_of_run(status, said)
-        yield from judge.faults_of_files(may_leave_temporaries=fault.number == signal.SIGKILL or fault.ranks > 1)
+        yield from judge.faults_of_files(killed=fault.number == signal.SIGKILL or fault.ranks > 1)
         (trial.folder / "fault").unlink(missing_ok=True)
         yield from judge.faults_of_repeat(*trial.ended(trial.start(Fault("none", [], 0))))
         shutil.rmtree(trial.folder)
