@@ -27,7 +27,8 @@ int number_of(char digit) { return digit - '0'; }
 
 }  // namespace
 
-NacaSection::NacaSection(const std::string& code, bool sharp) : sharp_{sharp} {
+NacaSection::NacaSection(const std::string& given, bool sharp) : sharp_{sharp} {
+  const std::string code = given.starts_with("naca") ? given.substr(4) : given;
   const auto are_digits = [](const std::string& text) {
     return std::ranges::all_of(text, [](char c) { return '0' <= c && c <= '9'; });
   };
@@ -103,7 +104,7 @@ void NacaSection::set_modified(int nose, int tenths) {
 NacaSection::Camber NacaSection::camber_at(double x) const {
   if (camber_ > 0) {
     const double p = camber_place_, part = x < p ? p : 1 - p, factor = camber_ / (part * part);
-    const double height = x < p ? 2 * p * x - x * x : 1 - 2 * p + 2 * p * x - x * x;
+    const double height = x < p ? x * (2 * p - x) : (1 - x) * (1 + x - 2 * p);
     return {factor * height, 2 * factor * (p - x)};
   }
   if (k1_ == 0) return {};
@@ -120,6 +121,7 @@ NacaSection::Camber NacaSection::camber_at(double x) const {
 }
 
 double NacaSection::half_thickness(double x) const {
+  if (sharp_ && x == 1) return 0;  // the formulas leave a rounding error
   const double scale = thickness_ / base_thickness;
   if (place_ == 0) {
     const double last = sharp_ ? -0.1036 : -0.1015;
@@ -136,16 +138,17 @@ Point NacaSection::point_at(double x, int side) const {
   return {x - half * camber.slope / along, camber.height + half / along};
 }
 
-std::vector<Point> NacaSection::outline(int points) const {
-  std::vector<Point> outline;
-  const auto x_of = [&](int i) { return 0.5 * (1 - std::cos(std::numbers::pi * i / (points - 1))); };
-  for (int i = points - 1; i > 0; --i) outline.push_back(point_at(x_of(i), -1));
-  outline.push_back({0, 0});
-  for (int i = 1; i < points; ++i) outline.push_back(point_at(x_of(i), 1));
-  if (!sharp_) return outline;
-  outline.front() = {1, 0};  // the formulas leave a rounding error
-  outline.pop_back();
-  return outline;
+std::vector<Point> NacaSection::surface(int side, double from, double to, int points) const {
+  const auto angle_of = [](double x) { return std::acos(1 - 2 * x); };
+  const double step = std::numbers::pi / (points - 1), first = angle_of(from), last = angle_of(to);
+  std::vector<Point> surface{point_at(from, side)};
+  for (int i = 1; i + 1 < points; ++i) {
+    const double angle = i * step, root = std::sin(0.5 * angle);
+    if (angle - first > 0.5 * step && last - angle > 0.5 * step)
+      surface.push_back(point_at(root * root, side));
+  }
+  surface.push_back(point_at(to, side));
+  return surface;
 }
 
 }  // namespace quadloop

@@ -7,10 +7,10 @@
 
 namespace quadloop {
 
-/// A NACA section of unit chord, from (0, 0) to (1, 0) along the x-axis: four digits ("2412"), four digits
-/// modified ("0012-64": index of the nose radius, place of the largest thickness in tenths of the chord;
-/// Stack and von Doenhoff, NACA report 492), or five digits ("23012", "23112" with a reflexed camber line;
-/// Jacobs and Pinkerton, NACA report 537).
+/// A NACA section of unit chord, from (0, 0) to (1, 0) along the x-axis: four digits ("2412" or "naca2412"),
+/// four digits modified ("0012-64": index of the nose radius, place of the largest thickness in tenths of the
+/// chord; Stack and von Doenhoff, NACA report 492), or five digits ("23012", "23112" with a reflexed camber
+/// line; Jacobs and Pinkerton, NACA report 537).
 class NacaSection {
  public:
   /// With `sharp` both surfaces end in one point; otherwise the trailing edge is as blunt as the formulas
@@ -21,10 +21,15 @@ class NacaSection {
   /// thickness is normal to the camber line.
   Point point_at(double x, int side) const;
 
-  /// The outline, clockwise from the trailing edge along the lower surface to the leading edge and back along
-  /// the upper one; `points` on each surface, closer near both edges (cosine spacing). A sharp trailing edge
-  /// is there once.
-  std::vector<Point> outline(int points) const;
+  /// The height of the camber line at the place x.
+  double camber_height(double x) const { return camber_at(x).height; }
+
+  /// The place where two formulas of the camber line meet; 0 if there is none.
+  double camber_joint() const { return camber_place_ > 0 ? camber_place_ : m_; }
+
+  /// Points of one surface from the place `from` to the place `to`, both included, closer near the edges
+  /// (cosine spacing): on the whole surface as many as `points`, which is at least 2.
+  std::vector<Point> surface(int side, double from, double to, int points) const;
 
  private:
   struct Camber {

@@ -1,10 +1,10 @@
 #include "mesher/geometry/assemble/shapes.hpp"
 
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "mesher/geometry/assemble/curved_chain.hpp"
-#include "mesher/geometry/assemble/naca_section.hpp"
 
 namespace quadloop {
 
@@ -33,11 +33,15 @@ Chain polygon(const std::string& name, std::vector<Point> points, const std::str
   return closed_chain(name, std::move(points), source);
 }
 
-Chain naca_airfoil(const std::string& name, const std::string& code, bool sharp, int points,
-                   const std::string& source) {
-  constexpr double corner_degrees = 30;
-  Chain chain = closed_chain(name, NacaSection(code, sharp).outline(points), source);
-  join_by_splines(chain, corner_degrees);
+Chain naca_chain(const std::string& name, const NacaAirfoil& airfoil, const std::string& source) {
+  constexpr double spacing = 0.01;
+  const std::vector<std::vector<Point>> parts = smooth_parts(airfoil);
+  Chain chain = closed_chain(name, {parts.front().front()}, source);
+  for (const std::vector<Point>& part : parts) append_spline(chain, std::span(part).subspan(1));
+  chain.points.pop_back();
+  for (Curve& curve : chain.curves) {
+    if (!curve.straight()) curve.spacing = spacing;
+  }
   return chain;
 }
 

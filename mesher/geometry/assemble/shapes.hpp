@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/assemble/naca_airfoil.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -12,9 +13,8 @@ namespace quadloop {
 Chain circle(const std::string& name, Point centre, double radius, const std::string& source);
 Chain rectangle(const std::string& name, const Box& box, const std::string& source);
 Chain polygon(const std::string& name, std::vector<Point> points, const std::string& source);
-/// The spline through `points` points of each surface of a NACA section (NacaSection), of unit chord. Throws
-/// InputError for a code that is none.
-Chain naca_airfoil(const std::string& name, const std::string& code, bool sharp, int points,
-                   const std::string& source);
+/// The splines through the points of an airfoil of unit chord, which request cells of 0.01. Throws InputError
+/// as smooth_parts() does.
+Chain naca_chain(const std::string& name, const NacaAirfoil& airfoil, const std::string& source);
 
 }  // namespace quadloop

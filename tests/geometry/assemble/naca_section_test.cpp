@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "mesher/base/error.hpp"
-#include "mesher/geometry/assemble/shapes.hpp"
 
 namespace quadloop {
 namespace {
@@ -61,32 +60,28 @@ TEST(NacaSection, ModifiedSectionsAreThickestAtTheirPlaceWithOneCurvature) {
   }
 }
 
-TEST(NacaSection, WrongCodesAreRefused) {
-  for (const char* code : {"", "12", "abcd", "2012", "0412", "0000", "26012", "20012", "21112", "0012-",
-                           "0012-61", "0012-6", "23012-63"})
-    EXPECT_THROW(NacaSection(code, true), InputError) << code;
+TEST(NacaSection, SurfacesAreMirrorImagesWithoutCamber) {
+  const NacaSection section("naca0012", true);
+  const std::vector<Point> upper = section.surface(1, 0, 1, 41), lower = section.surface(-1, 0, 1, 41);
+  ASSERT_EQ(upper.size(), 41U);
+  EXPECT_EQ(upper.front(), (Point{0, 0}));
+  EXPECT_EQ(upper.back(), (Point{1, 0}));
+  for (std::size_t i = 0; i < upper.size(); ++i) EXPECT_EQ(lower[i], (Point{upper[i].x, -upper[i].y}));
+  EXPECT_NEAR(upper[20].x, 0.5, 1e-15) << "cosine spacing";
 }
 
-TEST(Shapes, AnAirfoilIsASplineWithOneCorner) {
-  const Chain chain = naca_airfoil("wing", "2412", true, 101, "case.toml:3");
-  EXPECT_FALSE(chain.open);
-  EXPECT_EQ(chain.points.size(), 200U);
-  EXPECT_EQ(chain.curves.size(), 200U);
-  EXPECT_EQ(chain.points.front(), (Point{1, 0}));
-  const Chain blunt = naca_airfoil("wing", "2412", false, 101, "case.toml:3");
-  EXPECT_EQ(blunt.points.size(), 201U);
-  EXPECT_TRUE(blunt.curves.back().straight()) << "the base";
-  // Between its points the spline follows the section.
-  const NacaSection section("2412", true);
-  double away = 0;
-  for (std::size_t s = 120; s < 180; ++s) {
-    const Point p = point_at({chain.points[s], chain.curves[s], chain.points[s + 1]}, 0.5);
-    double low = 0, high = 1;
-    for (int i = 0; i < 60; ++i)
-      (section.point_at(0.5 * (low + high), 1).x < p.x ? low : high) = 0.5 * (low + high);
-    away = std::max(away, std::abs(section.point_at(low, 1).y - p.y));
-  }
-  EXPECT_LT(away, 2e-6);  // the curvature of the camber line jumps at 0.4
+TEST(NacaSection, APartOfASurfaceHasBothItsEnds) {
+  const NacaSection section("2412", false);
+  const std::vector<Point> part = section.surface(-1, 0.4, 0.7, 41);
+  EXPECT_EQ(part.front(), section.point_at(0.4, -1));
+  EXPECT_EQ(part.back(), section.point_at(0.7, -1));
+  for (std::size_t i = 1; i < part.size(); ++i) EXPECT_GT(length(part[i] - part[i - 1]), 0.015);
+}
+
+TEST(NacaSection, WrongCodesAreRefused) {
+  for (const char* code : {"", "12", "abcd", "2012", "0412", "0000", "26012", "20012", "21112", "0012-",
+                           "0012-61", "0012-6", "23012-63", "naca", "NACA0012", "0012 "})
+    EXPECT_THROW(NacaSection(code, true), InputError) << code;
 }
 
 }  // namespace
