@@ -139,13 +139,15 @@ Point NacaSection::point_at(double x, int side) const {
 }
 
 std::vector<Point> NacaSection::surface(int side, double from, double to, int points) const {
-  const auto angle_of = [](double x) { return std::acos(1 - 2 * x); };
-  const double step = std::numbers::pi / (points - 1), first = angle_of(from), last = angle_of(to);
+  // Angles from -90 degrees at the leading to 90 degrees at the trailing edge.
+  const auto angle_of = [](double x) { return std::asin(2 * x - 1); };
+  const int steps = points - 1;
+  const double step = std::numbers::pi / steps, first = angle_of(from), last = angle_of(to);
   std::vector<Point> surface{point_at(from, side)};
-  for (int i = 1; i + 1 < points; ++i) {
-    const double angle = i * step, root = std::sin(0.5 * angle);
+  for (int i = 1; i < steps; ++i) {
+    const double angle = (i - 0.5 * steps) * step;
     if (angle - first > 0.5 * step && last - angle > 0.5 * step)
-      surface.push_back(point_at(root * root, side));
+      surface.push_back(point_at(0.5 * (1 + std::sin(angle)), side));
   }
   surface.push_back(point_at(to, side));
   return surface;
