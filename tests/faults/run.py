@@ -349,7 +349,7 @@ class Runs:
         if sorted(status for status, _ in ends) not in ([0, 0], [0, 1]) or any(status and "another run is using" not in said for status, said in ends):
             yield f"they end with {ends}"
         yield from judge.faults_of_repeat(0, "")
-        yield from judge.faults_of_files(may_leave_temporaries=False)
+        yield from judge.faults_of_files(killed=False)
 
 
 def main():
