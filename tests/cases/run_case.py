@@ -46,6 +46,7 @@ def another_judge(prefix, geometry, keeps_corners, mesh_type):
     if script is None:
         print("no other judge at hand")
         return
+    geometry = Path(geometry)
     if " curve " in geometry.read_text():
         geometry = without_curves(geometry)
     kind = ["--delaunay"] if mesh_type == "delaunay" else []
