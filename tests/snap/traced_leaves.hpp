@@ -22,8 +22,8 @@ inline Geometry loops_of(const std::vector<std::vector<Point>>& loops, double co
   return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};
 }
 
-/// The square of edge 4 at `low` in leaves of edge 1, or of edge 2 outside of `fine`, and the outline in them.
-/// What it is asked for is the same on any number of ranks. *Collective*, all of it.
+/// The square of edge 4 at `low` in leaves of edge 1, or of edge 2 outside of `fine`, and the outline in
+/// them. What it is asked for is the same on any number of ranks. *Collective*, all of it.
 class TracedLeaves {
  public:
   static constexpr std::int64_t unit = std::int64_t{1} << (Quadrant::unit_level - 2);  ///< of length 1
