@@ -13,6 +13,7 @@
 #include "app/number_list.hpp"
 #include "app/report/statistics.hpp"
 #include "io/files/output_file.hpp"
+#include "io/formats.hpp"
 #include "io/input/airfoil_dat.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/text/text_output.hpp"
