@@ -125,7 +125,7 @@ void add_airfoil_options(Command& command, AirfoilArguments& arguments) {
   command.add_option("--points", arguments.points, "points on each surface, which splines join (default 201)")
       .value_name("N")
       .between(fewest_points, most_points);
-  command.add_flag("--blunt", arguments.blunt, "trailing edge as blunt as the formula has it");
+  command.add_flag("--blunt", arguments.blunt, "blunt trailing edge of the original formula");
   command.add_option("--flap", arguments.flap, "angle of a plain flap in degrees, positive: down")
       .value_name("DEG");
   command

@@ -100,7 +100,7 @@ class ForestCutter {
   /// Two opposite chords on the two sides of a leaf side would lose what lies between them: the snaps at
   /// their ends are revoked. Returns the ends. *Collective.*
   std::vector<Point> veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
-    std::vector<Point> ends = OpposedChords(comm, graph_, result_).take_ends();
+    std::vector<Point> ends = OpposedChords(comm, graph_, result_).ends();
     for (const Snap* s : snaps) {
       if (std::binary_search(ends.begin(), ends.end(), s->position)) vetoes_.push_back(s->corner);
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
@@ -17,7 +16,6 @@ class OpposedChords {
 
   /// The end points of such chords of this rank's leaves, in ascending order.
   const std::vector<Point>& ends() const { return ends_; }
-  std::vector<Point> take_ends() { return std::move(ends_); }
 
  private:
   std::vector<Point> ends_;

@@ -66,7 +66,7 @@ std::vector<Key<ShapeKeys>> kind_keys() {
           "The chord is 1, from the origin to (1, 0).",
           {.needs = for_naca, .required = {{"as in code = \"2412\"", "kind = \"naca\""}}}),
       key<&ShapeKeys::naca, &NacaAirfoil::sharp>(
-          "sharp", flag(), "Sharp trailing edge. `false`: as blunt as the formula of the section has it.",
+          "sharp", flag(), "Sharp trailing edge. `false`: the blunt trailing edge of the original formula.",
           {.example = "false", .needs = for_naca}),
       key<&ShapeKeys::naca, &NacaAirfoil::flap_degrees>(
           "flap", number({-90, 90}), "Angle of a plain flap, positive if its trailing edge moves down.",
@@ -77,20 +77,20 @@ std::vector<Key<ShapeKeys>> kind_keys() {
 }
 
 std::vector<Key<ShapeKeys>> form_keys() {
-  return {
-      key<&ShapeKeys::centre>("centre", point(), "Centre of the circle.",
-                              {.fallback = "the origin", .needs = {{"kind = \"circle\""}}}),
-      key<&ShapeKeys::radius>("radius", number(io::Range::positive()), "Radius of the circle.",
-                              {.unit = "length",
-                               .needs = {{"kind = \"circle\""}},
-                               .required = {{"that of the circle", "kind = \"circle\""}}}),
-      key<&ShapeKeys::box>(
-          "box", box(), "The rectangle.",
-          {.needs = {{"kind = \"rectangle\""}}, .required = {{"[x0, x1, y0, y1]", "kind = \"rectangle\""}}}),
-      key<&ShapeKeys::points>("points", points(), "The points of the polygon, in order.",
-                              {.example = "[[0, 0], [3, 0], [0, 4]]",
-                               .needs = {{"kind = \"polygon\""}},
-                               .required = {{"those of the polygon, [[x, y], ...]", "kind = \"polygon\""}}})};
+  return {key<&ShapeKeys::centre>("centre", point(), "Centre of the circle.",
+                                  {.fallback = "the origin", .needs = {{"kind = \"circle\""}}}),
+          key<&ShapeKeys::radius>("radius", number(io::Range::positive()), "Radius of the circle.",
+                                  {.unit = "length",
+                                   .needs = {{"kind = \"circle\""}},
+                                   .required = {{"the radius of the circle", "kind = \"circle\""}}}),
+          key<&ShapeKeys::box>("box", box(), "The rectangle.",
+                               {.needs = {{"kind = \"rectangle\""}},
+                                .required = {{"[x0, x1, y0, y1]", "kind = \"rectangle\""}}}),
+          key<&ShapeKeys::points>(
+              "points", points(), "The points of the polygon, in order.",
+              {.example = "[[0, 0], [3, 0], [0, 4]]",
+               .needs = {{"kind = \"polygon\""}},
+               .required = {{"the points of the polygon, [[x, y], ...]", "kind = \"polygon\""}}})};
 }
 
 std::vector<Key<ShapeKeys>> placement_keys() {

@@ -128,8 +128,8 @@ std::vector<std::vector<Point>> smooth_parts(const NacaAirfoil& airfoil) {
   const bool is_inside = 0 < hinge.x && hinge.x < 1 && lower.hinge_is_inside() && upper.hinge_is_inside();
   if (airfoil.flap_degrees != 0 && !is_inside)
     throw InputError(fmt::format(
-        "the hinge at ({:g}, {:g}) is not inside '{}'; give its place on the chord alone, as in 0.75, "
-        "to have it on the camber line",
+        "the hinge at ({:g}, {:g}) is not inside '{}'; give its place on the chord between 0 and 1, as in "
+        "0.75, which puts it on the camber line",
         hinge.x, hinge.y, airfoil.code));
   Parts parts = lower.parts();
   std::ranges::reverse(parts);

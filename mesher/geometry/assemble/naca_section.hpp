@@ -13,8 +13,8 @@ namespace quadloop {
 /// line; Jacobs and Pinkerton, NACA report 537).
 class NacaSection {
  public:
-  /// With `sharp` both surfaces end in one point; otherwise the trailing edge is as blunt as the formulas
-  /// have it. Throws InputError for a code that is none of these.
+  /// With `sharp` both surfaces end in one point; otherwise the trailing edge is blunt, as in the original
+  /// formulas. Throws InputError for a code that is none of these.
   NacaSection(const std::string& code, bool sharp);
 
   /// The point of the upper (side > 0) or lower surface that belongs to the place x of the chord, 0 to 1. The

@@ -10,7 +10,7 @@ namespace quadloop {
 
 namespace {
 
-/// A closed chain whose direction is open.
+/// A closed chain whose direction does not matter.
 Chain closed_chain(const std::string& name, std::vector<Point> points, const std::string& source) {
   return {name, false, std::move(points), source, false};
 }

@@ -9,7 +9,7 @@
 namespace quadloop {
 
 /// Closed chains of exact curves or straight lines, named `name`; `source` is where the shape is defined, for
-/// messages. The direction is open: assemble() puts the domain to their left.
+/// messages. Their direction does not matter: assemble() puts the domain to their left.
 Chain circle(const std::string& name, Point centre, double radius, const std::string& source);
 Chain rectangle(const std::string& name, const Box& box, const std::string& source);
 Chain polygon(const std::string& name, std::vector<Point> points, const std::string& source);
