@@ -60,6 +60,7 @@ void add_check_command(CommandLine& line, CommandContext& context);
 void add_plot_command(CommandLine& line, CommandContext& context);
 void add_convert_command(CommandLine& line, CommandContext& context);
 void add_extrude_command(CommandLine& line, CommandContext& context);
+void add_airfoil_command(CommandLine& line, CommandContext& context);
 void add_help_command(CommandLine& line, CommandContext& context);
 
 }  // namespace quadloop::app

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -9,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/number_list.hpp"
 #include "app/plot_tables.hpp"
 #include "flow/euler/model/euler_options.hpp"
 #include "flow/postprocess/flow_quantities.hpp"
@@ -54,25 +53,9 @@ io::PlotFormat picture_format_of(const std::string& path) {
                    "'; end its name in .png, .svg or .pdf");
 }
 
-/// Parses `count` numbers with a separator between them.
-template <std::size_t count>
-std::array<double, count> numbers_in(const std::string& text, char between, const std::string& refusal) {
-  std::array<double, count> numbers{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto [rest, error] = std::from_chars(at, end, numbers[i]);
-    const bool ends_well = i + 1 == count ? rest == end : rest != end && *rest == between;
-    if (error != std::errc() || !ends_well || !std::isfinite(numbers[i]))
-      throw UsageError(refusal + ", not '" + text + "'");
-    at = rest == end ? end : rest + 1;
-  }
-  return numbers;
-}
-
 /// X0,X1,Y0,Y1. A window without area is rejected by draw_mesh.
 Box window_of(const std::string& text) {
-  const auto numbers = numbers_in<4>(text, ',', "--window takes four numbers X0,X1,Y0,Y1");
+  const auto numbers = number_list(text, ',', 4, 4, "--window takes four numbers X0,X1,Y0,Y1");
   return {{numbers[0], numbers[2]}, {numbers[1], numbers[3]}};
 }
 
@@ -82,16 +65,16 @@ void read_size(const std::string& text, io::PlotOptions& options) {
       "--size takes pixels along the longer side, from 400 to 20000, or WIDTHxHEIGHT in cm, from 5 to 200 "
       "each";
   if (text.find('x') == std::string::npos) {
-    const double pixels = numbers_in<1>(text, ',', refusal)[0];
+    const double pixels = number_list(text, ',', 1, 1, refusal)[0];
     if (!(pixels >= 400 && pixels <= 20000 && pixels == std::floor(pixels)))
       throw UsageError(refusal + ", not '" + text + "'");
     options.size = pixels;
     return;
   }
-  const auto [width, height] = numbers_in<2>(text, 'x', refusal);
+  const std::vector<double> sides = number_list(text, 'x', 2, 2, refusal);
   const auto is_possible = [](double side) { return side >= 5 && side <= 200; };
-  if (!is_possible(width) || !is_possible(height)) throw UsageError(refusal + ", not '" + text + "'");
-  options.centimetres = Point{width, height};
+  if (!std::ranges::all_of(sides, is_possible)) throw UsageError(refusal + ", not '" + text + "'");
+  options.centimetres = Point{sides[0], sides[1]};
 }
 
 io::PlotOptions options_of(const PlotArguments& arguments) {
@@ -105,9 +88,9 @@ io::PlotOptions options_of(const PlotArguments& arguments) {
   if (arguments.colouring == "block") options.colouring = io::PlotColouring::block;
   if (!arguments.range.empty()) {
     const std::string refusal = "--range takes two numbers A,B, the first below the second";
-    options.range = numbers_in<2>(arguments.range, ',', refusal);
-    if (!((*options.range)[0] < (*options.range)[1]))
-      throw UsageError(refusal + ", not '" + arguments.range + "'");
+    const std::vector<double> range = number_list(arguments.range, ',', 2, 2, refusal);
+    options.range = {range[0], range[1]};
+    if (!(range[0] < range[1])) throw UsageError(refusal + ", not '" + arguments.range + "'");
   }
   options.map = io::colour_map_named(arguments.map);
   options.smooth = arguments.shading == "smooth";

@@ -72,6 +72,7 @@ void add_commands(CommandLine& line, CommandContext& context) {
   add_convert_command(line, context);
   add_extrude_command(line, context);
   add_morph_command(line, context);
+  add_airfoil_command(line, context);
   add_help_command(line, context);
   line.set_footer(
       fmt::format("With every command:\n  -q,--quiet                  {}\n  -v,--verbose                {}\n"

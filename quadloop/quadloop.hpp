@@ -27,11 +27,11 @@
 /// nodes and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in
 /// the unit of the case's geometry. Values are in solver units; sense() and remesh() require finite values.
 ///
-/// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes. Accumulate over
-/// halo.for_each_cell() at owned nodes only; cells are visited in global order. Then
-/// halo.exchange().update(values) copies the values of the owners to the ghosts (update_rows() for several
-/// variables). Ghost contributions are never summed at the owner, because the sum would depend on the
-/// partition. reproducible_sum() sums over all ranks.
+/// For parallel solvers, HaloMesh provides all cells adjacent to the owned nodes. Loop over all of them with
+/// halo.for_each_cell(), but add contributions to owned nodes only. The cells are visited in global order, so
+/// the sums do not depend on the partition. Then halo.exchange().update(values) copies the values of the
+/// owners to the ghosts (update_rows() for several variables). Ghost contributions are never summed at the
+/// owner, because that sum would depend on the partition. reproducible_sum() sums over all ranks.
 ///
 /// Errors are exceptions derived from Error, the same on all ranks. InputError: a case, mesh or field cannot
 /// be used. SolverError: the solver failed. OutputError: a file cannot be written. The message gives location
@@ -85,20 +85,21 @@ struct NewMesh {
 NewMesh make_mesh(const Communicator& comm, const Case& of);
 
 /// Smooths a mesh with the case's settings; boundary nodes slide along the case's geometry. The mesh may be
-/// any valid mesh of that geometry. Connectivity is preserved, with one exception: if the case generates
-/// triangles only and the mesh is Delaunay, edges are flipped so that it remains Delaunay (this check gathers
-/// the mesh on one rank). With quads = "parallel", smoothing tries to keep parallelograms; make_mesh() splits
-/// those that are lost into triangles, smooth() does not. The nodes of layer cells do not move. The quality
-/// of the worst cell does not decrease. Untangles as many inverted cells as possible; check() reports the
-/// others.
+/// any mesh of that geometry that is valid except for inverted cells. Connectivity is preserved, with one
+/// exception: if the case generates triangles only and the mesh is Delaunay, edges are flipped so that it
+/// remains Delaunay. (To find out whether it is, the mesh is gathered on one rank.) With quads = "parallel",
+/// smoothing tries to keep parallelograms. make_mesh() then splits the quadrilaterals that are not
+/// parallelograms into triangles; smooth() leaves them as they are. The nodes of layer cells do not move. The
+/// quality of the worst cell does not decrease. Inverted cells are untangled as far as possible; check()
+/// reports those that remain.
 void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
-/// Initial state and solution: density, x_velocity, y_velocity and pressure, in units of the free-stream
-/// density and speed of sound; constants: steps, time, Mach number, angle of attack in degrees, CL, CD,
-/// residual. Throws InputError if the case selects another solver. The solver throws InputError for an
-/// initial state without these variables, and SolverError, with the location, if the state becomes
-/// unphysical.
+/// The initial state and the solution have the variables density, x_velocity, y_velocity and pressure, in
+/// units of the free-stream density and speed of sound. The solution also has entries in Field::constants, in
+/// this order: steps, time, Mach number, angle of attack in degrees, CL, CD, residual. Throws InputError if
+/// the case selects another solver. The solver throws InputError for an initial state without these
+/// variables, and SolverError, with the location, if the state becomes unphysical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 
 /// Refinement decisions computed by sense(), valid only for the mesh passed to sense(). Copies of the object
@@ -108,8 +109,8 @@ class RefinementFlags {
   std::int64_t refined() const;  ///< quadtree cells, over all ranks
   std::int64_t coarsened() const;
   const std::vector<std::string>& warnings() const;  ///< e.g. why no cell is refined, or limits not met
-  /// Whether remesh() returns a different mesh: refined or coarsened quadtree cells, a metric, target sizes
-  /// for the nodes, or new first-layer heights.
+  /// Whether remesh() returns a different mesh. It does if any quadtree cell is refined or coarsened, or if
+  /// the flags contain a metric, target sizes for the nodes or new first-layer heights.
   bool changes_mesh() const;
 
  private:

@@ -45,9 +45,9 @@ struct Transferred {
 /// interpolant there: exact for linear fields up to rounding, and bitwise the old value at a coincident node.
 /// If it lies in several triangles, the one with the lowest global number is used. A node outside the old
 /// mesh gets the value at the nearest point of the old boundary; ties are resolved by the lowest edge number.
-/// Nodes in wall layers are located in the old mesh by wall distance (column_places). The new values stay
-/// within the range of the old nodes used. The result is bitwise independent of the partitions of the two
-/// meshes.
+/// Nodes in wall layers are located in the old mesh by wall distance (column_places). Each new value
+/// lies between the smallest and the largest value at the old nodes from which it is interpolated. The result
+/// is bitwise independent of the partitions of the two meshes.
 ///
 /// Conservative: linear transfer with a correction that preserves the integrals (conserve_at_nodes()).
 ///

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "io/input/line_reader.hpp"
 #include "mesher/base/error.hpp"
@@ -272,6 +273,12 @@ std::vector<Chain> read_airfoil(const std::string& path, std::vector<std::string
   if (elements.size() == 1) return elements;
   for (std::size_t i = 0; i < elements.size(); ++i) elements[i].name += fmt::format("_{}", i + 1);
   return elements;
+}
+
+std::string airfoil_text(const std::string& title, std::span<const Point> points) {
+  std::string text = title + "\n";
+  for (const Point p : points) text += fmt::format("{} {}\n", p.x, p.y);
+  return text;
 }
 
 }  // namespace quadloop::io

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 #include "io/input/line_reader.hpp"
 
@@ -122,8 +123,9 @@ std::vector<Chain> read_geom(const std::string& path) {
   return chains;
 }
 
-std::string geom_text(const Geometry& geometry) {
-  const std::vector<Chain> chains = chains_of(geometry);
+std::string geom_text(const Geometry& geometry) { return geom_text(chains_of(geometry)); }
+
+std::string geom_text(std::span<const Chain> chains) {
   std::string text = fmt::format("# The domain lies to the left of each boundary.\n{}\n", chains.size());
   for (const Chain& chain : chains) {
     text += fmt::format("{}{}\n{}\n", chain.name, chain.open ? " open" : "", chain.points.size());

@@ -25,6 +25,10 @@ Point centre_of(const TreeGrid& grid, const Quadrant& q) {
 /// A smaller angle in a cell is due to rounding: another way to cut the leaf is tried first.
 constexpr double thinnest_sine = 1e-11;
 
+/// Even without snapping, vertices as near as this to the boundary move onto it, relative to the local edge:
+/// crossings nearer to each other may round to one position.
+constexpr double least_snap = 1e-9;
+
 /// Traces the outline and finds the levels of the wanted tree in one traversal.
 TracedForest trace_forest(const LeafGraph& graph, SizeTree& sizes, const ShiftedOutline& outline,
                           std::vector<std::int8_t>& target_levels) {
@@ -97,26 +101,37 @@ class ForestCutter {
   }
 
   /// Two opposite chords on the two sides of a leaf side would lose what lies between them, and a chord
-  /// between two blocks needs an opposite one: the snaps at their ends are revoked. *Collective.*
-  void veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
+  /// between two blocks needs an opposite one: the snaps at their ends are revoked. Returns the ends.
+  /// *Collective.*
+  std::vector<Point> veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
     const OpposedChords opposed(comm, outline_.geometry(), graph_, result_);
+    sides_differ_ = opposed.sides_differ();
     const std::vector<Point>& ends = opposed.ends();
-    different_sides_ = opposed.sides_differ() ? std::optional(ends.front()) : std::nullopt;
-    if (ends.empty()) return;
     for (const Snap* s : snaps) {
       if (std::ranges::binary_search(ends, s->position)) vetoes_.push_back(s->corner);
     }
+    return ends;
   }
 
-  /// Throws InputError on all ranks if the two sides of an interface still do not match. *Collective.*
-  void require_matching_sides(const Communicator& comm) const {
-    comm.together([&] {
-      if (!different_sides_) return;
+  /// Reports chords that lie on each other without any snap, or the two sides of an interface that do not
+  /// match.
+  [[noreturn]] void refuse(Point end) const {
+    if (sides_differ_) {
       throw InputError(fmt::format(
           "the interface near ({}, {}): its two sides cannot be meshed with the same nodes at this size; "
           "reduce spacing.min, or move or remove points there",
-          different_sides_->x, different_sides_->y));
-    });
+          end.x, end.y));
+    }
+    const auto ends_there = [&](const CutForest::Entry& entry, const CutLeaf::Edge& edge) {
+      return result_.nodes[entry.begin.nodes + edge.to].position == end;
+    };
+    for (const CutForest::Entry& entry : result_.entries) {
+      for (const CutLeaf::Edge& edge :
+           CutForest::part(result_.outline, entry.begin.outline, entry.end.outline)) {
+        if (ends_there(entry, edge)) refuse(edge.segment, edge.segment, end);
+      }
+    }
+    throw Fault("opposite chords that belong to no leaf");
   }
 
   std::vector<GridPoint> take_vetoes() { return std::exchange(vetoes_, {}); }
@@ -229,13 +244,17 @@ class ForestCutter {
   }
 
   [[noreturn]] void refuse(const LeafTrace& trace) const {
+    refuse(trace.pieces.front().first_segment, trace.pieces.back().first_segment, trace.box.centre());
+  }
+
+  [[noreturn]] void refuse(std::int32_t first_segment, std::int32_t last_segment, Point place) const {
     const Geometry& g = outline_.geometry();
-    const auto name = [&](const Piece& piece) { return g.boundary(g.boundary_of(piece.first_segment)).name; };
-    const std::string first = name(trace.pieces.front()), last = name(trace.pieces.back());
+    const std::string first = g.boundary(g.boundary_of(first_segment)).name,
+                      last = g.boundary(g.boundary_of(last_segment)).name;
     std::ostringstream message;
     message.precision(17);
-    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near ("
-            << trace.box.centre().x << ", " << trace.box.centre().y
+    message << "boundary " << first << (first == last ? "" : " and boundary " + last) << " near (" << place.x
+            << ", " << place.y
             << "): the geometry comes so close to itself that double precision cannot separate the two "
                "sides; move or remove points there";
     throw InputError(message.str());
@@ -251,7 +270,7 @@ class ForestCutter {
   LeafCells cells_;
   CutForest result_;
   std::vector<GridPoint> vetoes_;
-  std::optional<Point> different_sides_;  ///< where the last OpposedChords found them
+  bool sides_differ_ = false;  ///< of an interface, in the last cut
 };
 
 }  // namespace
@@ -261,7 +280,8 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
                      std::optional<MirrorAxis> mirror) {
   std::vector<std::int8_t> target_levels;
   const TracedForest traced = trace_forest(graph, sizes, outline, target_levels);
-  const std::vector<Snap> snaps = choose_snaps(graph, sizes.grid(), outline.geometry(), traced, snap, mirror);
+  const std::vector<Snap> snaps =
+      choose_snaps(graph, sizes.grid(), outline.geometry(), traced, std::max(snap, least_snap), mirror);
   std::vector<const Snap*> standing;  // snaps that have not been revoked
   standing.reserve(snaps.size());
   for (const Snap& s : snaps) standing.push_back(&s);
@@ -269,10 +289,15 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   ForestCutter cutter(graph, sizes.grid(), outline, inside, traced);
   comm.together([&] { cutter.cut_all(leaf_snaps); });
   while (true) {
-    cutter.veto_opposed_chords(comm, standing);
+    const std::vector<Point> opposed_ends = cutter.veto_opposed_chords(comm, standing);
     const std::vector<GridPoint> own = cutter.take_vetoes();
     std::vector<GridPoint> vetoes = comm.all_gather_values(std::span<const GridPoint>(own));
-    if (vetoes.empty()) break;
+    if (vetoes.empty()) {
+      comm.together([&] {
+        if (!opposed_ends.empty()) cutter.refuse(opposed_ends.front());
+      });
+      break;
+    }
     std::sort(vetoes.begin(), vetoes.end());
     vetoes.erase(std::unique(vetoes.begin(), vetoes.end()), vetoes.end());
     const auto vetoed = [&](const Snap* s) {
@@ -282,7 +307,6 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
     std::erase_if(leaf_snaps, [&](const LeafSnap& s) { return vetoed(s.snap); });
     comm.together([&] { cutter.cut_again(leaf_snaps, vetoes); });
   }
-  cutter.require_matching_sides(comm);
   CutForest result = cutter.take_result();
   result.moved.reserve(standing.size());
   result.target_levels = std::move(target_levels);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/cut/cut_forest.hpp"
 #include "mesher/forest/leaf_graph.hpp"

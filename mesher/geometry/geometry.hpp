@@ -58,8 +58,8 @@ class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
   /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of segment v.
-  /// `curves`: the shape of each segment; empty: all are straight. A curve is nowhere far from its chord
-  /// (subdivide_curves()).
+  /// `curves`: the shape of each segment; empty: all are straight. Each curve must be close to its
+  /// chord, as subdivide_curves() makes it; this is not checked here.
   /// `blocks`: empty if the domain is one block.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
            std::vector<BoundaryId> segment_boundary, std::vector<Curve> curves = {}, LoopBlocks blocks = {});
@@ -127,13 +127,14 @@ class Geometry {
   /// Whether the vertex must become a mesh node: its turning angle exceeds its boundary's limit, or two
   /// boundaries or loops meet there.
   bool kept(std::int32_t v) const { return kept_[v] != 0; }
-  /// Whether the geometry is straight at the vertex (to straight_degrees) within one boundary. Straight
-  /// points are ignored: inserting points into a straight segment does not change the mesh.
+  /// Whether both segments at the vertex are straight, belong to one boundary and have the same direction (to
+  /// straight_degrees). Straight points are ignored: inserting points into a straight segment does not change
+  /// the mesh.
   bool straight(std::int32_t v) const { return (flags_[v] & is_straight) != 0; }
   static constexpr double straight_degrees = 1e-6;
   /// Turning angle of the geometry at the vertex, in degrees, 0 to 180.
   double turn_degrees(std::int32_t v) const;
-  /// Turning angle of the chords at the vertex, in degrees; that of the geometry where it has no curve.
+  /// Turning angle of the chords at the vertex, in degrees: turn_degrees() if both segments are straight.
   double chord_turn_degrees(std::int32_t v) const;
   /// Turning angle for spacing.curvature, in degrees; 0 at kept vertices.
   double bend_degrees(std::int32_t v) const {
@@ -212,8 +213,9 @@ class GeometryBuilder {
   std::vector<std::int32_t> block_of_loop_;
 };
 
-/// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else an
-/// open chain for each part of a boundary, with shared end points in both. The domain lies to their left.
+/// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else one
+/// open chain for each part of a boundary; the point where two chains meet is in both of them. The domain
+/// lies to their left.
 std::vector<Chain> chains_of(const Geometry& geometry);
 
 }  // namespace quadloop

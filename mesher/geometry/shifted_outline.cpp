@@ -7,29 +7,29 @@ namespace quadloop {
 
 namespace {
 
-/// The sign along one axis of the mitre at a vertex with incoming direction `in` and outgoing direction `out`
-/// (signs of the components along this axis and, counter-clockwise from it, the other one), turning left
-/// (+1), right (-1) or not (0).
-///
-/// A left normal has the component -other along this axis for the x axis and +other for the y axis; `handed`
-/// is that sign.
-std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn, int handed) {
-  if (in_along == 0) return static_cast<std::int8_t>(handed * in_other);
-  if (out_along == 0) return static_cast<std::int8_t>(handed * out_other);
-  if (in_along != out_along)
-    return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line and turns back
-  const int other = in_other + out_other;
-  if (in_other * out_other >= 0 && other != 0) return static_cast<std::int8_t>(handed * sign(other));
-  return static_cast<std::int8_t>(
-      -in_along);  // passes through a peak on the line: both results give the same crossing
-}
-
 using Wide = long double;  // 11 more bits than the result; each operation is the same for mirrored arguments
 
 }  // namespace
 
 ShiftedOutline::ShiftedOutline(const Geometry& geometry) : geometry_{&geometry}, shift_(geometry.size()) {
   for (std::int32_t v = 0; v < geometry.size(); ++v) shift_[v] = shift_of(v);
+}
+
+/// The sign along one axis of the mitre at a vertex with incoming direction `in` and outgoing direction `out`
+/// (signs of the components along this axis and, counter-clockwise from it, the other one), turning left
+/// (+1), right (-1) or not (0); `through_peak` times a sign if either is right.
+///
+/// A left normal has the component -other along this axis for the x axis and +other for the y axis; `handed`
+/// is that sign.
+std::int8_t ShiftedOutline::mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn,
+                                       int handed) {
+  if (in_along == 0) return static_cast<std::int8_t>(handed * in_other);
+  if (out_along == 0) return static_cast<std::int8_t>(handed * out_other);
+  if (in_along != out_along)
+    return static_cast<std::int8_t>(turn > 0 ? out_along : in_along);  // touches the line and turns back
+  const int other = in_other + out_other;
+  if (in_other * out_other >= 0 && other != 0) return static_cast<std::int8_t>(handed * sign(other));
+  return static_cast<std::int8_t>(-in_along * through_peak);  // both signs give the same crossing
 }
 
 ShiftedOutline::Shift ShiftedOutline::shift_of(std::int32_t vertex) const {

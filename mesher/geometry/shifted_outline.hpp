@@ -35,6 +35,17 @@ class ShiftedOutline {
     return at != y ? at > y : shift_[vertex].y > 0;
   }
 
+  /// Whether the vertex lies in the box, whose sides are grid lines. A vertex where the geometry passes
+  /// through a peak on a side lies in the boxes on both sides, so that mirror images agree.
+  bool is_in(const Box& box, std::int32_t vertex) const {
+    const Point p = geometry_->point(vertex);
+    const auto [x, y] = shift_[vertex];
+    return (beyond_x(vertex, box.low.x) || (p.x == box.low.x && x == -through_peak)) &&
+           (!beyond_x(vertex, box.high.x) || (p.x == box.high.x && x == through_peak)) &&
+           (beyond_y(vertex, box.low.y) || (p.y == box.low.y && y == -through_peak)) &&
+           (!beyond_y(vertex, box.high.y) || (p.y == box.high.y && y == through_peak));
+  }
+
   /// Whether p lies to the left of the (infinite) line through the segment; a point on the line is to the
   /// right of the shifted one.
   bool has_left(std::int32_t segment, Point p) const {
@@ -51,9 +62,13 @@ class ShiftedOutline {
   bool meets(std::int32_t segment, const Box& box) const;
 
  private:
+  /// A shift with a sign that does not matter: the geometry passes through a peak on the line.
+  static constexpr std::int8_t through_peak = 2;
   struct Shift {
     std::int8_t x = 0, y = 0;
   };
+  static std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn,
+                                int handed);
   Shift shift_of(std::int32_t vertex) const;
 
   const Geometry* geometry_;

@@ -17,14 +17,15 @@ Point foot_of(const WallLine& line, const FrontPlace& place) {
   return line.geometry().on_curve(line[place.station].segment, between);
 }
 
-/// The cosine of the angle between the column and the wall's normal, for the larger of two angles; 1 in a
-/// fan, where columns are normal to the wall.
+/// The cosine of the angle between the column and the wall's normal, for the larger of two angles: to the
+/// normals on both sides of a station, or at the two stations beside the place, where the wall may be curved.
+/// 1 in a fan, where columns are normal to the wall.
 double cosine_of_tilt(const WallLine& line, const FrontPlace& place, Point direction) {
   const Station& station = line[place.station];
   if (station.shape == Station::Shape::fan && (place.at_station() || line.width(place.station) == 0))
     return 1;
-  const double after = dot(direction, left_of(station.after));
-  return place.at_station() ? std::min(after, dot(direction, left_of(station.before))) : after;
+  const Point before = place.at_station() ? station.before : line[line.next(place.station)].before;
+  return std::min(dot(direction, left_of(station.after)), dot(direction, left_of(before)));
 }
 
 /// The layers at a place. Between two stations the first height varies linearly, independently of the

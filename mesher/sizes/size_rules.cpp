@@ -131,9 +131,7 @@ bool SizeRules::turns_too_far(std::span<const std::int32_t> segments, const Box&
   const Geometry& g = outline_->geometry();
   std::vector<std::pair<BoundaryId, std::int64_t>> turned;
   for (const std::int32_t v : segments) {
-    const bool inside = outline_->beyond_x(v, box.low.x) && !outline_->beyond_x(v, box.high.x) &&
-                        outline_->beyond_y(v, box.low.y) && !outline_->beyond_y(v, box.high.y);
-    if (!inside) continue;
+    if (!outline_->is_in(box, v)) continue;
     const BoundaryId boundary = g.boundary_of(v);
     const auto known = std::find_if(turned.begin(), turned.end(),
                                     [&](const auto& entry) { return entry.first == boundary; });

@@ -136,11 +136,19 @@ class CornerDecision {
     return view.vertices_of(view.pieces[s.piece]);
   }
 
-  /// Whether the ends of a piece belong to one run. A kept point far from the grid vertex separates them.
+  /// Whether the ends of a piece belong to one run. A kept point far from the grid vertex separates them, as
+  /// does one on a side of the leaf, where the piece ends: in a mirror image it may be inside.
   bool joins_its_ends(const Sight& s) const {
-    const auto vertices = vertices_of(s);
-    return std::none_of(vertices.begin(), vertices.end(),
-                        [&](std::int32_t v) { return geometry_.kept(v) && !is_near(geometry_.point(v)); });
+    const auto separates = [&](std::int32_t v) { return geometry_.kept(v) && !is_near(geometry_.point(v)); };
+    const auto ends_there = [&](std::int32_t crossing) {
+      const Crossing& at = traces_[s.trace].crossing(crossing);
+      const std::array<std::int32_t, 2> ends{at.segment, geometry_.next(at.segment)};
+      return std::ranges::any_of(
+          ends, [&](std::int32_t v) { return geometry_.point(v) == at.position && separates(v); });
+    };
+    const Piece& piece = traces_[s.trace].pieces[s.piece];
+    return std::ranges::none_of(vertices_of(s), separates) && !ends_there(piece.entry) &&
+           !ends_there(piece.exit);
   }
 
   /// Equal for sights of one crossing.

@@ -25,10 +25,16 @@ void require_case_file(const std::string& path) {
   }
 }
 
-/// Replaces the case's geometry files by `path`, with the placement of the first of them. It may bring its
-/// own far field.
+/// Replaces the case's geometry files and shapes by `path`, with the placement of the first file, if there is
+/// one. It may bring its own far field.
 void replace_geometry(const std::string& path, Settings& settings, Warnings& warnings) {
-  settings.files = {{path, path, settings.files.front().transform, {}, settings.files.front().unit}};
+  GeometryInput input{path, path, {}};
+  if (!settings.files.empty()) {
+    input.transform = settings.files.front().transform;
+    input.unit = settings.files.front().unit;
+  }
+  settings.files = {input};
+  settings.shapes.clear();
   if (!settings.far_field) return;
   for (const Chain& chain : io::read_geometry(path, warnings)) {
     if (chain.name == "farfield") settings.far_field.reset();

@@ -166,6 +166,40 @@ ValueForm<Point> point() {
           }};
 }
 
+ValueForm<std::vector<Point>> points() {
+  return {"`[x, y]`, or a list", "[3, 4]", [](const CaseTable& table, const std::string& key) {
+            std::vector<Point> points;
+            for (const auto& pair : table.pairs(key)) points.push_back({pair[0], pair[1]});
+            return points;
+          }};
+}
+
+ValueForm<std::vector<double>> numbers(const std::string& text, const std::string& example, std::size_t count,
+                                       const std::string& wanted,
+                                       bool (*is_good)(const std::vector<double>&)) {
+  return {text, example, [=](const CaseTable& table, const std::string& key) {
+            const std::vector<double> values = *table.numbers(key, count, {-1e100, 1e100});
+            if (!is_good(values)) table.refuse(key, "must be " + wanted);
+            return values;
+          }};
+}
+
+ValueForm<std::vector<double>> box() {
+  return numbers("`[x0, x1, y0, y1]`", "[0, 1, 2, 3]", 4, "[x0, x1, y0, y1] with x0 < x1 and y0 < y1",
+                 [](const std::vector<double>& b) { return b[0] < b[1] && b[2] < b[3]; });
+}
+
+ValueForm<std::string> boundary_name() {
+  return {"text", "\"wing\"", [](const CaseTable& table, const std::string& key) {
+            const std::string name = *table.text(key);
+            const bool is_word =
+                std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != 127; });
+            if (name.empty() || name.front() == '#' || !is_word)
+              table.refuse(key, "is no name for a boundary; give one word without blanks");
+            return name;
+          }};
+}
+
 void refuse_unknown_keys(const CaseTable& table, const std::vector<std::string>& names) {
   for (const std::string& key : table.keys()) {
     if (std::ranges::count(names, key) > 0) continue;

@@ -74,6 +74,16 @@ ValueForm<std::string> text();
 /// One string or a list of them; restricted to `words`, if there are any.
 ValueForm<std::vector<std::string>> texts(const std::vector<std::string>& words = {});
 ValueForm<Point> point();
+/// `[x, y]` or a list of them.
+ValueForm<std::vector<Point>> points();
+/// A list of numbers, checked by `is_good`; `wanted` is what they must be. No geometry extends beyond 1e100.
+ValueForm<std::vector<double>> numbers(const std::string& text, const std::string& example, std::size_t count,
+                                       const std::string& wanted,
+                                       bool (*is_good)(const std::vector<double>&));
+/// `[x0, x1, y0, y1]`, a box that is not empty.
+ValueForm<std::vector<double>> box();
+/// A word that files can hold as a name.
+ValueForm<std::string> boundary_name();
 
 /// "`a`, `b` or `c`".
 std::string words_in_text(const std::vector<std::string>& words);

@@ -107,7 +107,11 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     }
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
-  require_layers(settings.files, layers);
+  if (!settings.files.empty()) require_layers(settings.files, layers);
+  for (const auto& [chain, is_body] : settings.shapes) {
+    chains.push_back(chain);
+    if (is_body && !settings.inside) options.bodies.push_back(chain.name);
+  }
   const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
   if (axis) fit_to_mirror(chains, *axis, warnings);
   if (settings.far_field) {

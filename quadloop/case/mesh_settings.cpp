@@ -32,14 +32,6 @@ ValueForm<std::vector<double>> one_or_several(const io::Range& range, const std:
           }};
 }
 
-ValueForm<std::vector<Point>> points_or_one() {
-  return {"`[x, y]`, or a list", "[3, 4]", [](const io::CaseTable& table, const std::string& key) {
-            std::vector<Point> points;
-            for (const auto& pair : table.pairs(key)) points.push_back({pair[0], pair[1]});
-            return points;
-          }};
-}
-
 std::vector<std::string> unit_words() {
   std::vector<std::string> words = io::length_unit_names();
   words.insert(words.begin(), {"none", "file"});
@@ -68,54 +60,41 @@ ValueForm<FarField> far_field() {
           }};
 }
 
-/// The numbers of a shape, checked by `is_good`. No geometry extends beyond 1e100.
-ValueForm<std::vector<double>> shape(const std::string& text, const std::string& example, std::size_t count,
-                                     const std::string& wanted, bool (*is_good)(const std::vector<double>&)) {
-  return {text, example, [=](const io::CaseTable& table, const std::string& key) {
-            const std::vector<double> numbers = *table.numbers(key, count, {-1e100, 1e100});
-            if (!is_good(numbers)) table.refuse(key, "must be " + wanted);
-            return numbers;
-          }};
-}
-
 /// The half above or beside the axis of mesh.mirror.
 ValueForm<HalfDomain> half_domain() {
   return {"text", "\"axis\"", [](const io::CaseTable& table, const std::string& key) {
-            const std::string name = *table.text(key);
-            const bool is_word =
-                std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != 127; });
-            if (name.empty() || name.front() == '#' || !is_word)
-              table.refuse(key,
-                           "is no name for a boundary; name the one along the axis by a word without blanks");
             return HalfDomain{
-                table.has("mirror") && table.text("mirror") == "y" ? MirrorAxis::y : MirrorAxis::x, name};
+                table.has("mirror") && table.text("mirror") == "y" ? MirrorAxis::y : MirrorAxis::x,
+                boundary_name().read(table, key)};
           }};
 }
 
 }  // namespace
 
 const KeyTable<Settings>& geometry_keys() {
+  static const std::vector<KeyNeed> of_files{{"file", "a [[shape]] is placed by its own keys"}};
   static const KeyTable<Settings> keys{
       "geometry",
       {key<&Settings::placement, &Placement::files>(
            "file", texts(),
            "Geometry file or files: `.geom`, `.dat`, `.dxf`, `.stp`, `.step`, `.geojson`, `.shp`, `.gpkg` "
-           "([formats](formats.md)).",
-           {.example = "\"box.geom\"", .required = {{"name the outline, as in file = \"outline.geom\""}}}),
+           "([formats](formats.md)). Required without a [`[[shape]]`](#shape).",
+           {.example = "\"box.geom\""}),
        key<&Settings::placement, &Placement::scale>(
            "scale", one_or_several(io::Range::positive(), "number, above 0, or a list"),
-           "Scale factor of the coordinates, about the origin.", {.fallback = "1"}),
+           "Scale factor of the coordinates, about the origin.", {.fallback = "1", .needs = of_files}),
        key<&Settings::placement, &Placement::rotate>(
            "rotate", one_or_several({}, "number, or a list"),
            "Rotation after scaling, counter-clockwise, about `rotate_about`. An angle of attack of 9 degrees "
            "is `rotate = -9`.",
-           {.unit = "degrees", .fallback = "0"}),
+           {.unit = "degrees", .fallback = "0", .needs = of_files}),
        key<&Settings::placement, &Placement::rotate_about>(
-           "rotate_about", points_or_one(),
+           "rotate_about", points(),
            "Centre of rotation, for example the hinge of a flap, in scaled coordinates.",
            {.fallback = "the origin", .needs = {{"rotate", "the angle in degrees"}}}),
-       key<&Settings::placement, &Placement::translate>(
-           "translate", points_or_one(), "Translation after the rotation.", {.fallback = "`[0, 0]`"}),
+       key<&Settings::placement, &Placement::translate>("translate", points(),
+                                                        "Translation after the rotation.",
+                                                        {.fallback = "`[0, 0]`", .needs = of_files}),
        key<&Settings::placement, &Placement::choice, &io::DrawingChoice::layers>(
            "layers", texts(),
            "Layers to read from a drawing or a map, with wildcards `*` and `?`. All: of a drawing, those "
@@ -132,11 +111,11 @@ const KeyTable<Settings>& geometry_keys() {
        key<&Settings::placement, &Placement::unit>(
            "unit", texts(unit_words()),
            "Unit of the coordinates, which are converted to metres; see [units](#units).",
-           {.fallback = "`\"none\"`"}),
+           {.fallback = "`\"none\"`", .needs = of_files}),
        key<&Settings::placement, &Placement::spline>(
            "spline", flag(),
            "Join the points by cubic splines from corner to corner instead of straight lines, see below.",
-           {.fallback = "`true` for `.dat`, else `false`"}),
+           {.fallback = "`true` for `.dat`, else `false`", .needs = of_files}),
        key<&Settings::outline, &AssembleOptions::unite_islands>(
            "overlap", choice<bool>({{"error", false}, {"union", true}}),
            "`union`: islands that overlap or share edges are merged, see below."),
@@ -145,8 +124,8 @@ const KeyTable<Settings>& geometry_keys() {
                                  "bounding box of all other boundaries.",
                                  {.unit = "length"}),
        key<&Settings::inside>("inside", flag(),
-                              "Mesh the inside of an airfoil (`.dat`) without outer boundary. Without this "
-                              "key such a case is an error."),
+                              "Mesh the inside of an airfoil (`.dat` or `[[shape]]`) without outer boundary. "
+                              "Without this key such a case is an error."),
        key<&Settings::mesh, &MeshOptions::may_vanish>(
            "vanish", choice<bool>({{"error", false}, {"allow", true}}),
            "Treatment of a named boundary whose loops are all "
@@ -187,19 +166,15 @@ const KeyTable<SourceKeys>& source_keys() {
   using Numbers = std::vector<double>;
   static const KeyTable<SourceKeys> keys{
       "source",
-      {key<&SourceKeys::box>(
-           "box",
-           shape("`[x0, x1, y0, y1]`", "[0, 1, 2, 3]", 4, "[x0, x1, y0, y1] with x0 < x1 and y0 < y1",
-                 [](const Numbers& b) { return b[0] < b[1] && b[2] < b[3]; }),
-           "A rectangle. A source has one of `box`, `disc` and `line`."),
+      {key<&SourceKeys::box>("box", box(), "A rectangle. A source has one of `box`, `disc` and `line`."),
        key<&SourceKeys::disc>(
            "disc",
-           shape("`[x, y, radius]`", "[1, 2, 0.5]", 3, "[x, y, radius] with a radius above 0",
-                 [](const Numbers& d) { return d[2] > 0; }),
+           numbers("`[x, y, radius]`", "[1, 2, 0.5]", 3, "[x, y, radius] with a radius above 0",
+                   [](const Numbers& d) { return d[2] > 0; }),
            "A disc."),
        key<&SourceKeys::line>("line",
-                              shape("`[x0, y0, x1, y1]`", "[1, 2, 3, 2]", 4, "[x0, y0, x1, y1]",
-                                    [](const Numbers&) { return true; }),
+                              numbers("`[x0, y0, x1, y1]`", "[1, 2, 3, 2]", 4, "[x0, y0, x1, y1]",
+                                      [](const Numbers&) { return true; }),
                               "A line."),
        key<&SourceKeys::spacing>(
            "spacing", number(io::Range::positive()),
@@ -256,7 +231,7 @@ const KeyTable<Settings>& mesh_keys() {
                             {.fallback = "none", .needs = {{"mirror", "of what it is the half"}}}),
        key<&Settings::root>(
            "root",
-           shape(
+           numbers(
                "`[x0, y0, edge, columns, rows]`", "[-1, -1, 2, 3, 4]", 5,
                "[x0, y0, tree edge, trees along x, trees along y] with an edge above 0 and whole numbers of "
                "trees from 1 to 1024",
@@ -286,7 +261,6 @@ void read_geometry_table(const io::CaseTable& table, const std::string& case_pat
                      given.choice,
                      "none",
                      given.spline.value_or(io::is_airfoil_file(file))});
-  if (files.empty()) table.refuse("file", "is empty; name the outline, as in file = \"outline.geom\"");
   const bool has_drawing = std::ranges::any_of(given.files, io::has_layers_of_drawings);
   if (!given.choice.layers.empty() && !has_drawing)
     table.refuse("layers", "chooses layers of drawings and maps, but no file is one");

@@ -17,6 +17,7 @@
 #include "quadloop/case/case_keys.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/shape_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
 
 namespace quadloop {
@@ -190,9 +191,12 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   Settings settings;
   settings.output_prefix = std::filesystem::path(case_path).stem().string();
   settings.title = root.text("title").value_or("");
-  if (!root.has("geometry"))
-    root.refuse("geometry", "is missing; name the outline, as in [geometry] file = \"outline.geom\"");
-  read_geometry_table(*root.table("geometry"), case_path, settings);
+  read_table(root, "geometry",
+             [&](const CaseTable& table) { read_geometry_table(table, case_path, settings); });
+  for (const CaseTable& shape : root.tables("shape")) settings.shapes.push_back(read_shape(shape));
+  if (settings.files.empty() && settings.shapes.empty())
+    root.refuse("geometry",
+                "needs an outline; name one, as in [geometry] file = \"outline.geom\", or add a [[shape]]");
   read_tables(root, settings);
   require_blocks_alone(settings);
   settings.solver.euler.mirror = settings.mesh.mirror;

@@ -33,6 +33,12 @@ struct GeometryInput {
   bool spline = false;  ///< its points are joined by cubic splines from corner to corner
 };
 
+/// An outline of the case without a file, placed.
+struct Shape {
+  Chain chain;
+  bool is_body = false;  ///< meshed around, unless Settings::inside
+};
+
 /// The files of a case and their placement: each list has one value for all files, or one per file.
 struct Placement {
   std::vector<std::string> files, unit;
@@ -73,6 +79,7 @@ struct Settings {
   std::vector<std::pair<std::string, std::string>> values;
   Placement placement;
   std::vector<GeometryInput> files;  ///< from the placement
+  std::vector<Shape> shapes;
   std::optional<FarField> far_field;
   bool inside = false;  ///< an airfoil without an outer boundary is meshed inside
   std::optional<HalfDomain> half;

@@ -15,7 +15,7 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from quadloop_runs import NativeMesh, beside_the_checkout, digest, fail, judge_mesh, mesh_case, run, skip
+from quadloop_runs import JUDGE, NativeMesh, beside_the_checkout, digest, fail, judge_mesh, mesh_case, run, skip
 
 AREA_TOLERANCE = 1e-12  # relative; the areas are sums of the same doubles, added up in the order of the file
 
@@ -28,11 +28,27 @@ def borrowed_case(case, geometry_name, work):
     return Path(shutil.copy(case, work))
 
 
+def without_curves(geometry):
+    """The outline with points in place of its curves: the other judge knows polygons only."""
+    sys.path.append(str(Path(JUDGE).parent))
+    from mesh_files import read_geometry
+    chains = [(name, *chain) for name, all_of_name in read_geometry(geometry).items() for chain in all_of_name]
+    rows = [str(len(chains))]
+    for name, closed, points in chains:
+        rows += [name if closed else f"{name} open", str(len(points)), *(f"{x!r} {y!r}" for x, y in points.tolist())]
+    polygons = geometry.with_suffix(".polygons.geom")
+    polygons.write_text("\n".join(rows) + "\n")
+    return polygons
+
+
 def another_judge(prefix, geometry, keeps_corners, mesh_type):
     script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
     if script is None:
         print("no other judge at hand")
         return
+    geometry = Path(geometry)
+    if " curve " in geometry.read_text():
+        geometry = without_curves(geometry)
     kind = ["--delaunay"] if mesh_type == "delaunay" else []
     said = json.loads(run([sys.executable, script, f"{prefix}.mesh", "--geometry", geometry, "--json", *kind], accept=(0, 1)))
     print({key: said[key] for key in sorted(said) if key not in ("valid", "broken")})

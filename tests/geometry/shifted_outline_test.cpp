@@ -85,6 +85,17 @@ TEST(ShiftedOutline, WhatMeetsABoxMeetsAQuarterOfIt) {
   EXPECT_GT(meetings, 1000);
 }
 
+TEST(ShiftedOutline, AVertexAtAPeakOnALineIsOnBothSidesOfIt) {
+  const Geometry diamond = loop_of({{0, -1}, {1, 0}, {0, 1}, {-1, 0}}),
+                 square = loop_of({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  const ShiftedOutline peaks(diamond), corners(square);
+  EXPECT_TRUE(peaks.is_in(box_at(0, 0, 2), 1) && peaks.is_in(box_at(0, -2, 2), 1));
+  EXPECT_TRUE(peaks.is_in(box_at(0, 0, 2), 2) && peaks.is_in(box_at(-2, 0, 2), 2));
+  EXPECT_FALSE(peaks.is_in(box_at(1, 0, 2), 1) || peaks.is_in(box_at(0, 1, 2), 2)) << "outside the domain";
+  EXPECT_TRUE(corners.is_in(box_at(-1, -1, 1), 0));
+  EXPECT_FALSE(corners.is_in(box_at(-2, -1, 1), 0) || corners.is_in(box_at(-1, -2, 1), 0));
+}
+
 TEST(ShiftedOutline, TurnsAndMirrorsWithTheOutline) {
   const auto mirrored = [](Point p) { return Point{-p.x, p.y}; };
   const auto turned = [](Point p) { return Point{-p.y, p.x}; };

@@ -11,7 +11,7 @@ import numpy as np
 
 import sample_meshes as samples
 from judge import area_of, differences, judge
-from mesh_files import Unreadable, read_mesh
+from mesh_files import Unreadable, read_geometry, read_mesh
 
 
 def rules_of(mesh, **options):
@@ -38,6 +38,33 @@ class GoodMeshes(unittest.TestCase):
     def test_four_nodes_on_one_circle_are_delaunay(self):
         self.assertEqual(judge(samples.two_triangles(1.0), delaunay=True), [])
         self.assertEqual(judge(samples.two_triangles(1.0 + 1e-15), delaunay=True), [])
+
+
+class Outlines(unittest.TestCase):
+    def geometry(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "a.geom")
+            path.write_text(text)
+            return read_geometry(path)
+
+    def test_many_points_stand_for_a_curve(self):
+        half = "2\n1 0 curve 1 1 weights 1 0.7071067811865476 1 spacing 0.25\n0 1 curve -1 1 weights 1 0.7071067811865476 1\n"
+        chains = self.geometry(f"2\nround\n3\n{half[2:]}-1 0\nside open\n2\n0 0 curve 1 1\n2 0\n")
+        (closed, points), = chains["round"]
+        self.assertTrue(closed)
+        on_arc = points[:-1]
+        np.testing.assert_allclose(np.hypot(*on_arc.T), 1, atol=1e-15)
+        self.assertLess(np.abs(np.diff(points, axis=0)).max(), 1e-4)
+        self.assertEqual(points[-1].tolist(), [-1, 0])
+        (closed, points), = chains["side"]
+        self.assertFalse(closed)
+        np.testing.assert_allclose(points[:, 1], points[:, 0] * (2 - points[:, 0]) / 2, atol=1e-12)
+        self.assertEqual(points[-1].tolist(), [2, 0])
+
+    def test_a_row_that_is_no_segment(self):
+        for row in ("1 0 curve", "1 0 arc 3 4", "1 0 curve 3", "1"):
+            with self.assertRaises(Unreadable):
+                self.geometry(f"1\na\n2\n{row}\n0 1\n")
 
 
 class BrokenMeshes(unittest.TestCase):

@@ -2,6 +2,7 @@
 formats' descriptions alone: it shares nothing with the program. numpy; h5py for CGNS."""
 import re
 from dataclasses import dataclass, field
+from math import comb
 from pathlib import Path
 
 import numpy as np
@@ -185,11 +186,52 @@ def read_mesh(path):
     return readers[suffix](path)
 
 
+FLATNESS = 1e-10  # of the outline's extent: how far a curve may be from the lines between the points that stand for it
+
+
 def read_geometry(path):
-    """{name: [(closed, points)]} of a `.geom` file."""
+    """{name: [(closed, points)]} of a `.geom` file. Many points stand for a curve."""
     rows = Rows(path)
-    chains = {}
+    chains = []
     for _ in range(rows.count()):
         name, *kind = rows.next()
-        chains.setdefault(name, []).append((kind != ["open"], rows.table(2, float)))
-    return chains
+        chains.append((name, kind != ["open"], [segment(rows.next(), path) for _ in range(rows.count())]))
+    poles = np.concatenate([poles for _, _, segments in chains for poles, _ in segments])
+    tolerance = FLATNESS * float(np.ptp(poles, axis=0).max())
+    found = {}
+    for name, closed, segments in chains:
+        starts = np.array([poles[0] for poles, _ in segments])
+        pieces = [points_of(np.vstack([poles, end]), weights, tolerance)
+                  for (poles, weights), end in zip(segments, np.roll(starts, -1, axis=0))]
+        if not closed:
+            pieces[-1] = starts[-1:]
+        found.setdefault(name, []).append((closed, np.concatenate(pieces)))
+    return found
+
+
+def segment(row, path):
+    """A point of a chain with the control points of the curve to the next point, if it is one, and their weights."""
+    try:
+        if len(row) == 2:
+            return np.array([row], float), None
+        if len(row) < 4 or row[2] != "curve":
+            raise ValueError("no segment")
+        words = " ".join(row[3:]).split("spacing")[0].split("weights")
+        inner = np.array(words[0].split(), float).reshape(-1, 2)
+        return np.vstack([np.array(row[:2], float), inner]), np.array(words[1].split(), float) if len(words) > 1 else None
+    except ValueError as error:
+        raise Unreadable(f"{path}: '{' '.join(row)}': {error}") from error
+
+
+def points_of(poles, weights, tolerance):
+    """Points of a rational Bezier curve (its Bernstein form), without the last one."""
+    degree = len(poles) - 1
+    if degree == 1:
+        return poles[:1]
+    weights = np.ones(len(poles)) if weights is None else weights
+    bend = degree * (degree - 1) / 8 * np.abs(np.diff(poles, 2, axis=0)).max() * (weights.max() / weights.min()) ** 2
+    count = max(1, int(np.ceil(np.sqrt(2 * bend / tolerance))))
+    t = np.arange(count)[:, None] / count
+    bernstein = np.array([comb(degree, i) for i in range(degree + 1)]) * t ** np.arange(degree + 1) * (1 - t) ** (degree - np.arange(degree + 1))
+    shares = bernstein * weights
+    return (shares @ poles) / shares.sum(axis=1)[:, None]

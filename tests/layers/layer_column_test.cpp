@@ -100,6 +100,23 @@ TEST(LayerColumn, IsTheSameForTheWallWalkedTheOtherWay) {
   }
 }
 
+TEST(LayerColumn, OnACurvedWallIsTheSameForTheWallWalkedTheOtherWay) {
+  const Geometry arch = test::arch_and_step_with_layers(ten_layers);
+  const Front f(arch), image(test::mirrored(arch));
+  const FrontPlaces places(f.front), of_image(image.front);
+  int columns = 0;
+  for (std::int32_t i = 0; f.front.line[i].segment == 0; ++i) {
+    const Point node = f.front.points[i] + 0.3 * (f.front.points[i + 1] - f.front.points[i]);
+    const Point mirror{node.x, -node.y};
+    const std::vector<Point> nodes = f.column(places.locate(node, BoundaryId{0}), node),
+                             others = image.column(of_image.locate(mirror, BoundaryId{0}), mirror);
+    for (std::size_t layer = 0; layer < nodes.size(); ++layer)
+      EXPECT_EQ(nodes[layer], (Point{others[layer].x, -others[layer].y})) << node.x << ' ' << layer;
+    ++columns;
+  }
+  EXPECT_GT(columns, 20);
+}
+
 TEST(LayerColumn, ThatFollowsFrictionChangesEvenlyBetweenStations) {
   LayerSpec wanted = ten_layers;
   wanted.y_plus = 2;

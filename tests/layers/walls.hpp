@@ -34,10 +34,13 @@ Geometry floor_with_layers(const LayerSpec& layers);
 /// A floor with a step up of height 2: two corners, at (4, 0) and (4, 2); the box ends at x = 8, y = 6.
 Geometry step_with_layers(const LayerSpec& layers);
 
+/// As step_with_layers(), with an arch of height 0.4 as its floor.
+Geometry arch_and_step_with_layers(const LayerSpec& layers);
+
 /// A box of 16 by 16 round a rhombus of layers with sharp edges at (-2, 0) and (2, 0), `half_height` high.
 Geometry rhombus_with_layers(const LayerSpec& layers, double half_height);
 
-/// With y for -y.
+/// With y for -y, curves included.
 Geometry mirrored(const Geometry& geometry);
 
 }  // namespace quadloop::test

@@ -28,9 +28,10 @@ inline Geometry diamond_in_square(const Diamond& diamond, const Boundary& frame,
 
 /// What a tree of the wanted sizes of a diamond in a square stands on; no leaf is unresolved.
 struct DiamondSizes {
-  /// The diamond's sides ask for leaves of `spacing`.
-  DiamondSizes(const Diamond& diamond, double spacing, double min, double max)
-      : geometry{diamond_in_square(diamond, {"frame", 0.5, 30, "none"}, {"wall", spacing, 30, "wall"})} {
+  /// The diamond's sides ask for leaves of `spacing`; its corners are kept if they turn by more than `corner`
+  /// degrees.
+  DiamondSizes(const Diamond& diamond, double spacing, double min, double max, double corner = 30)
+      : geometry{diamond_in_square(diamond, {"frame", 0.5, 30, "none"}, {"wall", spacing, corner, "wall"})} {
     options.min = min;
     options.max = max;
   }

@@ -146,6 +146,21 @@ TEST(SizeTree, AnswersDoNotDependOnTheOrderOfQuestions) {
   EXPECT_GT(holding, 20);
 }
 
+TEST(SizeTree, OfASymmetricOutlineIsSymmetric) {
+  constexpr double sharp = 180;  // no corner is kept, so that each asks for small leaves by its turn
+  test::DiamondSizes sizes({{0.6, 0}, 0.37}, 1, 0.01, 0.5, sharp);
+  sizes.options.curvature = 80;
+  SizeTree tree = sizes.tree();
+  SizeCursor cursor(tree);
+  int finest = 0;
+  for (const Quadrant& q : all_of_level(tree.rules().finest_level())) {
+    const Quadrant image{q.x, (std::int64_t{1} << Quadrant::unit_level) - q.y - q.size(), q.level};
+    EXPECT_EQ(cursor.target_level(q), cursor.target_level(image)) << q.x << ' ' << q.y;
+    if (cursor.target_level(q) == q.level) ++finest;
+  }
+  EXPECT_EQ(finest, 24) << "four at each corner, and on both sides of those on the middle line";
+}
+
 TEST(SizeTree, GrowsAgainWhatItHasForgotten) {
   const SmallDiamondSizes sizes;
   SizeTree tree = sizes.tree();

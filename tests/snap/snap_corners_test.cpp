@@ -50,8 +50,8 @@ std::vector<Moved> agreed(const TracedLeaves& leaves, const std::vector<Snap>& s
 }
 
 std::vector<Moved> snapped(const Geometry& geometry, const Box& fine = {{0, 0}, {4, 4}},
-                           std::optional<MirrorAxis> mirror = {}) {
-  const TracedLeaves leaves(geometry, fine);
+                           std::optional<MirrorAxis> mirror = {}, Point low = {}) {
+  const TracedLeaves leaves(geometry, fine, low);
   const std::vector<Snap> snaps =
       choose_snaps(leaves.graph, leaves.grid, leaves.geometry, leaves.traced, share, mirror);
   for (const Snap& s : snaps) EXPECT_EQ(s.leaves_round, LeafFinder(leaves.graph).leaves_round(s.corner));
@@ -237,6 +237,20 @@ TEST(SnapCorners, OfPlacesEquallyNearAMirrorTakesTheOneNearerToItsAxis) {
   const Box everywhere{{0, 0}, {4, 4}};
   EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::x), {3, 3})->position, (Point{3.125, 3}));
   EXPECT_EQ(at(snapped(geometry, everywhere, MirrorAxis::y), {3, 3})->position, (Point{3, 3.125}));
+}
+
+/// The edge at (2.47, 0), which is kept, is too far for the vertex (2, 0) between the two sides, and belongs
+/// to the run of neither.
+TEST(SnapCorners, NeitherSideOfASharpEdgeOnTheAxisIsTaken) {
+  const Points box{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+  const auto wedge = [&](double edge) { return test::loops_of({box, {{edge, 0}, {-1, -0.5}, {-1, 0.5}}}); };
+  const Box everywhere{{0, -2}, {4, 2}};
+  const auto moved = [&](double edge) {
+    return at(snapped(wedge(edge), everywhere, MirrorAxis::x, {0, -2}), {2, 0});
+  };
+  EXPECT_EQ(moved(2.47), std::nullopt) << "both are equally near";
+  ASSERT_TRUE(moved(2.4).has_value());
+  EXPECT_EQ(moved(2.4)->position, (Point{2.4, 0}));
 }
 
 }  // namespace

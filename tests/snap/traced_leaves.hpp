@@ -22,14 +22,15 @@ inline Geometry loops_of(const std::vector<std::vector<Point>>& loops, double co
   return {{{"outline", 0, corner, "wall"}}, std::move(points), std::move(starts), std::move(boundary)};
 }
 
-/// The square from 0 to 4 in leaves of edge 1, or of edge 2 outside of `fine`, and the outline in them. What
-/// it is asked for is the same on any number of ranks. *Collective*, all of it.
+/// The square of edge 4 at `low` in leaves of edge 1, or of edge 2 outside of `fine`, and the outline in
+/// them. What it is asked for is the same on any number of ranks. *Collective*, all of it.
 class TracedLeaves {
  public:
   static constexpr std::int64_t unit = std::int64_t{1} << (Quadrant::unit_level - 2);  ///< of length 1
 
-  explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}})
-      : geometry{std::move(given)},
+  explicit TracedLeaves(Geometry given, const Box& fine = {{0, 0}, {4, 4}}, Point low = {})
+      : grid{{low, low + Point{4, 4}}, 1, 1},
+        geometry{std::move(given)},
         outline{geometry},
         graph{world(), grid, refined(fine)},
         traced{graph.size()} {
@@ -49,7 +50,7 @@ class TracedLeaves {
     return std::any_of(round.begin(), round.end(), [&](LeafId leaf) { return graph.is_local(leaf); });
   }
 
-  const TreeGrid grid{{{0, 0}, {4, 4}}, 1, 1};
+  const TreeGrid grid;
   Geometry geometry;
   ShiftedOutline outline;
   LeafGraph graph;

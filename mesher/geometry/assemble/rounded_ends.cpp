@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -164,12 +165,25 @@ Trace trace_either_way(const Chain& chain) {
   return std::min(forth, trace_of(points, reversed(std::move(curves))));
 }
 
+/// The name, the number of points and the smallest of them: chains are compared only if these are equal.
+using Signature = std::tuple<std::string, std::size_t, Point>;
+
+Signature signature_of(const Chain& chain) {
+  return {chain.name, chain.points.size(), *std::ranges::min_element(chain.points)};
+}
+
 void drop_repeated_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+  std::map<Signature, int> alike;
+  for (const Chain& chain : chains) {
+    if (!chain.points.empty()) ++alike[signature_of(chain)];
+  }
   std::set<std::pair<std::string, Trace>> seen;
   std::int64_t dropped = 0;
   std::string first;
   std::erase_if(chains, [&](const Chain& chain) {
-    if (chain.points.empty() || seen.insert({chain.name, trace_either_way(chain)}).second) return false;
+    if (chain.points.empty() || alike.at(signature_of(chain)) == 1 ||
+        seen.insert({chain.name, trace_either_way(chain)}).second)
+      return false;
     if (dropped++ == 0)
       first = fmt::format("of boundary '{}' at ({}, {})", chain.name, chain.points[0].x, chain.points[0].y);
     return true;

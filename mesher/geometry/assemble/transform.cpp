@@ -20,12 +20,15 @@ Point unit_vector(double degrees) {
   return {std::cos(radians), std::sin(radians)};
 }
 
+Point turned_about(Point about, Point p, Point direction) {
+  const Point arm = p - about;
+  return about + Point{direction.x * arm.x - direction.y * arm.y, direction.y * arm.x + direction.x * arm.y};
+}
+
 namespace {
 
 Point placed(Point p, const Transform& transform, Point turn) {
-  const Point arm = transform.scale * p - transform.rotate_about;
-  return transform.rotate_about + Point{turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y} +
-         transform.translate;
+  return turned_about(transform.rotate_about, transform.scale * p, turn) + transform.translate;
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ struct Transform {
 /// Cosine and sine of an angle in degrees; exactly -1, 0 or 1 for multiples of 90.
 Point unit_vector(double degrees);
 
+/// The point p turned about another one by the angle of a unit vector.
+Point turned_about(Point about, Point p, Point direction);
+
 /// Places the points. Quarter turns are exact: no sine of 90 degrees is rounded.
 void apply(const Transform& transform, std::vector<Chain>& chains);
 

@@ -157,12 +157,13 @@ class ColumnsOnWall::Columns {
     return onwards;
   }
 
-  /// The width of the front over that of the wall, between i and the next station.
+  /// The width of the front over that of the wall, between i and the next station, along the mean of the
+  /// wall's directions there.
   double ratio(std::int32_t i, const std::vector<double>& lengths) const {
     const std::int32_t j = line_.next(i);
     const Point front = (line_[j].wall - line_[i].wall) +
                         (lengths[j] * columns_.direction[j] - lengths[i] * columns_.direction[i]);
-    return dot(front, line_[i].after) / line_.width(i);
+    return dot(front, 0.5 * (line_[i].after + line_[j].before)) / line_.width(i);
   }
   bool has_width(std::int32_t i) const { return line_.width(i) > 0; }
 

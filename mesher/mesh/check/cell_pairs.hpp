@@ -10,7 +10,8 @@
 namespace quadloop {
 
 /// Finds the two cells at each edge that touches a selected owned node, each represented by a Value of the
-/// caller, e.g. its number or area. Linear in the number of cells.
+/// caller, e.g. its number or area. Linear in the number of cells. Memory is needed for the edges whose
+/// second cell has not been visited yet: few, if cells follow each other in space.
 template <class Value>
 class CellPairs {
  public:
@@ -41,18 +42,17 @@ class CellPairs {
   template <class Visit>
   void for_each_single(const Visit& visit) const {
     for (std::int32_t i = 0; i < mesh_.owned_nodes(); ++i) {
-      for (std::int32_t s = last_[NodeId{i}]; s >= 0; s = sides_[s].next) {
-        if (sides_[s].other.valid()) visit(NodeId{i}, sides_[s].other, sides_[s].value);
-      }
+      for (std::int32_t s = last_[NodeId{i}]; s >= 0; s = sides_[s].next)
+        visit(NodeId{i}, sides_[s].other, sides_[s].value);
     }
   }
 
  private:
   static constexpr std::int32_t none = -1, unwanted = -2;
-  /// An edge, and the first cell found at it.
+  /// An edge, and the first cell found at it, until the second one is found.
   struct Side {
-    NodeId other;       ///< invalid after the second cell was found
-    std::int32_t next;  ///< next side of the same node
+    NodeId other;
+    std::int32_t next;  ///< next side of the same node, or next free place
     Value value;
   };
 
@@ -70,17 +70,26 @@ class CellPairs {
 
   template <class Visit>
   void add_side(NodeId node, NodeId other, const Value& value, const Visit& visit) {
-    for (std::int32_t s = last_[node]; s != none; s = sides_[s].next) {
-      if (sides_[s].other != other) continue;
-      sides_[s].other = {};
-      visit(node, other, sides_[s].value, value);
+    for (std::int32_t* link = &last_[node]; *link != none; link = &sides_[*link].next) {
+      Side& side = sides_[*link];
+      if (side.other != other) continue;
+      visit(node, other, side.value, value);
+      free_ = std::exchange(*link, std::exchange(side.next, free_));
       return;
     }
-    sides_.push_back({other, std::exchange(last_[node], size32(sides_)), value});
+    const Side side{other, last_[node], value};
+    if (free_ == none) {
+      last_[node] = size32(sides_);
+      sides_.push_back(side);
+    } else {
+      last_[node] = free_;
+      free_ = std::exchange(sides_[free_], side).next;
+    }
   }
 
   const HaloMesh& mesh_;
   std::vector<Side> sides_;
+  std::int32_t free_ = none;             ///< first of the places whose side has both cells
   IdVector<NodeId, std::int32_t> last_;  ///< last side of each node
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/mixed_bits.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -167,6 +169,32 @@ struct UnmatchedEdge {
   report_unsound("some edges do not have a cell, or the boundary, on either side", {});
 }
 
+/// A boundary edge with the lower node first.
+struct PlacedEdge {
+  GlobalNodeId low, high;
+  Point place;
+  UndirectedEdge nodes() const { return {low, high}; }
+};
+
+/// Checks that no two boundary edges have the same nodes: cells on both sides would pass all other rules.
+/// *Collective.*
+void require_single_boundary_edges(const Communicator& comm, const Mesh& mesh) {
+  Outbox<PlacedEdge> out;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& [from, to] : boundary.edges) {
+      const auto [low, high] = std::minmax({mesh.global(from), mesh.global(to)});
+      const auto rank = mixed_bits(static_cast<std::uint64_t>(low.value())) % comm.size();
+      out.add(static_cast<int>(rank), {low, high, mesh.point(from)});
+    }
+  }
+  std::vector<PlacedEdge> edges = out.deliver(comm);
+  std::ranges::sort(edges, {}, &PlacedEdge::nodes);
+  const auto twice = std::ranges::adjacent_find(edges, {}, &PlacedEdge::nodes);
+  comm.together([&] {
+    if (twice != edges.end()) report_unsound("an edge of the boundary has cells on both sides", twice->place);
+  });
+}
+
 /// Checks the corners of every cell exactly. *Collective.*
 void require_positive(const Communicator& comm, const Mesh& mesh) {
   comm.together([&] {
@@ -186,6 +214,7 @@ void require_sound(const Communicator& comm, const Mesh& mesh) {
   const std::vector<std::uint64_t> random_areas = comm.all_gather(tally.random_area());
   if (std::accumulate(random_areas.begin(), random_areas.end(), std::uint64_t{0}) != 0)
     report_unmatched(comm, mesh);
+  require_single_boundary_edges(comm, mesh);
   const std::vector<double> twice = tally.twice_areas(comm);
   if (std::abs(twice[0] - twice[1]) <= area_tolerance * std::abs(twice[1])) return;
   report_unsound(fmt::format("the cells cover {}, the boundary encloses {}", twice[0] / 2, twice[1] / 2),

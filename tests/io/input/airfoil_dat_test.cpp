@@ -159,5 +159,13 @@ TEST_F(AirfoilDat, GivesEachElementALoopOfItsOwn) {
   }
 }
 
+TEST_F(AirfoilDat, ReadsWhatItWrites) {
+  const std::vector<Point> points{{1, 0.001}, {0.1 + 0.2, 0.06}, {-1e-17, 0}, {1.0 / 3, -0.05}, {1, -0.001}};
+  const std::string text = airfoil_text("2412", points);
+  EXPECT_EQ(text.substr(0, 13), "2412\n1 0.001\n");
+  EXPECT_EQ(read(text), std::vector<Point>(points.rbegin(), points.rend())) << "clockwise";
+  EXPECT_TRUE(warnings_.empty());
+}
+
 }  // namespace
 }  // namespace quadloop::io

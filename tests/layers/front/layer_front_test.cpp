@@ -129,6 +129,18 @@ TEST(LayerFront, MirrorImagesHaveMirroredFronts) {
       << "the gap behind the body is narrow";
 }
 
+TEST(LayerFront, OnACurvedWallIsMirroredToo) {
+  LayerSpec thick = ten_layers;
+  thick.first = 0.06;
+  const Geometry arch = test::arch_and_step_with_layers(thick), other = test::mirrored(arch);
+  const LayerFront front = layer_front(arch), image = layer_front(other);
+  std::vector<Point> points = front.points, mirrored;
+  for (const Point p : image.points) mirrored.push_back({p.x, -p.y});
+  std::ranges::sort(points);
+  std::ranges::sort(mirrored);
+  EXPECT_EQ(points, mirrored) << "also where columns lean and spread";
+}
+
 TEST(LayerFront, OfASymmetricBodyIsSymmetric) {
   for (const double half_base : {0.3, 0.1, 0.03, 0.01}) {
     const Geometry body =

@@ -73,6 +73,14 @@ TEST(RequireSound, EdgesHaveACellOrTheBoundaryOnEitherSide) {
   });
 }
 
+TEST(RequireSound, AnEdgeOfTheBoundaryHasCellsOnOneSideOnly) {
+  expect_fault("an edge of the boundary has cells on both sides", [](Mesh& m) {
+    const auto [a, b] = std::pair(m.quads[3][0], m.quads[3][1]);
+    m.boundaries[0].edges.push_back({a, b});
+    m.boundaries[1].edges.push_back({b, a});
+  });
+}
+
 /// A copy of a node that lies elsewhere than the owner has it.
 TEST(RequireSound, RanksAgreeOnPlaces) {
   const Mesh whole = grid();

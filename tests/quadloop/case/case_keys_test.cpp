@@ -10,6 +10,7 @@
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/shape_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
 #include "tests/io/input/temporary_file.hpp"
 
@@ -60,6 +61,8 @@ class Dump {
     add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.choice.layers, f.choice.names.from,
         f.choice.names.attribute, f.unit, f.spline);
   }
+  void add_one(const Curve& c) { add(c.inner, c.spacing); }
+  void add_one(const Shape& s) { add(s.chain.name, s.chain.points, s.chain.curves, s.is_body); }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
   }
@@ -84,7 +87,8 @@ std::string text_of(const Settings& s) {
   const SizeOptions& size = s.mesh.size;
   const flow::EulerOptions& e = s.solver.euler;
   Dump dump;
-  dump.add(s.title, s.files, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt, s.morph_to);
+  dump.add(s.title, s.files, s.shapes, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt,
+           s.morph_to);
   dump.add(s.far_field ? s.far_field->half_width : 0, s.output_prefix, s.formats, s.fields, s.partitions);
   dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands,
            s.outline.blocks);
@@ -105,6 +109,7 @@ std::string text_of(const Settings& s) {
 std::string place_of(const std::string& table) {
   const std::map<std::string, std::string> places{{"boundary.NAME", "boundary.box"},
                                                   {"boundary.NAME.layers", "boundary.box.layers"},
+                                                  {"shape", "shape.0"},
                                                   {"source", "source.0"},
                                                   {"block", "block.0"},
                                                   {"wake", "wake.0"},
@@ -183,12 +188,15 @@ class CaseKeys : public ::testing::Test {
     if (name == "solver.goal_about") accepted.set(table.text(), "goal", "\"moment\"");
     if (name == "geometry.layers" || name == "geometry.names")
       accepted.set(table.text(), "file", "\"box.dxf\"");
+    if (name == "shape.scale" || name.starts_with("shape.rot") || name == "shape.translate" ||
+        name == "shape.name")
+      accepted.set(table.text(), "code");
     if (name == "source.spacing") accepted.set(table.text(), "box");
     if (name == "block.name") accepted.set(table.text(), "inside");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
     std::string tables;
-    for (const char* const list : {"source", "block", "wake", "layer_line"})
+    for (const char* const list : {"shape", "source", "block", "wake", "layer_line"})
       if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
     const std::string path = folder_.write("case.toml", tables);
     const Settings settings = read_settings(path, accepted.assignments());
@@ -236,6 +244,7 @@ class CaseKeys : public ::testing::Test {
 TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
   expect_effects(title_keys());
   expect_effects(geometry_keys());
+  expect_effects(shape_keys());
   expect_effects(spacing_keys());
   expect_effects(boundary_keys());
   expect_effects(layer_keys());
@@ -274,6 +283,7 @@ TEST_F(CaseKeys, HelpFindsKeysAndTables) {
   EXPECT_EQ(key_help("max"), key_help("spacing.max"));
   EXPECT_EQ(key_help("boundary.wing.bc"), key_help("boundary.NAME.bc"));
   EXPECT_TRUE(key_help("boundary.a.b.layers.count").starts_with("boundary.NAME.layers.count: whole number"));
+  EXPECT_TRUE(key_help("shape.0.hinge").starts_with("shape.hinge: "));
   EXPECT_TRUE(key_help("source.0.spacing").starts_with("source.spacing: "));
   EXPECT_TRUE(key_help("[smooth]").starts_with("[smooth]\n  sweeps "));
   EXPECT_TRUE(key_help("boundary.wing").starts_with("[boundary.NAME]\n"));
