@@ -224,7 +224,7 @@ TEST(CutForest, WithoutSnappingATipThinnerThanRoundingStillHasOneSide) {
   const Points body{{5e-17, y}, {-1.5, y - 2.25}, {-2, y + 0.5}};
   const std::vector<Points> loops{{{-3.5, y - 3.5}, {3.5, y - 3.5}, {3.5, y + 3.5}, {-3.5, y + 3.5}}, body};
   CutSquare square(loops, 0.25, 0, 1, {}, {-4, y - 4});
-  EXPECT_TRUE(OpposedChords(test::world(), square.graph, square.cut).ends().empty());
+  EXPECT_TRUE(OpposedChords(test::world(), square.geometry, square.graph, square.cut).ends().empty());
   EXPECT_NEAR(square.area(), area_of(loops), 1e-12 * 64);
   square.expect_states();
 }
