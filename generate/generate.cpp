@@ -19,6 +19,7 @@
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
+#include "mesher/mesh/block_runs.hpp"
 #include "mesher/mesh/check/require_sound.hpp"
 #include "mesher/mesh/mirror_images.hpp"
 #include "smoother/outline/nodes_on_curves.hpp"
@@ -286,6 +287,7 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);
   count_entries(comm, result);
+  result.tree.block_runs = block_runs(comm, result.mesh);
   result.tree.attributes.case_digest = input.digest;
   result.tree.attributes.coordinate_digest = coordinate_digest(comm, result.mesh);
   return generated;

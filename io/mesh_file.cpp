@@ -289,8 +289,6 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
   std::optional<PlaneBlocks> blocks;
   if (!mesh.blocks.names.empty()) blocks = mesh.blocks;
-  QUADLOOP_REQUIRE(!blocks || solution == nullptr || solution->cells.width() == 0,
-                   "cell values are not sorted by block");
   if (format->holds(Content::mesh))
     format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks)), path);
   if (format->write_solution != nullptr && solution != nullptr)

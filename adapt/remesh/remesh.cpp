@@ -7,15 +7,23 @@
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
+#include "io/model/plane_blocks.hpp"
+#include "mesher/mesh/block_runs.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop::adapt {
 
-SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
-                         TreeRecord tree) {
-  const MeshOrder order = own_order(whole);  // along the curve, as the tree stores the cells
-  SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
-  solved.solution = scatter_field(comm, solution, solved.mesh, order);
+SolvedMesh spread_solved(const Communicator& comm, const io::LoadedMesh& whole, TreeRecord tree) {
+  MeshOrder order;
+  MeshBlocks blocks;
+  comm.together([&] {
+    if (!comm.is_root()) return;
+    order = io::order_along_tree(whole, tree.block_runs);
+    blocks = io::plane_blocks(whole);
+  });
+  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), {}, {}};
+  solved.solution = scatter_field(comm, whole.solution.value_or(Field{}), solved.mesh, order);
+  set_blocks(comm, broadcast_words(comm, blocks.names), solved.tree.block_runs, solved.mesh);
   return solved;
 }
 

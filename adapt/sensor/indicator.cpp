@@ -6,6 +6,7 @@
 #include "adapt/sensor/cell_jumps.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/recovery/node_gradients.hpp"
+#include "mesher/mesh/block_part.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop::adapt {
@@ -61,13 +62,10 @@ void raise_by_field(const Communicator& comm, const Mesh& mesh, const TellingEdg
   }
 }
 
-}  // namespace
-
-std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
-                                   std::span<const LeafRecord> leaves, const Field& field, Indicator kind) {
-  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
+/// Returns the largest indicator of each cell's edges. *Collective.*
+std::vector<double> cell_indicator(const Communicator& comm, const Mesh& mesh, const Field& field,
+                                   Indicator kind) {
   std::vector<double> of_cells(mesh.cell_count(), 0);
-  check_field(comm, mesh, field, FieldSign::any);
   const Field shared = with_ghosts(comm, mesh, field);
   const TellingEdges edges(comm, mesh);
   for (std::size_t variable = 0; variable < shared.width(); ++variable) {
@@ -81,6 +79,18 @@ std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
       if (!scaled.constant) jumps.raise(scaled, of_cells);
     }
   }
+  return of_cells;
+}
+
+}  // namespace
+
+std::vector<double> leaf_indicator(const Communicator& comm, const Mesh& mesh,
+                                   std::span<const LeafRecord> leaves, const Field& field, Indicator kind) {
+  const CellsOfLeaves cells_of_leaves(comm, mesh, leaves);
+  check_field(comm, mesh, field, FieldSign::any);
+  const std::vector<double> of_cells = cells_by_block<double>(
+      comm, mesh, field,
+      [&](const Mesh& part, const Field& of_part) { return cell_indicator(comm, part, of_part, kind); });
   return cells_of_leaves.largest(comm, of_cells);
 }
 

@@ -7,8 +7,10 @@
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/model/plane_blocks.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/block_runs.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop::adapt {
@@ -44,13 +46,14 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCo
                 const flow::SolverFiles& files) {
   Field whole;
   MeshOrder order;
+  const std::vector<BlockRun> runs = block_runs(comm, mesh);
   comm.together([&] {
     if (!comm.is_root()) return;
     try {
       io::LoadedSolution left = io::read_solution(files.solution);
       const io::LoadedMesh given = io::read_mesh(CyclePaths{files.folder}.native_mesh());
       io::require_same_mesh(left, given.mesh);
-      order = own_order(given.mesh);
+      order = io::order_along_tree(given, runs);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
       throw SolverError(flow::solver_message(command, files,

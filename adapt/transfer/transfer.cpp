@@ -1,6 +1,10 @@
 #include "adapt/transfer/transfer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "adapt/transfer/column_places.hpp"
 #include "adapt/transfer/conservative.hpp"
@@ -13,8 +17,10 @@
 #include "adapt/transfer/locate/triangle_piece.hpp"
 #include "adapt/transfer/locate/unchanged_nodes.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/point_table.hpp"
+#include "mesher/mesh/block_part.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
@@ -256,10 +262,9 @@ void report_drift(const Communicator& comm, const Mesh& new_mesh, const Field& f
   }
 }
 
-}  // namespace
-
-Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                     const Mesh& new_mesh, TransferKind kind) {
+/// *Collective.*
+Transferred transfer_in_block(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                              const Mesh& new_mesh, TransferKind kind) {
   const Field old = with_ghosts(comm, old_mesh, old_field);
   const Point centre = centre_of_nodes(comm, old_mesh);
   const CurvePartition shares(comm, owned_points(old_mesh), owned_points(new_mesh));
@@ -286,6 +291,63 @@ Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field
   if (report.conserved_from < report.drift.size())
     report.area_change = total_area(comm, new_mesh) / total_area(comm, old_mesh) - 1;
   return transferred;
+}
+
+/// Puts a block's rows into those of the mesh; a node on an interface keeps the row of the first block.
+void put_rows(const BlockPart& part, const Field& of_part, NodeFlags& filled, Field& field) {
+  for (std::int32_t i = 0; i < size32(part.nodes); ++i) {
+    const NodeId node = part.nodes[i];
+    if (std::exchange(filled[node], 1) == 0)
+      std::ranges::copy(of_part.row(NodeId{i}), field.row(node).begin());
+  }
+  const std::size_t width = field.cells.width();
+  for (std::size_t i = 0; i < part.cells.size(); ++i)
+    std::copy_n(of_part.cells.values.begin() + i * width, width,
+                field.cells.values.begin() + part.cells[i] * width);
+}
+
+double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
+
+void add_report(const TransferReport& block, TransferReport& all) {
+  all.outside += block.outside;
+  all.cells_outside += block.cells_outside;
+  all.conserved_from = block.conserved_from;
+  all.area_change = larger(all.area_change, block.area_change);
+  for (std::size_t k = 0; k < block.drift.size(); ++k) {
+    all.drift[k] += block.drift[k];
+    all.relative_drift[k] = larger(all.relative_drift[k], block.relative_drift[k]);
+  }
+}
+
+/// Each block as a mesh of its own. *Collective.*
+Transferred transfer_by_block(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                              const Mesh& new_mesh, TransferKind kind) {
+  comm.together([&] {
+    if (old_mesh.blocks.names.size() != new_mesh.blocks.names.size())
+      throw InputError(fmt::format("the old mesh has {} blocks, but the new one has {}; keep the blocks",
+                                   old_mesh.blocks.names.size(), new_mesh.blocks.names.size()));
+  });
+  Transferred all{{old_field.names, {}, old_field.constants, {old_field.cells.names, {}}},
+                  TransferReport::without_drift(old_field)};
+  all.field.values.resize(new_mesh.owned_nodes * old_field.width());
+  all.field.cells.values.resize(new_mesh.cell_count() * old_field.cells.width());
+  NodeFlags filled(new_mesh.owned_nodes, 0);
+  const std::vector<BlockPart> old_parts = block_parts(comm, old_mesh), parts = block_parts(comm, new_mesh);
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    const Transferred of_block =
+        transfer_in_block(comm, old_parts[b].mesh, field_on(old_parts[b], old_field), parts[b].mesh, kind);
+    put_rows(parts[b], of_block.field, filled, all.field);
+    add_report(of_block.report, all.report);
+  }
+  return all;
+}
+
+}  // namespace
+
+Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                     const Mesh& new_mesh, TransferKind kind) {
+  const bool by_block = has_blocks(old_mesh) || has_blocks(new_mesh);
+  return (by_block ? transfer_by_block : transfer_in_block)(comm, old_mesh, old_field, new_mesh, kind);
 }
 
 }  // namespace quadloop::adapt

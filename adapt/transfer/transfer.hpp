@@ -54,6 +54,10 @@ struct Transferred {
 /// Cell values are transferred by transfer_cells(); a cell outside the old mesh gets the value of the old
 /// cell at the nearest boundary edge.
 ///
+/// Of several blocks each is treated as a mesh of its own: no value crosses an interface. A node of an
+/// interface gets the value of the first of its blocks. The blocks of both meshes correspond by their order;
+/// InputError if their numbers differ. The relative drifts are those of the block with the largest one.
+///
 /// `old_field` must have finite values for each owned node and each cell. Each rank processes the old
 /// triangles and new nodes in a part of the plane; the old boundary edges are gathered on all ranks if some
 /// node is outside. *Collective.*

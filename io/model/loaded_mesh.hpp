@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,23 @@ inline std::int32_t block_of_cell(const LoadedMesh& loaded, std::int32_t cell) {
   return cell < triangles ? loaded.triangle_to_block[cell] : loaded.quad_to_block[cell - triangles];
 }
 
+/// Returns the rows of one block's cells in their order; a cell has `width` entries in `rows`.
+template <class T>
+std::vector<T> rows_of_block(std::span<const T> rows, std::size_t width,
+                             const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
+  std::vector<T> found;
+  for (std::size_t i = 0; i * width < rows.size(); ++i) {
+    const auto row = rows.subspan(i * width, width);
+    if (cell_to_block[i] == block) found.insert(found.end(), row.begin(), row.end());
+  }
+  return found;
+}
+
 /// Returns the cells of one block in their order.
 template <class Cell>
 std::vector<Cell> cells_of_block(const std::vector<Cell>& cells,
                                  const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
-  std::vector<Cell> found;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (cell_to_block[i] == block) found.push_back(cells[i]);
-  }
-  return found;
+  return rows_of_block(std::span<const Cell>(cells), 1, cell_to_block, block);
 }
 
 }  // namespace quadloop::io

@@ -129,14 +129,25 @@ class BinaryWriter {
     end_ += header_.edges() * 2 * header_.node_bytes;
   }
 
+  /// Writes the rows of one kind of cells, block by block.
+  void write_cell_values(std::span<const double> rows, std::size_t width,
+                         std::vector<std::int32_t> PlaneBlocks::*of_cells) {
+    if (blocks_ == nullptr) write_values(rows.data(), rows.size());
+    for (std::int32_t b = 0; blocks_ != nullptr && b < std::ssize(blocks_->names); ++b) {
+      const std::vector<double> of_block = rows_of_block(rows, width, blocks_->*of_cells, b);
+      write_values(of_block.data(), of_block.size());
+    }
+  }
+
   void write_solution(const Field& solution) {
     std::vector<double> constants;
     for (const double value : solution.constants) constants.push_back(in_order<std::endian::little>(value));
     at_root(bytes_of(std::span<const double>(constants)));
     write_values(solution.values.data(), mesh_.owned_nodes * solution.width());
     const std::size_t width = solution.cells.width(), triangles = mesh_.triangles.size() * width;
-    write_values(solution.cells.values.data(), triangles);
-    write_values(solution.cells.values.data() + triangles, mesh_.quads.size() * width);
+    const std::span<const double> of_cells(solution.cells.values);
+    write_cell_values(of_cells.first(triangles), width, &PlaneBlocks::of_triangles);
+    write_cell_values(of_cells.subspan(triangles), width, &PlaneBlocks::of_quads);
   }
 
   void write_values(const double* values, std::size_t count) {

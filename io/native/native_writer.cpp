@@ -62,9 +62,18 @@ class NativeWriter {
     std::string head = "#Number of cell variables\n" + std::to_string(cells.width()) + "\n#names:";
     for (const std::string& name : distinct_words(cells.names, path_)) head += " " + name;
     file_.write(head + "\n");
-    const std::size_t triangles = mesh_.triangles.size();
-    write_real_rows(triangles, cells.values.data(), cells.width());
-    write_real_rows(mesh_.quads.size(), cells.values.data() + triangles * cells.width(), cells.width());
+    const std::size_t width = cells.width();
+    const std::span<const double> values(cells.values);
+    const auto write_kind = [&](std::span<const double> rows, const std::vector<std::int32_t>* blocks) {
+      if (blocks == nullptr) return write_real_rows(rows.size() / width, rows.data(), width);
+      for (std::int32_t block = 0; block < std::ssize(blocks_->names); ++block) {
+        const std::vector<double> of_block = rows_of_block(rows, width, *blocks, block);
+        write_real_rows(of_block.size() / width, of_block.data(), width);
+      }
+    };
+    const std::size_t triangles = mesh_.triangles.size() * width;
+    write_kind(values.first(triangles), blocks_ == nullptr ? nullptr : &blocks_->of_triangles);
+    write_kind(values.subspan(triangles), blocks_ == nullptr ? nullptr : &blocks_->of_quads);
   }
 
   /// Writes `rows` rows of this rank, each of `width` numbers.

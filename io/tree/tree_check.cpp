@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
@@ -107,6 +108,21 @@ void require_possible_wall(const MeasuredWall& wall, const std::string& path) {
       throw InputError(fmt::format("{}: the friction measured at ({}, {}) is impossible{}", path, edge.from.x,
                                    edge.from.y, cure));
   }
+}
+
+void require_possible_runs(const std::vector<BlockRun>& runs, const TreeAttributes& attributes,
+                           const std::string& path) {
+  if (runs.empty()) return;
+  std::int64_t triangles = 0, quads = 0;
+  bool possible = true;
+  for (const BlockRun& run : runs) {
+    possible = possible && (run.corners == 3 || run.corners == 4) && run.block >= 0 &&
+               run.block < std::numeric_limits<std::int16_t>::max() && run.cells > 0 &&
+               run.cells <= attributes.triangles + attributes.quads;
+    if (possible) (run.corners == 3 ? triangles : quads) += run.cells;
+  }
+  if (!possible || triangles != attributes.triangles || quads != attributes.quads)
+    throw InputError(path + ": the blocks of its cells do not fit their numbers" + cure);
 }
 
 void require_whole_tree(const Communicator& comm, const TreeRecord& tree,

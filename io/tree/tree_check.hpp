@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -16,6 +17,11 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
 
 /// Throws InputError if a number is not finite or the friction is negative. Not collective.
 void require_possible_wall(const MeasuredWall& wall, const std::string& path);
+
+/// Throws InputError if the runs are impossible or have other numbers of cells than the attributes. Not
+/// collective.
+void require_possible_runs(const std::vector<BlockRun>& runs, const TreeAttributes& attributes,
+                           const std::string& path);
 
 /// Throws InputError on all ranks unless the leaves are those of complete trees along the space-filling
 /// curve, each with valid data, and the number of their cells agrees with the attributes. `before` is the

@@ -47,17 +47,19 @@ class TreeFrame {
     put_number(root_far_names[1], attributes.root_far->y);
   }
 
-  void put_measured_wall(const MeasuredWall& wall) {
-    if (wall.empty()) return;
-    const std::array<hsize_t, 2> size{wall.size(), measured_wall_columns};
+  template <class Dataset>
+  void put_rows(const Dataset& kind, const std::vector<typename Dataset::Row>& rows) {
+    if (rows.empty()) return;
+    using Number = typename Dataset::Number;
+    const std::array<hsize_t, 2> size{rows.size(), Dataset::columns};
     const Hdf5Handle space(H5Screate_simple(2, size.data(), nullptr), H5Sclose);
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation.id(), false);
-    Hdf5Handle dataset(H5Dcreate2(file_.id(), measured_wall_name, file_type<double>(), space.id(),
-                                  H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+    Hdf5Handle dataset(H5Dcreate2(file_.id(), kind.name, file_type<Number>(), space.id(), H5P_DEFAULT,
+                                  creation.id(), H5P_DEFAULT),
                        H5Dclose);
     check(dataset.valid() &&
-          H5Dwrite(dataset.id(), memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, wall.data()) >= 0 &&
+          H5Dwrite(dataset.id(), memory_type<Number>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()) >= 0 &&
           dataset.close() >= 0);
   }
 
@@ -152,7 +154,8 @@ std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord
     if (!comm.is_root()) return;
     TreeFrame frame(staged, leaves);
     frame.put_attributes(tree.attributes);
-    frame.put_measured_wall(tree.measured_wall);
+    frame.put_rows(measured_wall_rows, tree.measured_wall);
+    frame.put_rows(block_run_rows, tree.block_runs);
     places = frame.places();
     frame.close();
   });

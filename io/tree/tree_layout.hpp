@@ -34,10 +34,20 @@ void for_each_attribute(Attributes& attributes, const Visit& visit) {
 /// Attributes of TreeAttributes::root_far; absent in files without it and in those of earlier versions.
 inline constexpr std::array root_far_names{"root_far_x", "root_far_y"};
 
-/// Dataset of TreeRecord::measured_wall, with one row per edge; absent in files without it.
-inline constexpr const char* measured_wall_name = "measured_wall";
-inline constexpr std::size_t measured_wall_columns = 6;  ///< x, y of its ends, then wall units at both
-static_assert(sizeof(MeasuredEdge) == measured_wall_columns * sizeof(double));
+/// A dataset with one row of `columns` numbers of one type for each `Row`; absent in files without rows.
+template <class Row_, class Number_, std::size_t columns_>
+struct RowsDataset {
+  using Row = Row_;
+  using Number = Number_;
+  static constexpr std::size_t columns = columns_;
+  static_assert(sizeof(Row) == columns * sizeof(Number));
+  const char* name;
+};
+
+/// Of TreeRecord::measured_wall: x, y of the edge's ends, then wall units at both.
+inline constexpr RowsDataset<MeasuredEdge, double, 6> measured_wall_rows{"measured_wall"};
+/// Of TreeRecord::block_runs: corners, block and number of cells.
+inline constexpr RowsDataset<BlockRun, std::int64_t, 3> block_run_rows{"block_runs"};
 
 /// Calls `visit(name, pointers to the members of a row)` for each dataset, in file order.
 template <class Visit>

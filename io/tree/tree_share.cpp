@@ -56,18 +56,19 @@ class TreeSource {
   }
 
   /// Returns the whole dataset; empty if the file has none.
-  MeasuredWall measured_wall() const {
-    if (H5Lexists(file_.id(), measured_wall_name, H5P_DEFAULT) <= 0) return {};
-    const Hdf5Handle dataset = open(measured_wall_name);
+  template <class Dataset>
+  std::vector<typename Dataset::Row> rows(const Dataset& kind) const {
+    if (H5Lexists(file_.id(), kind.name, H5P_DEFAULT) <= 0) return {};
+    const Hdf5Handle dataset = open(kind.name);
     const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
     std::array<hsize_t, 32> size{};
     const bool shaped = H5Sget_simple_extent_dims(space.id(), size.data(), nullptr) == 2 &&
-                        size[1] == measured_wall_columns && may_hold(dataset, size[0] * size[1]);
-    MeasuredWall wall(shaped ? size[0] : 0);
-    if (!shaped ||
-        H5Dread(dataset.id(), memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, wall.data()) < 0)
-      refuse(std::string("its dataset \"") + measured_wall_name + "\" cannot be read; the file is damaged");
-    return wall;
+                        size[1] == Dataset::columns && may_hold(dataset, size[0] * size[1]);
+    std::vector<typename Dataset::Row> rows(shaped ? size[0] : 0);
+    if (!shaped || H5Dread(dataset.id(), memory_type<typename Dataset::Number>(), H5S_ALL, H5S_ALL,
+                           H5P_DEFAULT, rows.data()) < 0)
+      refuse(std::string("its dataset \"") + kind.name + "\" cannot be read; the file is damaged");
+    return rows;
   }
 
   std::vector<LeafRecord> read(std::int64_t begin, std::int64_t end) const {
@@ -155,8 +156,10 @@ TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64
   const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank),
                      end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
   share.tree.leaves = source.read(begin, end);
-  share.tree.measured_wall = source.measured_wall();
+  share.tree.measured_wall = source.rows(measured_wall_rows);
   require_possible_wall(share.tree.measured_wall, path);
+  share.tree.block_runs = source.rows(block_run_rows);
+  require_possible_runs(share.tree.block_runs, share.tree.attributes, path);
   if (begin > 0 && begin < end) share.before = source.read(begin - 1, begin).front();
   return share;
 }

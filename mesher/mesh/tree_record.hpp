@@ -42,11 +42,21 @@ inline Box root_box(const TreeAttributes& a) {
   return {low, a.root_far.value_or(low + Point{a.trees_x * a.tree_edge, a.trees_y * a.tree_edge})};
 }
 
+/// Consecutive triangles or quads of one block, in the order of the quadtree cells.
+struct BlockRun {
+  std::int64_t corners = 3;  ///< of each cell: 3 or 4
+  std::int64_t block = 0;    ///< index of the block
+  std::int64_t cells = 0;
+};
+
 /// One rank's quadtree cells, in the order of the space-filling curve; ranks are ordered along it.
 struct TreeRecord {
   TreeAttributes attributes;
   std::vector<LeafRecord> leaves;
   MeasuredWall measured_wall = {};  ///< wall friction for the first heights; all of it on every rank
+  /// The blocks of all mesh cells, triangles, then quads: files store the cells block by block. Empty if the
+  /// domain is one block; all of it on every rank.
+  std::vector<BlockRun> block_runs = {};
 };
 
 }  // namespace quadloop

@@ -117,7 +117,9 @@ void require_blocks_alone(const Settings& settings) {
       {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
       {settings.outline.unite_islands, "a union of islands; remove geometry.overlap"},
       {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
-      {settings.adapt.has_value(), "adaptation; remove [adapt]"},
+      {settings.mesh.type == MeshType::metric, "anisotropic adaptation; set mesh.type to delaunay"},
+      {settings.adapt && settings.solver.kind != SolverSettings::Kind::command,
+       "the built-in solver, OpenFOAM or SU2 in the loop; set solver.kind = \"command\""},
       {settings.partitions > 0, "partitions; remove output.partitions"},
       {is_written("fluent.msh") || is_written("polyMesh"),
        "the formats fluent.msh and polyMesh; write mesh, vtu, msh or su2"}};

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <limits>
 
+#include "adapt/sensor/interpolation_error.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "tests/adapt/sensor/shared_leaves.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/mesh/layered_strip.hpp"
+#include "tests/mesh/two_blocks.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::adapt {
@@ -264,6 +266,30 @@ TEST(Indicator, EdgesWithinStripsDoNotCount) {
     const bool within = leaf % 4 == 1 || leaf % 4 == 2;
     EXPECT_NEAR(along[leaf], within ? 0 : 0.25, 1e-12) << leaf;
   }
+}
+
+TEST(Indicator, TheJumpAcrossAnInterfaceIsNoError) {
+  Mesh whole = test::two_blocks({6, {1, 1}, false});
+  const Mesh mesh = test::part_with_blocks(world(), whole, own_order(whole));
+  const Leaves leaves = test::share_of(Leaves(72, test::leaf_with(1, 0)), test::Sharing::uneven);
+  Field in_cells{{}, {}, {}, {{"T"}, {}}}, kink{{"T"}, {}, {}};
+  for (const std::int32_t block : mesh.blocks.of_triangles) in_cells.cells.values.push_back(100.0 * block);
+  for (std::int32_t node = 0; node < mesh.owned_nodes; ++node)
+    kink.values.push_back(std::abs(mesh.point(NodeId{node}).x - 0.5));
+  const auto largest = [&](const Mesh& of, const Field& field, Indicator kind) {
+    const Values values = test::joined(world(), leaf_indicator(world(), of, leaves, field, kind));
+    return *std::ranges::max_element(values);
+  };
+  Mesh one_block = mesh;
+  one_block.blocks = {};
+  for (const Indicator kind : all_kinds) {
+    EXPECT_EQ(largest(mesh, in_cells, kind), 0);
+    EXPECT_GT(largest(one_block, in_cells, kind), 0);
+  }
+  EXPECT_NEAR(largest(mesh, kink, Indicator::hessian), 0, 1e-12);
+  EXPECT_GT(largest(one_block, kink, Indicator::hessian), 0.1);
+  const InterpolationError error = interpolation_error(world(), mesh, kink);
+  for (const double mean : error.mean) EXPECT_NEAR(mean, 0, 1e-12);
 }
 
 }  // namespace

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "adapt/transfer/locate/cell_triangles.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "tests/adapt/transfer/gathered.hpp"
 #include "tests/adapt/transfer/jittered_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
+#include "tests/mesh/two_blocks.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::adapt {
@@ -274,6 +277,43 @@ TEST(Transfer, WithoutVariablesOrNewNodesThereIsNothingToDo) {
       transfer(world(), mesh, field_of(mesh, 1, linear_value), only_points(world(), {}));
   EXPECT_TRUE(nowhere.field.values.empty());
   EXPECT_NEAR(nowhere.report.relative_drift.at(0), -1, 1e-15);
+}
+
+/// Two blocks with the interface moved by a wave, which another mesh's chords do not follow.
+Mesh wavy_blocks(std::int32_t n) {
+  Mesh whole = test::two_blocks({n});
+  for (Point& p : whole.points) p.x += 0.04 * std::sin(40 * p.y) * p.x * (1 - p.x);
+  return whole;
+}
+
+TEST(Transfer, NoValueCrossesAnInterface) {
+  const Mesh old_whole = wavy_blocks(8), new_whole = wavy_blocks(14);
+  const Mesh old_mesh = test::part_with_blocks(world(), old_whole, test::shuffled_order(old_whole, 3)),
+             new_mesh = test::part_with_blocks(world(), new_whole, test::shuffled_order(new_whole, 4));
+  Field field{{}, {}, {}, {{"T"}, {}}};
+  const auto put_blocks = [](const Mesh& mesh, std::vector<double>& values) {
+    for (const auto* blocks : {&mesh.blocks.of_triangles, &mesh.blocks.of_quads})
+      for (const std::int32_t block : *blocks) values.push_back(300.0 + 100 * block);
+  };
+  put_blocks(old_mesh, field.cells.values);
+  std::vector<double> wanted;
+  put_blocks(new_mesh, wanted);
+  const Transferred result = transfer(world(), old_mesh, field, new_mesh);
+  ASSERT_EQ(result.field.cells.values.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(result.field.cells.values[i], wanted[i], 1e-10);
+}
+
+TEST(Transfer, NodesOfBlocksAreExactForLinearFields) {
+  const Mesh old_whole = test::two_blocks({8}), new_whole = test::two_blocks({14});
+  const Mesh old_mesh = test::part_with_blocks(world(), old_whole, test::shuffled_order(old_whole, 3)),
+             new_mesh = test::part_with_blocks(world(), new_whole, test::shuffled_order(new_whole, 4));
+  const Transferred result = transfer(world(), old_mesh, field_of(old_mesh, 2, linear_value), new_mesh);
+  const std::vector<double> wanted = field_of(new_mesh, 2, linear_value).values;
+  ASSERT_EQ(result.field.values.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(result.field.values[i], wanted[i], 1e-13);
+  EXPECT_THROW(transfer(world(), old_mesh, field_of(old_mesh, 1, linear_value),
+                        scatter_mesh(world(), new_whole, own_order(new_whole))),
+               InputError);
 }
 
 }  // namespace

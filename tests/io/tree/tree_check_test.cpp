@@ -167,6 +167,41 @@ TEST(TreeFile, AHandMadeTreeComesBackWhole) {
   }
 }
 
+TEST(TreeFile, BlocksOfTheCellsComeBackOnEveryRank) {
+  const test::TemporaryFolder folder;
+  TreeRecord tree = hand_made_tree();
+  tree.block_runs = {{4, 0, 3}, {4, 1, 4}, {4, 0, 1}};
+  write_tree(world(), tree, folder.file("a.tree.h5"));
+  const std::vector<BlockRun> read = read_tree(world(), folder.file("a.tree.h5")).block_runs;
+  ASSERT_EQ(read.size(), 3);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].corners, tree.block_runs[i].corners);
+    EXPECT_EQ(read[i].block, tree.block_runs[i].block);
+    EXPECT_EQ(read[i].cells, tree.block_runs[i].cells);
+  }
+}
+
+TEST(BlockRuns, ArePossible) {
+  TreeAttributes attributes;
+  attributes.triangles = 2;
+  attributes.quads = 3;
+  const auto is_possible = [&](const std::vector<BlockRun>& runs) {
+    try {
+      require_possible_runs(runs, attributes, "a.tree.h5");
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(is_possible({}));
+  EXPECT_TRUE(is_possible({{3, 1, 2}, {4, 0, 1}, {4, 1, 2}}));
+  EXPECT_FALSE(is_possible({{3, 1, 2}, {4, 0, 1}}));
+  EXPECT_FALSE(is_possible({{3, 1, 2}, {5, 0, 3}}));
+  EXPECT_FALSE(is_possible({{3, -1, 2}, {4, 0, 3}}));
+  EXPECT_FALSE(is_possible({{3, 1, 1L << 62}, {3, 1, 1L << 62}, {4, 0, 3}}));
+  EXPECT_FALSE(is_possible({{3, 1, 3}, {3, 1, -1}, {4, 0, 3}}));
+}
+
 /// Rank 0's, of a file that all ranks have written.
 std::string bytes_at_root(const std::string& file) {
   std::ostringstream text;

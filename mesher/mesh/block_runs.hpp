@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/base/parallel/communicator.hpp"
+#include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/tree_record.hpp"
+
+namespace quadloop {
+
+/// Returns the runs of all ranks' triangles, then those of the quads, in the order of the mesh; empty if the
+/// domain is one block. The same on every rank. *Collective.*
+std::vector<BlockRun> block_runs(const Communicator& comm, const Mesh& mesh);
+
+/// Returns the order of a whole mesh whose cells are sorted by block, as files store them: entry i of the
+/// order is the cell that is the i-th one in the quadtree. The blocks of the cells are indices as in the
+/// runs. Throws InputError if a block has another number of cells than in the runs. Without runs, the mesh's
+/// own order.
+MeshOrder order_by_runs(const Mesh& whole, const MeshBlocks& blocks, const std::vector<BlockRun>& runs);
+
+/// Sets the block of each of this rank's cells, whose order is that of the quadtree. *Collective.*
+void set_blocks(const Communicator& comm, const std::vector<std::string>& names,
+                const std::vector<BlockRun>& runs, Mesh& mesh);
+
+}  // namespace quadloop
