@@ -135,7 +135,7 @@ def main():
             run([args.quadloop, "adapt", case, "-o", work / f"{mesh_type}_2", "--resume", "--set", f'mesh.type="{mesh_type}"'])
             if digest(first / "cycle_02" / "mesh.mesh") != digest(work / f"{mesh_type}_2" / "cycle_02" / "mesh.mesh"):
                 fail(f"{mesh_type}: a resumed run differs")
-            run([args.quadloop, "remesh", "--tree", first / "cycle_01" / "mesh.tree.h5", "--solution", first / "cycle_01" / "mesh.mesh", case,
+            run([args.quadloop, "remesh", "--tree", first / "cycle_00" / "mesh.tree.h5", "--solution", first / "cycle_00" / "mesh.mesh", case,
                  "-o", work / "start", "--set", f'mesh.type="{mesh_type}"', "--set", 'output.formats=["mesh"]'])
             check_starts(work)
     print("good")
