@@ -74,7 +74,7 @@ io::LoadedMesh mesh_of_tree(const RemeshArguments& arguments, const TreeAttribut
     if (!std::filesystem::exists(file)) continue;
     try {
       io::LoadedMesh loaded = io::read_mesh(file);
-      if (adapt::is_mesh_of_tree(loaded, tree)) return loaded;
+      if (adapt::is_mesh_of_tree(loaded.mesh, tree)) return loaded;
     } catch (const InputError&) {
       continue;  // it was only a guess
     }
@@ -92,7 +92,7 @@ io::LoadedMesh solved_mesh(const RemeshArguments& arguments, const TreeAttribute
   if (solution.mesh)
     adapt::require_counts(counts_of(solution.mesh->mesh), tree, arguments.solution, arguments.tree);
   io::LoadedMesh whole;
-  if (solution.mesh && adapt::is_mesh_of_tree(*solution.mesh, tree)) {
+  if (solution.mesh && adapt::is_mesh_of_tree(solution.mesh->mesh, tree)) {
     whole = std::move(*solution.mesh);
   } else {
     whole = mesh_of_tree(arguments, tree);
@@ -179,7 +179,8 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
 /// Distributes the solved mesh. *Collective.*
 adapt::SolvedMesh spread(const Communicator& comm, const RemeshArguments& arguments, RemeshProblem& problem) {
   const io::LoadedMesh whole = std::exchange(problem.whole, {});
-  adapt::SolvedMesh solved = adapt::spread_solved(comm, whole, std::move(problem.tree));
+  adapt::SolvedMesh solved =
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(problem.tree));
   solved.file = arguments.solution;
   adapt::require_own_mesh(comm, solved, arguments.solution, arguments.tree);
   return solved;

@@ -16,6 +16,7 @@
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
@@ -58,6 +59,7 @@ void finish_reading(LoadedMesh& loaded, const std::string& path) {
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
   clean_up_names(std::move(names), loaded.solution, path, loaded.warnings);
+  if (loaded.blocks > 1) loaded.mesh.blocks = plane_blocks(loaded);
 }
 
 void finish_reading(FileMesh& mesh, const std::string& path) {

@@ -188,7 +188,8 @@ SolvedMesh read_solved(const Communicator& comm, const Case& of, const std::stri
   comm.together([&] {
     if (comm.is_root()) whole = io::read_mesh(mesh);
   });
-  SolvedMesh solved = adapt::spread_solved(comm, whole, io::read_tree(comm, tree));
+  SolvedMesh solved =
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, tree));
   solved.file = mesh;
   const TreeAttributes& made = solved.tree.attributes;
   comm.together([&] {

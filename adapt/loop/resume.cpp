@@ -63,7 +63,8 @@ SolvedMesh read_cycle(const Communicator& comm, const CyclePaths& paths) {
     whole = io::read_mesh(path);
     if (!whole.solution) throw InputError(path + ": contains no solution; a complete cycle has one");
   });
-  SolvedMesh solved = spread_solved(comm, whole, io::read_tree(comm, paths.tree()));
+  SolvedMesh solved =
+      spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), io::read_tree(comm, paths.tree()));
   solved.file = path;
   return solved;
 }

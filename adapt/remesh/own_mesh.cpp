@@ -54,13 +54,12 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
                   of_tree.triangles, of_tree.quads));
 }
 
-bool is_mesh_of_tree(const io::LoadedMesh& whole, const TreeAttributes& tree) {
-  const Mesh& mesh = whole.mesh;
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree) {
   const auto count = [](const auto& rows) { return std::ssize(rows); };
-  const bool counts = count(mesh.points) == tree.nodes && count(mesh.triangles) == tree.triangles &&
-                      count(mesh.quads) == tree.quads;
-  return counts && digest_of_owned(mesh) == tree.coordinate_digest &&
-         validate(mesh, {whole.blocks, whole.triangle_to_block, whole.quad_to_block}).empty();
+  const bool counts = count(whole.points) == tree.nodes && count(whole.triangles) == tree.triangles &&
+                      count(whole.quads) == tree.quads;
+  return counts && digest_of_owned(whole) == tree.coordinate_digest &&
+         validate(whole, cell_blocks(whole)).empty();
 }
 
 void require_own_mesh(const Communicator& comm, const SolvedMesh& solved, const std::string& shown,

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "adapt/remesh/demands/solved_mesh.hpp"
-#include "io/model/loaded_mesh.hpp"
 
 namespace quadloop::adapt {
 
@@ -13,7 +12,7 @@ void require_counts(const MeshCounts& of_mesh, const TreeAttributes& of_tree, co
                     const std::string& tree);
 
 /// Whether a whole mesh is bitwise the one that the tree was saved with.
-bool is_mesh_of_tree(const io::LoadedMesh& whole, const TreeAttributes& tree);
+bool is_mesh_of_tree(const Mesh& whole, const TreeAttributes& tree);
 
 /// Throws InputError on all ranks unless the mesh can be the one that the tree was saved with: equal numbers
 /// of nodes and cells, and either all nodes in place (as for a morphed mesh), or each quadtree cell's mesh

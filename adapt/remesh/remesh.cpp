@@ -7,23 +7,20 @@
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/demands/restart.hpp"
-#include "io/model/plane_blocks.hpp"
 #include "mesher/mesh/block_runs.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 
 namespace quadloop::adapt {
 
-SolvedMesh spread_solved(const Communicator& comm, const io::LoadedMesh& whole, TreeRecord tree) {
+SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution,
+                         TreeRecord tree) {
   MeshOrder order;
-  MeshBlocks blocks;
   comm.together([&] {
-    if (!comm.is_root()) return;
-    order = io::order_along_tree(whole, tree.block_runs);
-    blocks = io::plane_blocks(whole);
+    if (comm.is_root()) order = order_by_runs(whole, tree.block_runs);
   });
-  SolvedMesh solved{scatter_mesh(comm, whole.mesh, order), std::move(tree), {}, {}};
-  solved.solution = scatter_field(comm, whole.solution.value_or(Field{}), solved.mesh, order);
-  set_blocks(comm, broadcast_words(comm, blocks.names), solved.tree.block_runs, solved.mesh);
+  SolvedMesh solved{scatter_mesh(comm, whole, order), std::move(tree), {}, {}};
+  solved.solution = scatter_field(comm, solution, solved.mesh, order);
+  set_blocks(comm, broadcast_words(comm, whole.blocks.names), solved.tree.block_runs, solved.mesh);
   return solved;
 }
 

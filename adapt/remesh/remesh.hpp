@@ -7,13 +7,12 @@
 
 #include "adapt/remesh/plan.hpp"
 #include "adapt/transfer/transfer.hpp"
-#include "io/model/loaded_mesh.hpp"
 
 namespace quadloop::adapt {
 
-/// Distributes a whole mesh on the root with its solution and tree. Its cells must be in the order of the
-/// quadtree cells, within each block. *Collective.*
-SolvedMesh spread_solved(const Communicator& comm, const io::LoadedMesh& whole, TreeRecord tree);
+/// Distributes a whole mesh on the root, whose cells are in the order of the quadtree cells within each
+/// block, with its solution and tree. *Collective.*
+SolvedMesh spread_solved(const Communicator& comm, const Mesh& whole, const Field& solution, TreeRecord tree);
 
 /// Result of an initial adaptation pass, with a loosely converged solution.
 struct PassRecord {

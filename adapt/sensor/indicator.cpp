@@ -6,7 +6,7 @@
 #include "adapt/sensor/cell_jumps.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "adapt/sensor/recovery/node_gradients.hpp"
-#include "mesher/mesh/block_part.hpp"
+#include "mesher/mesh/cells/block_part.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop::adapt {

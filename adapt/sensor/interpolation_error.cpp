@@ -6,7 +6,7 @@
 #include "adapt/sensor/recovery/hessians.hpp"
 #include "adapt/sensor/recovery/scaled_field.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
-#include "mesher/mesh/block_part.hpp"
+#include "mesher/mesh/cells/block_part.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 

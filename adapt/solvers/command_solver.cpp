@@ -7,7 +7,6 @@
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/plane_blocks.hpp"
 #include "io/solution_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/block_runs.hpp"
@@ -53,7 +52,7 @@ Field read_left(const Communicator& comm, const Mesh& mesh, const flow::SolverCo
       io::LoadedSolution left = io::read_solution(files.solution);
       const io::LoadedMesh given = io::read_mesh(CyclePaths{files.folder}.native_mesh());
       io::require_same_mesh(left, given.mesh);
-      order = io::order_along_tree(given, runs);
+      order = order_by_runs(given.mesh, runs);
       whole = std::move(left.solution);
     } catch (const InputError& fault) {
       throw SolverError(flow::solver_message(command, files,

@@ -20,7 +20,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/geometry/point_table.hpp"
-#include "mesher/mesh/block_part.hpp"
+#include "mesher/mesh/cells/block_part.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "io/model/cell_faces.hpp"
-#include "io/model/plane_blocks.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {

@@ -18,6 +18,13 @@ StreamBlocks::StreamBlocks(const MeshStream& stream)
   if (names_.empty()) names_ = {"domain"};
 }
 
+PlaneBlocks plane_blocks(const LoadedMesh& whole) {
+  PlaneBlocks blocks{whole.block_names, whole.triangle_to_block, whole.quad_to_block};
+  for (std::size_t b = blocks.names.size(); std::ssize(blocks.names) < whole.blocks; ++b)
+    blocks.names.push_back("block_" + std::to_string(b + 1));
+  return blocks;
+}
+
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks) {
   std::vector<std::int64_t> numbers(blocks.of_triangles.size() + blocks.of_quads.size());
   std::int64_t next = 0;

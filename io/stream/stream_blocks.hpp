@@ -60,6 +60,9 @@ class StreamBlocks {
   std::array<std::vector<std::int32_t>, cell_kinds> of_;
 };
 
+/// Returns the blocks of a whole mesh; unnamed ones are named "block_2", ... by their number.
+PlaneBlocks plane_blocks(const LoadedMesh& whole);
+
 /// Returns global numbers, from 0, of this rank's plane cells, triangles, then quads, such that the cells of
 /// a block are contiguous: block by block, in each triangles before quads, each in their order. *Collective.*
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks);

@@ -94,7 +94,8 @@ std::vector<BlockRun> block_runs(const Communicator& comm, const Mesh& mesh) {
   return joined(all);
 }
 
-MeshOrder order_by_runs(const Mesh& whole, const MeshBlocks& blocks, const std::vector<BlockRun>& runs) {
+MeshOrder order_by_runs(const Mesh& whole, const std::vector<BlockRun>& runs) {
+  const MeshBlocks& blocks = whole.blocks;
   MeshOrder order = own_order(whole);
   if (runs.empty()) return order;
   const std::size_t count = blocks.names.size();

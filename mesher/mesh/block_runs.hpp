@@ -15,10 +15,9 @@ namespace quadloop {
 std::vector<BlockRun> block_runs(const Communicator& comm, const Mesh& mesh);
 
 /// Returns the order of a whole mesh whose cells are sorted by block, as files store them: entry i of the
-/// order is the cell that is the i-th one in the quadtree. The blocks of the cells are indices as in the
-/// runs. Throws InputError if a block has another number of cells than in the runs. Without runs, the mesh's
-/// own order.
-MeshOrder order_by_runs(const Mesh& whole, const MeshBlocks& blocks, const std::vector<BlockRun>& runs);
+/// order is the cell that is the i-th one in the quadtree. Throws InputError if a block has another number of
+/// cells than in the runs. Without runs, the mesh's own order.
+MeshOrder order_by_runs(const Mesh& whole, const std::vector<BlockRun>& runs);
 
 /// Sets the block of each of this rank's cells, whose order is that of the quadtree. *Collective.*
 void set_blocks(const Communicator& comm, const std::vector<std::string>& names,

@@ -118,7 +118,8 @@ adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std:
     adapt::require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
                           former.tree.attributes, former.mesh_file, former.tree_file);
   });
-  adapt::DesignStart start{adapt::spread_solved(comm, whole, std::move(former.tree)), {}};
+  adapt::DesignStart start{
+      adapt::spread_solved(comm, whole.mesh, whole.solution.value_or(Field{}), std::move(former.tree)), {}};
   start.solved.file = former.mesh_file;
   adapt::require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)

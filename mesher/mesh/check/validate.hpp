@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "mesher/base/ids.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/topology.hpp"
@@ -41,6 +43,11 @@ struct CellBlocks {
   std::int32_t count = 1;
   std::span<const std::int32_t> of_triangle, of_quad;
 };
+
+/// Returns the blocks of a whole mesh.
+inline CellBlocks cell_blocks(const Mesh& mesh) {
+  return {std::max(1, size32(mesh.blocks.names)), mesh.blocks.of_triangles, mesh.blocks.of_quads};
+}
 
 /// Returns all errors of a mesh that is whole on this rank, in the order of the rules; O(n log n). If
 /// connectivity or coordinates are invalid, the later rules are skipped.

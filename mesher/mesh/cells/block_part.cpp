@@ -1,4 +1,4 @@
-#include "mesher/mesh/block_part.hpp"
+#include "mesher/mesh/cells/block_part.hpp"
 
 #include <algorithm>
 #include <utility>

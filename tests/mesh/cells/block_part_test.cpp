@@ -1,6 +1,6 @@
 // The parts of a mesh in its blocks are valid meshes, on any number of ranks; the order of cells along the
 // quadtree is found again from a file's blocks.
-#include "mesher/mesh/block_part.hpp"
+#include "mesher/mesh/cells/block_part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -94,7 +94,7 @@ TEST(BlockRuns, GiveTheOrderOfTheCellsBack) {
   const Mesh mesh = test::part_with_blocks(world(), whole, own_order(whole));
   const std::vector<BlockRun> runs = block_runs(world(), mesh);
   const Mesh file = by_block(whole);
-  const MeshOrder order = order_by_runs(file, file.blocks, runs);
+  const MeshOrder order = order_by_runs(file, runs);
   ASSERT_EQ(order.triangles.size(), whole.triangles.size());
   for (std::size_t i = 0; i < whole.triangles.size(); ++i)
     EXPECT_EQ(file.triangles[order.triangles[i]], whole.triangles[i]);
@@ -113,10 +113,10 @@ TEST(BlockRuns, RefuseBlocksOfOtherSizes) {
   const std::vector<BlockRun> runs = block_runs(world(), mesh);
   Mesh other = by_block(whole);
   other.blocks.of_quads.back() = 0;
-  EXPECT_THROW(order_by_runs(other, other.blocks, runs), InputError);
+  EXPECT_THROW(order_by_runs(other, runs), InputError);
   std::vector<BlockRun> longer = runs;
   longer.back().cells += 1;
-  EXPECT_THROW(order_by_runs(whole, whole.blocks, longer), InputError);
+  EXPECT_THROW(order_by_runs(whole, longer), InputError);
   EXPECT_TRUE(block_runs(world(), scatter_mesh(world(), whole, own_order(whole))).empty());
 }
 
