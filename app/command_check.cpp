@@ -42,7 +42,8 @@ std::vector<Chain> load_chains(const CommandContext& context, const std::string&
 CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chains) {
   const Mesh& mesh = loaded.mesh;
   CheckReport report;
-  report.blocks = loaded.blocks;
+  const CellBlocks blocks{loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block};
+  report.blocks = block_statistics(mesh, blocks, loaded.block_names);
   for (const BoundaryEdges& boundary : mesh.boundaries)
     report.boundaries.emplace_back(boundary.name, boundary.edges.size());
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
@@ -61,10 +62,11 @@ CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chai
   report.area = area_of(mesh);
   report.pinched_nodes = pinched_nodes(mesh, topology);
   report.regions = connected_regions(mesh, topology);
-  report.faults = validate(mesh, {loaded.blocks, loaded.triangle_to_block, loaded.quad_to_block});
+  report.interfaces = interface_edges(mesh, blocks, topology);
+  report.faults = validate(mesh, blocks);
   const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
   if (chains == nullptr || !has_cells) return report;
-  report.fit = validate_geometry(mesh, *chains);
+  report.fit = validate_geometry(mesh, *chains, blocks);
   report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
   return report;
 }

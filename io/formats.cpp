@@ -100,7 +100,7 @@ FileFormat medit_row() {
 std::vector<FileFormat> native_rows() {
   using enum Content;
   return {{.name = "mesh",
-           .places = {mesh, solution, constants, blocks, layers},
+           .places = {mesh, solution, constants, blocks, block_names, layers},
            .by_default = true,
            .read = read_native_or_medit,
            .write = write_native},

@@ -176,7 +176,8 @@ void append_block_names(const FileFormat& format, const MeshContent& content, co
   if (!blocks_are_kept || names_are_kept) return;
   std::vector<std::string> names;
   for (std::size_t b = 0; b < content.block_names.size(); ++b) {
-    const std::string usual = content.blocks == 1 ? "domain" : fmt::format("block_{}", b + 1);
+    const std::string usual =
+        usual_block_name(static_cast<std::int32_t>(content.blocks), static_cast<std::int32_t>(b));
     if (content.block_names[b] != usual) names.push_back(content.block_names[b]);
   }
   if (!names.empty())

@@ -108,6 +108,32 @@ std::string boundaries_json(const CheckReport& report) {
   return boundaries.text();
 }
 
+/// Adds the number of blocks; if there are several, also cells and area of each, and the error of the area if
+/// the geometry is known.
+void add_blocks(Statistics& statistics, const CheckReport& report) {
+  statistics.add("blocks", std::ssize(report.blocks));
+  if (report.blocks.size() < 2) return;
+  std::vector<std::string> rows;
+  for (std::size_t b = 0; b < report.blocks.size(); ++b) {
+    const BlockStatistics& block = report.blocks[b];
+    statistics.add_lines(inner_row(block.name, fmt::format("{} cells", block.cells)));
+    statistics.add_lines(inner_row("  area", fmt::format("{:.6g}", block.area)));
+    JsonObject row;
+    row.add("name", block.name);
+    row.add("cells", block.cells);
+    row.add("area", block.area);
+    if (report.fit && b < report.fit->block_area_errors.size()) {
+      const double error = report.fit->block_area_errors[b];
+      statistics.add_lines(inner_row("  geometry area error", fmt::format("{:.6g}", error)));
+      row.add("geometry_area_error", error);
+    }
+    rows.push_back(row.text());
+  }
+  statistics.add_member("block_sizes", json_list(rows));
+  statistics.add("interface edges", report.interfaces.all);
+  if (report.interfaces.unnamed > 0) statistics.add("unnamed interface edges", report.interfaces.unnamed);
+}
+
 /// All but the errors.
 Statistics statistics_of(const CheckReport& report, bool verbose, std::size_t most) {
   const QualitySummary& quality = report.quality;
@@ -115,7 +141,7 @@ Statistics statistics_of(const CheckReport& report, bool verbose, std::size_t mo
   statistics.add("nodes", quality.counts.nodes);
   statistics.add("triangles", quality.counts.triangles);
   statistics.add("quads", quality.counts.quads);
-  statistics.add("blocks", report.blocks);
+  add_blocks(statistics, report);
   statistics.add("regions", report.regions.count);
   statistics.add("boundary edges", quality.counts.boundary_edges);
   statistics.add_member("boundaries", boundaries_json(report));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/base/json.hpp"
+#include "mesher/mesh/check/block_statistics.hpp"
 #include "mesher/mesh/check/face_statistics.hpp"
 #include "mesher/mesh/check/layer_statistics.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -18,7 +19,8 @@ namespace quadloop::app {
 /// Results of `check` for one mesh.
 struct CheckReport {
   std::string file;
-  std::int32_t blocks = 1;
+  std::vector<BlockStatistics> blocks;
+  InterfaceEdges interfaces;
   std::vector<std::pair<std::string, std::int64_t>> boundaries;  ///< name and number of edges
   QualitySummary quality;
   ShapeStatistics shape;

@@ -24,6 +24,11 @@ struct LoadedMesh {
   std::vector<std::string> warnings = {};  ///< what the reader reversed or omitted, with the file's name
 };
 
+/// Name of a block, numbered from 0, for which a file has none: "domain" if it is the only one.
+inline std::string usual_block_name(std::int32_t blocks, std::int32_t block) {
+  return blocks == 1 ? "domain" : std::string("block_").append(std::to_string(block + 1));
+}
+
 /// Whether there are several blocks, or one with a name of its own.
 inline bool has_named_blocks(const LoadedMesh& loaded) {
   return loaded.blocks > 1 || (!loaded.block_names.empty() && loaded.block_names[0] != "domain");

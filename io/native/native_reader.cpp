@@ -63,13 +63,22 @@ class NativeReader {
     if (blocks == 0) scan_.refuse("a mesh has at least one block");
     loaded_.blocks = static_cast<std::int32_t>(blocks);
     for (std::int32_t block = 0; block < loaded_.blocks; ++block) {
+      loaded_.block_names.push_back(name_of_block(block));
       read_rows("triangular elements", loaded_.mesh.triangles);
       read_rows("quadrilateral elements", loaded_.mesh.quads);
       loaded_.triangle_to_block.resize(loaded_.mesh.triangles.size(), block);
       loaded_.quad_to_block.resize(loaded_.mesh.quads.size(), block);
-      loaded_.block_names.push_back(blocks == 1 ? "domain"
-                                                : std::string("block_").append(std::to_string(block + 1)));
     }
+  }
+
+  /// Returns the name in the comment "# block NAME" before the next block, if there is one.
+  std::string name_of_block(std::int32_t block) {
+    constexpr std::string_view head = "# block ";
+    scan_.forget_comments();
+    scan_.at_end();
+    const std::string_view comment = scan_.last_comment_with(head);
+    return comment.starts_with(head) ? std::string(comment.substr(head.size()))
+                                     : usual_block_name(loaded_.blocks, block);
   }
 
   void read_boundaries() {

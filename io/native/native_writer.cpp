@@ -1,7 +1,9 @@
 #include "io/model/layers_text.hpp"
+#include "io/model/loaded_mesh.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
+#include "mesher/base/ids.hpp"
 #include "mesher/mesh/variable_names.hpp"
 
 namespace quadloop::io {
@@ -22,9 +24,11 @@ class NativeWriter {
     const std::size_t blocks = blocks_ == nullptr ? 1 : blocks_->names.size();
     file_.write("#Number of blocks\n" + std::to_string(blocks) + "\n");
     if (blocks_ == nullptr) write_cells(mesh_.triangles, mesh_.quads);
-    for (std::int32_t block = 0; blocks_ != nullptr && block < std::ssize(blocks_->names); ++block)
+    for (std::int32_t block = 0; blocks_ != nullptr && block < std::ssize(blocks_->names); ++block) {
+      file_.write(block_text(blocks_->names, block));
       write_cells(cells_of_block(mesh_.triangles, blocks_->of_triangles, block),
                   cells_of_block(mesh_.quads, blocks_->of_quads, block));
+    }
     write_boundaries();
   }
 
@@ -108,6 +112,12 @@ class NativeWriter {
           text.put(edge[1] + 1, '\n');
         });
     for (const StripLayers& strip : mesh_.strips) file_.write(comments_of(strip));
+  }
+
+  /// A block without a name of its own has no comment.
+  static std::string block_text(const std::vector<std::string>& names, std::int32_t block) {
+    const std::string& name = names[block];
+    return name == usual_block_name(size32(names), block) ? "" : "# block " + name + "\n";
   }
 
   static std::string layers_text(const BoundaryEdges& boundary) {

@@ -21,7 +21,7 @@ StreamBlocks::StreamBlocks(const MeshStream& stream)
 PlaneBlocks plane_blocks(const LoadedMesh& whole) {
   PlaneBlocks blocks{whole.block_names, whole.triangle_to_block, whole.quad_to_block};
   for (std::size_t b = blocks.names.size(); std::ssize(blocks.names) < whole.blocks; ++b)
-    blocks.names.push_back("block_" + std::to_string(b + 1));
+    blocks.names.push_back(usual_block_name(whole.blocks, static_cast<std::int32_t>(b)));
   return blocks;
 }
 

@@ -5,16 +5,31 @@ format that holds blocks, as expected (expected.toml); what does not work with b
     run_blocks.py --quadloop PROGRAM --case CASE.toml [--write-expected]
 """
 import argparse
+import json
 import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
-from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
+from quadloop_runs import JUDGE, beside_the_checkout, digest, fail, mesh_case, run
 from run_case import compare, values_of, write_expected
 
 FORMATS = ("mesh", "qmesh", "vtu", "msh", "su2")
+
+
+def check_areas(quadloop, prefix, mesh_type):
+    """Both judges compare the blocks with the geometry, by name."""
+    names = ["plate", "channel"]
+    report = json.loads(run([quadloop, "check", f"{prefix}.mesh", "--geometry", f"{prefix}.geom", "--json"]))
+    if [row["name"] for row in report["block_sizes"]] != names or any(not row["geometry_area_error"] < 1e-3 for row in report["block_sizes"]):
+        fail(f"blocks of the report: {report['block_sizes']}")
+    if report["interface_edges"] == 0 or "unnamed_interface_edges" in report:
+        fail(f"{report['interface_edges']} edges between blocks, {report.get('unnamed_interface_edges')} without a name")
+    judged = json.loads(run([sys.executable, "-B", JUDGE, f"{prefix}.mesh", "--geometry", f"{prefix}.geom", "--json"]
+                            + ["--delaunay"] * (mesh_type == "delaunay")))
+    if list(judged["blocks"]) != names or any(abs(judged["blocks"][row["name"]] - row["area"]) > 1e-9 for row in report["block_sizes"]):
+        fail(f"areas of blocks: {judged['blocks']}, {report['block_sizes']}")
 
 
 def judge(prefix, mesh_type):
@@ -49,7 +64,7 @@ def main():
             prefix = work / mesh_type
             for ranks in (1, 2, 3, 5):
                 other = prefix if ranks == 1 else work / "other"
-                mesh_case(args.quadloop, args.case, other, ranks, [*options, "--type", mesh_type])
+                mesh_case(args.quadloop, args.case, other, ranks, [*options, "--type", mesh_type, "--geometry-out", f"{other}.geom"])
                 for name in (*FORMATS, "tree.h5"):
                     if digest(f"{other}.{name}") != digest(f"{prefix}.{name}"):
                         fail(f"{name} differs on {ranks} ranks")
@@ -57,6 +72,7 @@ def main():
                 said = run([args.quadloop, "check", f"{prefix}.{name}"])
                 if not any(line.split() == ["blocks", "2"] for line in said.splitlines()):
                     fail(f"{name} has not two blocks: {said}")
+            check_areas(args.quadloop, prefix, mesh_type)
             judge(prefix, mesh_type)
             found = values_of(prefix)
             stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"

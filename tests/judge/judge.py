@@ -93,7 +93,10 @@ class Edges:
     def __init__(self, mesh):
         self.n = len(mesh.points)
         pairs = [np.column_stack([c[:, k], c[:, (k + 1) % c.shape[1]]]) for c in mesh.kinds() for k in range(c.shape[1])]
-        self.cells, self.uses = np.unique(self.number(np.concatenate(pairs)), return_counts=True)
+        self.cells, first, self.uses = np.unique(self.number(np.concatenate(pairs)), return_index=True, return_counts=True)
+        triangles = len(mesh.triangles)
+        blocks = [mesh.block_of()[:triangles]] * 3 + [mesh.block_of()[triangles:]] * 4
+        self.blocks = np.concatenate(blocks)[first]
         self.boundary = self.number(np.concatenate([np.empty((0, 2), dtype=np.int64), *mesh.boundaries.values()]))
 
     def number(self, pairs):
@@ -102,8 +105,22 @@ class Edges:
     def turned(self, numbers):
         return numbers % self.n * self.n + numbers // self.n
 
+    def blocks_beside(self, numbers):
+        """The blocks of the cells left and right of edges; -1: no cell."""
+        def left_of(wanted):
+            at = np.minimum(np.searchsorted(self.cells, wanted), len(self.cells) - 1)
+            return np.where(self.cells[at] == wanted, self.blocks[at], -1)
+        return left_of(numbers), left_of(self.turned(numbers))
+
     def text(self, number):
         return f"edge {number // self.n + 1} {number % self.n + 1}"
+
+
+def outer_edges(mesh):
+    """The boundary edges that bound one cell."""
+    edges = Edges(mesh)
+    outer = edges.boundary[edges.blocks_beside(edges.boundary)[1] < 0]
+    return np.column_stack([outer // edges.n, outer % edges.n])
 
 
 def hanging_nodes(mesh, edges, numbers):
@@ -118,7 +135,8 @@ def hanging_nodes(mesh, edges, numbers):
 
 
 def check_edges(mesh):
-    """Every edge is that of two cells, which run along it in opposite senses, or of one cell and, in the cell's sense, of one boundary."""
+    """Every edge is that of two cells, which run along it in opposite senses, or of one cell and, in the cell's sense, of one boundary; that
+    of cells of two blocks is also a boundary's, once, in the sense of the first block's cell."""
     edges = Edges(mesh)
     text = edges.text
     faults = named("two cells lie on two sides of an edge", map(text, edges.cells[edges.uses > 1]))
@@ -132,15 +150,20 @@ def check_edges(mesh):
     faults += named("no boundary edge twice", map(text, numbers[counts > 1]))
     forward, backward = np.isin(numbers, edges.cells), np.isin(edges.turned(numbers), edges.cells)
     faults += named("boundary edges are edges of cells", map(text, numbers[~forward & ~backward]))
-    return faults + named("boundary edges bound one cell", map(text, numbers[forward & backward]))
+    left, right = edges.blocks_beside(numbers)
+    faults += named("boundary edges bound one cell", map(text, numbers[forward & backward & (left == right)]))
+    faults += named("the first of two blocks is left of its edge", map(text, numbers[forward & backward & (left > right)]))
+    left, right = edges.blocks_beside(edges.cells)
+    unnamed = edges.cells[(right >= 0) & (left < right) & ~np.isin(edges.cells, edges.boundary)]
+    return faults + named("an edge between two blocks is a boundary's", map(text, unnamed))
 
 
 def check_loops(mesh):
-    """As many boundary edges come to a node as leave it: they make up closed loops."""
+    """As many boundary edges, of those that bound one cell, come to a node as leave it: they make up closed loops."""
     balance = np.zeros(len(mesh.points), dtype=np.int64)
-    for boundary in mesh.boundaries.values():
-        np.add.at(balance, boundary[:, 0], 1)
-        np.add.at(balance, boundary[:, 1], -1)
+    outer = outer_edges(mesh)
+    np.add.at(balance, outer[:, 0], 1)
+    np.add.at(balance, outer[:, 1], -1)
     faults = [Fault("boundaries have edges", f"'{name}' has none") for name, boundary in mesh.boundaries.items() if len(boundary) == 0]
     return faults + named("boundaries are closed loops", (at(mesh, n) for n in np.flatnonzero(balance)))
 
@@ -155,22 +178,40 @@ def check_delaunay(mesh):
     turned = numbers % n * n + numbers // n
     partner = np.minimum(np.searchsorted(numbers[order], turned), len(numbers) - 1)
     inner = (numbers[order[partner]] == turned) & (numbers < turned)
+    named_edges = Edges(mesh).boundary  # those between two blocks stay as they are
+    inner &= ~np.isin(numbers, named_edges) & ~np.isin(turned, named_edges)
     p = mesh.points
     a, b, c, d = p[numbers[inner] // n], p[numbers[inner] % n], p[opposite[inner]], p[opposite[order[partner[inner]]]]
     return named("edges are locally Delaunay", (f"edge {e // n + 1} {e % n + 1}" for e in numbers[inner][exact.in_circles(a, b, c, d) > 0]))
 
 
 def check_overlap(mesh):
-    return by_rule(overlap.check(mesh))
+    return by_rule(overlap.check(mesh, outer_edges(mesh)))
 
 
-def area_of(mesh):
-    total = 0.0
+def areas_of(mesh):
+    """The area of each cell, triangles first."""
+    areas = []
     for cells in mesh.kinds():
         x, y = mesh.points[cells, 0], mesh.points[cells, 1]
         x, y = x - x[:, :1], y - y[:, :1]
-        total += float((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum()) / 2
-    return total
+        areas.append((x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1) / 2)
+    return np.concatenate(areas)
+
+
+def area_of(mesh):
+    return float(areas_of(mesh).sum())
+
+
+def areas_of_blocks(mesh):
+    """{name: area}"""
+    areas = areas_of(mesh)
+    return {name: float(areas[mesh.block_of() == block].sum()) for block, name in enumerate(mesh.blocks)}
+
+
+def check_blocks(mesh, geometry):
+    edges = Edges(mesh)
+    return by_rule(outline.check_blocks(mesh, geometry, areas_of_blocks(mesh), lambda pairs: edges.blocks_beside(edges.number(pairs))))
 
 
 def check_area(mesh, expected):
@@ -189,12 +230,15 @@ def judge(mesh, delaunay=False, geometry=None, corners=False, area=None):
         faults += check_area(mesh, area)
     if geometry is not None:
         faults += by_rule(outline.check(mesh, geometry, corners))
+        if len(mesh.blocks) > 1 and not faults:
+            faults += check_blocks(mesh, geometry)
     return faults
 
 
 def differences(mesh, other):
     """What differs between two files of one mesh, number for number."""
-    parts = {"nodes": (mesh.points, other.points), "triangles": (mesh.triangles, other.triangles), "quads": (mesh.quads, other.quads)}
+    parts = {"nodes": (mesh.points, other.points), "triangles": (mesh.triangles, other.triangles), "quads": (mesh.quads, other.quads),
+             "blocks": (np.array(mesh.blocks), np.array(other.blocks)), "blocks of cells": (mesh.block_of(), other.block_of())}
     for name in sorted({*mesh.boundaries, *other.boundaries}):
         parts[f"boundary '{name}'"] = (mesh.boundaries.get(name), other.boundaries.get(name))
     return [Fault("same mesh", what) for what, (a, b) in parts.items() if a is None or b is None or not np.array_equal(a, b)]
@@ -220,7 +264,7 @@ def main():
         print(f"judge: {unreadable}", file=sys.stderr)
         return 2
     said = {"valid": not faults, "nodes": len(mesh.points), "triangles": len(mesh.triangles), "quads": len(mesh.quads), "area": area_of(mesh),
-            "boundaries": len(mesh.boundaries), "faults": [[f.rule, f.what] for f in faults]}
+            "blocks": areas_of_blocks(mesh), "boundaries": len(mesh.boundaries), "faults": [[f.rule, f.what] for f in faults]}
     print(json.dumps(said) if args.json else "\n".join(f"{key}: {value}" for key, value in said.items()))
     return 1 if faults else 0
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import sample_meshes as samples
-from judge import area_of, differences, judge
+from judge import area_of, areas_of_blocks, check_blocks, differences, judge
 from mesh_files import Unreadable, read_geometry, read_mesh
 
 
@@ -27,6 +27,17 @@ class GoodMeshes(unittest.TestCase):
         mesh = samples.frame()
         self.assertEqual(judge(mesh, geometry=samples.outline_of_frame(), corners=True, area=12.0), [])
         self.assertEqual(area_of(mesh), 12.0)
+
+    def test_two_blocks(self):
+        mesh = samples.two_blocks()
+        self.assertEqual(judge(mesh, geometry=samples.outline_of_two_blocks(), corners=True, area=16.0), [])
+        self.assertEqual(areas_of_blocks(mesh), {"ring": 12.0, "core": 4.0})
+
+    def test_an_edge_between_blocks_need_not_be_delaunay(self):
+        mesh = samples.two_triangles(0.5)
+        mesh.blocks, mesh.of_cells = ("above", "below"), np.array([0, 1])
+        mesh.boundaries["middle"] = np.array([(0, 1)])
+        self.assertEqual(judge(mesh, delaunay=True), [])
 
     def test_triangles_alone(self):
         self.assertEqual(judge(samples.frame(triangles_alone=True), delaunay=True), [])
@@ -160,6 +171,36 @@ class BrokenMeshes(unittest.TestCase):
         self.mesh.boundaries["wall"] = np.array([inside, inside[::-1]])
         self.assert_breaks("boundary edges bound one cell")
 
+    def test_edges_between_blocks(self):
+        mesh = samples.two_blocks()
+        turned, missing, twice = (copy.deepcopy(mesh) for _ in range(3))
+        turned.boundaries["inner"][2] = turned.boundaries["inner"][2][::-1].copy()
+        self.assert_breaks("the first of two blocks is left of its edge", turned)
+        missing.boundaries["inner"] = missing.boundaries["inner"][1:]
+        self.assert_breaks("an edge between two blocks is a boundary's", missing)
+        twice.boundaries["inner"] = np.vstack([twice.boundaries["inner"], twice.boundaries["inner"][:1]])
+        self.assert_breaks("no boundary edge twice", twice)
+        mesh.of_cells[:] = 0
+        self.assert_breaks("boundary edges bound one cell", mesh)
+
+    def test_a_block_of_another_area(self):
+        mesh = samples.two_blocks()
+        for x in (1, 2, 3):
+            mesh.points[node_at(mesh, x, 3)] = (x, 3.2)
+        outline = samples.outline_of_two_blocks()
+        for points in (points for _, points in outline["inner"]):
+            points[points[:, 1] == 3] += (0, 0.2)
+        self.assertEqual(judge(mesh, geometry=outline), [])
+        self.assert_breaks("boundary nodes lie on the outline", mesh, geometry=samples.outline_of_two_blocks())
+        for _, points in outline["inner"]:
+            points[:, 1] = 1 + (points[:, 1] - 1) * 1.5  # its nodes lie on it, but those of the mesh do not reach its end
+        self.assertEqual({fault.rule for fault in check_blocks(mesh, outline)}, {"areas of blocks"})
+
+    def test_an_interface_with_cells_on_one_side(self):
+        mesh = samples.frame()
+        mesh.blocks = ("ring", "core")
+        self.assert_breaks("lines between two blocks have cells on both sides", mesh, geometry=samples.outline_of_two_blocks())
+
     def test_a_boundary_edge_that_is_no_cells(self):
         a, b = node_at(self.mesh, 0, 0), node_at(self.mesh, 2, 0)
         self.mesh.boundaries["wall"] = np.array([(a, b), (b, a)])
@@ -234,6 +275,13 @@ class Files(unittest.TestCase):
         samples.write_cgns(self.mesh, self.cgns)
         self.assertEqual(differences(self.read_native(self.text), self.mesh), [])
         self.assertEqual(differences(read_mesh(self.cgns), self.mesh), [])
+
+    def test_names_and_cells_of_blocks(self):
+        mesh = samples.two_blocks()
+        self.assertEqual(differences(self.read_native(samples.native_text(mesh)), mesh), [])
+        other = self.read_native(samples.native_text(mesh).replace("# block core", "# block heart"))
+        self.assertEqual(other.blocks, ("ring", "heart"))
+        self.assertNotEqual(differences(other, mesh), [])
 
     def test_a_solution_may_follow(self):
         rows = "\n".join("1 2" for _ in self.mesh.points)

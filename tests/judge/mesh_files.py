@@ -20,11 +20,17 @@ def no_rows(width):
 
 @dataclass
 class Mesh:
-    """Nodes from 0; boundaries are directed edges (from, to) under their name."""
+    """Nodes from 0; boundaries are directed edges (from, to) under their name; `of_cells` has the block of each cell,
+    triangles first; None: there is one block."""
     points: np.ndarray
     triangles: np.ndarray = field(default_factory=lambda: no_rows(3))
     quads: np.ndarray = field(default_factory=lambda: no_rows(4))
     boundaries: dict = field(default_factory=dict)
+    blocks: tuple = ("domain",)
+    of_cells: np.ndarray = None
+
+    def block_of(self):
+        return np.zeros(len(self.triangles) + len(self.quads), dtype=np.int64) if self.of_cells is None else self.of_cells
 
     def kinds(self):
         return (self.triangles, self.quads)
@@ -38,6 +44,7 @@ class Rows:
         self.lines_ = [line.strip() for line in Path(path).read_text(encoding="utf-8").splitlines()]
         self.at_ = 0
         self.comment = ""
+        self.comments = []
 
     def next(self):
         while self.at_ < len(self.lines_):
@@ -45,6 +52,7 @@ class Rows:
             self.at_ += 1
             if line.startswith("#"):
                 self.comment = line
+                self.comments.append(line)
             elif line:
                 return line.split()
         raise Unreadable(f"{self.path_} ends early")
@@ -68,15 +76,26 @@ class Rows:
         return all(not line or line.startswith("#") for line in self.lines_[self.at_:])
 
 
+def set_cells(mesh, triangles, quads, names):
+    """The cells, given block by block."""
+    mesh.triangles = np.concatenate([no_rows(3), *triangles])
+    mesh.quads = np.concatenate([no_rows(4), *quads])
+    mesh.blocks = tuple(names)
+    mesh.of_cells = np.concatenate([np.full(len(cells), block) for kind in (triangles, quads) for block, cells in enumerate(kind)])
+
+
 def read_native(path):
     rows = Rows(path)
     mesh = Mesh(rows.table(2, float))
-    triangles, quads = [], []
-    for _ in range(rows.count()):
+    triangles, quads, names = [], [], []
+    count = rows.count()
+    for number in range(1, count + 1):
+        rows.comments = []
         triangles.append(rows.table(3, np.int64) - 1)
+        given = [comment[len("# block "):] for comment in rows.comments if comment.startswith("# block ")]
+        names.append(given[-1] if given else f"block_{number}" if count > 1 else "domain")
         quads.append(rows.table(4, np.int64) - 1)
-    mesh.triangles = np.concatenate([no_rows(3), *triangles])
-    mesh.quads = np.concatenate([no_rows(4), *quads])
+    set_cells(mesh, triangles, quads, names)
     for number in range(1, rows.count() + 1):
         count = rows.count()
         named = re.search(r"boundary +\d+ +\((.*)\)$", rows.comment)
@@ -153,20 +172,72 @@ def read_boundaries(zone, tables, path):
     return boundaries
 
 
+def read_zone(zone, path):
+    """Points, triangles, quads, boundaries and, for each other zone, the nodes here and there that are one: all numbered in the zones."""
+    nodes, cells = (int(n) for n in np.ravel(zone[" data"][()])[:2])
+    points = np.column_stack([zone[f"GridCoordinates/Coordinate{axis}/ data"][()] for axis in "XY"])
+    tables = element_tables(zone, path)
+    triangles, quads = (np.concatenate([no_rows(width), *(t[3] for t in tables if t[2] == kind)]) for kind, width in ((5, 3), (7, 4)))
+    if (len(points), len(triangles) + len(quads)) != (nodes, cells):
+        raise Unreadable(f"{path}: the zone tells of {nodes} nodes and {cells} cells and holds other numbers of them")
+    return points, triangles, quads, read_boundaries(zone, tables, path), read_connections(zone, path)
+
+
+def read_connections(zone, path):
+    found = {}
+    for connection in (c for group in children(zone, "ZoneGridConnectivity_t") for c in children(group, "GridConnectivity_t")):
+        if text_of(connection["GridConnectivityType"]) != "Abutting1to1" or text_of(connection["GridLocation"]) != "Vertex":
+            raise Unreadable(f"{path}: {connection.name} does not connect vertex with vertex")
+        here, there = (np.ravel(connection[f"{name}/ data"][()]).astype(np.int64) - 1 for name in ("PointList", "PointListDonor"))
+        if len(here) != len(there):
+            raise Unreadable(f"{path}: {connection.name} connects {len(here)} nodes with {len(there)}")
+        found[text_of(connection)] = (here, there)
+    return found
+
+
+def glue(zones, names, path):
+    """For each zone the numbers of its nodes in the whole mesh: that of the first zone that has the node, by the lists on both sides."""
+    starts = np.cumsum([0, *(len(zone[0]) for zone in zones)])
+    first = np.arange(starts[-1])
+    for number, zone in enumerate(zones):
+        for donor, (here, there) in zone[4].items():
+            if donor not in names:
+                raise Unreadable(f"{path}: zone {names[number]} is connected with '{donor}', which there is not")
+            other = names.index(donor)
+            back = zones[other][4].get(names[number], (no_rows(1), no_rows(1)))
+            if {*zip(here.tolist(), there.tolist())} != {*zip(back[1].tolist(), back[0].tolist())}:
+                raise Unreadable(f"{path}: zones {names[number]} and {donor} list different nodes")
+            if not np.array_equal(zone[0][here], zones[other][0][there]):
+                raise Unreadable(f"{path}: connected nodes of {names[number]} and {donor} lie at different places")
+            if other < number:
+                first[starts[number] + here] = np.minimum(first[starts[number] + here], first[starts[other] + there])
+    kept, numbers = np.unique(first, return_inverse=True)
+    return kept, [numbers[a:b] for a, b in zip(starts[:-1], starts[1:])]
+
+
 def read_cgns(path):
+    """Several zones are one mesh: connected nodes are one, and an edge of two zones is that of the first."""
     import h5py
     with h5py.File(path, "r") as file:
         base = only_child(file, "CGNSBase_t", path)
-        zone = only_child(base, "Zone_t", path)
-        nodes, cells = (int(n) for n in np.ravel(zone[" data"][()])[:2])
-        points = np.column_stack([zone[f"GridCoordinates/Coordinate{axis}/ data"][()] for axis in "XY"])
-        tables = element_tables(zone, path)
-        mesh = Mesh(points)
-        mesh.triangles = np.concatenate([no_rows(3), *(t[3] for t in tables if t[2] == 5)])
-        mesh.quads = np.concatenate([no_rows(4), *(t[3] for t in tables if t[2] == 7)])
-        mesh.boundaries = read_boundaries(zone, tables, path)
-    if (len(points), len(mesh.triangles) + len(mesh.quads)) != (nodes, cells):
-        raise Unreadable(f"{path}: the zone tells of {nodes} nodes and {cells} cells and holds other numbers of them")
+        found = sorted(children(base, "Zone_t"), key=lambda zone: base.id.links.get_info(short_name(zone).encode()).corder)
+        names = [short_name(zone) for zone in found]
+        zones = [read_zone(zone, path) for zone in found]
+    if not zones:
+        raise Unreadable(f"{path} has no zone")
+    for zone in zones:
+        checked(Mesh(zone[0], zone[1], zone[2], zone[3]), path)
+    kept, numbers = glue(zones, names, path)
+    mesh = Mesh(np.concatenate([zone[0] for zone in zones])[kept])
+    set_cells(mesh, [n[zone[1]] for n, zone in zip(numbers, zones)], [n[zone[2]] for n, zone in zip(numbers, zones)], names)
+    taken = set()
+    for own, zone in zip(numbers, zones):
+        for name, edges in zone[3].items():
+            rows = own[edges]
+            new = np.array([(b, a) not in taken for a, b in rows.tolist()], dtype=bool)
+            taken.update(map(tuple, rows.tolist()))
+            if new.any() or not len(rows):
+                mesh.boundaries[name] = np.concatenate([mesh.boundaries.get(name, no_rows(2)), rows[new]])
     return checked(mesh, path)
 
 

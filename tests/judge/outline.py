@@ -3,6 +3,7 @@ import numpy as np
 
 SHARP = np.radians(30)  # a point of the outline that turns by more is a corner
 ON_OUTLINE = 1e-9  # of the outline's extent
+BLOCK_AREA = 0.02  # how much the area of a block may differ from the outline's, relative
 SQUARES = 64  # of the grid, each way, in which nodes look for their segments
 
 
@@ -23,6 +24,27 @@ def check(mesh, geometry, corners):
                                        if np.abs(nodes - c).max(axis=1).min() > tolerance]
         faults += [("sharp corners are nodes", f"'{name}': ({c[0]!r}, {c[1]!r})") for c in lost]
     return faults
+
+
+def check_blocks(mesh, geometry, areas, beside):
+    """(rule, what) of each block whose area is not the one that the outline encloses. The outline has the domain on its left, and lines
+    between two blocks twice; which block that is tells the mesh's edge nearby. `areas`: of the mesh's blocks by name; `beside(edges)`: the
+    blocks left and right of edges."""
+    found = np.zeros(len(mesh.blocks))
+    for name in sorted(set(geometry) & set(mesh.boundaries)):
+        edges = mesh.boundaries[name]
+        left, right = beside(edges)
+        tails, heads = mesh.points[edges[:, 0]], mesh.points[edges[:, 1]]
+        a, b = segments(geometry[name])
+        away = np.linalg.norm((a + b)[:, None, :] - (tails + heads), axis=2)
+        near = away.argmin(axis=1)
+        same = ((heads - tails)[near] * (b - a)).sum(axis=1) > 0
+        block = np.where(same, left[near], right[near])
+        if (block < 0).any():
+            return [("lines between two blocks have cells on both sides", f"'{name}'")]
+        np.add.at(found, block, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2)
+    return [("areas of blocks", f"'{name}': {areas[name]:g}, in the outline {outlined:g}") for name, outlined in zip(mesh.blocks, found)
+            if not abs(areas[name] - outlined) <= BLOCK_AREA * abs(areas[name])]
 
 
 def segments(chains):

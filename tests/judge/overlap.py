@@ -7,9 +7,8 @@ TURN = 2 * np.pi
 ANGLE_TOLERANCE = 1e-6  # radians: far above rounding, far below the whole turn by which a fold differs
 
 
-def check(mesh):
-    """(rule, what) of each fault; cells must be convex and fit together."""
-    boundary = np.concatenate([np.empty((0, 2), dtype=np.int64), *mesh.boundaries.values()])
+def check(mesh, boundary):
+    """(rule, what) of each fault; cells must be convex and fit together. `boundary`: the edges of one cell."""
     faults = [("cells go once round a node", f"node {n + 1} ({mesh.points[n][0]!r}, {mesh.points[n][1]!r})") for n in wrong_turns(mesh, boundary)]
     faults += [("boundaries meet at nodes alone", f"edges {a} and {b}") for a, b in crossings(mesh.points, boundary)]
     return faults or [("the domain is covered once", f"{times} cells cover the place beside edge {edge}") for edge, times in covers(mesh, boundary)]

@@ -34,6 +34,25 @@ def frame(triangles_alone=False):
     return Mesh(np.array(points), table(triangles, 3), table(quads, 4), boundaries)
 
 
+def two_blocks():
+    """The square from 0 to 4, the square from 1 to 3 in it a block of its own: quads of edge 1."""
+    mesh = frame()
+    number = {tuple(p): i for i, p in enumerate(mesh.points.tolist())}
+    middle = number.setdefault((2.0, 2.0), len(number))
+    inner = table([(number[x, y], number[x + 1, y], number[x + 1, y + 1], number[x, y + 1]) for y in (1.0, 2.0) for x in (1.0, 2.0)], 4)
+    assert middle == len(mesh.points)
+    blocks = np.repeat([0, 0, 1], [len(mesh.triangles), len(mesh.quads), len(inner)])
+    return Mesh(np.vstack([mesh.points, [2, 2]]), mesh.triangles, np.vstack([mesh.quads, inner]), mesh.boundaries, ("ring", "core"), blocks)
+
+
+def outline_of_two_blocks():
+    """The line between the blocks in both directions."""
+    outline = outline_of_frame()
+    (_, points), = outline["inner"]
+    outline["inner"].append((True, points[::-1].copy()))
+    return outline
+
+
 def outline_of_frame():
     """As `read_geometry` would give it."""
     return {"outer": [(True, np.array([(0.0, 0), (4, 0), (4, 4), (0, 4)]))], "inner": [(True, np.array([(1.0, 1), (1, 3), (3, 3), (3, 1)]))]}
@@ -68,8 +87,11 @@ def two_triangles(height):
 def native_text(mesh):
     def rows(cells):
         return [str(len(cells)), *(" ".join(str(n + 1) for n in cell) for cell in cells)]
-    lines = ["#Number of grid points", str(len(mesh.points)), *(f"{float(x)!r} {float(y)!r}" for x, y in mesh.points), "#Number of blocks", "1"]
-    lines += ["#Number of triangular elements", *rows(mesh.triangles), "#Number of quadrilateral elements", *rows(mesh.quads)]
+    lines = ["#Number of grid points", str(len(mesh.points)), *(f"{float(x)!r} {float(y)!r}" for x, y in mesh.points), "#Number of blocks",
+             str(len(mesh.blocks))]
+    for block, name in enumerate(mesh.blocks):
+        triangles, quads = (cells[of == block] for cells, of in zip(mesh.kinds(), np.split(mesh.block_of(), [len(mesh.triangles)])))
+        lines += [f"# block {name}"] * (mesh.of_cells is not None) + ["#Number of triangular elements", *rows(triangles), "#Number of quadrilateral elements", *rows(quads)]
     lines += ["#Number of boundaries", str(len(mesh.boundaries))]
     for i, (name, edges) in enumerate(mesh.boundaries.items()):
         lines += [f"#Number of edges for boundary {i + 1} ({name})", *rows(edges)]

@@ -45,11 +45,6 @@ bool is_unused_node(const MeshFault& fault) {
 /// Whether the errors of check_indices make the later rules meaningless.
 bool senseless(const Faults& faults) { return !std::all_of(faults.begin(), faults.end(), is_unused_node); }
 
-std::int32_t block_of(const Mesh& mesh, const CellBlocks& blocks, std::int32_t cell) {
-  const std::size_t at = cell;
-  return at < mesh.triangles.size() ? blocks.of_triangle[at] : blocks.of_quad[at - mesh.triangles.size()];
-}
-
 struct ConformingFaults {
   const Mesh& mesh;
   Faults& faults;
@@ -86,8 +81,7 @@ std::vector<BoundaryEdge> check_boundary_edges(const Mesh& mesh, const CellBlock
                        right = table.cell_left_of(edge[1], edge[0]);
     if (left < 0) faults.add("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
     if (left < 0 || right < 0) return;
-    const bool inside = blocks.count == 1 || block_of(mesh, blocks, left) == block_of(mesh, blocks, right);
-    if (inside)
+    if (blocks.of(left) == blocks.of(right))
       faults.add("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
   });
   std::sort(bounded.begin(), bounded.end());

@@ -42,6 +42,12 @@ struct MeshFault {
 struct CellBlocks {
   std::int32_t count = 1;
   std::span<const std::int32_t> of_triangle, of_quad;
+
+  /// Returns the block of a cell; triangles come first.
+  std::int32_t of(std::size_t cell) const {
+    if (count == 1) return 0;
+    return cell < of_triangle.size() ? of_triangle[cell] : of_quad[cell - of_triangle.size()];
+  }
 };
 
 /// Returns the blocks of a whole mesh.
@@ -84,6 +90,7 @@ struct GeometryFit {
   /// Largest distance of a point of the geometry from its boundary in the mesh.
   double geometry_distance = 0;
   double area_error = 0;  ///< relative
+  std::vector<double> block_area_errors = {};  ///< the same of each block, if there are several
 };
 
 /// Largest relative area error from chords and dropped small islands; a mesh with a larger one does not
@@ -91,7 +98,9 @@ struct GeometryFit {
 inline constexpr double largest_area_error = 0.05;
 
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to
-/// the mesh's extent.
-GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, double tolerance = 1e-9);
+/// the mesh's extent. With several blocks the polylines must have points where blocks meet; one between two
+/// blocks may occur twice, once in each direction: then the mesh must have cells on both sides of it.
+GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, const CellBlocks& blocks = {},
+                              double tolerance = 1e-9);
 
 }  // namespace quadloop

@@ -108,8 +108,9 @@ std::vector<double> longest_edge_of_cells(const Mesh& mesh) {
 /// Compares mesh and geometry, boundary by boundary.
 class Comparison {
  public:
-  Comparison(const Mesh& mesh, std::span<const Chain> geometry, double tolerance)
+  Comparison(const Mesh& mesh, std::span<const Chain> geometry, const CellBlocks& blocks, double tolerance)
       : mesh_{mesh},
+        blocks_{blocks},
         geometry_{geometry},
         outlines_{outlines_of(geometry)},
         met_(geometry.size(), 0),
@@ -136,9 +137,11 @@ class Comparison {
       compare_points(boundary, outline->second);
     }
     for (const auto& [name, outline] : outlines_) fit_.boundaries_dropped += present.contains(name) ? 0 : 1;
+    if (blocks_.count > 1) meet_twins();
     compare_loops();
     compare_corners();
     compare_area();
+    if (blocks_.count > 1) compare_blocks();
     return std::move(fit_);
   }
 
@@ -171,12 +174,17 @@ class Comparison {
     return all_segments_->nearest(p).second <= tolerance_ && away <= reach_.size_at(p, away);
   }
 
-  /// Checks that each point of a loop in the mesh is closer to its boundary than the length of the cells
-  /// around it.
-  void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
+  SegmentSet edges_of(const BoundaryEdges& boundary) const {
     SegmentSet edges;
     for (const auto& edge : boundary.edges) edges.add(mesh_.point(edge[0]), mesh_.point(edge[1]));
     edges.build();
+    return edges;
+  }
+
+  /// Checks that each point of a loop in the mesh is closer to its boundary than the length of the cells
+  /// around it.
+  void compare_points(const BoundaryEdges& boundary, const NamedOutline& outline) {
+    const SegmentSet edges = edges_of(boundary);
     for (const std::size_t c : outline.chains) {
       if (met_[c] == 0) continue;
       for (const Point p : geometry_[c].points) compare_point(boundary, edges, p);
@@ -192,6 +200,73 @@ class Comparison {
     if (away <= reach_.size_at(p, away)) return;
     fault("a point of boundary " + boundary.name + " is farther from the mesh than the cells there are long",
           p);
+  }
+
+  /// Flags chains that coincide with one that a boundary node lies on, as those between two blocks do.
+  void meet_twins() {
+    std::map<Ends, std::size_t> first_with;
+    for (std::size_t c = 0; c < geometry_.size(); ++c) {
+      const std::vector<Point>& points = geometry_[c].points;
+      if (points.size() < 2) continue;
+      const Ends ends = std::minmax(points[0], points[1]);
+      for_each_segment(geometry_[c], [&](Point a, Point b, const Curve&) {
+        const auto twin = first_with.emplace(std::minmax(a, b), c).first;
+        if (Ends(std::minmax(a, b)) == ends && met_[twin->second] != 0) met_[c] = 1;
+      });
+    }
+  }
+
+  /// Compares the area of each block with that enclosed by the segments, of which a boundary edge nearby
+  /// tells the blocks on both sides.
+  void compare_blocks() {
+    std::vector<long double> wanted(blocks_.count, 0), meshed(blocks_.count, 0);
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      if (boundary.edges.empty()) continue;
+      const SegmentSet edges = edges_of(boundary);
+      if (const auto outline = outlines_.find(boundary.name); outline != outlines_.end())
+        add_enclosed(boundary, edges, outline->second, wanted);
+      for (const auto& edge : boundary.edges)
+        add_beside(edge, false, mesh_.point(edge[0]), mesh_.point(edge[1]), meshed);
+    }
+    for (std::int32_t block = 0; block < blocks_.count; ++block) {
+      const double error =
+          static_cast<double>(std::abs(meshed[block] - wanted[block]) / std::abs(meshed[block]));
+      fit_.block_area_errors.push_back(error);
+      if (!(error <= largest_area_error))
+        fault(fmt::format("the area of block {} of {} differs from the geometry's by more than 5 percent",
+                          block + 1, blocks_.count),
+              centre_);
+    }
+  }
+
+  /// Each segment counts once, also if the geometry has it in both directions.
+  void add_enclosed(const BoundaryEdges& boundary, const SegmentSet& edges, const NamedOutline& outline,
+                    std::vector<long double>& areas) {
+    std::set<Ends> seen;
+    for (const std::size_t c : outline.chains) {
+      if (met_[c] == 0) continue;
+      for_each_segment(geometry_[c], [&](Point a, Point b, const Curve&) {
+        const auto& edge = boundary.edges[edges.nearest(a + 0.5 * (b - a)).first];
+        const bool first = seen.insert(std::minmax(a, b)).second;
+        const bool turned = dot(mesh_.point(edge[1]) - mesh_.point(edge[0]), b - a) < 0;
+        if (first) add_beside(edge, turned, a, b, areas);
+        if (!first && topology_.table().cell_left_of(edge[1], edge[0]) < 0)
+          fault("an edge of boundary " + boundary.name +
+                    " has cells on one side only, where the geometry has a block on both",
+                mesh_.point(edge[0]));
+      });
+    }
+  }
+
+  /// Adds the triangle of centre, a and b to the block left of an edge, and subtracts it from that on the
+  /// right; `turned`: the edge runs from b to a.
+  void add_beside(const std::array<NodeId, 2>& edge, bool turned, Point a, Point b,
+                  std::vector<long double>& areas) const {
+    const double area = cross(a - centre_, b - centre_) / 2;
+    const std::int32_t left = topology_.table().cell_left_of(edge[0], edge[1]),
+                       right = topology_.table().cell_left_of(edge[1], edge[0]);
+    if (left >= 0) areas[blocks_.of(left)] += turned ? -area : area;
+    if (right >= 0) areas[blocks_.of(right)] -= turned ? -area : area;
   }
 
   /// The mesher drops loops smaller than its smallest quadtree cell in both directions; a larger one must be
@@ -241,7 +316,10 @@ class Comparison {
       fault("the area differs from the geometry's by more than 5 percent", centre_);
   }
 
+  using Ends = std::pair<Point, Point>;
+
   const Mesh& mesh_;
+  const CellBlocks& blocks_;
   std::span<const Chain> geometry_;
   std::map<std::string, NamedOutline> outlines_;
   std::vector<char> met_;  ///< for each chain: whether a boundary node of its name lies on it
@@ -256,8 +334,9 @@ class Comparison {
 
 }  // namespace
 
-GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, double tolerance) {
-  return Comparison(mesh, geometry, tolerance).run();
+GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, const CellBlocks& blocks,
+                              double tolerance) {
+  return Comparison(mesh, geometry, blocks, tolerance).run();
 }
 
 }  // namespace quadloop

@@ -98,8 +98,20 @@ TEST(NativeReader, KeepsBlocksApart) {
   const LoadedMesh loaded = read_text(two);
   EXPECT_EQ(loaded.blocks, 2);
   EXPECT_EQ(loaded.triangle_to_block, (std::vector<std::int32_t>{0, 1}));
-  EXPECT_EQ(loaded.block_names.size(), 2U);
+  EXPECT_EQ(loaded.block_names, (std::vector<std::string>{"block_1", "block_2"}));
   EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+}
+
+TEST(NativeReader, ReadsNamesOfBlocksInComments) {
+  const std::string two = replaced(replaced(square, "blocks\n1\n", "blocks\n2\n# block the gas\n"),
+                                   "2\n1 2 3\n1 3 4\n#Number of quadrilateral elements\n0\n",
+                                   "1\n1 2 3\n#Q\n0\n# block solid (a)\n#T\n1\n1 3 4\n#Q\n0\n");
+  EXPECT_EQ(read_text(two).block_names, (std::vector<std::string>{"the gas", "solid (a)"}));
+  EXPECT_EQ(read_text(two).mesh.boundaries.at(0).name, "wall");
+  EXPECT_EQ(read_text(replaced(two, "# block solid (a)\n", "")).block_names,
+            (std::vector<std::string>{"the gas", "block_2"}));
+  EXPECT_EQ(read_text(replaced(square, "blocks\n1\n", "blocks\n1\n# block gas\n")).block_names,
+            std::vector<std::string>{"gas"});
 }
 
 TEST(NativeReader, RefusesWrongCounts) {

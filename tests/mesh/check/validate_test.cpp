@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "mesher/mesh/check/block_statistics.hpp"
 #include "tests/mesh/mixed_square.hpp"
 #include "tests/mesh/node.hpp"
 
@@ -207,6 +208,73 @@ TEST(ValidateGeometry, CountsLostCornersAndMissingArea) {
   EXPECT_TRUE(has(fit.faults, MeshRule::geometry));
   const std::vector<Chain> empty{{"wall", true, {{0, 0}}, ""}, {"far", false, {}, ""}};
   EXPECT_TRUE(has(validate_geometry(mixed_square(), empty).faults, MeshRule::geometry));
+}
+
+/// mixed_square() with the triangles in a second block, and the outline of both blocks, the line between them
+/// in both directions.
+struct TwoBlocks {
+  Mesh mesh = mixed_square();
+  std::vector<std::int32_t> of_triangle = {1, 1, 1, 1}, of_quad = {0, 0};
+  std::vector<Chain> geometry = {{"wall", true, {{0, 0}, {2, 0}, {2, 1}, {2, 2}}, ""},
+                                 {"far", true, {{2, 2}, {0, 2}, {0, 1}, {0, 0}}, ""}};
+
+  TwoBlocks() {
+    mesh.boundaries.push_back({"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}});
+    geometry.push_back({"middle", true, {{0, 1}, {1, 1}, {2, 1}}, ""});
+    geometry.push_back({"middle", true, {{2, 1}, {1, 1}, {0, 1}}, ""});
+  }
+  CellBlocks blocks() const { return {2, of_triangle, of_quad}; }
+};
+
+TEST(ValidateGeometry, ComparesTheAreaOfEachBlock) {
+  const TwoBlocks two;
+  EXPECT_TRUE(validate(two.mesh, two.blocks()).empty());
+  const GeometryFit fit = validate_geometry(two.mesh, two.geometry, two.blocks());
+  for (const MeshFault& fault : fit.faults) ADD_FAILURE() << fault.what;
+  EXPECT_EQ(fit.loops_dropped, 0);
+  ASSERT_EQ(fit.block_area_errors.size(), 2U);
+  for (const double error : fit.block_area_errors) EXPECT_NEAR(error, 0, 1e-15);
+
+  TwoBlocks moved;  // the whole area is right
+  for (const std::int32_t i : {3, 4, 5}) moved.mesh.points[i].y = 0.8;
+  const GeometryFit other = validate_geometry(moved.mesh, moved.geometry, moved.blocks());
+  EXPECT_NEAR(other.area_error, 0, 1e-15);
+  ASSERT_EQ(other.block_area_errors.size(), 2U);
+  EXPECT_NEAR(other.block_area_errors[0], 0.25, 1e-12);
+  EXPECT_NEAR(other.block_area_errors[1], 0.4 / 2.4, 1e-12);
+}
+
+TEST(ValidateGeometry, AnInterfaceHasCellsOnBothSides) {
+  TwoBlocks two;
+  two.mesh.triangles.clear();
+  two.of_triangle.clear();
+  two.mesh.points.resize(6);
+  two.mesh.owned_nodes = 6;
+  two.mesh.boundaries = {
+      {"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}}},
+      {"far", "farfield", {{node(3), node(0)}}},
+      {"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}}};
+  const GeometryFit fit = validate_geometry(two.mesh, two.geometry, two.blocks());
+  EXPECT_TRUE(std::ranges::any_of(fit.faults, [](const MeshFault& fault) {
+    return fault.what.find("boundary middle has cells on one side only") != std::string::npos;
+  }));
+}
+
+TEST(BlockStatistics, CountsCellsAreaAndInterfaceEdges) {
+  TwoBlocks two;
+  const std::vector<std::string> names{"below", "above"};
+  const auto sizes = block_statistics(two.mesh, two.blocks(), names);
+  ASSERT_EQ(sizes.size(), 2U);
+  EXPECT_EQ(sizes[0].name, "below");
+  EXPECT_EQ(sizes[0].cells, 2);
+  EXPECT_EQ(sizes[1].cells, 4);
+  EXPECT_EQ(sizes[1].area, 2);
+  InterfaceEdges edges = interface_edges(two.mesh, two.blocks(), MeshTopology(two.mesh));
+  EXPECT_EQ(edges.all, 2);
+  EXPECT_EQ(edges.unnamed, 0);
+  two.mesh.boundaries.back().edges.pop_back();
+  edges = interface_edges(two.mesh, two.blocks(), MeshTopology(two.mesh));
+  EXPECT_EQ(edges.unnamed, 1);
 }
 
 }  // namespace
