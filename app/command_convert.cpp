@@ -19,7 +19,9 @@
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
 #include "io/model/plane_of_mesh3d.hpp"
+#include "io/model/repeated_rows.hpp"
 #include "io/parts/part_output.hpp"
+#include "io/stream/block_meshes.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 
@@ -30,7 +32,7 @@ using io::Content;
 namespace {
 
 struct ConvertArguments {
-  std::string input, output, format;
+  std::string input, output, format, block;
   std::int32_t parts = 0;
 };
 
@@ -76,6 +78,20 @@ io::MeshOfFile read_convert_input(const ConvertArguments& arguments) {
         "{}: contains a 2D mesh, but the format {} stores 3D meshes only; `quadloop extrude` extrudes it",
         arguments.input, output.name));
   return mesh;
+}
+
+/// Returns the block that --block names.
+io::MeshOfFile only_block(io::MeshOfFile input, const ConvertArguments& arguments) {
+  if (arguments.block.empty()) return input;
+  const auto* plane = std::get_if<io::LoadedMesh>(&input);
+  if (plane == nullptr)
+    throw InputError(arguments.input + ": contains a 3D mesh; --block is for 2D meshes");
+  const auto found = std::ranges::find(plane->block_names, arguments.block);
+  if (found == plane->block_names.end())
+    throw InputError(fmt::format("{}: has no block '{}'; its blocks are {}", arguments.input, arguments.block,
+                                 io::some_names(plane->block_names)));
+  if (plane->blocks == 1) return input;
+  return io::one_block(*plane, static_cast<std::int32_t>(found - plane->block_names.begin()));
 }
 
 /// Returns what was omitted on reading, errors of the mesh, and what is lost on writing.
@@ -181,7 +197,7 @@ void run_convert(const CommandContext& context, const ConvertArguments& argument
   comm.together([&] {
     output_format(arguments);
     if (!comm.is_root()) return;
-    input = read_convert_input(arguments);
+    input = only_block(read_convert_input(arguments), arguments);
     context.record.noted = std::visit([&](const auto& mesh) { return warnings_of(mesh, arguments); }, input);
   });
   io::PartFiles part_files(comm);
@@ -212,6 +228,10 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   command.add_option("--format", arguments->format, "format of the output, whatever the suffix of OUT")
       .value_name("NAME")
       .one_of(formats_of_meshes());
+  command
+      .add_option("--block", arguments->block,
+                  "write only this block of a 2D mesh, for solvers that read a file for each")
+      .value_name("BLOCK");
   command
       .add_option("--parts", arguments->parts,
                   "also write the mesh in N partitions, for the ranks of a solver: OUT without its suffix is "

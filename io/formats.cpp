@@ -70,7 +70,7 @@ template <std::endian order>
 FileFormat ugrid_row(const std::string& name) {
   return {.name = name,
           .program = "AFLR3",
-          .places = {Content::conditions, Content::mesh3d},
+          .places = {Content::blocks, Content::conditions, Content::mesh3d},
           .read = read_ugrid<order>,
           .write = write_ugrid<order>,
           .boundary_names = mapbc_names,
@@ -113,12 +113,14 @@ std::vector<FileFormat> native_rows() {
 FileFormat cgns_row() {
   using enum Content;
   return {.name = "cgns",
-          .places = {mesh, solution, conditions, layers, mesh3d},
+          .places = {mesh, solution, blocks, block_names, conditions, layers, mesh3d},
           .by_default = true,
           .read = read_cgns,
           .write = write_cgns,
           .boundary_names = cgns_boundary_names,
-          .variable_names = cgns_variable_renames};
+          .variable_names = cgns_variable_renames,
+          .single_block_name = false,
+          .has_zones = true};
 }
 
 /// A single file, and the list of pieces.
@@ -140,10 +142,12 @@ std::vector<FileFormat> vtk_rows() {
 
 FileFormat su2_row() {
   return {.name = "su2",
-          .places = {Content::mesh, Content::mesh3d},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::mesh3d},
           .read = read_su2,
           .write = write_su2,
-          .boundary_names = su2_marker_names};
+          .boundary_names = su2_marker_names,
+          .single_block_name = false,
+          .has_zones = true};
 }
 
 FileFormat fluent_row() {
@@ -162,7 +166,7 @@ FileFormat fluent_row() {
 FileFormat plane_ugrid_row() {
   return {.name = "ugrid",
           .program = "AFLR2",
-          .places = {Content::mesh, Content::conditions},
+          .places = {Content::mesh, Content::blocks, Content::conditions},
           .read = read_ugrid_plane,
           .write = write_ugrid_plane,
           .boundary_names = mapbc_names,

@@ -16,6 +16,7 @@
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
+#include "io/stream/block_meshes.hpp"
 #include "io/stream/stream_blocks.hpp"
 #include "io/text/clean_names.hpp"
 #include "mesher/base/error.hpp"
@@ -272,7 +273,11 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
-  row->write(outputs, MeshStream(outputs.communicator(), whole), path);
+  if (!row->has_zones || whole.blocks < 2)
+    return row->write(outputs, MeshStream(outputs.communicator(), whole), path);
+  LoadedMesh named = whole;
+  name_interfaces(named);
+  row->write(outputs, MeshStream(outputs.communicator(), named), path);
 }
 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
@@ -303,11 +308,11 @@ std::vector<std::string> changes_in(const Mesh& mesh, const std::string& path, c
   if (row == nullptr) return {};
   MeshContent content = content_of(mesh.boundaries);
   content.knows_walls = true;
+  note_blocks(mesh, content);
   std::vector<std::string> changes = renames_of(content.boundary_names, *row, path);
   if (std::string lost = lost_conditions(content, *row, path);
       row->holds(Content::conditions) && !lost.empty())
     changes.push_back(std::move(lost));
-  note_blocks(mesh, content);
   append_block_losses(*row, content, path, changes);
   return changes;
 }
@@ -375,13 +380,17 @@ void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& pat
 
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path) {
   if (whole.blocks < 2) return {};
+  const FileFormat* format = mesh3d_format(path);
+  if (format != nullptr && format->has_zones) {
+    name_interfaces(whole);
+    return {};
+  }
   const EdgeTable table(whole.mesh);
   std::size_t dropped = 0;
   for (BoundaryEdges& boundary : whole.mesh.boundaries) {
     dropped += std::erase_if(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  const FileFormat* format = mesh3d_format(path);
   const bool holds_blocks = format != nullptr && format->holds(Content::blocks);
   std::string loss = holds_blocks ? "" : "the blocks are written as one";
   if (dropped > 0)

@@ -113,13 +113,12 @@ std::string boundaries_json(const CheckReport& report) {
 void add_blocks(Statistics& statistics, const CheckReport& report) {
   statistics.add("blocks", std::ssize(report.blocks));
   if (report.blocks.size() < 2) return;
-  std::vector<std::string> rows;
+  JsonObject figures;
   for (std::size_t b = 0; b < report.blocks.size(); ++b) {
     const BlockStatistics& block = report.blocks[b];
     statistics.add_lines(inner_row(block.name, fmt::format("{} cells", block.cells)));
     statistics.add_lines(inner_row("  area", fmt::format("{:.6g}", block.area)));
     JsonObject row;
-    row.add("name", block.name);
     row.add("cells", block.cells);
     row.add("area", block.area);
     if (report.fit && b < report.fit->block_area_errors.size()) {
@@ -127,9 +126,9 @@ void add_blocks(Statistics& statistics, const CheckReport& report) {
       statistics.add_lines(inner_row("  geometry area error", fmt::format("{:.6g}", error)));
       row.add("geometry_area_error", error);
     }
-    rows.push_back(row.text());
+    figures.add(block.name, row);
   }
-  statistics.add_member("block_sizes", json_list(rows));
+  statistics.add_member("block_figures", figures.text());
   statistics.add("interface edges", report.interfaces.all);
   if (report.interfaces.unnamed > 0) statistics.add("unnamed interface edges", report.interfaces.unnamed);
 }

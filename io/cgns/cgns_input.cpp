@@ -61,22 +61,39 @@ class CgnsFamilies {
 /// Cell rows of each kind.
 using ValuesByKind = std::array<std::vector<double>, cell_kinds>;
 
+/// The nodes of a zone that are nodes of another one, by its name: numbers in the zones, from 1.
+struct ZoneConnection {
+  std::size_t zone;  ///< from 0, in the order of reading
+  std::string donor;
+  std::vector<cgsize_t> nodes, of_donor;
+};
+
 /// Reads one zone into the mesh; its nodes are numbered after the existing ones.
 class ZoneReader {
  public:
-  ZoneReader(const File& file, int zone, FileMesh& mesh, CgnsFamilies& families, ValuesByKind& cell_values)
-      : file_{file}, zone_{zone}, mesh_{mesh}, families_{families}, cell_values_{cell_values} {}
+  /// `number`: from 0, in the order of reading.
+  ZoneReader(const File& file, int zone, std::size_t number, bool alone, FileMesh& mesh,
+             CgnsFamilies& families, ValuesByKind& cell_values)
+      : file_{file},
+        zone_{zone},
+        number_{number},
+        alone_{alone},
+        mesh_{mesh},
+        families_{families},
+        cell_values_{cell_values} {}
 
-  void read() {
+  const std::string& name() const { return name_; }
+
+  void read(std::vector<ZoneConnection>& connections) {
     read_head();
     read_coordinates();
     int sections = 0;
     file_.check(cg_nsections(file_.id(), 1, zone_, &sections));
     for (int section = 1; section <= sections; ++section) read_section(section);
     faces_.sort();
-    if (mesh_.dimension == 2) read_periodic();
+    read_connections(connections);
     read_boundaries();
-    if (zone_ == 1) read_strips();
+    if (number_ == 0) read_strips();
     read_solution();
   }
 
@@ -92,7 +109,9 @@ class ZoneReader {
     file_.check(cg_zone_read(file_.id(), 1, zone_, name.data(), size.data()));
     file_.check(cg_zone_type(file_.id(), 1, zone_, &type));
     name_ = name.data();
-    block_ = mesh_.block_named(mesh_.dimension == 2 ? name_ : "domain");
+    file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "end"));
+    const std::string full_name = file_.descriptor_here(full_name_descriptor).value_or(name_);
+    block_ = mesh_.block_named(mesh_.dimension == 3 && alone_ ? "domain" : full_name);
     if (type != Unstructured) refuse("only unstructured zones can be read");
     nodes_ = size[0];
     cells_ = size[1];
@@ -277,17 +296,45 @@ class ZoneReader {
     return families_.condition_of(file_, family.data());
   }
 
-  /// Reads the nodes on this zone's side of connectivities with a Periodic_t node; usually each side has its
-  /// own.
-  void read_periodic() {
+  /// Reads the nodes that other zones have too and, in a plane mesh, those on this zone's side of
+  /// connectivities with a Periodic_t node; usually each side has its own.
+  void read_connections(std::vector<ZoneConnection>& connections) {
     int count = 0;
     file_.check(cg_nconns(file_.id(), 1, zone_, &count));
     for (int connection = 1; connection <= count; ++connection) {
       std::array<float, 3> centre{}, angle{}, shift{};
       if (cg_conn_periodic_read(file_.id(), 1, zone_, connection, centre.data(), angle.data(),
-                                shift.data()) == CG_OK)
+                                shift.data()) != CG_OK)
+        read_connection(connection, connections);
+      else if (mesh_.dimension == 2)
         mark_periodic(connection);
     }
+  }
+
+  /// Takes lists of nodes only: nodes that are connected in other ways are found by their places.
+  void read_connection(int connection, std::vector<ZoneConnection>& connections) const {
+    Name name{}, donor{};
+    GridLocation_t location = Vertex;
+    GridConnectivityType_t type = GridConnectivityTypeNull;
+    PointSetType_t set = PointSetTypeNull, donor_set = PointSetTypeNull;
+    ZoneType_t donor_zone = ZoneTypeNull;
+    DataType_t donor_type = DataTypeNull;
+    cgsize_t count = 0, donors = 0;
+    file_.check(cg_conn_info(file_.id(), 1, zone_, connection, name.data(), &location, &type, &set, &count,
+                             donor.data(), &donor_zone, &donor_set, &donor_type, &donors));
+    const bool lists_nodes = type == Abutting1to1 && location == Vertex && set == PointList &&
+                             donor_set == PointListDonor && count > 0 && count == donors;
+    if (!lists_nodes || donor.data() == name_) return;
+    if (count > nodes_)
+      refuse("connectivity " + std::string(name.data()) + " lists " + std::to_string(count) +
+             " nodes, which is more than there are");
+    ZoneConnection& own = connections.emplace_back();
+    own.zone = number_;
+    own.donor = donor.data();
+    own.nodes.resize(count);
+    own.of_donor.resize(count);
+    file_.check(cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type,
+                             own.of_donor.data()));
   }
 
   void mark_periodic(int connection) {
@@ -344,8 +391,12 @@ class ZoneReader {
     }
   }
 
+  static constexpr DataType_t cgsize_type = sizeof(cgsize_t) == 4 ? Integer : LongInteger;
+
   const File& file_;
   int zone_;
+  std::size_t number_;
+  bool alone_;  ///< whether the file has no other zone
   FileMesh& mesh_;
   CgnsFamilies& families_;
   ValuesByKind& cell_values_;
@@ -357,6 +408,45 @@ class ZoneReader {
   std::size_t first_node_ = 0;
   CgnsFaces faces_;
 };
+
+/// Returns the zones in the order of their ordinals, if each has one; libcgns sorts them by name.
+std::vector<int> zones_in_order(const File& file, int zones) {
+  std::vector<std::pair<int, int>> order;
+  for (int zone = 1; zone <= zones; ++zone) {
+    int ordinal = 0;
+    file.check(cg_goto(file.id(), 1, "Zone_t", zone, "end"));
+    const bool has_ordinal = zones > 1 && cg_ordinal_read(&ordinal) == CG_OK;
+    order.emplace_back(has_ordinal ? ordinal : zone, zone);
+  }
+  std::ranges::stable_sort(order);
+  std::vector<int> sorted;
+  for (const auto& [ordinal, zone] : order) sorted.push_back(zone);
+  return sorted;
+}
+
+/// Returns the pairs of equal nodes, numbered over all zones.
+NodeLinks links_of(const std::vector<ZoneConnection>& connections, const std::vector<std::string>& names,
+                   const std::vector<std::size_t>& first_nodes, std::size_t nodes, const std::string& path) {
+  const auto number_of = [&](std::size_t zone, cgsize_t node) {
+    const std::size_t end = zone + 1 < first_nodes.size() ? first_nodes[zone + 1] : nodes;
+    if (node < 1 || node > std::int64_t(end - first_nodes[zone]))
+      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " + std::to_string(node) +
+                       ", which is none of 1 to " + std::to_string(end - first_nodes[zone]));
+    return static_cast<std::int32_t>(first_nodes[zone] + node - 1);
+  };
+  NodeLinks links;
+  for (const ZoneConnection& connection : connections) {
+    const std::size_t donor = std::ranges::find(names, connection.donor) - names.begin();
+    if (donor == names.size())
+      throw InputError(path + ": zone " + names[connection.zone] + " is connected with zone " +
+                       connection.donor + ", which does not exist");
+    links.zones.insert({std::min(donor, connection.zone), std::max(donor, connection.zone)});
+    for (std::size_t i = 0; i < connection.nodes.size(); ++i)
+      links.nodes.push_back(
+          {number_of(connection.zone, connection.nodes[i]), number_of(donor, connection.of_donor[i])});
+  }
+  return links;
+}
 
 void require_whole_solution(const FileMesh& mesh, const std::string& path) {
   if (!mesh.solution) return;
@@ -375,23 +465,26 @@ FileMesh read_cgns_by_library(const std::string& path) {
   if (cell_dimension != 2 && cell_dimension != 3)
     throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D; 2D and 3D can be read");
   if (zones == 0) throw InputError(path + ": holds no zone");
-  if (cell_dimension == 3 && zones != 1)
-    throw InputError(path + ": holds " + std::to_string(zones) +
-                     " zones; of three dimensions one can be read");
   FileMesh mesh;
   mesh.dimension = cell_dimension;
   CgnsFamilies families;
   ValuesByKind cell_values;
   std::vector<std::size_t> first_nodes;
-  for (int zone = 1; zone <= zones; ++zone) {
+  std::vector<std::string> names;
+  std::vector<ZoneConnection> connections;
+  for (const int zone : zones_in_order(file, zones)) {
     first_nodes.push_back(mesh.points.size());
-    ZoneReader(file, zone, mesh, families, cell_values).read();
+    ZoneReader reader(file, zone, first_nodes.size() - 1, zones == 1, mesh, families, cell_values);
+    reader.read(connections);
+    names.push_back(reader.name());
   }
   for (const std::vector<double>& values : cell_values) {
     if (mesh.solution) std::ranges::copy(values, std::back_inserter(mesh.solution->cells.values));
   }
   require_whole_solution(mesh, path);
-  if (zones > 1) unite_nodes(mesh, first_nodes);
+  if (zones > 1)
+    unite_nodes(mesh, first_nodes, links_of(connections, names, first_nodes, mesh.points.size(), path));
+  if (cell_dimension == 3 && zones > 1) drop_inner_faces(mesh);
   if (cell_dimension == 3) drop_empty_groups(mesh);
   return mesh;
 }

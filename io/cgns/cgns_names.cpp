@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -59,11 +58,11 @@ std::string standard_name(const std::string& name) {
 }
 
 /// Returns names distinct from each other and from the `used` sibling nodes.
-std::vector<std::string> names_beside(std::initializer_list<const char*> used,
+std::vector<std::string> names_beside(const std::vector<std::string>& used,
                                       const std::vector<std::string>& names) {
   DistinctNames distinct;
   for (const char* const name : {"", ".", ".."}) distinct.reserve(name);
-  for (const char* const name : used) distinct.reserve(name);
+  for (const std::string& name : used) distinct.reserve(name);
   std::vector<std::string> result;
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
@@ -81,8 +80,15 @@ std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& nam
   // Sections are siblings of these nodes in the zone, families in the base.
   return names_beside({"ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4", "PYRA_5", "PENTA_6",
                        "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution", "CellSolution", "domain",
-                       "DataClass", "DimensionalUnits", strips_descriptor, "Part"},
+                       "DataClass", "DimensionalUnits", strips_descriptor, full_name_descriptor, "Ordinal", "Part"},
                       names);
+}
+
+std::vector<std::string> cgns_zone_names(const std::vector<std::string>& blocks,
+                                         const std::vector<std::string>& boundaries_in_file) {
+  std::vector<std::string> used = boundaries_in_file;
+  used.insert(used.end(), {"DataClass", "DimensionalUnits"});
+  return names_beside(used, blocks);
 }
 
 std::vector<std::string> cgns_variable_names(const std::vector<std::string>& names) {

@@ -21,6 +21,11 @@ std::string cgns_family_condition(BoundaryCondition condition);
 /// from names used in the zone or the base. Deterministic.
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names);
 
+/// Returns a valid CGNS name for each zone, distinct from those of the boundaries in the file, which are also
+/// nodes of the base. Deterministic.
+std::vector<std::string> cgns_zone_names(const std::vector<std::string>& blocks,
+                                         const std::vector<std::string>& boundaries_in_file);
+
 /// Return the SIDS names of variables ("x_velocity": "VelocityX"), or the names themselves, truncated to 32
 /// characters and made distinct from each other and from other contents of a solution; and the inverse.
 std::vector<std::string> cgns_variable_names(const std::vector<std::string>& names);

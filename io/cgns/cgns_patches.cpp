@@ -15,11 +15,19 @@ std::int64_t nodes_of(ElementType_t type) { return type == BAR_2 ? 2 : type == T
 
 }  // namespace
 
-CgnsPatches::CgnsPatches(const StagedFile& staged, std::int64_t first_element)
-    : nodes_{staged},
-      base_{nodes_.at(CgnsSink::base_path)},
-      zone_{nodes_.at(CgnsSink::zone_path)},
-      next_{static_cast<cgsize_t>(first_element)} {}
+CgnsPatches::CgnsPatches(const StagedFile& staged) : nodes_{staged}, base_{nodes_.at(CgnsSink::base_path)} {}
+
+void CgnsPatches::begin_zone(const std::string& zone, std::int64_t first_element) {
+  zone_ = nodes_.at(CgnsSink::path_of_zone(zone));
+  next_ = static_cast<cgsize_t>(first_element);
+}
+
+/// HDF5 keeps a file open as long as any object in it is open.
+void CgnsPatches::end_zone() {
+  elements_.reset();
+  zone_ = {};
+  conditions_ = {};
+}
 
 void CgnsPatches::begin_section(const std::string& name, ElementType_t type, std::int64_t elements) {
   const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(elements) - 1};
@@ -35,8 +43,10 @@ void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& bo
                                 GridLocation_t location) {
   const std::array<cgsize_t, 2> range{first_, next_ - 1};
   const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
-  const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
-  nodes_.add_text(family, cgns_family_condition(boundary.condition), "FamilyBC_t", type);
+  if (families_.insert(name).second) {
+    const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
+    nodes_.add_text(family, cgns_family_condition(boundary.condition), "FamilyBC_t", type);
+  }
   if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
   const CgnsNodes::Node condition =
       nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
@@ -64,10 +74,30 @@ void CgnsPatches::put_strips(const std::vector<StripLayers>& strips) {
   if (!text.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", text);
 }
 
+void CgnsPatches::put_connection(const std::string& zone, const std::string& donor,
+                                 std::span<const cgsize_t> nodes, std::span<const cgsize_t> of_donor) {
+  constexpr const char* name = "ZoneGridConnectivity";
+  const std::string path = CgnsSink::path_of_zone(zone);
+  const CgnsNodes::Node all = connected_.insert(zone).second
+                                  ? nodes_.add(nodes_.at(path), name, "ZoneGridConnectivity_t")
+                                  : nodes_.at(path + "/" + name);
+  const CgnsNodes::Node here = nodes_.add_text(all, donor, "GridConnectivity_t", donor);
+  nodes_.add_text(here, "GridConnectivityType", "GridConnectivityType_t",
+                  cg_GridConnectivityTypeName(Abutting1to1));
+  nodes_.add_text(here, "GridLocation", "GridLocation_t", cg_GridLocationName(Vertex));
+  nodes_.add_integers(here, "PointList", "IndexArray_t", nodes, 1);
+  nodes_.add_integers(here, "PointListDonor", "IndexArray_t", of_donor, 1);
+}
+
+void CgnsPatches::put_block(const std::string& zone, std::int32_t number, const std::string& name) {
+  const CgnsNodes::Node node = nodes_.at(CgnsSink::path_of_zone(zone));
+  nodes_.add_integers(node, "Ordinal", "Ordinal_t", std::array{number});
+  if (zone != name) nodes_.add_text(node, full_name_descriptor, "Descriptor_t", name);
+}
+
 void CgnsPatches::close() {
-  elements_.reset();
-  for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_})
-    *node = {};  // HDF5 keeps a file open as long as any object in it is open
+  end_zone();
+  base_ = {};
   nodes_.close();
 }
 

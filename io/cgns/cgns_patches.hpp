@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -17,11 +18,14 @@ namespace quadloop::io {
 
 /// Writes the boundaries, on rank 0, after the rest of a CGNS file: for each one or more sections of bars or
 /// faces, a family with its condition, and a BC over all of them that refers to the family. VTK and ParaView
-/// show boundaries, except walls, only in this form.
+/// show boundaries, except walls, only in this form. A boundary in several zones is one family.
 class CgnsPatches {
  public:
-  /// `first_element` is the number of the first bar or face.
-  CgnsPatches(const StagedFile& staged, std::int64_t first_element);
+  explicit CgnsPatches(const StagedFile& staged);
+
+  /// The patches that follow are those of a zone; `first_element` is the number of its first bar or face.
+  void begin_zone(const std::string& zone, std::int64_t first_element);
+  void end_zone();
 
   void begin_patch() { first_ = next_; }
   /// Begins a section of the current patch; its elements must be written before the next section.
@@ -37,13 +41,21 @@ class CgnsPatches {
   /// Writes the nodes of strips as a descriptor of the zone.
   void put_strips(const std::vector<StripLayers>& strips);
 
+  /// Writes the nodes of a zone that another one, the donor, also has: lists of the same length, from 1, in
+  /// the same order.
+  void put_connection(const std::string& zone, const std::string& donor, std::span<const cgsize_t> nodes,
+                      std::span<const cgsize_t> of_donor);
+  /// Writes the number of a zone among all, from 1, as libcgns sorts them by name, and its original name.
+  void put_block(const std::string& zone, std::int32_t number, const std::string& name);
+
   void close();
 
  private:
   CgnsNodes nodes_;
   CgnsNodes::Node base_, zone_, conditions_;
+  std::set<std::string> families_, connected_;  ///< names of families; of zones with connections
   std::optional<CgnsNodes::Array> elements_;
-  cgsize_t first_ = 0, next_;
+  cgsize_t first_ = 0, next_ = 1;
 };
 
 }  // namespace quadloop::io

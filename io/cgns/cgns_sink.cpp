@@ -8,13 +8,17 @@
 
 namespace quadloop::io {
 
-void CgnsSink::begin_zone(std::int64_t nodes, std::int64_t cells) {
-  const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
+void CgnsSink::begin_base() {
   file_->check(cg_base_write(id(), base_name, dimension_, dimension_, &base_));
   file_->check(cg_goto(id(), base_, "end"));
   // the unit of length is chosen by the user
   file_->check(cg_dataclass_write(NormalizedByUnknownDimensional));
-  file_->check(cg_zone_write(id(), base_, zone_name, size.data(), Unstructured, &zone_));
+}
+
+void CgnsSink::begin_zone(const std::string& name, std::int64_t nodes, std::int64_t cells) {
+  const std::array<cgsize_t, 3> size{static_cast<cgsize_t>(nodes), static_cast<cgsize_t>(cells), 0};
+  file_->check(cg_zone_write(id(), base_, name.c_str(), size.data(), Unstructured, &zone_));
+  next_element_ = 1;
 }
 
 void CgnsSink::put_coordinates(std::span<const double> rows) {

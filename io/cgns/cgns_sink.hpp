@@ -17,17 +17,19 @@ namespace quadloop::io {
 /// Maximum number of entries of an array in the file.
 constexpr std::int64_t largest_cgns_size = std::numeric_limits<cgsize_t>::max();
 
-/// State of a CGNS file being written, on rank 0: the file, its single base and zone, and the position of the
-/// next piece in the current array.
+/// State of a CGNS file being written, on rank 0: the file, its single base, the current zone, and the
+/// position of the next piece in the current array.
 class CgnsSink {
  public:
-  static constexpr const char *base_name = "Base", *zone_name = "domain", *base_path = "/Base",
-                              *zone_path = "/Base/domain";
+  /// `only_zone` is the name of the zone of a mesh without blocks.
+  static constexpr const char *base_name = "Base", *only_zone = "domain", *base_path = "/Base";
+  static std::string path_of_zone(const std::string& name) { return std::string(base_path) + "/" + name; }
 
   /// `dimension` is that of the cells and of the space.
   CgnsSink(const StagedFile& staged, int dimension) : file_{open(staged)}, dimension_{dimension} {}
 
-  void begin_zone(std::int64_t nodes, std::int64_t cells);
+  void begin_base();
+  void begin_zone(const std::string& name, std::int64_t nodes, std::int64_t cells);
 
   void begin_rows() { next_row_ = 1; }
   /// Each node has as many coordinates as the space has dimensions.

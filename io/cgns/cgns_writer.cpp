@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
 #include <memory>
 
@@ -8,7 +9,9 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
+#include "io/stream/block_meshes.hpp"
 #include "io/stream/mesh_stream.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/stream/stream_cell_values.hpp"
 #include "mesher/base/error.hpp"
 
@@ -22,25 +25,61 @@ std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
   return {rows.empty() ? nullptr : rows.front().data(), rows.size() * width};
 }
 
-class CgnsWriter {
+/// Names of patches in the file, the same in all zones.
+class CgnsPatchNames {
  public:
-  CgnsWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path)
-      : stream_{stream}, cells_{stream} {
-    refuse_too_large(path);
-    staged_ = outputs.stage(path);
-    stream_.on_root([&] {
-      sink_ = std::make_unique<CgnsSink>(staged_, stream_.is_plane() ? 2 : 3);
-      sink_->begin_zone(stream_.counts().nodes, stream_.counts().cells());
-    });
+  /// Names are assigned to all boundaries of a plane mesh, including those without edges, and to the patches
+  /// of a 3D mesh, then to the triangles of those that are not sides.
+  explicit CgnsPatchNames(const MeshStream& stream) {
+    std::vector<std::string> wanted;
+    if (stream.is_plane()) {
+      for (const BoundaryEdges& boundary : stream.extruded()->plane.boundaries)
+        wanted.push_back(boundary.name);
+    } else {
+      wanted = stream.patch_names();
+      sides_ = stream.side_patches();
+      patches_ = wanted.size();
+      for (std::size_t n = sides_; n < patches_; ++n) wanted.push_back(wanted[n] + "_triangles");
+    }
+    names_ = cgns_boundary_names(wanted);
   }
 
-  void write() {
-    stream_.on_root([&] { sink_->begin_rows(); });
+  const std::string& of(std::size_t boundary) const { return names_[boundary]; }
+  const std::string& of_triangles(std::size_t patch) const { return names_[patch - sides_ + patches_]; }
+  const std::vector<std::string>& all() const { return names_; }
+
+ private:
+  std::vector<std::string> names_;
+  std::size_t sides_ = 0, patches_ = 0;
+};
+
+/// Writes one zone.
+class CgnsZoneWriter {
+ public:
+  /// `sink` and `patches` exist on rank 0 only.
+  CgnsZoneWriter(const MeshStream& stream, std::string zone, std::unique_ptr<CgnsSink>& sink,
+                 std::unique_ptr<CgnsPatches>& patches)
+      : stream_{stream}, zone_{std::move(zone)}, cells_{stream}, names_{stream}, sink_{sink}, patches_{patches} {}
+
+  const MeshStream& stream() const { return stream_; }
+  const std::string& zone() const { return zone_; }
+
+  void write_contents() {
+    stream_.on_root([&] {
+      sink_->begin_zone(zone_, stream_.counts().nodes, stream_.counts().cells());
+      sink_->begin_rows();
+    });
     stream_.is_plane() ? write_points<2>() : write_points<3>();
     for_each_kind([&]<CellKind kind>() { write_cells<kind>(); });
     if (!stream_.variables().empty()) write_solution();
     if (!cells_.names().empty()) write_solution_of_cells();
-    write_boundaries();
+  }
+
+  /// libcgns must have closed the file.
+  void write_boundaries() {
+    stream_.on_root([&] { patches_->begin_zone(zone_, stream_.counts().cells() + 1); });
+    if (!stream_.patches().empty()) stream_.is_plane() ? write_edges() : write_patches();
+    stream_.on_root([&] { patches_->end_zone(); });
   }
 
  private:
@@ -54,16 +93,6 @@ class CgnsWriter {
           if constexpr (dimension == 3) return std::array{p.x, p.y, p.z};
         },
         [&](auto rows) { sink_->put_coordinates(flat<double>(rows)); });
-  }
-
-  void refuse_too_large(const std::string& path) const {
-    const StreamCounts& counts = stream_.counts();
-    std::int64_t elements = counts.cells();
-    for (const StreamedPatch& patch : stream_.patches()) elements += patch.faces();
-    if (elements <= largest_cgns_size && counts.largest_array() <= largest_cgns_size) return;
-    throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
-                      " elements are more than this CGNS library can count (32-bit sizes); write a " +
-                      (stream_.is_plane() ? ".mesh" : ".vtu") + " file instead");
   }
 
   auto put() {
@@ -124,28 +153,12 @@ class CgnsWriter {
         [&](std::span<const double> values) { sink_->put_solution(values, names); });
   }
 
-  /// Must be last: libcgns has closed the file.
-  void write_boundaries() {
-    stream_.on_root([&] {
-      sink_->close();
-      if (stream_.patches().empty()) return;
-      patches_ = std::make_unique<CgnsPatches>(staged_, stream_.counts().cells() + 1);
-    });
-    if (stream_.patches().empty()) return;
-    stream_.is_plane() ? write_edges() : write_patches();
-    stream_.on_root([&] { patches_->close(); });
-  }
-
-  /// Names are assigned to all boundaries, including those without edges.
   void write_edges() {
     const std::vector<BoundaryEdges>& boundaries = stream_.extruded()->plane.boundaries;
-    std::vector<std::string> names;
-    for (const BoundaryEdges& boundary : boundaries) names.push_back(boundary.name);
-    names = cgns_boundary_names(names);
     stream_.boundaries()->run(
         [&](std::size_t n) {
           const BoundaryEdges* const boundary = stream_.boundaries()->present()[n];
-          const std::string& name = names[boundary - boundaries.data()];
+          const std::string& name = names_.of(boundary - boundaries.data());
           patches_->begin_patch();
           patches_->begin_section(name, BAR_2, stream_.patches()[n].edges);
           patches_->put_condition(name, *boundary, EdgeCenter);
@@ -155,10 +168,6 @@ class CgnsWriter {
   }
 
   void write_patches() {
-    std::vector<std::string> wanted = stream_.patch_names();
-    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n)
-      wanted.push_back(wanted[n] + "_triangles");
-    names_ = cgns_boundary_names(wanted);
     stream_.sides([&](std::size_t n) { begin(n, 0, stream_.patches()[n].quads); }, number_nodes, put());
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) write_patch(n);
   }
@@ -167,8 +176,8 @@ class CgnsWriter {
   void begin(std::size_t patch, std::int64_t triangles, std::int64_t quads) {
     const StreamedPatch& about = stream_.patches()[patch];
     patches_->begin_patch();
-    if (quads > 0) patches_->begin_section(names_[patch], QUAD_4, quads);
-    if (triangles == 0) patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
+    if (quads > 0) patches_->begin_section(names_.of(patch), QUAD_4, quads);
+    if (triangles == 0) patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
   }
 
   /// Writes a patch that is not a side.
@@ -178,10 +187,10 @@ class CgnsWriter {
     stream_.on_root([&] { begin(patch, about.triangles, about.quads); });
     if (about.quads > 0) stream_.faces<4>(patch, number_nodes, put());
     if (about.triangles == 0) return;
-    const std::size_t more = stream_.patches().size() - stream_.side_patches();
     stream_.on_root([&] {
-      patches_->begin_section(names_[patch + (about.quads > 0 ? more : 0)], TRI_3, about.triangles);
-      patches_->put_condition(names_[patch], {about.name, about.condition, {}}, FaceCenter);
+      patches_->begin_section(about.quads > 0 ? names_.of_triangles(patch) : names_.of(patch), TRI_3,
+                              about.triangles);
+      patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
     });
     stream_.faces<3>(patch, number_nodes, put());
   }
@@ -190,13 +199,95 @@ class CgnsWriter {
   static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;
 
   const MeshStream& stream_;
+  std::string zone_;
   const StreamCellValues cells_;
+  const CgnsPatchNames names_;
+  std::unique_ptr<CgnsSink>& sink_;
+  std::unique_ptr<CgnsPatches>& patches_;
+};
+
+/// Writes a zone for each block; a mesh of one block is the zone "domain".
+class CgnsWriter {
+ public:
+  CgnsWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
+    refuse_too_large(path);
+    const StreamBlocks blocks(stream);
+    if (blocks.several()) blocks_ = block_meshes(stream, path);
+    const std::vector<std::string> names =
+        cgns_zone_names(blocks.names(), blocks.several() ? CgnsPatchNames(blocks_[0]->stream()).all()
+                                                         : std::vector<std::string>());
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      zones_.emplace_back(blocks_[b]->stream(), names[b], sink_, patches_);
+    if (blocks_.empty()) zones_.emplace_back(stream, CgnsSink::only_zone, sink_, patches_);
+    staged_ = outputs.stage(path);
+    stream_.on_root([&] {
+      sink_ = std::make_unique<CgnsSink>(staged_, stream_.is_plane() ? 2 : 3);
+      sink_->begin_base();
+    });
+  }
+
+  void write() {
+    for (CgnsZoneWriter& zone : zones_) zone.write_contents();
+    stream_.on_root([&] {
+      sink_->close();
+      patches_ = std::make_unique<CgnsPatches>(staged_);
+    });
+    for (CgnsZoneWriter& zone : zones_) zone.write_boundaries();
+    connect_zones();
+    stream_.on_root([&] { patches_->close(); });
+  }
+
+ private:
+  void refuse_too_large(const std::string& path) const {
+    const StreamCounts& counts = stream_.counts();
+    std::int64_t elements = counts.cells();
+    for (const StreamedPatch& patch : stream_.patches()) elements += patch.faces();
+    if (elements <= largest_cgns_size && counts.largest_array() <= largest_cgns_size) return;
+    throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
+                      " elements are more than this CGNS library can count (32-bit sizes); write a " +
+                      (stream_.is_plane() ? ".mesh" : ".vtu") + " file instead");
+  }
+
+  /// Lists the nodes that two zones have in common, in both.
+  void connect_zones() {
+    for (std::size_t first = 0; first < blocks_.size(); ++first) {
+      for (std::size_t second = first + 1; second < blocks_.size(); ++second) connect(first, second);
+    }
+    stream_.on_root([&] {
+      for (std::size_t b = 0; b < blocks_.size(); ++b)
+        patches_->put_block(zones_[b].zone(), static_cast<std::int32_t>(b + 1), blocks_[b]->name());
+    });
+  }
+
+  void connect(std::size_t first, std::size_t second) {
+    std::vector<std::array<cgsize_t, 2>> common;
+    for (std::int64_t row = 0; row < stream_.point_rows(); ++row) {
+      const NodeNumber here = blocks_[first]->node_of_row(row), there = blocks_[second]->node_of_row(row);
+      if (here >= 0 && there >= 0)
+        common.push_back({static_cast<cgsize_t>(here + 1), static_cast<cgsize_t>(there + 1)});
+    }
+    std::vector<cgsize_t> of_first, of_second;
+    stream_.rows(
+        std::ssize(common), [&](std::int64_t i) { return common[i]; },
+        [&](auto rows) {
+          for (const auto& [here, there] : rows) {
+            of_first.push_back(here);
+            of_second.push_back(there);
+          }
+        });
+    stream_.on_root([&] {
+      if (of_first.empty()) return;
+      patches_->put_connection(zones_[first].zone(), zones_[second].zone(), of_first, of_second);
+      patches_->put_connection(zones_[second].zone(), zones_[first].zone(), of_second, of_first);
+    });
+  }
+
+  const MeshStream& stream_;
   StagedFile staged_;
-  /// Names of patches, then of the triangles of those that are not sides; this and the next two on rank 0
-  /// only.
-  std::vector<std::string> names_;
-  std::unique_ptr<CgnsSink> sink_;
+  std::vector<std::unique_ptr<BlockMesh>> blocks_;
+  std::unique_ptr<CgnsSink> sink_;  ///< on rank 0 only, like the next one
   std::unique_ptr<CgnsPatches> patches_;
+  std::deque<CgnsZoneWriter> zones_;
 };
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -108,6 +110,16 @@ void for_each_named_node(FileMeshOrConst& mesh, const Visit& visit) {
       }
     }
   }
+}
+
+/// Returns the lowest of the nodes that are one, and shortens the way to it.
+std::int32_t first_among(std::vector<std::int32_t>& first_of, std::int32_t node) {
+  while (first_of[node] != node) node = first_of[node] = first_of[first_of[node]];
+  return node;
+}
+void unite(std::vector<std::int32_t>& first_of, std::int32_t a, std::int32_t b) {
+  const std::int32_t first = first_among(first_of, a), second = first_among(first_of, b);
+  first_of[std::max(first, second)] = std::min(first, second);
 }
 
 /// Keeps the nodes whose `new_id` is not negative, and renumbers all references. The new numbers must be
@@ -248,34 +260,74 @@ void drop_unused_nodes(FileMesh& mesh, const std::string& path) {
   mesh.warnings.push_back(fmt::format("{}: left out {} without a cell", path, counted(dropped, "node")));
 }
 
-void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes) {
+void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes, const NodeLinks& links) {
   std::vector<Point3>& points = mesh.points;
   std::vector<std::int32_t> order(points.size()), first_of(points.size()), new_id(points.size());
   std::iota(order.begin(), order.end(), 0);
+  std::iota(first_of.begin(), first_of.end(), 0);
+  for (const auto& [a, b] : links.nodes) unite(first_of, a, b);
   const auto place = [&](std::int32_t i) { return std::tuple(points[i].x, points[i].y, points[i].z); };
   std::ranges::stable_sort(order, {}, place);
-  const auto zone_of = [&](std::size_t node) { return std::ranges::upper_bound(first_nodes, node); };
+  const auto zone_of = [&](std::size_t node) -> std::size_t {
+    return std::ranges::upper_bound(first_nodes, node) - first_nodes.begin() - 1;
+  };
   for (std::size_t k = 0, first = 0; k < order.size(); ++k) {
     if (place(order[k]) != place(order[first])) first = k;
-    const bool same_zone = !first_nodes.empty() && zone_of(order[k]) == zone_of(order[first]);
-    first_of[order[k]] = order[same_zone ? k : first];
+    if (first_nodes.empty()) {
+      unite(first_of, order[first], order[k]);
+      continue;
+    }
+    const auto [low, high] = std::minmax({zone_of(order[k]), zone_of(order[first])});
+    if (low != high && !links.zones.contains({low, high})) unite(first_of, order[first], order[k]);
   }
   Field none;
   Field& solution = mesh.solution ? *mesh.solution : none;
   const auto width = std::ssize(solution.names);
   std::int32_t kept = 0;
   for (std::int32_t i = 0; i < std::ssize(points); ++i) {
-    if (first_of[i] == i) {
+    if (const std::int32_t first = first_among(first_of, i); first == i) {
       std::copy_n(solution.values.begin() + i * width, width, solution.values.begin() + kept * width);
       points[kept] = points[i];
       new_id[i] = kept++;
     } else {
-      new_id[i] = new_id[first_of[i]];  // the first one comes earlier
+      new_id[i] = new_id[first];  // the first one comes earlier
     }
   }
   points.resize(kept);
   solution.values.resize(kept * width);
   renumber_nodes(mesh, new_id);
+}
+
+void drop_inner_faces(FileMesh& mesh) {
+  std::map<Face, int> mentions;
+  const auto key_of = [](Face face) {
+    std::ranges::sort(face);
+    return face;
+  };
+  for (const FileBoundary& boundary : mesh.boundaries) {
+    for (const Face& face : boundary.faces) ++mentions[key_of(face)];
+  }
+  for (FileBoundary& boundary : mesh.boundaries) {
+    const auto is_inner = [&](const Face& face) { return mentions[key_of(face)] > 1; };
+    std::erase_if(boundary.faces, is_inner);
+    boundary.places.clear();
+  }
+}
+
+void keep_first_mentions(LoadedMesh& loaded) {
+  Mesh& mesh = loaded.mesh;
+  const EdgeTable table(mesh);
+  std::set<std::array<NodeId, 2>> taken;
+  for (BoundaryEdges& boundary : mesh.boundaries) {
+    std::erase_if(boundary.edges, [&](std::array<NodeId, 2>& edge) {
+      const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
+                         right = table.cell_left_of(edge[1], edge[0]);
+      if (left < 0 || right < 0) return false;
+      if (block_of_cell(loaded, right) < block_of_cell(loaded, left)) std::swap(edge[0], edge[1]);
+      return !taken.insert(edge).second;
+    });
+  }
+  std::erase_if(mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
 }
 
 void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std::string& path) {

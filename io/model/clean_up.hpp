@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,9 +32,23 @@ std::vector<char> used_nodes(const FileMesh& mesh);
 /// of the remaining nodes.
 void drop_unused_nodes(FileMesh& mesh, const std::string& path);
 
-/// Merges all nodes at the same position to the first of them, with its values. `first_nodes` gives the first
-/// node of each zone of a file: nodes in the same zone as the first are not merged.
-void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes = {});
+/// Nodes of the zones of a file that are known to be equal.
+struct NodeLinks {
+  std::vector<std::array<std::int32_t, 2>> nodes;  ///< numbered over all zones, from 0
+  std::set<std::array<std::size_t, 2>> zones;      ///< the lower one first: these list all their equal nodes
+};
+
+/// Merges all nodes that are linked, or at the same position, to the first of them, with its values.
+/// `first_nodes` gives the first node of each zone of a file: nodes in the same zone as the first, or in one
+/// that is linked to it, are not merged by their positions.
+void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes = {}, const NodeLinks& links = {});
+
+/// Removes boundary faces that occur twice: in a 3D mesh these lie between two of its zones.
+void drop_inner_faces(FileMesh& mesh);
+
+/// Keeps each edge between two blocks once: its first occurrence, with the cell of the smaller block on its
+/// left. A file of several zones has it in both.
+void keep_first_mentions(LoadedMesh& loaded);
 
 /// Moves the boundary edges inside a block to inner curves of the same names, with a warning that names them;
 /// boundaries without other edges are removed. `table` has the edges of the mesh.

@@ -30,9 +30,9 @@ std::int64_t StreamFaces::all() const {
 }
 
 bool StreamFaces::is_interface(std::size_t patch) const {
-  if (between_.empty()) return false;
-  const std::vector<std::array<NodeId, 2>>& edges = stream_.boundaries()->present()[patch]->edges;
-  return !edges.empty() && is_between(edges[0][0], edges[0][1]);
+  if (interfaces_.empty()) return false;
+  return interfaces_.contains(stream_.boundaries()->present()[patch] -
+                              stream_.extruded()->plane.boundaries.data());
 }
 
 void StreamFaces::find_plane_faces(const std::string& path) {
@@ -49,26 +49,37 @@ void StreamFaces::find_plane_faces(const std::string& path) {
   const std::int64_t inner = comm.sum(std::ranges::count_if(cells_.across, [](std::int64_t cell) {
     return cell != EdgeCells::none;
   })) / 2;
-  internal_ = inner * rows_on_cell() + cells * (rows_on_cell() - 1) - std::ssize(between_);
+  internal_ = inner * rows_on_cell() + cells * (rows_on_cell() - 1) - comm.sum(own_between_);
 }
 
+/// The ranks of both cells learn of an edge between two.
 void StreamFaces::find_interfaces() {
-  QUADLOOP_REQUIRE(stream_.communicator().size() == 1, "the faces of blocks are those of a whole mesh");
+  const Communicator& comm = stream_.communicator();
   const Mesh& mesh = stream_.extruded()->plane;
-  right_of_boundary_ = cells_right_of_boundaries(stream_.communicator(), mesh);
+  right_of_boundary_ = cells_right_of_boundaries(comm, mesh);
+  const CellOwners owners(comm, mesh);
+  Outbox<EdgeKey> to_cells;
+  std::vector<std::int64_t> interfaces;
   std::size_t at = 0;
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& [from, to] : boundary.edges) {
-      const bool has_left = cells_.of_boundary[at] != EdgeCells::none;
-      if (has_left && right_of_boundary_[at] != EdgeCells::none) between_.insert(key_of(from, to));
+  for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
+    const std::int64_t before = own_between_;
+    for (const auto& [from, to] : mesh.boundaries[b].edges) {
+      const std::int64_t left = cells_.of_boundary[at], right = right_of_boundary_[at];
       ++at;
+      if (left == EdgeCells::none || right == EdgeCells::none) continue;
+      ++own_between_;
+      for (const std::int64_t cell : {left, right}) to_cells.add(owners.rank_of(cell), key_of(from, to));
     }
+    if (own_between_ > before) interfaces.push_back(b);
   }
+  for (const EdgeKey& edge : to_cells.deliver(comm)) between_.insert(edge);
+  for (const std::int64_t b : comm.all_gather_values(std::span<const std::int64_t>(interfaces)))
+    interfaces_.insert(b);
 }
 
 void StreamFaces::require_conforming(const std::string& path) const {
   const Communicator& comm = stream_.communicator();
-  std::int64_t on_boundaries = -std::ssize(between_);
+  std::int64_t on_boundaries = -own_between_;
   for (const BoundaryEdges& boundary : stream_.extruded()->plane.boundaries)
     on_boundaries += std::ssize(boundary.edges);
   const std::int64_t outer = std::ranges::count(cells_.across, EdgeCells::none);

@@ -31,7 +31,7 @@ class StreamFaces {
 
   /// The stream must outlive the object. Throws OutputError, with `path`, unless each face is between two
   /// cells or belongs to one cell and one patch. In a plane mesh with blocks a face of a patch may be between
-  /// two cells; such a mesh is whole on one rank. *Collective.*
+  /// two cells. *Collective.*
   StreamFaces(const MeshStream& stream, CellNumbers numbers, const std::string& path);
 
   std::int64_t internal() const { return internal_; }
@@ -196,8 +196,11 @@ class StreamFaces {
     const std::int64_t triangles = std::ssize(stream_.extruded()->plane.triangles);
     return cell < triangles ? cells_.first_triangle + cell : cells_.first_quad + cell - triangles;
   }
-  static std::pair<std::int32_t, std::int32_t> key_of(NodeId from, NodeId to) {
-    return {std::min(from.value(), to.value()), std::max(from.value(), to.value())};
+  using EdgeKey = std::array<GlobalNodeId, 2>;  ///< the lower node first
+  EdgeKey key_of(NodeId from, NodeId to) const {
+    const Mesh& mesh = stream_.extruded()->plane;
+    const GlobalNodeId a = mesh.global(from), b = mesh.global(to);
+    return {std::min(a, b), std::max(a, b)};
   }
   bool is_between(NodeId from, NodeId to) const {
     return !between_.empty() && between_.contains(key_of(from, to));
@@ -212,8 +215,10 @@ class StreamFaces {
   const MeshStream& stream_;
   std::optional<HeldFaces> held_;  ///< either this or the following members, except for the numbers
   EdgeCells cells_;
-  std::vector<std::int64_t> right_of_boundary_;              ///< interfaces only; may be empty
-  std::set<std::pair<std::int32_t, std::int32_t>> between_;  ///< edges of interfaces
+  std::vector<std::int64_t> right_of_boundary_;  ///< interfaces only; may be empty
+  std::set<EdgeKey> between_;                    ///< edges of interfaces at this rank's cells
+  std::int64_t own_between_ = 0;                 ///< number of those that this rank stores
+  std::set<std::int64_t> interfaces_;            ///< indices of boundaries with such edges, on any rank
   std::vector<std::int64_t> numbers_;         ///< of this rank's cells; empty: as in the stream
   std::vector<std::int64_t> across_numbers_;  ///< at each edge of this rank's cells; empty: as in the stream
   std::int64_t internal_ = 0;

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <tuple>
+
 #include "io/model/clean_up.hpp"
 #include "io/model/matching_sides.hpp"
 #include "io/stream/vtk_cell.hpp"
@@ -21,8 +25,13 @@ class Su2Reader {
     mesh_.dimension = static_cast<std::int32_t>(dimension);
     for (std::size_t zone = 0; zone < text_.zones(); ++zone) {
       text_.go_to_zone(zone);
-      read_zone(text_.zones() == 1 ? "domain" : "zone_" + std::to_string(zone + 1));
+      first_nodes_.push_back(mesh_.points.size());
+      const std::string name = text_.name_of_zone();
+      read_zone(!name.empty() ? name : text_.zones() == 1 ? "domain" : "zone_" + std::to_string(zone + 1));
     }
+    const bool conforming = has_common_faces();
+    if (conforming) unite_nodes(mesh_, first_nodes_);
+    if (conforming && !is_plane()) drop_inner_faces(mesh_);
     mesh_.warnings = text_.warnings();
     if (is_plane()) return read_plane();
     drop_empty_groups(mesh_);
@@ -34,12 +43,36 @@ class Su2Reader {
 
   LoadedMesh read_plane() {
     LoadedMesh loaded = plane_mesh(std::move(mesh_), text_.scan());
+    keep_first_mentions(loaded);
     // Periodic sides are specified only in the configuration.
     loaded.periodic_nodes = nodes_of_matching_sides(loaded.mesh);
     return loaded;
   }
 
-  /// Zones keep their own nodes, even where they touch; markers of the same name form one boundary.
+  /// Whether two zones have a face at one place on markers of one name, as the zones of one mesh do. Zones of
+  /// other files keep their own nodes, even where they touch.
+  bool has_common_faces() const {
+    if (first_nodes_.size() < 2) return false;
+    using Place = std::tuple<double, double, double>;
+    for (const FileBoundary& boundary : mesh_.boundaries) {
+      std::map<std::vector<Place>, std::ptrdiff_t> zones;
+      for (const FileBoundary::Face& face : boundary.faces) {
+        std::vector<Place> places;
+        for (const std::int32_t node : face) {
+          if (node == FileBoundary::no_node) continue;
+          const Point3 p = mesh_.points[node];
+          places.emplace_back(p.x, p.y, p.z);
+        }
+        std::ranges::sort(places);
+        const auto zone = std::ranges::upper_bound(first_nodes_, static_cast<std::size_t>(face[0])) -
+                          first_nodes_.begin();
+        if (zones.emplace(std::move(places), zone).first->second != zone) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Markers of the same name form one boundary.
   void read_zone(const std::string& block) {
     if (text_.dimension() != mesh_.dimension)
       text_.scan().refuse("a zone of other dimensions than the first");
@@ -126,6 +159,7 @@ class Su2Reader {
 
   Su2Text text_;
   FileMesh mesh_;
+  std::vector<std::size_t> first_nodes_;  ///< of each zone
 };
 
 }  // namespace

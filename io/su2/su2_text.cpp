@@ -58,6 +58,16 @@ void Su2Text::go_to_zone(std::size_t zone) {
   first_point_ += std::exchange(points_, 0);
 }
 
+std::string Su2Text::name_of_zone() const {
+  const std::size_t key = zone_begin();
+  const std::size_t end = key + 1 < keys_.size() ? keys_[key + 1].begin : scan_.text().size();
+  const std::string_view head = scan_.text().substr(keys_[key].begin, end - keys_[key].begin);
+  const std::size_t found = head.find(std::string("\n") + su2_block_comment);
+  if (found == std::string_view::npos) return {};
+  const std::size_t begin = found + 1 + std::string_view(su2_block_comment).size();
+  return std::string(without_blanks_around(head.substr(begin, head.find('\n', begin) - begin)));
+}
+
 std::size_t Su2Text::end_of_zone() const {
   return zone_end() == keys_.size() ? scan_.text().size() : keys_[zone_end()].begin;
 }

@@ -9,6 +9,9 @@
 
 namespace quadloop::io {
 
+/// What a comment with the name of a zone begins with; it follows the line "IZONE= n".
+inline constexpr const char* su2_block_comment = "% block ";
+
 /// A line "KEY= value", by positions in the text; it is followed by the rows of the key.
 struct Su2Key {
   std::string key;
@@ -29,6 +32,8 @@ class Su2Text {
   /// zone, initially 0; its points are numbered after those of earlier zones.
   std::size_t zones() const { return zone_begins_.size() - 1; }
   void go_to_zone(std::size_t zone);
+  /// Returns the name in a comment after its first line; empty if there is none.
+  std::string name_of_zone() const;
 
   /// NDIME.
   std::int64_t dimension();

@@ -1,6 +1,9 @@
+#include "io/stream/block_meshes.hpp"
 #include "io/stream/mesh_stream.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/stream/vtk_cell.hpp"
 #include "io/su2/su2_file.hpp"
+#include "io/su2/su2_text.hpp"
 #include "io/text/plain_names.hpp"
 #include "io/text/text_output.hpp"
 
@@ -8,10 +11,10 @@ namespace quadloop::io {
 
 namespace {
 
+/// Writes a mesh, or one zone of a file.
 class Su2Writer {
  public:
-  Su2Writer(OutputSet& outputs, const MeshStream& stream, const std::string& path)
-      : stream_{stream}, file_{outputs, path} {}
+  Su2Writer(TextOutput& file, const MeshStream& stream) : stream_{stream}, file_{file} {}
 
   void write() {
     file_.write((stream_.is_plane() ? "NDIME= 2\nNELEM= " : "NDIME= 3\nNELEM= ") +
@@ -19,7 +22,6 @@ class Su2Writer {
     for_each_kind([&]<CellKind kind>() { write_cells<kind>(); });
     write_points();
     write_markers();
-    file_.close();
   }
 
  private:
@@ -108,7 +110,7 @@ class Su2Writer {
   }
 
   const MeshStream& stream_;
-  TextOutput file_;
+  TextOutput& file_;
   std::int64_t written_ = 0;  ///< number of cells, over all ranks
 };
 
@@ -119,7 +121,19 @@ std::vector<std::string> su2_marker_names(const std::vector<std::string>& bounda
 }
 
 void write_su2(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
-  Su2Writer(outputs, mesh, path).write();
+  TextOutput file(outputs, path);
+  const StreamBlocks blocks(mesh);
+  if (!blocks.several()) {
+    Su2Writer(file, mesh).write();
+    return file.close();
+  }
+  file.write("NZONE= " + std::to_string(blocks.count()) + "\n");
+  std::int32_t zone = 0;
+  for (const auto& block : block_meshes(mesh, path)) {
+    file.write("IZONE= " + std::to_string(++zone) + "\n" + su2_block_comment + block->name() + "\n");
+    Su2Writer(file, block->stream()).write();
+  }
+  file.close();
 }
 
 }  // namespace quadloop::io

@@ -28,10 +28,11 @@ class UgridPlaneReader {
       scan_.real("a z coordinate");
       mesh_.points.push_back({x, y, 0});
     }
-    const std::int32_t block = mesh_.block_named("domain");
-    for (std::size_t i = 0; i < triangles; ++i) add_cell<CellKind::triangle>(mesh_, row<3>(), block);
-    for (std::size_t i = 0; i < quads; ++i) add_cell<CellKind::quad>(mesh_, row<4>(), block);
-    for (std::size_t i = 0; i < triangles + quads; ++i) scan_.integer("the identifier of a face");
+    for (std::size_t i = 0; i < triangles; ++i) mesh_.triangles.push_back(row<3>());
+    for (std::size_t i = 0; i < quads; ++i) mesh_.quads.push_back(row<4>());
+    std::vector<std::int64_t> identifiers(triangles + quads);
+    for (std::int64_t& identifier : identifiers) identifier = scan_.integer("the identifier of a face");
+    set_blocks(mesh_, identifiers);
     if (!scan_.at_end()) read_edges();
     drop_unused_nodes(mesh_, scan_.path());
     return plane_mesh(std::move(mesh_), scan_);

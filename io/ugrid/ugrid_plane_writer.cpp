@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "io/stream/stream_blocks.hpp"
 #include "io/text/text_output.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "io/ugrid/ugrid_plane_file.hpp"
@@ -11,7 +12,7 @@ namespace {
 class UgridPlaneWriter {
  public:
   UgridPlaneWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
-      : stream_{stream}, file_{outputs, path}, names_{outputs, plane_mapbc_path(path)} {}
+      : stream_{stream}, blocks_{stream}, file_{outputs, path}, names_{outputs, plane_mapbc_path(path)} {}
 
   void write() {
     write_names();
@@ -26,7 +27,8 @@ class UgridPlaneWriter {
     });
     write_cells<CellKind::triangle>();
     write_cells<CellKind::quad>();
-    file_.write_root_rows(all.cells(), 1, [](TextRows& text, std::int64_t) { text.put(1, '\n'); });
+    write_blocks<CellKind::triangle>();
+    write_blocks<CellKind::quad>();
     file_.write(std::to_string(stream_.boundaries()->all_edges()) + "\n");
     file_.write_boundaries(
         *stream_.boundaries(), 3, [](std::size_t) { return std::string(); },
@@ -47,6 +49,12 @@ class UgridPlaneWriter {
     });
   }
 
+  template <CellKind kind>
+  void write_blocks() {
+    file_.write_rows(stream_.cell_rows<kind>(), 1,
+                     [&](TextRows& text, std::int64_t i) { text.put(blocks_.of<kind>(i) + 1, '\n'); });
+  }
+
   void write_names() {
     std::vector<MapbcPatch> patches;
     for (const StreamedPatch& patch : stream_.patches())
@@ -56,6 +64,7 @@ class UgridPlaneWriter {
   }
 
   const MeshStream& stream_;
+  const StreamBlocks blocks_;
   TextOutput file_, names_;
 };
 

@@ -35,6 +35,7 @@ class UgridReader {
     for (auto& n : mesh_.pyramids) n = {n[0], n[3], n[4], n[1], n[2]};  // in UGRID the third node is the apex
     read_cells(mesh_.prisms, head[5]);
     read_cells(mesh_.hexahedra, head[6]);
+    read_volumes();
     if (at_ < bytes_.size())
       mesh_.warnings.push_back(
           fmt::format("{}: {} bytes after the mesh are ignored", path_, bytes_.size() - at_));
@@ -71,6 +72,17 @@ class UgridReader {
           fmt::format("{}: its counts require {} bytes, but {} follow; it is cut short, or its byte order is "
                       "different (.b8.ugrid, .lb8.ugrid)",
                       path_, bytes, bytes_.size() - at_));
+  }
+
+  /// A number of layer cells, then the identifier of each cell, if just as many numbers follow.
+  void read_volumes() {
+    const std::uint64_t cells = cell_count(mesh_);
+    if (cells == 0 || bytes_.size() - at_ != (cells + 1) * sizeof(std::int32_t)) return;
+    take<std::int32_t, 1>("the number of cells in layers");
+    std::vector<std::int64_t> identifiers;
+    for (std::uint64_t i = 0; i < cells; ++i)
+      identifiers.push_back(take<std::int32_t, 1>("the identifier of a cell")[0]);
+    set_blocks(mesh_, identifiers);
   }
 
   std::int32_t node(std::int32_t number) const {

@@ -4,6 +4,7 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/stream/mesh_stream.hpp"
+#include "io/stream/stream_blocks.hpp"
 #include "io/ugrid/ugrid_file.hpp"
 #include "mesher/base/error.hpp"
 
@@ -42,6 +43,7 @@ class UgridWriter {
       put_rows(stream_.cell_rows<kind>(),
                [&](std::int64_t i) { return as<std::int32_t>(as_ugrid(stream_.cell<kind>(i)), 1); });
     });
+    if (const StreamBlocks blocks(stream_); blocks.several()) write_volumes(blocks);
     stream_.on_root([&] { file_->close(); });
   }
 
@@ -103,6 +105,15 @@ class UgridWriter {
       };
       for (std::size_t n = 0; n < patches.size(); ++n) put(patches[n].triangles, n);
       for (std::size_t n = 0; n < patches.size(); ++n) put(patches[n].quads, n);
+    });
+  }
+
+  /// Writes a number of cells in layers, 0, then the block of each cell, from 1.
+  void write_volumes(const StreamBlocks& blocks) {
+    const std::array<std::int32_t, 1> none{0};
+    stream_.on_root([&] { file_->write(bytes_of(std::span(none))); });
+    for_each_kind([&]<CellKind kind>() {
+      put_rows(stream_.cell_rows<kind>(), [&](std::int64_t i) { return std::array{blocks.of<kind>(i) + 1}; });
     });
   }
 

@@ -8,7 +8,7 @@ namespace quadloop::io {
 
 namespace {
 
-constexpr std::array<const char*, 4> elements = {"Points", "Cells", "PointData", "CellData"};
+constexpr std::array<const char*, 4> data_elements = {"Points", "Cells", "PointData", "CellData"};
 
 }  // namespace
 
@@ -38,10 +38,10 @@ std::string VtuAppended::tags_of(const std::string& element, std::int64_t& offse
 void VtuAppended::write(const std::string& head) {
   std::string text = head;
   std::int64_t offset = 0;
-  for (const char* element : elements) text += tags_of(element, offset);
+  for (const char* element : data_elements) text += tags_of(element, offset);
   text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   on_root([&] { file_->write(text); });
-  for (const char* element : elements) {
+  for (const char* element : data_elements) {
     for (const Array& array : arrays_) {
       if (array.element != element) continue;
       const std::array size{in_order<std::endian::little>(static_cast<std::uint64_t>(array.bytes))};

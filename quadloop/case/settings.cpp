@@ -108,9 +108,6 @@ void read_tables(const CaseTable& root, Settings& settings) {
 void require_blocks_alone(const Settings& settings) {
   if (settings.outline.blocks.empty()) return;
   const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
-  const auto is_written = [&](const char* format) {
-    return std::ranges::count(settings.formats, format) > 0;
-  };
   const std::pair<bool, const char*> others[] = {
       {std::ranges::any_of(settings.outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
@@ -120,9 +117,7 @@ void require_blocks_alone(const Settings& settings) {
       {settings.mesh.type == MeshType::metric, "anisotropic adaptation; set mesh.type to delaunay"},
       {settings.adapt && settings.solver.kind != SolverSettings::Kind::command,
        "the built-in solver, OpenFOAM or SU2 in the loop; set solver.kind = \"command\""},
-      {settings.partitions > 0, "partitions; remove output.partitions"},
-      {is_written("fluent.msh") || is_written("polyMesh"),
-       "the formats fluent.msh and polyMesh; write mesh, vtu, msh or su2"}};
+      {settings.partitions > 0, "partitions; remove output.partitions"}};
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;
     const BlockRule& block = settings.outline.blocks.front();

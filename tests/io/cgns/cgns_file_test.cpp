@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "io/tree/tree_file.hpp"
@@ -151,7 +152,7 @@ TEST(CgnsReader, MarksPeriodicNodes) {
 
 /// Two unit squares side by side, each a zone with a boundary all round; the second has its nodes in another
 /// order.
-void write_two_zones(const std::string& path) {
+void write_two_zones(const std::string& path, double gap = 0) {
   int file = 0, base = 0, at = 0;
   cg_set_file_type(CG_FILE_HDF5);
   ASSERT_EQ(cg_open(path.c_str(), CG_MODE_WRITE, &file), CG_OK);
@@ -162,7 +163,7 @@ void write_two_zones(const std::string& path) {
   for (const bool right : {false, true}) {
     int zone = 0;
     const std::array<double, 4> x =
-        right ? std::array<double, 4>{2, 2, 1, 1} : std::array<double, 4>{0, 1, 1, 0};
+        right ? std::array<double, 4>{2, 2, 1 + gap, 1 + gap} : std::array<double, 4>{0, 1, 1, 0};
     const std::array<double, 4> y =
         right ? std::array<double, 4>{0, 1, 1, 0} : std::array<double, 4>{0, 0, 1, 1};
     cg_zone_write(file, base, right ? "Right" : "Left", size.data(), Unstructured, &zone);
@@ -172,6 +173,56 @@ void write_two_zones(const std::string& path) {
     cg_section_write(file, base, zone, right ? "right" : "left", BAR_2, 2, 5, 0, bars.data(), &at);
   }
   ASSERT_EQ(cg_close(file), CG_OK);
+}
+
+/// Connects nodes of the right zone with those of a donor.
+void connect_right(const std::string& path, const char* donor, const std::vector<cgsize_t>& nodes,
+                   const std::vector<cgsize_t>& of_donor) {
+  int file = 0, at = 0;
+  ASSERT_EQ(cg_open(path.c_str(), CG_MODE_MODIFY, &file), CG_OK);
+  const auto count = static_cast<cgsize_t>(nodes.size());
+  ASSERT_EQ(cg_conn_write(file, 1, 2, "Connection", Vertex, Abutting1to1, PointList, count, nodes.data(), donor,
+                          Unstructured, PointListDonor, sizeof(cgsize_t) == 4 ? Integer : LongInteger, count,
+                          of_donor.data(), &at),
+            CG_OK)
+      << cg_get_error();
+  cg_close(file);
+}
+
+TEST(CgnsReader, ConnectedNodesAreOneWhereverTheyAre) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("m.cgns");
+  write_two_zones(path, 1e-9);
+  EXPECT_EQ(test::read_plane<read_cgns>(path).mesh.points.size(), 8U);
+  connect_right(path, "Left", {4, 3}, {2, 3});
+  const LoadedMesh loaded = test::read_plane<read_cgns>(path);
+  EXPECT_EQ(loaded.mesh.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {2, 1}}));
+  EXPECT_EQ(loaded.mesh.boundaries[1].edges.size(), 3U);
+  EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+}
+
+TEST(CgnsReader, ZonesConnectedAtSomeNodesHaveTheOthersTwice) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("m.cgns");
+  write_two_zones(path);
+  connect_right(path, "Left", {4}, {2});
+  EXPECT_EQ(test::read_plane<read_cgns>(path).mesh.points.size(), 7U);
+}
+
+TEST(CgnsReader, RefusesConnectionsOfNothing) {
+  for (const auto& [donor, node, wanted] :
+       {std::tuple{"Left", 5, "names node 5"}, {"Nowhere", 2, "zone Nowhere, which does not exist"}}) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("m.cgns");
+    write_two_zones(path);
+    connect_right(path, donor, {4}, {node});
+    try {
+      test::read_plane<read_cgns>(path);
+      ADD_FAILURE() << wanted;
+    } catch (const InputError& error) {
+      expect_in(error.what(), wanted);
+    }
+  }
 }
 
 TEST(CgnsReader, NodesOfSeveralZonesAtOnePlaceAreOne) {

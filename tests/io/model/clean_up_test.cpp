@@ -177,6 +177,27 @@ TEST(CleanUp, NodesAtOnePlaceBecomeTheFirstWithItsValues) {
   EXPECT_EQ(f.mesh.solution->values, (std::vector<double>{0, 1, 2, 3, 4, 5}));
 }
 
+TEST(CleanUp, LinkedZonesUniteTheirListedNodesAlone) {
+  FileMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1e-9, 0}, {1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  add_cell<CellKind::triangle>(mesh, std::array{0, 1, 2}, mesh.block_named("a"));
+  add_cell<CellKind::triangle>(mesh, std::array{3, 5, 4}, mesh.block_named("b"));
+  add_cell<CellKind::triangle>(mesh, std::array{6, 7, 8}, mesh.block_named("c"));
+  const std::vector<std::size_t> first_nodes{0, 3, 6};
+  unite_nodes(mesh, first_nodes, {{{3, 0}}, {{0, 1}}});  // nodes 1 and 4 are a crack, 1 and 6 are not linked
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 4, 3}, {1, 5, 6}}));
+  EXPECT_EQ(mesh.points.size(), 7U);
+  EXPECT_EQ(mesh.points[0].y, 0);
+}
+
+TEST(CleanUp, FacesOfTwoZonesAreInside) {
+  FileMesh mesh;
+  mesh.boundaries = {{"a", {}, {{0, 1, 2, -1}, {0, 1, 3, -1}}}, {"b", {}, {{2, 1, 0, -1}}}};
+  drop_inner_faces(mesh);
+  EXPECT_EQ(mesh.boundaries[0].faces, (std::vector<FileBoundary::Face>{{0, 1, 3, -1}}));
+  EXPECT_TRUE(mesh.boundaries[1].faces.empty());
+}
+
 TEST(CleanUp, GroupsWithoutElementsGo) {
   FileMesh mesh;
   mesh.block_named("none");

@@ -171,6 +171,25 @@ TEST(Su2Reader, MakesBlocksOfZones) {
                        "m.su2:23: ", "a zone ends without NPOIN");
 }
 
+TEST(Su2Reader, UnitesZonesWithCommonEdges) {
+  const std::string cellar =
+      "NDIME= 2\nNELEM= 1\n9 0 1 2 3 0\nNPOIN= 4\n0 -1 0\n1 -1 1\n1 0 2\n0 0 3\nNMARK= 2\nMARKER_TAG= "
+      "floor\nMARKER_ELEMS= 1\n3 2 3\nMARKER_TAG= ground\nMARKER_ELEMS= 3\n3 3 0\n3 0 1\n3 1 2\n";
+  const std::string both = "NZONE= 2\nIZONE= 1\n" + house + "IZONE= 2\n% block cellar\n" + cellar;
+  const LoadedMesh loaded = check.of(both);
+  EXPECT_EQ(loaded.block_names, (std::vector<std::string>{"zone_1", "cellar"}));
+  EXPECT_EQ(loaded.mesh.points.size(), 7U);
+  EXPECT_EQ(loaded.mesh.quads.at(1), (std::array{node(5), node(6), node(1), node(0)}));
+  EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+  for (const BoundaryEdges& boundary : loaded.mesh.boundaries) {
+    if (boundary.name != "floor") continue;
+    EXPECT_EQ(boundary.edges, (std::vector<std::array<NodeId, 2>>{{node(0), node(1)}}));
+  }
+  EXPECT_EQ(check.of(replaced(both, "MARKER_TAG= floor\nMARKER_ELEMS= 1\n3 2", "MARKER_TAG= roof\nMARKER_ELEMS= 1\n3 2"))
+                .mesh.points.size(),
+            9U);
+}
+
 TEST(Su2Reader, RefusesEarlyEnd) {
   const std::size_t markers = house.find("NMARK");
   check.expect_early_ends_refused(house.substr(0, markers));

@@ -33,6 +33,14 @@ TEST(UgridPlane, ReadsCellsAndEdges) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(UgridPlane, CellsWithDifferentIdentifiersAreBlocks) {
+  const LoadedMesh loaded = check.of(replaced(house, "1 2 3 4\n1\n1\n", "1 2 3 4\n9\n4\n"));
+  EXPECT_EQ(loaded.block_names, (std::vector<std::string>{"block_4", "block_9"}));
+  EXPECT_EQ(loaded.triangle_to_block, std::vector<std::int32_t>{1});
+  EXPECT_EQ(loaded.quad_to_block, std::vector<std::int32_t>{0});
+  EXPECT_EQ(check.of(house).block_names, std::vector<std::string>{"domain"});
+}
+
 TEST(UgridPlane, EdgesMayBeMissing) {
   const LoadedMesh loaded = check.of(house.substr(0, house.find("5\n1 2 1")));
   ASSERT_EQ(loaded.mesh.boundaries.size(), 1U);
