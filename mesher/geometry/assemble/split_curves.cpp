@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "mesher/geometry/box_tree.hpp"
@@ -10,7 +11,9 @@ namespace quadloop {
 
 namespace {
 
-constexpr int deepest = 44;               // halvings of a parameter interval
+constexpr int deepest = 26;               // halvings of an interval; then a curve is its chord to rounding
+constexpr double beyond_chord = 1e-3;     // of these chords: tolerance of their intersection
+constexpr double least_sine = 1e-6;       // of the angle between chords that intersect
 constexpr double at_end = 0x1p-36;        // parameters this near to an end count as the end
 constexpr std::size_t most_pairs = 4096;  // of one crossing: more if curves touch over a length
 
@@ -34,7 +37,19 @@ struct Part {
 /// Parameters on two segments where they meet.
 struct Meeting {
   double on_first = 0, on_second = 0;
+  Point point;
 };
+
+/// Where the chords of two small parts intersect.
+std::optional<Meeting> intersection_of(const Part& a, const Part& b) {
+  const Point along = a.segment.to - a.segment.from, other = b.segment.to - b.segment.from,
+              between = b.segment.from - a.segment.from;
+  const double area = cross(along, other);
+  if (std::abs(area) <= least_sine * length(along) * length(other)) return {};
+  const double s = cross(between, other) / area, t = cross(between, along) / area;
+  if (std::min(s, t) < -beyond_chord || std::max(s, t) > 1 + beyond_chord) return {};
+  return Meeting{a.low + s * (a.high - a.low), b.low + t * (b.high - b.low), a.segment.from + s * along};
+}
 
 bool overlap(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
@@ -59,11 +74,12 @@ std::vector<Meeting> meetings_of(const CurvedSegment& first, const CurvedSegment
   }
   std::vector<Meeting> meetings;
   for (const auto& [a, b] : pairs) {
-    const Meeting here{a.middle(), b.middle()};
-    const bool known = std::ranges::any_of(meetings, [&](const Meeting& m) {
-      return std::abs(m.on_first - here.on_first) < at_end && std::abs(m.on_second - here.on_second) < at_end;
-    });
-    if (!known) meetings.push_back(here);
+    const std::optional<Meeting> here = intersection_of(a, b);
+    const auto is_known = [&](const Meeting& m) {
+      return std::abs(m.on_first - here->on_first) < at_end &&
+             std::abs(m.on_second - here->on_second) < at_end;
+    };
+    if (here && std::ranges::none_of(meetings, is_known)) meetings.push_back(*here);
   }
   return meetings;
 }
@@ -148,11 +164,9 @@ void meet(MetSegment& first, MetSegment& second) {
   for (const Meeting& m : meetings_of(first.segment, second.segment)) {
     const bool inner_first = is_inner(m.on_first), inner_second = is_inner(m.on_second);
     if (!inner_first && !inner_second) continue;
-    const bool curve_is_first = !first.segment.curve.straight();
     const Point at = !inner_first    ? end_at(first.segment, m.on_first)
                      : !inner_second ? end_at(second.segment, m.on_second)
-                     : curve_is_first ? point_at(first.segment, m.on_first)
-                                      : point_at(second.segment, m.on_second);
+                                     : m.point;
     if (inner_first) first.add(m.on_first, at);
     if (inner_second) second.add(m.on_second, at);
   }
