@@ -17,6 +17,7 @@
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/grid_rank.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
+#include "mesher/layers/add_interface_layers.hpp"
 #include "mesher/layers/add_layers.hpp"
 #include "mesher/layers/add_strips.hpp"
 #include "mesher/mesh/block_runs.hpp"
@@ -85,11 +86,17 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
                           report.worst_cost_before));
 }
 
-/// Stores the number of layers of each boundary in the mesh, for output files.
+/// Stores the number of layers of each boundary in the mesh, for output files; not of those with layers in
+/// some of their blocks only.
 void name_layers(const Geometry& geometry, Mesh& mesh) {
+  std::vector<char> has_other_parts(mesh.boundaries.size(), 0);
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    if (!geometry.asks_for_layers(s) || geometry.twin(s) >= 0)
+      has_other_parts[geometry.boundary_of(s).value()] = 1;
+  }
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     const auto& layers = geometry.boundaries()[b].layers;
-    if (layers) mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
+    if (layers && has_other_parts[b] == 0) mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
   }
 }
 
@@ -99,6 +106,8 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   DivideBy divide;
   if (has_triangles_alone(input.mesh.type)) divide = order_in_layers(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
+  if (front.on_interfaces)
+    add_interface_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   if (front.has_strips())
     add_strips(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   name_layers(input.geometry, result.mesh);

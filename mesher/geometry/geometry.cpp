@@ -259,6 +259,7 @@ std::uint64_t Geometry::digest() const {
     if (b.corner_spacing > 0)
       digest.add(b.corner_spacing);  // added only if set, so that hashes of older trees remain valid
     if (b.layers) digest_layers(*b.layers, digest);
+    if (!b.layers_in.empty()) digest.add(b.layers_in);
   }
   for (const Point p : points_) {
     digest.add(p.x);

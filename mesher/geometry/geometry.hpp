@@ -36,6 +36,7 @@ struct Boundary {
   /// Requested size of the quadtree cells (leaves) at its sharp corners; 0: no special size.
   double corner_spacing = 0;
   std::optional<LayerSpec> layers = {};
+  std::string layers_in = {};  ///< the block in which it has layers; empty: all blocks beside it
 };
 
 /// Requirements of single places, which override those of their boundary.
@@ -95,6 +96,12 @@ class Geometry {
   /// The segment with the same ends in the opposite direction; -1 if there is none.
   std::int32_t twin(std::int32_t segment) const { return twins_.empty() ? -1 : twins_[segment]; }
   bool has_twins() const { return !twins_.empty(); }
+  /// Whether its boundary requests layers in the block to the left of the segment.
+  bool asks_for_layers(std::int32_t segment) const {
+    const Boundary& b = boundary(boundary_of(segment));
+    return b.layers && (b.layers_in.empty() ||
+                        (has_blocks() && b.layers_in == block_names()[block_of(segment)]));
+  }
   /// Whether it is the twin of the higher block: decisions for both are made from the other one.
   bool is_second(std::int32_t segment) const {
     return twin(segment) >= 0 && block_of(segment) > block_of(twin(segment));

@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/layers/fan_rows.hpp"
+#include "mesher/layers/filled_interface.hpp"
 #include "mesher/layers/layer_column.hpp"
 
 namespace quadloop {
@@ -65,6 +66,7 @@ class LayerBuilder {
     make_rows();
     grown_.emplace(comm, nodes_below(), divide, mesh, leaves);
     gather_rays();  // again, with their new numbers
+    gather_feet();
     make_columns();
   }
 
@@ -82,6 +84,7 @@ class LayerBuilder {
  private:
   void gather_rays();
   void make_rows();
+  void gather_feet();
   void make_columns();
   std::vector<std::int32_t> nodes_below() const;
   void add_boundary(std::size_t b);
@@ -104,8 +107,14 @@ class LayerBuilder {
   }
   const FanRows& rows_of(std::int32_t fan) const { return fan_rows_.at(fan); }
 
+  /// Whether the column lies between one on a wall and one on an interface, so that its foot is a node of
+  /// another block.
+  bool stands_on_node(const FrontPlace& place) const {
+    return place.at_station() && line_.is_beside_interface(place.station);
+  }
   /// The lowest ring whose node the column owns.
   int lowest_ring(NodeId node) const {
+    if (stands_on_node(place_[node])) return 1;
     const std::int32_t fan = fan_of(place_[node]);
     return fan == WallLine::none ? 0 : lowest_ring(fan, number_in_fan(fan, mesh_.global(node)));
   }
@@ -138,6 +147,7 @@ class LayerBuilder {
   IdVector<NodeId, FrontPlace> place_;
   std::vector<Ray> rays_;  ///< of all fans, in order
   std::map<std::int32_t, FanRows> fan_rows_;
+  std::map<std::int32_t, GrownNode> feet_;  ///< nodes of other blocks at the feet of columns, by station
   std::optional<GrownMesh> grown_;
   IdVector<NodeId, std::vector<GrownNode>> columns_;  ///< of front nodes, from the wall to the front
 };
@@ -175,6 +185,30 @@ std::vector<std::int32_t> LayerBuilder::nodes_below() const {
   return below;
 }
 
+/// The nodes of other blocks that are feet of columns.
+void LayerBuilder::gather_feet() {
+  struct Foot {
+    std::int32_t station = 0;
+    GrownNode node;
+  };
+  std::map<Point, std::int32_t> wanted;
+  for (std::int32_t i = 0; i < line_.size(); ++i) {
+    if (line_.is_beside_interface(i)) wanted.emplace(line_[i].wall, i);
+  }
+  std::vector<Foot> own;
+  for (const NodeId node : ids_below(NodeId{wanted.empty() ? 0 : mesh_.owned_nodes})) {
+    const auto found = wanted.find(mesh_.point(node));
+    if (found != wanted.end()) own.push_back({found->second, grown_->node(node)});
+  }
+  for (const Foot& foot : comm_.all_gather_values(std::span<const Foot>(own)))
+    feet_.emplace(foot.station, foot.node);
+  comm_.together([&] {
+    for (const auto& [point, station] : wanted) {
+      if (!feet_.contains(station)) refuse_lost_foot(front_, station);
+    }
+  });
+}
+
 /// In a fan all columns begin at the node on the corner, which the first column owns.
 void LayerBuilder::make_columns() {
   columns_.resize(mesh_.points.size());
@@ -183,6 +217,7 @@ void LayerBuilder::make_columns() {
     columns_[node] = column(place_[node], grown_->node(node), lowest_ring(node));
     if (const std::int32_t fan = fan_of(place_[node]); fan != WallLine::none)
       columns_[node].front() = edge_of(fan);
+    if (stands_on_node(place_[node])) columns_[node].front() = feet_.at(place_[node].station);
   }
 }
 
@@ -197,6 +232,7 @@ void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, st
     grown_->keep_edge(b, leaf, edge);
     return;
   }
+  grown_->begin_block(line_.geometry().block_of(line_[place_[from].station].segment));
   const std::int32_t fan = fan_of(place_[from]);
   if (fan != WallLine::none && fan == fan_of(place_[to])) {
     add_sector(from, fan, leaf);

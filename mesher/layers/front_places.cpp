@@ -9,29 +9,35 @@
 
 namespace quadloop {
 
-FrontPlaces::FrontPlaces(const LayerFront& front)
-    : front_{&front}, of_boundary_(front.outer.boundaries().size()) {
+FrontPlaces::FrontPlaces(const LayerFront& front, bool on_interfaces, bool on_wall)
+    : front_{&front}, on_wall_{on_wall}, of_boundary_(front.outer.boundaries().size()) {
+  const WallLine& line = front.line;
   for (std::int32_t s = 0; s < front.outer.size(); ++s) {
-    if (front.station_of[s] != WallLine::none) of_boundary_[front.outer.boundary_of(s)].segments.push_back(s);
+    const std::int32_t i = front.station_of[s];
+    if (i == WallLine::none || line.is_on_interface(i) != on_interfaces) continue;
+    if (on_wall && line.width(i) == 0) continue;
+    const BoundaryId boundary =
+        on_wall ? line.geometry().boundary_of(line[i].segment) : front.outer.boundary_of(s);
+    of_boundary_[boundary].stations.push_back(i);
   }
   for (const BoundaryId b : of_boundary_.ids()) {
     std::vector<Box> boxes;
-    for (const std::int32_t s : of_boundary_[b].segments)
-      boxes.push_back(box_of(front.outer.point(s), front.outer.point(front.outer.next(s))));
+    for (const std::int32_t i : of_boundary_[b].stations)
+      boxes.push_back(box_of(point(i), point(line.next(i))));
     of_boundary_[b].tree = BoxTree(boxes);
   }
 }
 
 FrontPlace FrontPlaces::locate(Point node, BoundaryId boundary) const {
-  const Geometry& outer = front_->outer;
-  const auto& [segments, tree] = of_boundary_[boundary];
-  const std::int32_t nearest = tree.nearest(node, [&](std::int32_t k) {
-    const std::int32_t s = segments[k];
-    return place_on_segment(node, outer.point(s), outer.point(outer.next(s))).squared_distance;
-  });
+  const auto& [stations, tree] = of_boundary_[boundary];
+  const auto distance = [&](std::int32_t k) {
+    return place_on_segment(node, point(stations[k]), point(front_->line.next(stations[k])))
+        .squared_distance;
+  };
+  const std::int32_t nearest = tree.nearest(node, distance);
   if (nearest == BoxTree::none) return {};
-  const std::int32_t i = front_->station_of[segments[nearest]], j = front_->line.next(i);
-  const Point from = front_->points[i], to = front_->points[j];
+  const std::int32_t i = stations[nearest], j = front_->line.next(i);
+  const Point from = point(i), to = point(j);
   const double share = place_on_segment(node, from, to).parameter;
   if (share == 1) return {j};
   return {i, share, share == 0 ? 1 : place_on_segment(node, to, from).parameter};

@@ -22,8 +22,13 @@ struct FrontPlace {
 /// Locates nodes of the mesh outside on the front.
 class FrontPlaces {
  public:
-  /// `front` must outlive it.
-  explicit FrontPlaces(const LayerFront& front);
+  /// On fronts whose nodes have columns, i.e. not those of columns that stand on interfaces. `front` must
+  /// outlive it.
+  explicit FrontPlaces(const LayerFront& front) : FrontPlaces(front, false, false) {}
+  /// On the fronts of columns that stand on interfaces.
+  static FrontPlaces on_interface_fronts(const LayerFront& front) { return {front, true, false}; }
+  /// On these interfaces, for nodes of the blocks on their other sides.
+  static FrontPlaces on_interfaces(const LayerFront& front) { return {front, true, true}; }
 
   /// The place nearest to a node of the boundary; none if the boundary has no front. O(log n).
   FrontPlace locate(Point node, BoundaryId boundary) const;
@@ -34,12 +39,15 @@ class FrontPlaces {
   bool follows(const FrontPlace& first, const FrontPlace& second) const;
 
  private:
+  FrontPlaces(const LayerFront& front, bool on_interfaces, bool on_wall);
+  Point point(std::int32_t i) const { return on_wall_ ? front_->line[i].wall : front_->points[i]; }
   struct OfBoundary {
-    std::vector<std::int32_t> segments;  ///< segments of `outer` on the front
+    std::vector<std::int32_t> stations;  ///< where segments begin
     BoxTree tree;
   };
 
   const LayerFront* front_;
+  bool on_wall_;
   IdVector<BoundaryId, OfBoundary> of_boundary_;
 };
 

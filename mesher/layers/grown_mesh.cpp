@@ -34,7 +34,7 @@ void GrownMesh::use(const GrownNode& node) {
 }
 
 void GrownMesh::add_triangle(std::int32_t leaf, const GrownNode& a, const GrownNode& b, const GrownNode& c) {
-  triangles_.push_back({leaf, {a.id, b.id, c.id}});
+  triangles_.push_back({leaf, {a.id, b.id, c.id}, block_});
 }
 
 /// Whether both diagonals of a quadrilateral have equally ranked ends.
@@ -58,7 +58,7 @@ void GrownMesh::add_cell(std::int32_t leaf, std::span<const GrownNode> corners, 
   const Point one = corners[2].point - corners[0].point, other = corners[3].point - corners[1].point;
   const double first = dot(one, one), second = dot(other, other);
   if (!divide_ || (first == second && diagonals_rank_alike(corners))) {
-    quads_.push_back({leaf, {corners[0].id, corners[1].id, corners[2].id, corners[3].id}});
+    quads_.push_back({leaf, {corners[0].id, corners[1].id, corners[2].id, corners[3].id}, block_});
     return;
   }
   const bool takes_first =
@@ -90,9 +90,10 @@ void GrownMesh::put_together(const std::function<void(NodeId, std::vector<Point>
   refuse_bad_cells();
   place_nodes(append_behind);
   merge_boundaries();
-  merge_cells(mesh_.triangles, triangles_, &LeafRecord::triangles);
-  merge_cells(mesh_.quads, quads_, &LeafRecord::quads);
-  for (LeafRecord& leaf : leaves_) leaf.block = has_cells(leaf) ? 1 : 0;
+  merge_cells(mesh_.triangles, triangles_, &LeafRecord::triangles, mesh_.blocks.of_triangles);
+  merge_cells(mesh_.quads, quads_, &LeafRecord::quads, mesh_.blocks.of_quads);
+  for (LeafRecord& leaf : leaves_)
+    leaf.block = has_cells(leaf) ? std::max<std::int16_t>(leaf.block, 1) : std::int16_t{0};
 }
 
 void GrownMesh::place_nodes(const std::function<void(NodeId, std::vector<Point>&)>& append_behind) {
@@ -127,12 +128,14 @@ std::array<NodeId, width> GrownMesh::numbered(const std::array<GlobalNodeId, wid
   return nodes;
 }
 
-/// Inserts the added cells of each leaf after the leaf's own cells.
+/// Inserts the added cells of each leaf after the leaf's own cells, and their blocks.
 template <std::size_t width>
 void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                            std::int32_t LeafRecord::*count) const {
+                            std::int32_t LeafRecord::*count, std::vector<std::int32_t>& blocks) const {
+  const bool has_blocks = !mesh_.blocks.names.empty();
   std::ranges::stable_sort(added, {}, &OfLeaf<width>::leaf);
   std::vector<std::array<NodeId, width>> merged;
+  std::vector<std::int32_t> merged_blocks;
   merged.reserve(cells.size() + added.size());
   auto own = cells.cbegin();
   auto next = added.cbegin();
@@ -140,12 +143,16 @@ void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::
     for (const auto end = own + leaves_[leaf].*count; own != end; ++own) {
       std::array<GlobalNodeId, width> ids;
       std::ranges::transform(*own, ids.begin(), [&](NodeId node) { return after_[node]; });
+      if (has_blocks) merged_blocks.push_back(blocks[merged.size() - (next - added.cbegin())]);
       merged.push_back(numbered(ids));
     }
-    for (; next != added.end() && next->leaf == leaf; ++next, ++(leaves_[leaf].*count))
+    for (; next != added.end() && next->leaf == leaf; ++next, ++(leaves_[leaf].*count)) {
       merged.push_back(numbered(next->nodes));
+      if (has_blocks) merged_blocks.push_back(next->block);
+    }
   }
   cells = std::move(merged);
+  blocks = std::move(merged_blocks);
 }
 
 std::vector<std::vector<std::int32_t>> GrownMesh::edge_leaves() const {

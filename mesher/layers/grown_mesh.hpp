@@ -40,6 +40,8 @@ class GrownMesh {
 
   /// Sets the beginning of the error message for bad cells, and its advice, for cells added from now on.
   void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }
+  /// Sets the block of the cells added from now on.
+  void begin_block(std::int32_t block) { block_ = block; }
   /// Of three corners or four, counter-clockwise. Where its diagonals are equally long, that of the higher
   /// ranked of corners `outer` and `outer + 1` divides it: those away from the wall, alike in mirror images.
   void add_cell(std::int32_t leaf, std::span<const GrownNode> corners, std::size_t outer = 2);
@@ -58,6 +60,7 @@ class GrownMesh {
   struct OfLeaf {
     std::int32_t leaf = 0;
     std::array<GlobalNodeId, width> nodes;
+    std::int32_t block = 0;  ///< of a cell
   };
 
   void use(const GrownNode& node);
@@ -68,7 +71,7 @@ class GrownMesh {
   void merge_boundaries();
   template <std::size_t width>
   void merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                   std::int32_t LeafRecord::*count) const;
+                   std::int32_t LeafRecord::*count, std::vector<std::int32_t>& blocks) const;
   template <std::size_t width>
   std::array<NodeId, width> numbered(const std::array<GlobalNodeId, width>& ids) const;
   bool owns(GlobalNodeId id) const {
@@ -91,6 +94,7 @@ class GrownMesh {
     Point corner;
     std::string whose, cure;
   };
+  std::int32_t block_ = 0;
   std::string whose_, cure_ = "use a smaller spacing there";
   std::optional<BadCell> bad_;
 };

@@ -6,6 +6,11 @@ namespace quadloop {
 
 namespace {
 
+/// The point between two others at a place, independent of their order.
+Point between(Point a, Point b, const FrontPlace& place) {
+  return 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
+}
+
 /// The foot of a column: it divides the wall between two stations in the ratio in which its node divides the
 /// front. Independent of the direction of the wall.
 Point foot_of(const WallLine& line, const FrontPlace& place) {
@@ -13,8 +18,7 @@ Point foot_of(const WallLine& line, const FrontPlace& place) {
   if (place.at_station()) return a;
   const Point b = line[line.next(place.station)].wall;
   if (a == b) return a;
-  const Point between = 0.5 * ((a + place.share * (b - a)) + (b + place.rest * (a - b)));
-  return line.geometry().on_curve(line[place.station].segment, between);
+  return line.geometry().on_curve(line[place.station].segment, between(a, b, place));
 }
 
 /// The cosine of the angle between the column and the wall's normal, for the larger of two angles: to the
@@ -54,15 +58,34 @@ LayerColumn column_at(const LayerFront& front, const FrontPlace& place, Point no
   return {foot, cosine, column_heights(spec, spec.first / cosine, whole)};
 }
 
-std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
-  const LayerColumn column = column_at(front, place, node);
-  const Point way = node - column.foot;
+namespace {
+
+/// Nodes at the column's heights from one point towards another.
+std::vector<Point> nodes_between(const ColumnHeights& heights, Point from, Point to) {
+  const Point way = to - from;
   const double whole = length(way);
   std::vector<Point> nodes;
-  nodes.reserve(column.heights.reached.size() - 1);
-  for (std::size_t layer = 0; layer + 1 < column.heights.reached.size(); ++layer)
-    nodes.push_back(column.foot + (column.heights.reached[layer] / whole) * way);
+  nodes.reserve(heights.reached.size() - 1);
+  for (std::size_t layer = 0; layer + 1 < heights.reached.size(); ++layer)
+    nodes.push_back(from + (heights.reached[layer] / whole) * way);
   return nodes;
+}
+
+}  // namespace
+
+std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
+  const LayerColumn column = column_at(front, place, node);
+  return nodes_between(column.heights, column.foot, node);
+}
+
+Point point_of_front(const LayerFront& front, const FrontPlace& place) {
+  const Point a = front.points[place.station];
+  return place.at_station() ? a : between(a, front.points[front.line.next(place.station)], place);
+}
+
+std::vector<Point> column_on_foot(const LayerFront& front, const FrontPlace& place, Point foot) {
+  const Point top = point_of_front(front, place);
+  return nodes_between(column_at(front, place, top).heights, foot, top);
 }
 
 }  // namespace quadloop

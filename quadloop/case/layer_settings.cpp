@@ -208,6 +208,11 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "Boundary layers, `{ first = 1e-5, growth = 1.2, count = 30 }`; see below and "
            "[layers](../explanation/layers.md).",
            {.fallback = "none"}),
+       key<&BoundaryKeys::rule, &BoundaryRule::layers_in>(
+           "layers_in", text(),
+           "The block in which this boundary has its layers, if it lies between two blocks or bounds "
+           "several.",
+           {.fallback = "all blocks beside it", .example = "\"fluid\"", .needs = {{"layers"}}}),
        key<&BoundaryKeys::pressure>(
            "pressure", number(io::Range::positive()),
            "Static back pressure divided by the free-stream pressure.",

@@ -107,9 +107,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
 /// Throws InputError for settings that do not work with several blocks yet.
 void require_blocks_alone(const Settings& settings) {
   if (settings.outline.blocks.empty()) return;
-  const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
   const std::pair<bool, const char*> others[] = {
-      {std::ranges::any_of(settings.outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
       {settings.outline.unite_islands, "a union of islands; remove geometry.overlap"},

@@ -102,7 +102,6 @@ def check_commands(quadloop, prefix, work):
 
 def check_refusals(quadloop, case, work):
     for assignment, part in (("mesh.mirror=\"x\"", "mesh.mirror"), ("output.partitions=2", "output.partitions"),
-                             ("boundary.interface.layers={first=1e-3,growth=1.2,count=3}", "layers"),
                              ("adapt.variable=\"density\"", "solver.kind")):
         done = subprocess.run([str(quadloop), "mesh", str(case), "-o", str(work / "refused"), "--set", assignment], capture_output=True,
                               text=True, check=False)

@@ -12,6 +12,7 @@
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/join_chains.hpp"
 #include "mesher/geometry/assemble/rounded_ends.hpp"
+#include "mesher/geometry/assemble/split_curves.hpp"
 #include "mesher/geometry/assemble/stray_chains.hpp"
 #include "mesher/geometry/assemble/subdivide_curves.hpp"
 #include "mesher/geometry/assemble/united_islands.hpp"
@@ -165,6 +166,7 @@ AssembleOptions without_required_rules(AssembleOptions options) {
 Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   Warnings of_twins;  // a line between two blocks may be given for each of them
   join_rounded_ends(chains, options.join, of_twins);
+  split_curves_at_crossings(chains);
   subdivide_curves(chains, without_required_rules(options), warnings);
   require_countable(chains);
   const Box box = box_of(chains);
@@ -176,6 +178,7 @@ Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& optio
 Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   join_rounded_ends(chains, options.join, warnings);
   leave_out_strays(chains, options.far_field, warnings);
+  if (options.unite_islands) split_curves_at_crossings(chains);
   subdivide_curves(chains, options, warnings);
   require_countable(chains);
   Outline outline = join_chains(std::move(chains));

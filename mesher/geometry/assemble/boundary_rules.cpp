@@ -19,6 +19,7 @@ void apply_rule(const BoundaryRule& rule, Boundary& boundary) {
   boundary.condition = rule.condition.value_or(boundary.condition);
   boundary.corner_spacing = rule.corner_spacing.value_or(boundary.corner_spacing);
   if (rule.layers) boundary.layers = rule.layers;
+  boundary.layers_in = rule.layers_in.value_or(boundary.layers_in);
 }
 
 bool is_claimed(const std::vector<BoundaryRule>& rules, const std::string& name) {

@@ -20,6 +20,7 @@ struct BoundaryRule {
   bool claims = false;
   std::optional<double> corner_spacing = {};
   std::optional<LayerSpec> layers = {};
+  std::optional<std::string> layers_in = {};
 };
 
 /// Whether the whole name matches the pattern.

@@ -20,15 +20,12 @@ namespace quadloop {
 
 namespace {
 
-void require_polygons(const Outline& outline) {
-  for (const OutlineLoop& loop : outline.loops) {
-    if (loop.curves.empty()) continue;
-    const Point p = loop.points.front();
-    throw InputError(fmt::format(
-        "{}: boundary '{}' at ({}, {}) has curves, which geometry.overlap = \"union\" does not unite; unite "
-        "the shapes in the drawing, or set geometry.spline = false",
-        loop.source, outline.names[loop.boundary.front().value()], p.x, p.y));
-  }
+[[noreturn]] void refuse_touched_curve(const OutlineLoop& loop, const std::string& name, Point p) {
+  throw InputError(fmt::format(
+      "{}: boundary '{}': another boundary touches its curve near ({}, {}) without a common point; "
+      "geometry.overlap = \"union\" requires that they cross; move one of them, or set geometry.spline = "
+      "false",
+      loop.source, name, p.x, p.y));
 }
 
 using LoopGroup = std::vector<std::int32_t>;  ///< loops that meet, ascending
@@ -274,10 +271,23 @@ class IslandUnion {
         const auto [l, segment] = origins[found.origin[i]];
         loop.points.push_back(found.points[i]);
         loop.boundary.push_back(outline_.loops[l].boundary[segment]);
+        loop.curves.push_back(
+            curve_of(l, segment, found.points[i], found.points[(i + 1) % found.points.size()]));
       }
+      if (std::ranges::all_of(loop.curves, &Curve::straight)) loop.curves.clear();
       loop.source = source(origins[found.origin.front()].loop);
       united.push_back(std::move(loop));
     }
+  }
+
+  /// The shape of a piece of a segment; curves have been split where others cross them.
+  Curve curve_of(std::int32_t l, std::int32_t segment, Point from, Point to) const {
+    const OutlineLoop& loop = outline_.loops[l];
+    if (loop.curves.empty() || loop.curves[segment].straight()) return {};
+    const Point first = loop.points[segment], last = loop.points[(segment + 1) % loop.points.size()];
+    if (from == first && to == last) return loop.curves[segment];
+    if (from == last && to == first) return reversed(loop.curves[segment]);
+    refuse_touched_curve(loop, outline_.names[loop.boundary[segment].value()], from);
   }
 
   void count(const LoopGroup& group, std::size_t made, UnionCounts& counts) const {
@@ -302,7 +312,6 @@ class IslandUnion {
 };
 
 void require_simple_loops(const Outline& outline) {
-  require_polygons(outline);
   for (const OutlineLoop& loop : outline.loops) validate({outline.names, {loop}});
 }
 

@@ -63,16 +63,19 @@ class OuterOutline {
   void build(LayerFront& into) {
     for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
       for (std::int32_t v = g_.loop_start(loop); v < g_.loop_start(loop + 1); ++v) add_segment(v);
-      builder_.end_loop();
+      builder_.end_loop(g_.block_of(g_.loop_start(loop)));
     }
     for (const PlacedLine& line : lines_) {
       if (line.edge == PlacedLine::nowhere) add_free_strip(line);
     }
     std::vector<Boundary> boundaries(g_.boundaries().begin(), g_.boundaries().end());
     if (!strips_.empty()) boundaries.push_back({.name = "wakes and free lines", .corner_degrees = 180});
+    if (on_interfaces_) boundaries.push_back({.name = "layers between blocks", .corner_degrees = 180});
+    QUADLOOP_REQUIRE(strips_.empty() || !on_interfaces_, "layers of lines, or of several blocks");
+    into.on_interfaces = on_interfaces_;
     into.strips = std::move(strips_);
     into.outer = std::move(builder_)
-                     .geometry(std::move(boundaries))
+                     .geometry(std::move(boundaries), g_.block_names())
                      .with({std::move(spacing_), std::move(kept_), std::move(bend_)});
     for (const std::int32_t i : station_of_)
       into.last_heights.push_back(i == WallLine::none ? 0 : (last_layer(i) + last_layer(line_.next(i))) / 2);
@@ -82,6 +85,7 @@ class OuterOutline {
  private:
   /// Whether a wall segment follows the station.
   bool begins(std::int32_t i) const { return line_.next(i) != WallLine::none; }
+  /// The boundary that is added for fronts of strips, or for those on interfaces.
   BoundaryId strip_boundary() const { return BoundaryId{size32(g_.boundaries())}; }
   bool ends_run(std::int32_t i) const { return line_[i].shape == Station::Shape::end; }
 
@@ -89,7 +93,8 @@ class OuterOutline {
     if (const std::int32_t first = first_of_segment_[s]; first != WallLine::none) {
       add_front(first, s);
     } else if (stays(s)) {
-      add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none, g_.spacing_of(s), g_.kept(s),
+      add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none,
+                 std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s),
                  g_.bend_degrees(s), stays(g_.next(s)) ? g_.curve(s) : Curve{});
     }
   }
@@ -117,6 +122,7 @@ class OuterOutline {
     bend_.push_back(bend);
   }
   bool begins_below(std::int32_t s) const;
+  double spacing_across(std::int32_t s) const;
   double spacing_after(std::int32_t i) const;
   double spread(std::int32_t i, bool turned) const;
   double front_width(std::int32_t i) const {
@@ -141,6 +147,7 @@ class OuterOutline {
   std::vector<char> kept_;
   std::vector<double> bend_;
   std::vector<LayerStrip> strips_;
+  bool on_interfaces_ = false;
 };
 
 void OuterOutline::cover_ends() {
@@ -157,11 +164,13 @@ void OuterOutline::cover_ends() {
 /// it ends.
 void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   std::int32_t i = first;
+  const bool on_interface = line_.is_interface(s);
+  on_interfaces_ = on_interfaces_ || on_interface;
   for (; i != WallLine::none && begins(i) && line_[i].segment == s; i = line_.next(i)) {
     if (line_[i].opens_wake)
       add_wake(i);
     else
-      add_vertex(fitting_.front[i], g_.boundary_of(s), i, spacing_after(i), line_[i].kept, 0);
+      add_vertex(fitting_.front[i], on_interface ? strip_boundary() : g_.boundary_of(s), i, spacing_after(i), line_[i].kept, 0);
   }
   if (i == WallLine::none || line_[i].segment != s) return;
   if (line_[i].opens_wake) return add_wake(i);
@@ -249,6 +258,18 @@ double OuterOutline::spread(std::int32_t i, bool turned) const {
   return front / wall;
 }
 
+/// The spacing of the front on the other side of an interface without layers on this side: one row of
+/// triangles joins both.
+double OuterOutline::spacing_across(std::int32_t s) const {
+  double spacing = std::numeric_limits<double>::infinity();
+  const std::int32_t across = g_.twin(s);
+  if (across < 0 || !line_.has_layers(across)) return spacing;
+  for (std::int32_t i = first_of_segment_[across];
+       i != WallLine::none && begins(i) && line_[i].segment == across; i = line_.next(i))
+    spacing = std::min(spacing, spacing_after(i));
+  return spacing;
+}
+
 double OuterOutline::spacing_after(std::int32_t i) const {
   const std::int32_t j = line_.next(i);
   const double spacing = leaf_over_last_layer * std::min(last_layer(i), last_layer(j));
@@ -330,7 +351,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);
   FittingColumns fitting = fit_thickness(line);
-  LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}};
+  LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
   OuterOutline(front.line, fitting, placed, curvature, mirrored).build(front);
   require_room_for_strips(front);
   front.thickness = std::move(fitting.thickness);

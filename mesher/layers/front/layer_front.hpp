@@ -31,6 +31,10 @@ struct LayerFront {
   /// Layers on both sides of lines. If there are any, their fronts are the last boundary of `outer`.
   std::vector<LayerStrip> strips;
   bool has_strips() const { return !strips.empty(); }
+  /// Whether columns stand on nodes of other blocks (WallLine::is_interface). Their fronts are the last
+  /// boundary of `outer`. There are no strips then.
+  bool on_interfaces = false;
+  BoundaryId interface_boundary() const { return strip_boundary(); }
   BoundaryId strip_boundary() const { return BoundaryId{size32(outer.boundaries()) - 1}; }
   /// Whether a segment of `outer` is on the front of a wall or of a strip.
   bool is_front(std::int32_t segment) const {

@@ -196,8 +196,22 @@ class Fitting {
     for (const Segment& s : segments) boxes.push_back(box_of(s.from, s.to));
     return BoxTree(boxes);
   }
-  /// Whether a wall, given by its number in walls_, is in the vicinity and so needs no distance.
-  bool is_near(std::int32_t wall) const {
+  /// Whether two segments of the geometry are of one block; layers do not meet walls and fronts of others.
+  bool in_one_block(std::int32_t a, std::int32_t b) const {
+    const Geometry& g = line_.geometry();
+    return !g.has_blocks() || g.block_of(a) == g.block_of(b);
+  }
+  bool fronts_in_one_block(std::int32_t i, std::int32_t j) const {
+    return in_one_block(line_[i].segment, line_[j].segment);
+  }
+  bool is_wall_of_block(std::int32_t i, std::int32_t wall) const {
+    return in_one_block(line_[i].segment,
+                        wall < line_.size() ? line_[wall].segment : other_segments_[wall - line_.size()]);
+  }
+  /// Whether a wall, given by its number in walls_, is in the vicinity of station i, to which it has been
+  /// moved, or bounds another block, and so needs no distance.
+  bool is_near(std::int32_t i, std::int32_t wall) const {
+    if (!is_wall_of_block(i, wall)) return true;
     return wall < line_.size() ? vicinity_.has_station(wall) || !place_exists(wall)
                                : vicinity_.has_segment(other_segments_[wall - line_.size()]);
   }
@@ -214,7 +228,7 @@ class Fitting {
       double nearest = 1;
       wall_tree_.for_each_meeting(box_of(wall(i), end), [&](std::int32_t w) {
         const Segment& s = walls_[w];
-        if (is_near(w) || !segments_meet(wall(i), end, s.from, s.to)) return;
+        if (is_near(i, w) || !segments_meet(wall(i), end, s.from, s.to)) return;
         // mean from both ends, so that the result does not depend on the direction of the wall
         const Point across = s.to - s.from;
         const double share = (cross(s.from - wall(i), across) + cross(s.to - wall(i), across)) /
@@ -262,7 +276,7 @@ class Fitting {
       vicinity_.move_to(i, own_reach * h_[i]);
       if (moved_[i]) mark_walls_met(i, end, box);
       const auto look_at = [&](std::int32_t j) {
-        if (j == i || line_.next(j) == i) return;
+        if (j == i || line_.next(j) == i || !fronts_in_one_block(i, j)) return;
         const Point top = vicinity_.has_station(j) ? front(i) : end;
         if (!segments_meet(wall(i), top, front(j), front(line_.next(j)))) return;
         meets_[i] = meets_[j] = meets_[line_.next(j)] = 1;
@@ -276,7 +290,7 @@ class Fitting {
 
   void mark_walls_met(std::int32_t i, Point end, const Box& box) {
     wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
-      if (is_near(w) || !segments_meet(wall(i), end, walls_[w].from, walls_[w].to)) return;
+      if (is_near(i, w) || !segments_meet(wall(i), end, walls_[w].from, walls_[w].to)) return;
       meets_[i] = 1;
       if (w < line_.size()) meets_[w] = meets_[line_.next(w)] = 1;
     });
@@ -390,10 +404,10 @@ void Fitting::mark_crossing_fronts() {
     const std::int32_t j = line_.next(i);
     const Box box = box_of(front(i), front(j));
     fronts_.for_each_meeting(box, [&](std::int32_t k) {
-      if (k != i && fronts_meet(i, k)) meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
+      if (k != i && fronts_in_one_block(i, k) && fronts_meet(i, k)) meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
     });
     wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
-      if (w < line_.size() || !segments_meet(front(i), front(j), walls_[w].from, walls_[w].to)) return;
+      if (w < line_.size() || !is_wall_of_block(i, w) || !segments_meet(front(i), front(j), walls_[w].from, walls_[w].to)) return;
       const std::int32_t segment = other_segments_[w - line_.size()];
       if (!ends_on(i, segment) && !ends_on(j, segment)) meets_[i] = meets_[j] = 1;
     });

@@ -101,7 +101,10 @@ Point direction_along(const Geometry& g, std::int32_t s, bool at_start) {
 
 WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
                    const std::vector<WakeStart>& wakes)
-    : geometry_{&geometry} {
+    : geometry_{&geometry}, has_layers_(geometry.points().size(), 0) {
+  for (const WallRun& run : runs) {
+    for (const std::int32_t s : run.segments) has_layers_[s] = 1;
+  }
   for (const WakeStart& wake : wakes) {
     wakes_from_.emplace(wake.first, wake);
     wakes_to_.emplace(wake.last, wake);

@@ -77,6 +77,20 @@ class WallLine {
     return followed_.empty() ? *geometry_->boundary(stations_[i].layers).layers : followed_[i];
   }
   const Geometry& geometry() const { return *geometry_; }
+  /// Whether the columns of a segment with layers stand on nodes of the block on the other side: it has
+  /// layers on this side only, or also on that of the lower block.
+  bool is_interface(std::int32_t segment) const {
+    const std::int32_t twin = geometry_->twin(segment);
+    return twin >= 0 && (has_layers_[twin] == 0 || geometry_->is_second(segment));
+  }
+  /// Whether such columns stand between the station and the next one; within a fan, at the station.
+  bool is_on_interface(std::int32_t i) const { return goes_on(i) && is_interface(stations_[i].segment); }
+  /// Whether such columns stand on one side of the station only, and ordinary ones on the other side.
+  bool is_beside_interface(std::int32_t i) const {
+    const std::int32_t before = previous_[i];
+    return before != none && goes_on(before) && goes_on(i) && is_on_interface(before) != is_on_interface(i);
+  }
+  bool has_layers(std::int32_t segment) const { return has_layers_[segment] != 0; }
   /// Calls `visit(vertex, distance)` for the vertices of the boundary on which a run ends at station i, along
   /// its first straight part, with their distances from the wall.
   template <class Visit>
@@ -113,6 +127,7 @@ class WallLine {
   void link(std::int32_t begin, bool closed);
 
   const Geometry* geometry_;
+  std::vector<char> has_layers_;  ///< flags of segments
   std::map<std::int32_t, WakeStart> wakes_from_, wakes_to_;  ///< by their first and last vertices
   std::vector<Station> stations_;
   std::vector<std::int32_t> next_, previous_;

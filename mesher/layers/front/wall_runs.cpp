@@ -29,13 +29,14 @@ class Runs {
       if (asks(s)) extend(s);
     }
     require_one_count();
+    require_own_layers();
     std::vector<WallRun> runs;
     for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) add_runs_of(loop, runs);
     return runs;
   }
 
  private:
-  bool asks(std::int32_t s) const { return g_.boundary(g_.boundary_of(s)).layers && !bare_[s]; }
+  bool asks(std::int32_t s) const { return g_.asks_for_layers(s) && !bare_[s]; }
   bool carries(std::int32_t s) const { return layers_[s].valid(); }
   Point direction(std::int32_t s) const { return direction_of(g_.point(s), g_.point(g_.next(s))); }
 
@@ -62,6 +63,24 @@ class Runs {
           "boundaries {} and {} meet at ({:.6g}, {:.6g}), but one has {} layers and the other {}; give "
           "both the same count",
           a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
+    }
+  }
+
+  /// Throws InputError if layers continue along, or end on, a boundary between two blocks that has none in
+  /// their block: the nodes of the other block would not match.
+  void require_own_layers() const {
+    for (std::int32_t s = 0; s < g_.size(); ++s) {
+      if (g_.twin(s) < 0 || asks(s)) continue;
+      const bool at_start = carries(g_.previous(s));
+      if (!at_start && !carries(g_.next(s))) continue;
+      const std::int32_t wall = at_start ? g_.previous(s) : g_.next(s);
+      const Point at = g_.point(at_start ? s : wall);
+      const std::string& block = g_.block_names()[g_.block_of(s)];
+      throw InputError(fmt::format(
+          "boundary {}: its layers in block '{}' end at ({:.6g}, {:.6g}) on boundary {} between two blocks, "
+          "which has none there; add [boundary.{}] layers with the same count and layers_in = \"{}\"",
+          g_.boundary(layers_[wall]).name, block, at.x, at.y, g_.boundary(g_.boundary_of(s)).name,
+          g_.boundary(g_.boundary_of(s)).name, block));
     }
   }
 
