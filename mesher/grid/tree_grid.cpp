@@ -69,8 +69,7 @@ std::optional<std::pair<int, int>> tiling(const Box& box) {
 double misfit(double tree_edge, const SizeOptions& sizes) {
   const double aim = sizes.aim.value_or(sizes.max), tolerance = 1 + TreeGrid::rounding;
   double reached = tree_edge / 2;
-  while (reached > aim * tolerance) reached /= 2;
-  if (reached * tolerance < sizes.min) reached *= 2;
+  while (reached > aim * tolerance && reached / 2 * tolerance >= sizes.min) reached /= 2;
   return std::max(reached / aim, aim / reached);
 }
 

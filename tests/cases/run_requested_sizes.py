@@ -15,7 +15,7 @@ from quadloop_runs import NativeMesh, digest, fail, judge_mesh, mesh_case
 
 TOLERANCE = 0.1
 SHAPES = ("square", "rectangle", "circle", "c")
-RADIUS = 4.0
+RADIUS = 5.0
 FORMATS = "[output]\nformats = [\"mesh\", \"cgns\"]\n"
 
 
@@ -76,7 +76,7 @@ class Trial:
 
     def far_field(self, shape, mesh_type, spacing, with_ranks):
         """The spacing of the far field is that of the wall times a power of two."""
-        outside = spacing * 2 ** round(math.log2(0.3 / spacing))
+        outside = spacing * 2 ** round(math.log2(0.14 / spacing))
         text = (f'[geometry]\nfile = "wall.geom"\nspline = true\nfar_field = {{ shape = "{shape}", radius = {RADIUS}, spacing = {outside} }}\n'
                 f"[spacing]\nmax = {2 * outside}\n[boundary.wall]\nspacing = {spacing}\n")
         mesh = self.mesh(text, mesh_type, with_ranks)
@@ -109,7 +109,7 @@ def main():
         for i in range(args.count):
             for mesh_type in ("hybrid", "delaunay"):
                 for shape in SHAPES:
-                    trial.far_field(shape, mesh_type, math.exp(sizes.uniform(math.log(0.02), math.log(0.08))), i == 0)
+                    trial.far_field(shape, mesh_type, math.exp(sizes.uniform(math.log(0.01), math.log(0.04))), i == 0)
                 for outline in ("frame", "step", "lozenge"):
                     trial.largest_size(outline, mesh_type, math.exp(sizes.uniform(math.log(0.03), math.log(0.12))), i == 0)
     print("good")

@@ -56,7 +56,7 @@ TEST(FarField, RefusesATooSmallOne) {
 }
 
 TEST(FarField, ARectangleHasOneDistanceFromTheGeometry) {
-  std::vector<Chain> chains{{"body", false, {{0, 0}, {4, 0}, {4, 1}}}};
+  std::vector<Chain> chains{{"body", false, {{0, 0}, {4, 0}, {4, 1}}, ""}};
   add(chains, FarFieldShape::rectangle, 2);
   EXPECT_EQ(chains[1].points, (std::vector<Point>{{-2, -2}, {6, -2}, {6, 3}, {-2, 3}}));
 }
