@@ -92,6 +92,7 @@ Chain rounded_square(FarFieldShape shape, const Box& box, const std::string& whe
   add_corner(high, {centre.x, high.y}, all);
   add_corner({low.x, high.y}, {low.x, centre.y}, true);
   add_corner(low, chain.points.front(), true);
+  chain.points.pop_back();  // the last curve ends at the first point
   return chain;
 }
 

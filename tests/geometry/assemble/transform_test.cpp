@@ -66,8 +66,7 @@ TEST(FarField, ARectangleHasOneDistanceFromTheGeometry) {
 struct Distances {
   double least[2]{1e9, 1e9}, largest[2]{0, 0};
 };
-Distances distances(Chain chain, Point centre) {
-  drop_repeats(chain, 0);
+Distances distances(const Chain& chain, Point centre) {
   Distances found;
   const std::size_t count = chain.points.size();
   EXPECT_EQ(chain.curves.size(), count);
