@@ -95,7 +95,7 @@ std::optional<TreeGrid> framing_root(const Box& box, const SizeOptions& sizes) {
   return TreeGrid(box, multiple * trees->first, multiple * trees->second);
 }
 
-/// A root round the box whose trees have the edge size * 2^k. It is less than twice as large as the padded
+/// A root round the box, with the same centre, whose trees have the edge size * 2^k. It is less than twice as large as the padded
 /// box, along each axis, unless that needs too many trees.
 TreeGrid padded_root(const Box& box, double size) {
   const double pad = std::max(box.width(), box.height()) / 64;
@@ -105,12 +105,9 @@ TreeGrid padded_root(const Box& box, double size) {
   while (edge < longer) edge *= 2;
   while (edge / 2 >= longer) edge /= 2;
   while (edge >= 2 * shorter && edge / 2 >= std::max(2 * size, longer / most_trees)) edge /= 2;
-  const double grain = edge / 256;
-  const Point centre{grain * std::nearbyint(box.centre().x / grain),
-                     grain * std::nearbyint(box.centre().y / grain)};
   const int nx = static_cast<int>(std::ceil(width / edge)), ny = static_cast<int>(std::ceil(height / edge));
   const Point half{0.5 * nx * edge, 0.5 * ny * edge};
-  return {{centre - half, centre + half}, nx, ny};
+  return {{box.centre() - half, box.centre() + half}, nx, ny};
 }
 
 TreeGrid users_root(const Geometry& g, const RootOptions& root) {
