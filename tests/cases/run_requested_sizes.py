@@ -100,7 +100,7 @@ class Trial:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
-    parser.add_argument("--count", type=int, default=3, help="random sizes of each kind")
+    parser.add_argument("--count", type=int, default=1, help="random sizes of each kind")
     parser.add_argument("--ranks", type=int, nargs="*", default=[2, 3, 5])
     args = parser.parse_args()
     sizes = random.Random(20261126)
