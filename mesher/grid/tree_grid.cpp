@@ -95,8 +95,8 @@ std::optional<TreeGrid> framing_root(const Box& box, const SizeOptions& sizes) {
   return TreeGrid(box, multiple * trees->first, multiple * trees->second);
 }
 
-/// A root round the box, with the same centre, whose trees have the edge size * 2^k. It is less than twice as large as the padded
-/// box, along each axis, unless that needs too many trees.
+/// A root round the box, with the same centre, whose trees have the edge size * 2^k. It is less than twice as
+/// large as the padded box, along each axis, unless that needs too many trees.
 TreeGrid padded_root(const Box& box, double size) {
   const double pad = std::max(box.width(), box.height()) / 64;
   const double width = box.width() + 2 * pad, height = box.height() + 2 * pad;

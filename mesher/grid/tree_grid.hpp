@@ -96,8 +96,8 @@ class TreeGrid {
   std::optional<std::int64_t> row_on(double y, int level) const { return y_.line_on(y, level); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
-  /// The finest level whose leaves are not smaller than `min`, except for rounding. Throws InputError, naming the setting, if that
-  /// is deeper than the forest or than double precision allows.
+  /// The finest level whose leaves are not smaller than `min`, except for rounding. Throws InputError, naming
+  /// the setting, if that is deeper than the forest or than double precision allows.
   int finest_level(double min, const char* setting = "spacing.min") const;
 
   static constexpr double rounding = 1e-12;  ///< relative error of edges that does not count

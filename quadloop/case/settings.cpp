@@ -84,8 +84,13 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "spacing", [&](const CaseTable& table) { read_spacing_table(table, settings); });
   settings.flow = read_flow_table(root);
   if (settings.far_field)  // default; overridden by the case
-    settings.outline.rules.push_back(
-        {"farfield", settings.far_field->spacing, {}, BoundaryCondition::farfield, settings.far_field->where, false, true});
+    settings.outline.rules.push_back({"farfield",
+                                      settings.far_field->spacing,
+                                      {},
+                                      BoundaryCondition::farfield,
+                                      settings.far_field->where,
+                                      false,
+                                      true});
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));

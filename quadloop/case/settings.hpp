@@ -59,8 +59,8 @@ struct FileExtent {
 /// Far field of the case.
 struct FarField {
   FarFieldShape shape = FarFieldShape::square;
-  double radius = 0;                      ///< as far_field_box()
-  std::optional<double> spacing = {};     ///< cell size at it
+  double radius = 0;                   ///< as far_field_box()
+  std::optional<double> spacing = {};  ///< cell size at it
   std::string where = {};
 
   friend bool operator==(const FarField&, const FarField&) = default;

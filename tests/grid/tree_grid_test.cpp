@@ -104,7 +104,8 @@ TEST(TreeGrid, MeetsRandomSizes) {
     if (edge / request > 32) {
       EXPECT_EQ(framing.box().low, low);
       EXPECT_EQ(framing.box().high, high);
-      EXPECT_NEAR(reached(framing, request, min) / request, 1, 0.0626) << "size " << request << " in " << edge;
+      EXPECT_NEAR(reached(framing, request, min) / request, 1, 0.0626)
+          << "size " << request << " in " << edge;
     }
     const TreeGrid around = choose_root(polygon({low, {high.x, low.y}, high}), options);
     EXPECT_NEAR(reached(around, request, min) / request, 1, 1e-9) << "size " << request << " in " << edge;
@@ -154,7 +155,8 @@ TEST(TreeGrid, TheUsersRootMayEndWhereItSays) {
 }
 
 TEST(TreeGrid, GeometryOutsideTheUsersRootIsRefused) {
-  EXPECT_THROW(choose_root(polygon({{0, 0}, {1, 0}, {1, 1}}), within(RootOptions{{0, 0}, 0.5, 1, 1})), InputError);
+  EXPECT_THROW(choose_root(polygon({{0, 0}, {1, 0}, {1, 1}}), within(RootOptions{{0, 0}, 0.5, 1, 1})),
+               InputError);
 }
 
 }  // namespace

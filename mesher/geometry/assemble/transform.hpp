@@ -27,9 +27,9 @@ void apply(const Transform& transform, std::vector<Chain>& chains);
 /// `rounded_front`: the letter C, a square whose left half is a half circle.
 enum class FarFieldShape { square, rectangle, circle, rounded_front };
 
-/// The bounding box of a far field: a square of the given half width around the centre of the chains' bounding
-/// box, or, for a rectangle, that box extended by `radius` on each side. Throws InputError as add_far_field
-/// does; `where` names the setting.
+/// The bounding box of a far field: a square of the given half width around the centre of the chains'
+/// bounding box, or, for a rectangle, that box extended by `radius` on each side. Throws InputError as
+/// add_far_field does; `where` names the setting.
 Box far_field_box(const std::vector<Chain>& chains, FarFieldShape shape, double radius,
                   const std::string& where);
 

@@ -49,8 +49,7 @@ TEST(FarField, EnclosesTheGeometryAroundItsCentre) {
 
 TEST(FarField, RefusesATooSmallOne) {
   std::vector<Chain> chains{square("body", {3, 4}, 1)};
-  const std::string message =
-      refusal([&] { add(chains, FarFieldShape::square, 1); });
+  const std::string message = refusal([&] { add(chains, FarFieldShape::square, 1); });
   EXPECT_EQ(message.find("case.toml:3"), 0u) << message;
   EXPECT_NE(message.find("does not enclose"), std::string::npos) << message;
 }

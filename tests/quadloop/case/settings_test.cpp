@@ -194,7 +194,8 @@ TEST_F(SettingsTest, TheRootMeetsTheSmallestSpacingOfABoundaryElseMax) {
     const Settings settings = read("far_field = 16\n" + text);
     return mesh_options(settings, load(settings)).size.aim;
   };
-  const std::string box = "[boundary.box]\nspacing = 0.3\n", farfield = "[boundary.farfield]\nspacing = 0.7\n";
+  const std::string box = "[boundary.box]\nspacing = 0.3\n",
+                    farfield = "[boundary.farfield]\nspacing = 0.7\n";
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + box + farfield), 0.3);
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + farfield), 0.7);
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n"), 0.9);
@@ -206,7 +207,8 @@ TEST_F(SettingsTest, TheRootMeetsTheSmallestSpacingOfABoundaryElseMax) {
 TEST_F(SettingsTest, TheDefaultOfMinPermitsCellsOfMax) {
   for (double max = 0.011; max < 9; max *= 1.37) {
     for (const char* const rest : {"", "gap = 2\n", "curvature = 10\n", "[boundary.box]\nspacing = 7\n"}) {
-      for (const char* const far_field : {"", "far_field = 9\n", "far_field = { shape = \"c\", radius = 17 }\n"}) {
+      for (const char* const far_field :
+           {"", "far_field = 9\n", "far_field = { shape = \"c\", radius = 17 }\n"}) {
         const Settings settings = read(far_field + fmt::format("[spacing]\nmax = {}\n", max) + rest);
         const Geometry geometry = load(settings);
         const SizeOptions sizes = mesh_options(settings, geometry).size;
