@@ -141,14 +141,14 @@ const KeyTable<Settings>& geometry_keys() {
 }
 
 const KeyTable<FarField>& far_field_keys() {
-  using Shape = FarFieldShape;
+  using FarShape = FarFieldShape;
   static const KeyTable<FarField> keys{
       "geometry.far_field",
       {key<&FarField::shape>("shape",
-                             choice<Shape>({{"square", Shape::square},
-                                            {"rectangle", Shape::rectangle},
-                                            {"c", Shape::rounded_front},
-                                            {"circle", Shape::circle}}),
+                             choice<FarShape>({{"square", FarShape::square},
+                                               {"rectangle", FarShape::rectangle},
+                                               {"c", FarShape::rounded_front},
+                                               {"circle", FarShape::circle}}),
                              "Shape of the boundary `farfield`, see below."),
        key<&FarField::radius>(
            "radius", number(io::Range::positive()),
