@@ -27,7 +27,7 @@ min = 0.02
 max = 2.0
 curvature = 20.0
 [boundary.airfoil]
-spacing = 0.0390625
+spacing = 0.05
 bc = "wall"
 [adapt]
 cycles = 2
