@@ -211,12 +211,14 @@ double size_of_gaps(const Geometry& geometry, double gap, double start, double f
   return size;
 }
 
-/// The size that the root of the quadtrees is to meet: the smallest spacing that the case specifies for a
-/// boundary, else spacing.max, else `smallest`.
+/// The size that the root of the quadtrees is to meet: the smallest that the case specifies for a boundary,
+/// by its spacing or by its last layer, else spacing.max, else `smallest`.
 double size_to_meet(const Settings& settings, const Geometry& geometry, double smallest) {
   double finest = std::numeric_limits<double>::infinity();
   for (const Boundary& boundary : geometry.boundaries()) {
     if (boundary.spacing > 0) finest = std::min(finest, boundary.spacing);
+    if (boundary.layers)
+      finest = std::min(finest, leaf_over_last_layer * layer_heights(*boundary.layers).back());
   }
   return std::isfinite(finest) ? finest : settings.max.value_or(smallest);
 }

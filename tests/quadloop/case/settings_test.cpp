@@ -189,7 +189,7 @@ TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
             0.25);  // sizes halve: so there is a leaf no larger than max
 }
 
-TEST_F(SettingsTest, TheRootMeetsTheSmallestSpacingOfABoundaryElseMax) {
+TEST_F(SettingsTest, TheRootMeetsTheSmallestRequestOfABoundaryElseMax) {
   const auto aim = [&](const std::string& text) {
     const Settings settings = read("far_field = 16\n" + text);
     return mesh_options(settings, load(settings)).size.aim;
@@ -197,6 +197,10 @@ TEST_F(SettingsTest, TheRootMeetsTheSmallestSpacingOfABoundaryElseMax) {
   const std::string box = "[boundary.box]\nspacing = 0.3\n",
                     farfield = "[boundary.farfield]\nspacing = 0.7\n";
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + box + farfield), 0.3);
+  const std::string layers = "layers = { first = 0.1, growth = 1.2, count = 2 }\n";
+  EXPECT_EQ(aim(box + layers), 0.24) << "twice the last layer";
+  EXPECT_EQ(aim("[boundary.box]\n" + layers + farfield), 0.24);
+  EXPECT_EQ(aim("[boundary.box]\nspacing = 0.2\n" + layers), 0.2);
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + farfield), 0.7);
   EXPECT_EQ(aim("[spacing]\nmax = 0.9\n"), 0.9);
   EXPECT_EQ(aim("[spacing]\nmin = 0.4\nmax = 0.9\n" + box), 0.4) << "no smaller than min";
