@@ -54,7 +54,7 @@ void count_triangles(const std::vector<std::int32_t>& standing, std::vector<Leaf
   for (LeafRecord& leaf : leaves) {
     const auto end = slot + leaf.triangles;
     leaf.triangles = std::accumulate(slot, end, std::int32_t{0});
-    leaf.block = leaf.triangles + leaf.quads > 0 ? 1 : 0;
+    leaf.block = leaf.triangles + leaf.quads == 0 ? std::int16_t{0} : std::max<std::int16_t>(leaf.block, 1);
     slot = end;
   }
 }
@@ -72,7 +72,8 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   const int finest = result.report.finest_allowed;
   smoother::SmoothOptions options = smooth_options_for(input, finest);
   if (!pinned.empty()) options.pinned = owned_among(pinned, result.mesh);
-  options.keep_slots = !has_triangles_alone(input.mesh.type);
+  options.triangle_to_block = result.mesh.blocks.of_triangles;
+  options.keep_slots = !has_triangles_alone(input.mesh.type) || input.geometry.has_blocks();
   const smoother::SmoothReport report = smoother::smooth_mesh(comm, result.mesh, options);
   if (!report.standing.empty()) count_triangles(report.standing, result.tree.leaves);
   if (keeps_parallelograms(input.mesh)) {  // moved nodes make some skew; these are split too
@@ -107,9 +108,11 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
 void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult& result) {
   const NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, result.mesh);
   if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
-  count_triangles(
-      restore_delaunay_nearby(comm, result.mesh, moved, order_of_nodes(input, result.report.finest_allowed)),
-      result.tree.leaves);
+  const auto order = order_of_nodes(input, result.report.finest_allowed);
+  if (input.geometry.has_blocks())
+    restore_delaunay(comm, result.mesh, moved, order, result.mesh.blocks.of_triangles);
+  else
+    count_triangles(restore_delaunay_nearby(comm, result.mesh, moved, order), result.tree.leaves);
 }
 
 /// Builds a mesh without smoothing. *Collective.*

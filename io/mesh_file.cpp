@@ -182,6 +182,27 @@ void append_block_names(const FileFormat& format, const MeshContent& content, co
                                  path, some_names(names)));
 }
 
+/// Appends lines on blocks, their names and their interfaces that the format cannot store.
+void append_block_losses(const FileFormat& format, const MeshContent& content, const std::string& path,
+                         std::vector<std::string>& losses) {
+  if (content.blocks > 1 && !format.holds(Content::blocks))
+    losses.push_back(path + ": the blocks are written as one");
+  if (!content.interfaces.empty() && !format.stores_interfaces)
+    losses.push_back(
+        fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
+                    some_names(content.interfaces)));
+  append_block_names(format, content, path, losses);
+}
+
+/// Sets the blocks of a generated mesh.
+void note_blocks(const Mesh& mesh, MeshContent& content) {
+  content.blocks = std::max<std::int64_t>(1, std::ssize(mesh.blocks.names));
+  content.block_names = mesh.blocks.names;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (boundary.between_blocks) content.interfaces.push_back(boundary.name);
+  }
+}
+
 std::vector<std::string> losses_of(const MeshContent& content, const FileFormat& format,
                                    const std::string& path) {
   std::vector<std::string> losses = renames_of(content.boundary_names, format, path);
@@ -196,16 +217,11 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
     if (std::string renames = renames_of_variables(format, *solution, path); !renames.empty())
       losses.push_back(std::move(renames));
   }
-  if (content.blocks > 1 && !format.holds(Content::blocks)) lose("the blocks are written as one");
   if (std::string lost = lost_conditions(content, format, path); !lost.empty())
     losses.push_back(std::move(lost));
-  if (!content.interfaces.empty() && !format.stores_interfaces)
-    losses.push_back(
-        fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
-                    some_names(content.interfaces)));
   if (content.has_layers && !format.holds(Content::layers))
     lose("this format cannot store the number of layers, which is omitted");
-  append_block_names(format, content, path, losses);
+  append_block_losses(format, content, path, losses);
   if (format.unknown_boundary != nullptr && !content.knows_conditions() && !content.boundary_names.empty())
     losses.push_back(
         fmt::format("{}: the input does not specify which boundaries are walls; each is written as {}. A "
@@ -271,8 +287,12 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
                 double gamma) {
   const FileFormat* format = format_of(path);
   QUADLOOP_REQUIRE(format != nullptr, "a mesh is written in a format that there is none of");
+  std::optional<PlaneBlocks> blocks;
+  if (!mesh.blocks.names.empty()) blocks = mesh.blocks;
+  QUADLOOP_REQUIRE(!blocks || solution == nullptr || solution->cells.width() == 0,
+                   "cell values are not sorted by block");
   if (format->holds(Content::mesh))
-    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution), path);
+    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks)), path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
@@ -286,6 +306,8 @@ std::vector<std::string> changes_in(const Mesh& mesh, const std::string& path, c
   if (std::string lost = lost_conditions(content, *row, path);
       row->holds(Content::conditions) && !lost.empty())
     changes.push_back(std::move(lost));
+  note_blocks(mesh, content);
+  append_block_losses(*row, content, path, changes);
   return changes;
 }
 
@@ -330,6 +352,7 @@ std::vector<std::string> losses_in(const Mesh& mesh, const Field* solution, cons
   if (row == nullptr) return {};
   MeshContent content = content_of(mesh, solution);
   content.knows_walls = true;
+  note_blocks(mesh, content);
   return losses_of(content, *row, path);
 }
 

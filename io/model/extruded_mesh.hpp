@@ -22,12 +22,7 @@ std::vector<double> even_heights(std::int64_t layers, double thickness);
 /// A node of the 3D mesh, numbered over all ranks, from 0.
 using NodeNumber = std::int64_t;
 
-/// The blocks of a plane mesh: the block of each of this rank's cells, as index into the names, which are the
-/// same on all ranks.
-struct PlaneBlocks {
-  std::vector<std::string> names;
-  std::vector<std::int32_t> of_triangles, of_quads;
-};
+using PlaneBlocks = MeshBlocks;
 
 /// A 3D mesh of prisms and hexahedra that is never stored: a distributed plane mesh and the levels of its
 /// nodes. Level 0 is the back, the last the front, from which the plane is seen unmirrored. Cells are

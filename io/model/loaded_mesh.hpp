@@ -1,9 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -36,12 +34,15 @@ inline std::int32_t block_of_cell(const LoadedMesh& loaded, std::int32_t cell) {
   return cell < triangles ? loaded.triangle_to_block[cell] : loaded.quad_to_block[cell - triangles];
 }
 
-/// Returns the cells of one block, which are contiguous.
+/// Returns the cells of one block in their order.
 template <class Cell>
-std::span<const Cell> cells_of_block(const std::vector<Cell>& cells,
-                                     const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
-  const auto [first, last] = std::equal_range(cell_to_block.begin(), cell_to_block.end(), block);
-  return std::span(cells).subspan(first - cell_to_block.begin(), last - first);
+std::vector<Cell> cells_of_block(const std::vector<Cell>& cells,
+                                 const std::vector<std::int32_t>& cell_to_block, std::int32_t block) {
+  std::vector<Cell> found;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cell_to_block[i] == block) found.push_back(cells[i]);
+  }
+  return found;
 }
 
 }  // namespace quadloop::io

@@ -20,6 +20,7 @@ class BinaryWriter {
       : comm_{outputs.communicator()},
         mesh_{stream.extruded()->plane},
         solution_{stream.extruded()->solution},
+        blocks_{stream.extruded()->blocks},
         boundaries_{*stream.boundaries()},
         file_{outputs, outputs.stage(path)} {
     header_.nodes = stream.counts().nodes;
@@ -53,15 +54,14 @@ class BinaryWriter {
 
  private:
   void put_blocks(const MeshStream& stream) {
-    const PlaneBlocks* blocks = stream.extruded()->blocks;
-    if (blocks == nullptr) {
+    if (blocks_ == nullptr) {
       const StreamCounts& all = stream.counts();
       header_.blocks = {{"domain", all.of(CellKind::triangle), all.of(CellKind::quad)}};
       return;
     }
-    for (std::int32_t b = 0; b < std::ssize(blocks->names); ++b)
-      header_.blocks.push_back({blocks->names[b], std::ranges::count(blocks->of_triangles, b),
-                                std::ranges::count(blocks->of_quads, b)});
+    for (std::int32_t b = 0; b < std::ssize(blocks_->names); ++b)
+      header_.blocks.push_back({blocks_->names[b], comm_.sum(std::ranges::count(blocks_->of_triangles, b)),
+                                comm_.sum(std::ranges::count(blocks_->of_quads, b))});
   }
 
   /// Writes rank 0's bytes.
@@ -99,8 +99,16 @@ class BinaryWriter {
       for (std::size_t k = 0; k < width; ++k) row[k] = static_cast<Number>(mesh_.global(cell[k]).value());
       return row;
     };
-    write_rows(mesh_.triangles.size(), [&](std::size_t i) { return numbers(mesh_.triangles[i]); });
-    write_rows(mesh_.quads.size(), [&](std::size_t i) { return numbers(mesh_.quads[i]); });
+    const auto write_cells = [&](const auto& cells) {
+      write_rows(cells.size(), [&](std::size_t i) { return numbers(cells[i]); });
+    };
+    const auto write_by_block = [&](const auto& cells, std::vector<std::int32_t> PlaneBlocks::*of_cells) {
+      if (blocks_ == nullptr) write_cells(cells);
+      for (std::int32_t b = 0; blocks_ != nullptr && b < std::ssize(blocks_->names); ++b)
+        write_cells(cells_of_block(cells, blocks_->*of_cells, b));
+    };
+    write_by_block(mesh_.triangles, &PlaneBlocks::of_triangles);
+    write_by_block(mesh_.quads, &PlaneBlocks::of_quads);
     write_edges<Number>();
   }
 
@@ -138,6 +146,7 @@ class BinaryWriter {
   const Communicator& comm_;
   const Mesh& mesh_;
   const Field* solution_;
+  const PlaneBlocks* blocks_;  ///< null: one block
   const BoundaryStream& boundaries_;
   SharedOutput file_;
   BinaryHeader header_;

@@ -1,5 +1,3 @@
-#include <span>
-
 #include "io/model/layers_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
@@ -23,12 +21,10 @@ class NativeWriter {
     write_nodes();
     const std::size_t blocks = blocks_ == nullptr ? 1 : blocks_->names.size();
     file_.write("#Number of blocks\n" + std::to_string(blocks) + "\n");
-    for (std::int32_t block = 0; block < static_cast<std::int32_t>(blocks); ++block) {
-      write_connectivity("#Number of triangular elements\n",
-                         cells_in(mesh_.triangles, &PlaneBlocks::of_triangles, block));
-      write_connectivity("#Number of quadrilateral elements\n",
-                         cells_in(mesh_.quads, &PlaneBlocks::of_quads, block));
-    }
+    if (blocks_ == nullptr) write_cells(mesh_.triangles, mesh_.quads);
+    for (std::int32_t block = 0; blocks_ != nullptr && block < std::ssize(blocks_->names); ++block)
+      write_cells(cells_of_block(mesh_.triangles, blocks_->of_triangles, block),
+                  cells_of_block(mesh_.quads, blocks_->of_quads, block));
     write_boundaries();
   }
 
@@ -48,13 +44,10 @@ class NativeWriter {
   void close() { file_.close(); }
 
  private:
-  /// The cells of a block are contiguous.
-  template <class Cells>
-  std::span<const typename Cells::value_type> cells_in(const Cells& cells,
-                                                       std::vector<std::int32_t> PlaneBlocks::*of_cells,
-                                                       std::int32_t block) const {
-    if (blocks_ == nullptr) return std::span(cells);
-    return cells_of_block(cells, blocks_->*of_cells, block);
+  void write_cells(const std::vector<std::array<NodeId, 3>>& triangles,
+                   const std::vector<std::array<NodeId, 4>>& quads) {
+    write_connectivity("#Number of triangular elements\n", triangles);
+    write_connectivity("#Number of quadrilateral elements\n", quads);
   }
 
   void write_nodes() {
@@ -83,7 +76,7 @@ class NativeWriter {
   }
 
   template <std::size_t width>
-  void write_connectivity(const std::string& comment, std::span<const std::array<NodeId, width>> rows) {
+  void write_connectivity(const std::string& comment, const std::vector<std::array<NodeId, width>>& rows) {
     file_.write(comment + std::to_string(comm_.sum(std::ssize(rows))) + "\n");
     file_.write_rows(rows.size(), width, [&](TextRows& text, std::size_t i) {
       for (std::size_t k = 0; k < width; ++k)

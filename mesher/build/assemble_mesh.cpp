@@ -24,6 +24,10 @@ class Assembler {
         edge_leaves_{result.edge_leaves} {
     edge_leaves_.resize(geometry.boundaries().size());
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
+    mesh_.blocks.names = geometry.block_names();
+    for (std::int32_t s = 0; geometry.has_twins() && s < geometry.size(); ++s) {
+      if (geometry.twin(s) >= 0) mesh_.boundaries[geometry.boundary_of(s).value()].between_blocks = true;
+    }
   }
 
   void add(LeafId leaf) {
@@ -32,16 +36,33 @@ class Assembler {
     if (cut_.states[local] == CutForest::State::cut) add_cut(leaf, cut_.entry_of[local]);
   }
 
+  /// The block, from 1, of the first cell after those given; 0 without such a cell.
+  std::int16_t block_of_leaf(std::int32_t triangles, std::int32_t quads) const {
+    const MeshBlocks& blocks = mesh_.blocks;
+    const std::size_t t = triangles, q = quads;
+    if (t == mesh_.triangles.size() && q == mesh_.quads.size()) return 0;
+    if (!geometry_.has_blocks()) return 1;
+    const std::int32_t block = t < blocks.of_triangles.size() ? blocks.of_triangles[t] : blocks.of_quads[q];
+    return static_cast<std::int16_t>(block + 1);
+  }
+
  private:
   void add_inside(LeafId leaf) {
     const SideSet hanging = graph_.around(leaf).finer;
     const NodeNumbering::SiteNodes nodes = numbers_.of_leaf(leaf);
     if (hanging.empty()) {
       add_quad(leaf, {nodes[0], nodes[1], nodes[2], nodes[3]});
-      return;
+    } else {
+      for (const SiteTriangle& t : hanging_template(hanging))
+        mesh_.triangles.push_back({nodes[index_of(t[0])], nodes[index_of(t[1])], nodes[index_of(t[2])]});
     }
-    for (const SiteTriangle& t : hanging_template(hanging))
-      mesh_.triangles.push_back({nodes[index_of(t[0])], nodes[index_of(t[1])], nodes[index_of(t[2])]});
+    if (geometry_.has_blocks()) put_in_block(cut_.blocks[graph_.local_index(leaf)]);
+  }
+
+  /// Sets the block of the cells added last.
+  void put_in_block(std::int32_t block) {
+    mesh_.blocks.of_triangles.resize(mesh_.triangles.size(), block);
+    mesh_.blocks.of_quads.resize(mesh_.quads.size(), block);
   }
 
   void add_cut(LeafId leaf, std::size_t entry) {
@@ -52,13 +73,18 @@ class Assembler {
       if (!found.valid()) found = numbers_.of_cut(leaf, begin.nodes + n);
       return found;
     };
-    for (const auto& t : CutForest::part(cut_.triangles, begin.triangles, end.triangles)) {
+    for (std::int32_t i = begin.triangles; i < end.triangles; ++i) {
+      const LocalTriangle& t = cut_.triangles[i];
       mesh_.triangles.push_back({node(t[0]), node(t[1]), node(t[2])});
+      if (geometry_.has_blocks()) put_in_block(cut_.triangle_blocks[i]);
     }
-    for (const auto& q : CutForest::part(cut_.quads, begin.quads, end.quads)) {
+    for (std::int32_t i = begin.quads; i < end.quads; ++i) {
+      const LocalQuad& q = cut_.quads[i];
       add_quad(leaf, {node(q[0]), node(q[1]), node(q[2]), node(q[3])});
+      if (geometry_.has_blocks()) put_in_block(cut_.quad_blocks[i]);
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
+      if (geometry_.is_second(e.segment)) continue;
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
       mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
       edge_leaves_[boundary.value()].push_back(graph_.local_index(leaf));
@@ -133,12 +159,12 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
     stage.advance(graph.local_index(leaf));
     assembler.add(leaf);
     LeafRecord record = record_of(graph.leaf(leaf), cut.target_levels[graph.local_index(leaf)]);
+    record.block = assembler.block_of_leaf(triangles, quads);
     record.triangles = size32(mesh.triangles) - triangles;
     record.quads = size32(mesh.quads) - quads;
     triangles += record.triangles;
     quads += record.quads;
     record.adapted = demands.levels_above(graph.leaf(leaf));
-    record.block = record.triangles + record.quads > 0 ? 1 : 0;
     leaves.push_back(record);
   }
   std::move(numbers).fill(mesh);

@@ -21,11 +21,9 @@ Box box_of_loop(const Geometry& g, std::int32_t loop) {
 Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
   GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
-    if (keep[loop] == 0) continue;
-    for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) builder.add(g, v);
-    builder.end_loop();
+    if (keep[loop] != 0) builder.add_loop(g, loop);
   }
-  return std::move(builder).geometry(g.boundaries());
+  return std::move(builder).geometry(g.boundaries(), g.block_names());
 }
 
 /// Returns the names in the order of the geometry.
@@ -47,6 +45,7 @@ Geometry without_small_islands(const Geometry& g, double min, MeshReport& report
 }
 
 std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, MeshReport& report) {
+  if (g.has_blocks()) return {};  // a small block would leave a hole in the one around it
   std::vector<char> keep(g.loop_count(), 1);
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);

@@ -66,11 +66,16 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
                                              const std::vector<IrregularLeaf>& irregular, Mesh& mesh) {
   const std::size_t of_cut = count_triangles(irregular, true);
   std::vector<Flipper::Triangle> triangles(of_cut + count_triangles(irregular, false));
+  const std::vector<std::int32_t>& block_of = mesh.blocks.of_triangles;
+  std::vector<std::int32_t> blocks(block_of.empty() ? 0 : triangles.size());
   const auto for_each_triangle = [&](const auto& visit) {
     std::array<std::size_t, 2> next{of_cut, 0};  // of uncut leaves, and of cut ones
     for (const IrregularLeaf& leaf : irregular) {
-      for (std::int32_t t = leaf.triangle; t < leaf.end(); ++t)
-        visit(mesh.triangles[t], triangles[next[leaf.cut ? 1 : 0]++]);
+      for (std::int32_t t = leaf.triangle; t < leaf.end(); ++t) {
+        const std::size_t listed = next[leaf.cut ? 1 : 0]++;
+        if (!blocks.empty()) blocks[listed] = block_of[t];
+        visit(mesh.triangles[t], triangles[listed]);
+      }
     }
   };
   std::vector<GlobalNodeId> shared;
@@ -81,7 +86,7 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
     }
   });
   Flipper().flip_first(
-      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut);
+      mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut, blocks);
   for_each_triangle([](std::array<NodeId, 3>& nodes, const Flipper::Triangle& flipped) {
     const auto& [a, b, c] = flipped;
     nodes = {NodeId{a}, NodeId{b}, NodeId{c}};
@@ -93,6 +98,7 @@ using GlobalNodes = std::array<GlobalNodeId, 3>;
 
 /// A triangle sent to the rank of its leaf.
 struct FreeTriangle {
+  std::int32_t block;
   GlobalNodes nodes;
   std::array<Point, 3> points;
 };
@@ -102,7 +108,30 @@ struct PlacedTriangle {
   std::int32_t leaf = 0;     ///< local index
   GlobalNodes global_nodes;  ///< starting from the smallest
   std::array<NodeId, 3> nodes;
+  std::int32_t block = 0;
   friend auto operator<=>(const PlacedTriangle&, const PlacedTriangle&) = default;
+};
+
+/// The blocks of the triangles, if there are several, after those of irregular leaves have been replaced.
+class NewBlocks {
+ public:
+  explicit NewBlocks(std::vector<std::int32_t>& blocks) : old_{blocks} { made_.reserve(blocks.size()); }
+
+  void replace(const IrregularLeaf& leaf, const std::vector<PlacedTriangle>& by) {
+    if (old_.empty()) return;
+    made_.insert(made_.end(), old_.begin() + taken_, old_.begin() + leaf.triangle);
+    for (const PlacedTriangle& t : by) made_.push_back(t.block);
+    taken_ = leaf.end();
+  }
+  void finish() {
+    made_.insert(made_.end(), old_.begin() + taken_, old_.end());
+    old_ = std::move(made_);
+  }
+
+ private:
+  std::vector<std::int32_t>& old_;
+  std::vector<std::int32_t> made_;
+  std::int32_t taken_ = 0;
 };
 
 /// Moves the triangles of irregular leaves to the leaves that contain their centroids; most are already
@@ -119,7 +148,7 @@ class LeafTriangles {
     for (const FreeTriangle& t : on_their_way_.deliver(comm)) {
       const Point p = centroid(t.points);
       const LeafId leaf = finder_.leaf_at(grid_.column_at(p.x), grid_.row_at(p.y));
-      PlacedTriangle placed{graph_.local_index(leaf), t.nodes, {}};
+      PlacedTriangle placed{graph_.local_index(leaf), t.nodes, {}, t.block};
       for (std::size_t k = 0; k < 3; ++k) placed.nodes[k] = table.local(t.nodes[k], t.points[k]);
       arrived_.push_back(placed);
     }
@@ -137,6 +166,7 @@ class LeafTriangles {
     auto arrival = arrived_.cbegin();
     auto stranger = strangers_.cbegin();
     std::vector<PlacedTriangle> here;
+    NewBlocks blocks(mesh_.blocks.of_triangles);
     for (const IrregularLeaf& leaf : irregular) {
       const auto begin = all.begin() + room + leaf.triangle;
       written = std::copy(next, begin, written);
@@ -146,7 +176,7 @@ class LeafTriangles {
         if (stranger != strangers_.end() && *stranger == t) {
           ++stranger;
         } else {
-          here.push_back(placed(leaf.index, begin[t - leaf.triangle]));
+          here.push_back(placed(leaf.index, begin[t - leaf.triangle], block_of(t)));
         }
       }
       for (; arrival != arrived_.end() && arrival->leaf == leaf.index; ++arrival) here.push_back(*arrival);
@@ -154,8 +184,10 @@ class LeafTriangles {
       written =
           std::transform(here.begin(), here.end(), written, [](const PlacedTriangle& t) { return t.nodes; });
       leaves[leaf.index].triangles = size32(here);
-      leaves[leaf.index].block = here.empty() ? 0 : 1;
+      leaves[leaf.index].block = here.empty() ? 0 : static_cast<std::int16_t>(here.front().block + 1);
+      blocks.replace(leaf, here);
     }
+    blocks.finish();
     all.erase(std::copy(next, all.end(), written), all.end());
     QUADLOOP_REQUIRE(arrival == arrived_.end(), "the centroid of each triangle lies in an irregular leaf");
   }
@@ -175,21 +207,25 @@ class LeafTriangles {
       const LeafId home = finder_.leaf_at(column, row);
       if (home == leaf) continue;
       strangers_.push_back(t);
-      const PlacedTriangle stranger = placed(graph_.local_index(home), nodes);
+      const PlacedTriangle stranger = placed(graph_.local_index(home), nodes, block_of(t));
       if (graph_.is_local(home)) {
         arrived_.push_back(stranger);
       } else {
-        FreeTriangle free{stranger.global_nodes, {}};
+        FreeTriangle free{stranger.block, stranger.global_nodes, {}};
         for (std::size_t k = 0; k < 3; ++k) free.points[k] = mesh_.point(stranger.nodes[k]);
         on_their_way_.add(graph_.rank_at(column, row), free);
       }
     }
   }
 
-  PlacedTriangle placed(std::int32_t leaf, std::array<NodeId, 3> nodes) const {
+  std::int32_t block_of(std::int32_t triangle) const {
+    return mesh_.blocks.of_triangles.empty() ? 0 : mesh_.blocks.of_triangles[triangle];
+  }
+
+  PlacedTriangle placed(std::int32_t leaf, std::array<NodeId, 3> nodes, std::int32_t block) const {
     const auto before = [&](NodeId a, NodeId b) { return mesh_.global(a) < mesh_.global(b); };
     std::rotate(nodes.begin(), std::min_element(nodes.begin(), nodes.end(), before), nodes.end());
-    return {leaf, {mesh_.global(nodes[0]), mesh_.global(nodes[1]), mesh_.global(nodes[2])}, nodes};
+    return {leaf, {mesh_.global(nodes[0]), mesh_.global(nodes[1]), mesh_.global(nodes[2])}, nodes, block};
   }
 
   /// Whether the centroid is inside a leaf with a margin larger than any rounding error.
@@ -223,7 +259,8 @@ void make_delaunay(const Communicator& comm, const TreeGrid& grid,
                    const std::function<TieRank(Point)>& rank_of, const LeafGraph& graph, const CutForest& cut,
                    Mesh& mesh, std::vector<LeafRecord>& leaves) {
   const std::vector<IrregularLeaf> irregular = irregular_leaves(comm, graph, cut, leaves);
-  restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, mesh), rank_of);
+  restore_delaunay_at(comm, mesh, flip_own_triangles(rank_of, irregular, mesh), rank_of,
+                      mesh.blocks.of_triangles);
   LeafTriangles triangles(grid, graph, mesh);
   triangles.share_out(comm, irregular);
   triangles.put_back(irregular, leaves);

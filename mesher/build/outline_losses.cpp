@@ -42,9 +42,11 @@ void warn_of_lost_corners(const Communicator& comm, const Geometry& geometry, co
   const std::map<Point, std::int32_t> kept = kept_vertices(geometry);
   std::vector<char> is_node(geometry.size(), 0);
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& edge : boundary.edges) {  // each node of the closed boundary starts one edge
-      const auto at = kept.find(mesh.point(edge[0]));
-      if (at != kept.end()) is_node[at->second] = 1;
+    for (const auto& edge : boundary.edges) {
+      for (const NodeId node : edge) {
+        const auto at = kept.find(mesh.point(node));
+        if (at != kept.end()) is_node[at->second] = 1;
+      }
     }
   }
   is_node = seen_anywhere(comm, is_node);
@@ -96,11 +98,12 @@ std::vector<std::string> vanished_from(const Geometry& geometry, const std::vect
 }
 
 /// Returns twice the contribution of each edge to the enclosed area, relative to `centre`, one list per
-/// boundary.
+/// boundary; empty for one between blocks.
 std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) {
   std::vector<std::vector<double>> shares;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     auto& list = shares.emplace_back();
+    if (boundary.between_blocks) continue;
     for (const auto& edge : boundary.edges)
       list.push_back(cross(mesh.point(edge[0]) - centre, mesh.point(edge[1]) - centre));
   }
@@ -116,12 +119,14 @@ std::vector<double> outline_shares(const Geometry& geometry, Point centre) {
   return shares;
 }
 
-/// Returns for each boundary whether it consists of complete loops and thus encloses an area.
+/// Returns for each boundary whether it consists of complete loops and thus encloses an area. The two
+/// directions of one between blocks cancel.
 std::vector<char> encloses_area(const Geometry& geometry) {
   std::vector<char> whole(geometry.boundaries().size(), 1);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     const BoundaryId here = geometry.boundary_of(s), next = geometry.boundary_of(geometry.next(s));
     if (here != next) whole[here.value()] = whole[next.value()] = 0;
+    if (geometry.twin(s) >= 0) whole[here.value()] = 0;
   }
   return whole;
 }

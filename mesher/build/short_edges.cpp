@@ -266,9 +266,9 @@ Geometry with_merged(const Geometry& g, std::span<const ShortBase> bases) {
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
       if (is_dropped[v] == 0) builder.add(moved[v], g.boundary_of(v), g.curve(v));
     }
-    builder.end_loop();
+    builder.end_loop(g.block_of(g.loop_start(loop)));
   }
-  return std::move(builder).geometry(g.boundaries());
+  return std::move(builder).geometry(g.boundaries(), g.block_names());
 }
 
 std::optional<Geometry> short_edges_merged(const Geometry& geometry, double min,

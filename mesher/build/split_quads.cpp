@@ -29,11 +29,16 @@ void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
   std::vector<std::array<NodeId, 3>> triangles;
   std::vector<std::array<NodeId, 4>> quads;
   triangles.reserve(mesh.triangles.size() + 2 * mesh.quads.size());
+  MeshBlocks blocks{mesh.blocks.names, {}, {}};
   auto triangle = mesh.triangles.cbegin();
   auto quad = mesh.quads.cbegin();
   for (LeafRecord& leaf : leaves) {
     const std::int32_t triangles_before = size32(triangles), quads_before = size32(quads);
     triangles.insert(triangles.end(), triangle, triangle + leaf.triangles);
+    if (!mesh.blocks.names.empty()) {
+      const auto block = mesh.blocks.of_triangles.begin() + (triangle - mesh.triangles.cbegin());
+      blocks.of_triangles.insert(blocks.of_triangles.end(), block, block + leaf.triangles);
+    }
     triangle += leaf.triangles;
     for (const auto end = quad + leaf.quads; quad != end; ++quad) {
       const auto& [a, b, c, d] = *quad;
@@ -45,10 +50,15 @@ void split_skew_quads(Mesh& mesh, std::vector<LeafRecord>& leaves,
       } else {
         triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
       }
+      if (mesh.blocks.names.empty()) continue;
+      const std::int32_t block = mesh.blocks.of_quads[quad - mesh.quads.cbegin()];
+      blocks.of_triangles.resize(triangles.size(), block);
+      blocks.of_quads.resize(quads.size(), block);
     }
     leaf.triangles = size32(triangles) - triangles_before;
     leaf.quads = size32(quads) - quads_before;
   }
+  mesh.blocks = std::move(blocks);
   mesh.triangles = std::move(triangles);
   mesh.quads = std::move(quads);
 }

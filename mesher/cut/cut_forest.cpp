@@ -1,6 +1,9 @@
 #include "mesher/cut/cut_forest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "mesher/base/error.hpp"
@@ -54,6 +57,7 @@ class ForestCutter {
     const std::size_t count = graph.local_size();
     result_.states.resize(count);
     result_.entry_of.assign(count, -1);
+    if (has_blocks()) result_.blocks.assign(count, 0);
     reserve();
   }
 
@@ -67,8 +71,7 @@ class ForestCutter {
       while (next != snaps.end() && next->leaf == leaf) ++next;
       const std::span<const LeafSnap> own(first, next);
       const bool holds_geometry = trace_of(leaf) >= 0;
-      if (!holds_geometry)
-        state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
+      if (!holds_geometry) settle_uncut(leaf);
       if (holds_geometry || !own.empty()) cut(leaf, own);
     }
   }
@@ -97,18 +100,28 @@ class ForestCutter {
     }
   }
 
-  /// Two opposite chords on the two sides of a leaf side would lose what lies between them: the snaps at
-  /// their ends are revoked. Returns the ends. *Collective.*
+  /// Two opposite chords on the two sides of a leaf side would lose what lies between them, and a chord
+  /// between two blocks needs an opposite one: the snaps at their ends are revoked. Returns the ends.
+  /// *Collective.*
   std::vector<Point> veto_opposed_chords(const Communicator& comm, const std::vector<const Snap*>& snaps) {
-    std::vector<Point> ends = OpposedChords(comm, graph_, result_).ends();
+    const OpposedChords opposed(comm, outline_.geometry(), graph_, result_);
+    sides_differ_ = opposed.sides_differ();
+    const std::vector<Point>& ends = opposed.ends();
     for (const Snap* s : snaps) {
-      if (std::binary_search(ends.begin(), ends.end(), s->position)) vetoes_.push_back(s->corner);
+      if (std::ranges::binary_search(ends, s->position)) vetoes_.push_back(s->corner);
     }
     return ends;
   }
 
-  /// Reports chords that lie on each other without any snap.
+  /// Reports chords that lie on each other without any snap, or the two sides of an interface that do not
+  /// match.
   [[noreturn]] void refuse(Point end) const {
+    if (sides_differ_) {
+      throw InputError(fmt::format(
+          "the interface near ({}, {}): its two sides cannot be meshed with the same nodes at this size; "
+          "reduce spacing.min, or move or remove points there",
+          end.x, end.y));
+    }
     const auto ends_there = [&](const CutForest::Entry& entry, const CutLeaf::Edge& edge) {
       return result_.nodes[entry.begin.nodes + edge.to].position == end;
     };
@@ -136,6 +149,7 @@ class ForestCutter {
     result_.outline.reserve(2 * cut_leaves);
   }
 
+  bool has_blocks() const { return outline_.geometry().has_blocks(); }
   CutForest::State& state(LeafId leaf) { return result_.states[graph_.local_index(leaf)]; }
   std::int32_t& entry_of(LeafId leaf) { return result_.entry_of[graph_.local_index(leaf)]; }
   std::int32_t trace_of(LeafId leaf) const { return traced_.trace_of[leaf.value()]; }
@@ -143,11 +157,12 @@ class ForestCutter {
   void cut(LeafId leaf, std::span<const LeafSnap> snaps) {
     const Quadrant& q = graph_.leaf(leaf);
     const Box box = grid_.box_of(q);
-    LeafCutter::Input input{{box, {}, {}, {}}, centre_of(grid_, q), graph_.around(leaf).finer, snaps, {}};
+    LeafCutter::Input input{{box, {}, {}, {}}, centre_of(grid_, q), graph_.around(leaf).finer, snaps, {}, 0};
     if (trace_of(leaf) >= 0) {
       input.trace = traced_.traces[trace_of(leaf)];
     } else {
       input.inside = state(leaf) == CutForest::State::inside;
+      input.block = has_blocks() ? result_.blocks[graph_.local_index(leaf)] : 0;
     }
     const auto done = [&](Detail detail) {
       return cutter_.cut(input, detail) && maker_.make(q, box, cutter_.result(), cells_) &&
@@ -177,10 +192,29 @@ class ForestCutter {
     result_.triangles.insert(result_.triangles.end(), cells_.triangles.begin(), cells_.triangles.end());
     result_.quads.insert(result_.quads.end(), cells_.quads.begin(), cells_.quads.end());
     result_.outline.insert(result_.outline.end(), made.outline.begin(), made.outline.end());
+    if (has_blocks()) {
+      result_.triangle_blocks.insert(result_.triangle_blocks.end(), cells_.triangle_blocks.begin(),
+                                     cells_.triangle_blocks.end());
+      result_.quad_blocks.insert(result_.quad_blocks.end(), cells_.quad_blocks.begin(),
+                                 cells_.quad_blocks.end());
+    }
     entry.end = offsets();
     state(leaf) = CutForest::State::cut;
     entry_of(leaf) = size32(result_.entries);
     result_.entries.push_back(entry);
+  }
+
+  /// Sets state and block of a leaf without geometry.
+  void settle_uncut(LeafId leaf) {
+    state(leaf) = lies_inside(leaf) ? CutForest::State::inside : CutForest::State::outside;
+    if (!has_blocks() || state(leaf) == CutForest::State::outside) return;
+    const LeafGraph::Around& around = graph_.around(leaf);
+    for (const LeafId other : {around.west, around.south}) {
+      if (!graph_.is_local(other) || other > leaf || state(other) != CutForest::State::inside) continue;
+      result_.blocks[graph_.local_index(leaf)] = result_.blocks[graph_.local_index(other)];
+      return;
+    }
+    result_.blocks[graph_.local_index(leaf)] = inside_.block_at(centre_of(grid_, graph_.leaf(leaf)));
   }
 
   /// State from the left or lower neighbour, which is earlier on the curve; if neither is local, from a count
@@ -236,6 +270,7 @@ class ForestCutter {
   LeafCells cells_;
   CutForest result_;
   std::vector<GridPoint> vetoes_;
+  bool sides_differ_ = false;  ///< of an interface, in the last cut
 };
 
 }  // namespace
@@ -284,7 +319,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
 bool ResolutionTest::unresolved(const Quadrant& q, std::span<const std::int32_t> segments) {
   traces_.clear();
   const LeafTrace trace = traces_[traces_.add(*outline_, grid_->box_of(q), segments)];
-  const bool sound = cutter_.cut({trace, centre_of(*grid_, q), {}, {}, {}}, Detail::merged);
+  const bool sound = cutter_.cut({trace, centre_of(*grid_, q), {}, {}, {}, 0}, Detail::merged);
   return !sound || cutter_.result().refined;
 }
 

@@ -25,12 +25,14 @@ struct CutForest {
   };
 
   std::vector<State> states;               ///< of each local leaf
+  std::vector<std::int32_t> blocks;        ///< of each local leaf that is inside; empty: one block
   std::vector<std::int8_t> target_levels;  ///< SizeCursor::target_level() of each local leaf
   std::vector<std::int32_t> entry_of;      ///< for each local leaf; -1 if it is not cut
   std::vector<Entry> entries;              ///< of the cut leaves, and of uncut ones with a snapped corner
   std::vector<CutLeaf::Node> nodes;
   std::vector<LocalTriangle> triangles;  ///< numbers are relative to the leaf's first node
   std::vector<LocalQuad> quads;
+  std::vector<std::int32_t> triangle_blocks, quad_blocks;  ///< empty: one block
   std::vector<CutLeaf::Edge> outline;
   /// Grid vertices that have been moved; all of those at local leaves, and some others.
   struct Moved {
@@ -50,6 +52,8 @@ struct CutForest {
     std::exchange(nodes, {});
     std::exchange(triangles, {});
     std::exchange(quads, {});
+    std::exchange(triangle_blocks, {});
+    std::exchange(quad_blocks, {});
     std::exchange(outline, {});
     std::exchange(moved, {});
   }

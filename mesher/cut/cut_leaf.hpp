@@ -23,14 +23,17 @@ struct CutLeaf {
     std::int32_t from = 0, to = 0;
     /// Segment of the geometry that the edge represents; -1: part of a side of the leaf.
     std::int32_t segment = -1;
+    std::int32_t block = 0;  ///< block to its left
   };
 
   /// First along the sides, counter-clockwise from the lower left corner; then those inside, by position.
   std::vector<Node> nodes;
-  /// The chords that represent the boundary, including those that only bound a neighbour's cells.
+  /// The chords that represent the boundary, including those that only bound a neighbour's cells. Between two
+  /// blocks there are two in opposite directions; those along a side may be in two leaves.
   std::vector<Edge> outline;
   std::vector<std::int32_t> loop_nodes;   ///< concatenated loops
   std::vector<std::int32_t> loop_starts;  ///< one more entry than there are loops
+  std::vector<std::int32_t> loop_blocks;  ///< of each loop
   std::int32_t side_nodes = 0;            ///< number of nodes on the sides
   /// The sides whose first half, counter-clockwise, lies in the domain without a crossing, and the same for
   /// the second half.
@@ -67,6 +70,7 @@ class LeafCutter {
     SideSet hanging;                  ///< sides with a hanging node
     std::span<const LeafSnap> snaps;  ///< of this leaf
     std::optional<bool> inside;       ///< if the leaf contains no geometry: whether it lies in the domain
+    std::int32_t block = 0;           ///< then the block in which it lies
   };
 
   /// Cuts a leaf. Returns whether the loops are valid: simple, nested as outer loops and holes, without
@@ -85,8 +89,8 @@ class LeafCutter {
 /// Connects the edges to loops, each split where it touches itself. Returns false if they are not closed.
 bool trace_loops(std::span<const CutLeaf::Edge> edges, CutLeaf& leaf);
 
-/// Whether edges meet only at their ends and the loops are nested as outer loops (counter-clockwise) and
-/// holes in them. Exact.
+/// Whether edges meet only at their ends and the loops of each block are nested as outer loops
+/// (counter-clockwise) and holes in them. Exact.
 bool loops_are_sound(std::span<const CutLeaf::Edge> edges, const CutLeaf& leaf);
 
 /// Whether the sides of a leaf, after snaps, still form a simple counter-clockwise loop that no chord

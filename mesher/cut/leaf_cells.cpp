@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesher/base/error.hpp"
 #include "mesher/cut/grid_rank.hpp"
@@ -84,13 +85,31 @@ void LeafCellMaker::set_ranks() {
 bool LeafCellMaker::make(const Quadrant& q, const Box& box, const CutLeaf& leaf, LeafCells& cells) {
   cells.triangles.clear();
   cells.quads.clear();
+  cells.triangle_blocks.clear();
+  cells.quad_blocks.clear();
   smallest_sine_ = 1;
   points_.clear();
   for (const CutLeaf::Node& node : leaf.nodes) points_.push_back(node.position);
   ranks_.clear();
   leaf_ = {&q, &box, &leaf};
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  for (std::int32_t block = -1;;) {
+    std::int32_t next = none;
+    for (const std::int32_t other : leaf.loop_blocks) next = other > block ? std::min(next, other) : next;
+    if (next == none) return true;
+    block = next;
+    if (!make_block(block, cells)) return false;
+    cells.triangle_blocks.resize(cells.triangles.size(), block);
+    cells.quad_blocks.resize(cells.quads.size(), block);
+  }
+}
+
+bool LeafCellMaker::make_block(std::int32_t block, LeafCells& cells) {
+  const CutLeaf& leaf = *leaf_.cut;
   loops_.clear();
-  for (std::size_t i = 0; i < leaf.loop_count(); ++i) loops_.push_back(leaf.loop(i));
+  for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
+    if (leaf.loop_blocks[i] == block) loops_.push_back(leaf.loop(i));
+  }
   const bool holes = loops_.size() > 1 && std::any_of(loops_.begin(), loops_.end(), [&](const auto& loop) {
                        return winding_of(leaf, loop) < 0;
                      });

@@ -12,6 +12,7 @@ using LocalQuad = std::array<std::int32_t, 4>;
 struct LeafCells {
   std::vector<LocalTriangle> triangles;
   std::vector<LocalQuad> quads;
+  std::vector<std::int32_t> triangle_blocks, quad_blocks;
 };
 
 /// Creates the cells of cut leaves: four well-placed nodes give a quadrilateral, anything else is
@@ -33,14 +34,15 @@ class LeafCellMaker {
   const TieRank& rank_of(std::int32_t node);
   void set_ranks();
 
+  bool make_block(std::int32_t block, LeafCells& cells);
   bool triangulate(std::span<const std::span<const std::int32_t>> loops, LeafCells& cells);
 
   Triangulator triangulator_;
   Leaf leaf_;
   double smallest_sine_ = 1;
   std::vector<Point> points_;
-  std::vector<std::span<const std::int32_t>> loops_;
-  std::vector<TieRank> ranks_;  ///< of the leaf's nodes; computed on first use
+  std::vector<std::span<const std::int32_t>> loops_;  ///< of one block
+  std::vector<TieRank> ranks_;                        ///< of the leaf's nodes; computed on first use
 };
 
 /// A triangle of a template, by the sites of its nodes.

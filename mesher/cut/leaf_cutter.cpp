@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "mesher/base/short_lists.hpp"
 #include "mesher/cut/cut_leaf.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
+#include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
 
@@ -82,8 +84,22 @@ void add_stop(const Box& box, Stop stop, std::pmr::vector<Stop>& stops) {
   stops.push_back(stop);
 }
 
-/// Returns corners, hanging nodes and crossings in their order around the leaf.
-std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource* memory) {
+/// Whether a vertex is an end of a segment between two blocks.
+bool is_on_interface(const Geometry& geometry, std::int32_t v) {
+  return geometry.has_twins() && (geometry.twin(v) >= 0 || geometry.twin(geometry.previous(v)) >= 0);
+}
+
+/// The side of the leaf that holds the point, without its corners, if any.
+std::optional<Side> side_at(const Box& box, Point p) {
+  const bool on_x = p.x == box.low.x || p.x == box.high.x, on_y = p.y == box.low.y || p.y == box.high.y;
+  if (on_x == on_y) return std::nullopt;
+  if (on_y) return p.y == box.low.y ? Side::bottom : Side::top;
+  return p.x == box.low.x ? Side::left : Side::right;
+}
+
+/// Returns corners, hanging nodes, crossings and kept points between blocks in their order around the leaf.
+std::pmr::vector<Stop> stops_round(const Geometry& geometry, const Input& input,
+                                   std::pmr::memory_resource* memory) {
   const Box& box = input.trace.box;
   const Point centre = input.centre;
   const std::array<Point, 4> corner = corners_of(box);
@@ -108,6 +124,11 @@ std::pmr::vector<Stop> stops_round(const Input& input, std::pmr::memory_resource
     const Side side = side_of(site);
     const Point p = input.snaps[s].snap->position, from = corner[index_of(start_of(side))];
     add(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
+  }
+  for (const std::int32_t v : geometry.has_twins() ? input.trace.vertices : std::span<const std::int32_t>()) {
+    const Point p = geometry.point(v);
+    const std::optional<Side> side = side_at(box, p);
+    if (side && geometry.kept(v) && is_on_interface(geometry, v)) add(*side, p, elsewhere_on(*side), -1, -1);
   }
   const auto comes_first = [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
@@ -181,18 +202,63 @@ std::pmr::vector<NamedCrossing> name_stops(const Input& input, std::pmr::vector<
   return crossings;
 }
 
-/// Whether the domain lies just before the first stop (counter-clockwise); empty if crossings at one position
+constexpr std::int32_t outside = -1;  ///< instead of a block
+
+/// The changes of the blocks beside a side at one position, in the direction around the leaf: the block on
+/// the left of a boundary that leaves the leaf begins, that of one that enters ends.
+class BlockChanges {
+ public:
+  BlockChanges(const Geometry& geometry, const Input& input, std::pmr::memory_resource* memory)
+      : geometry_{geometry}, input_{input}, changes_(memory) {}
+
+  void clear() { changes_.clear(); }
+  void add(std::int32_t crossing) {
+    const Crossing& c = input_.trace.crossing(crossing);
+    const std::int32_t block = geometry_.block_of(c.segment), by = c.enters ? -1 : 1;
+    const auto known = std::ranges::find(changes_, block, &Change::block);
+    if (known == changes_.end())
+      changes_.push_back({block, by});
+    else
+      known->by += by;
+  }
+  /// The block with a net change; `outside` if there is none.
+  std::int32_t with(int change) const {
+    const auto found = std::ranges::find(changes_, change, &Change::by);
+    return found == changes_.end() ? outside : found->block;
+  }
+  bool none() const {
+    return std::ranges::all_of(changes_, [](const Change& c) { return c.by == 0; });
+  }
+  /// Whether they are possible after a part of a side in this block: it ends, or none ends and the part was
+  /// outside.
+  bool follow(std::int32_t block) const { return none() || with(-1) == block; }
+  bool consistent() const {
+    return std::ranges::all_of(changes_, [](const Change& c) { return std::abs(c.by) <= 1; });
+  }
+
+ private:
+  struct Change {
+    std::int32_t block;
+    int by;
+  };
+  const Geometry& geometry_;
+  const Input& input_;
+  std::pmr::vector<Change> changes_;
+};
+
+/// The block just before the first stop (counter-clockwise), or `outside`; empty if crossings at one position
 /// are inconsistent.
-std::optional<bool> inside_at_start(const Input& input, std::span<const Stop> stops, const Interior& inside) {
+std::optional<std::int32_t> block_at_start(const Input& input, std::span<const Stop> stops,
+                                           const Interior& inside, BlockChanges& changes) {
   for (std::size_t i = 0; i < stops.size();) {
-    int change = 0;
+    changes.clear();
     const Point position = stops[i].position;
     for (; i < stops.size() && stops[i].position == position; ++i) {
-      if (stops[i].crossing >= 0) change += input.trace.crossing(stops[i].crossing).enters ? -1 : 1;
+      if (stops[i].crossing >= 0) changes.add(stops[i].crossing);
     }
-    if (change == 0) continue;
-    if (change != 1 && change != -1) return std::nullopt;
-    return change < 0;
+    if (changes.none()) continue;
+    if (!changes.consistent()) return std::nullopt;
+    return changes.with(-1);
   }
   // Every crossing coincides with an opposite one: all parts of the sides between them have the same state.
   // The midpoint of the longest part is used, as others may be as short as rounding.
@@ -201,7 +267,9 @@ std::optional<bool> inside_at_start(const Input& input, std::span<const Stop> st
     const Point p = stops[i].position, q = stops[(i + 1) % stops.size()].position;
     if (length(q - p) > length(to - from)) from = p, to = q;
   }
-  return input.inside ? *input.inside : inside.contains(0.5 * (from + to));
+  const Point middle = 0.5 * (from + to);
+  if (!(input.inside ? *input.inside : inside.contains(middle))) return outside;
+  return input.inside ? input.block : inside.block_at(middle);
 }
 
 /// The parts of the sides.
@@ -218,23 +286,29 @@ void note_side(Point centre, const Stop& from, const Stop& to, CutLeaf::InsideHa
   if (to.side != from.side || to.along > middle) halves.second.add(from.side);
 }
 
-/// In the direction around the leaf, the domain follows a boundary that leaves it and precedes one that
+/// In the direction around the leaf, a block follows its boundary that leaves the leaf and precedes one that
 /// enters. Empty if this is inconsistent.
-std::optional<Sides> walk_sides(const Input& input, const std::pmr::vector<Stop>& stops,
-                                const Interior& interior) {
-  const std::optional<bool> inside = inside_at_start(input, stops, interior);
-  if (!inside) return std::nullopt;
+std::optional<Sides> walk_sides(const Geometry& geometry, const Input& input,
+                                const std::pmr::vector<Stop>& stops, const Interior& interior) {
+  BlockChanges changes(geometry, input, stops.get_allocator().resource());
+  std::optional<std::int32_t> block = block_at_start(input, stops, interior, changes);
+  if (!block) return std::nullopt;
   Sides sides(stops.get_allocator().resource());
   sides.inside.reserve(2 * stops.size());  // chords are added
-  int status = *inside ? 1 : 0;
+  changes.clear();
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const Stop &here = stops[i], &next = stops[(i + 1) % stops.size()];
-    if (here.crossing >= 0) status += input.trace.crossing(here.crossing).enters ? -1 : 1;
+    if (here.crossing >= 0) changes.add(here.crossing);
     if (here.position == next.position) continue;
-    if (status != 0 && status != 1) return std::nullopt;
-    if (status == 1) note_side(input.centre, here, next, sides.halves);
-    if (here.node != next.node)
-      (status == 1 ? sides.inside : sides.outside).push_back({here.node, next.node, -1});
+    if (!changes.consistent() || !changes.follow(*block)) return std::nullopt;
+    if (!changes.none()) block = changes.with(1);
+    changes.clear();
+    if (*block != outside) note_side(input.centre, here, next, sides.halves);
+    if (here.node == next.node) continue;
+    if (*block != outside)
+      sides.inside.push_back({here.node, next.node, -1, *block});
+    else
+      sides.outside.push_back({here.node, next.node, -1});
   }
   return sides;
 }
@@ -246,6 +320,7 @@ struct RunPoint {
   bool turns = false;         ///< whether the boundary turns here
   bool fixed = false;         ///< whether a chord must end here
   bool chosen = false;        ///< whether a chord ends here
+  bool on_side = false;       ///< of a segment between blocks on a side: the leaf across has no node here
 };
 
 /// Creates the chords of a leaf whose sides have their nodes.
@@ -277,7 +352,9 @@ class ChordMaker {
       if (!run[i].chosen) continue;
       const bool at_exit = !closed && i + 1 == run.size();
       const std::int32_t to_node = at_exit ? crossings_[piece.exit].node : node_at(run[i].position);
-      if (from_node != to_node) leaf_.outline.push_back({from_node, to_node, run[from].segment});
+      if (from_node != to_node)
+        leaf_.outline.push_back(
+            {from_node, to_node, run[from].segment, geometry_.block_of(run[from].segment)});
       from = i;
       from_node = to_node;
     }
@@ -325,7 +402,9 @@ class ChordMaker {
       if (!run.empty()) add_hanging_nodes(p, run);
       const bool holds_node = std::any_of(input_.snaps.begin(), input_.snaps.end(),
                                           [&](const LeafSnap& s) { return s.snap->position == p; });
-      run.push_back({p, v, !geometry_.straight(v), geometry_.kept(v) || holds_node});
+      const bool of_side = is_side_node(v);
+      run.push_back({p, v, !geometry_.straight(v) || of_side, geometry_.kept(v) || holds_node || of_side,
+                     false, !of_side && geometry_.twin(v) >= 0 && side_at(input_.trace.box, p)});
     }
     const Point last = closed ? run.front().position : node_position(piece.exit);
     add_hanging_nodes(last, run);
@@ -333,15 +412,34 @@ class ChordMaker {
     return run;
   }
 
-  /// Adds hanging nodes that were moved onto the segment from the last point of the run.
+  /// Whether a vertex between two blocks is a node of the leaf's sides: a twin may cross the side there.
+  bool is_side_node(std::int32_t v) const {
+    if (geometry_.twin(v) < 0) return false;
+    const auto sides = std::span(leaf_.nodes).first(leaf_.side_nodes);
+    return std::ranges::any_of(sides,
+                               [&](const CutLeaf::Node& n) { return n.position == geometry_.point(v); });
+  }
+
+  /// Adds hanging nodes that were moved onto the segment from the last point of the run; between two blocks
+  /// also those that lie on it.
   void add_hanging_nodes(Point segment_end, std::pmr::vector<RunPoint>& run) const {
     const RunPoint start = run.back();
     const std::size_t first = run.size();
+    const std::int32_t twin = geometry_.twin(start.segment);
+    const auto add = [&](Point p) {
+      if (p != start.position && p != segment_end) run.push_back({p, start.segment, true, true});
+    };
     for (const LeafSnap& s : input_.snaps) {
-      const Point p = s.snap->position;
-      if (!is_middle(s.site) || s.snap->segment != start.segment || p == start.position || p == segment_end)
-        continue;
-      run.push_back({p, start.segment, true, true});
+      const std::int32_t segment = s.snap->segment;
+      if (is_middle(s.site) && segment >= 0 && (segment == start.segment || segment == twin))
+        add(s.snap->position);
+    }
+    for (std::int32_t n = 0; twin >= 0 && n < leaf_.side_nodes; ++n) {
+      const CutLeaf::Node& node = leaf_.nodes[n];
+      const bool known = std::any_of(run.begin() + static_cast<std::ptrdiff_t>(first), run.end(),
+                                     [&](const RunPoint& r) { return r.position == node.position; });
+      if (is_middle(node.site) && !known && on_segment(node.position, start.position, segment_end))
+        add(node.position);
     }
     std::sort(run.begin() + first, run.end(), [&](const RunPoint& a, const RunPoint& b) {
       return length(a.position - start.position) < length(b.position - start.position);
@@ -353,7 +451,7 @@ class ChordMaker {
     leaf_.refined = leaf_.refined || closed;
     run.front().chosen = run.back().chosen = true;
     if (closed || detail_ != Detail::merged) {
-      for (RunPoint& p : run) p.chosen = p.chosen || p.turns || detail_ == Detail::exact;
+      for (RunPoint& p : run) p.chosen = p.chosen || p.turns || (detail_ == Detail::exact && !p.on_side);
       return;
     }
     std::size_t from = 0;
@@ -372,10 +470,12 @@ class ChordMaker {
     if (run.size() < 3) return;
     const Point a = run.front().position, b = run.back().position;
     std::size_t farthest = 0;
+    const bool last_of_equal = geometry_.is_second(run.front().segment);  // the run of its twins is reversed
     double stray = a == b ? largest_stray_ / 2 : std::min(largest_stray_, stray_of_chord * length(b - a));
     for (std::size_t i = 1; i + 1 < run.size(); ++i) {
       const double distance = distance_to_segment(run[i].position, a, b);
-      if (!run[i].turns || distance <= stray) continue;
+      if (!run[i].turns || distance < stray || (distance == stray && !(last_of_equal && farthest > 0)))
+        continue;
       stray = distance;
       farthest = i;
     }
@@ -432,14 +532,31 @@ void settle_inner_nodes(CutLeaf& leaf, std::pmr::memory_resource* memory) {
   std::erase_if(leaf.outline, [](const CutLeaf::Edge& e) { return e.from == e.to; });
 }
 
+/// Whether two opposite chords, or a chord along a side, may bound two blocks.
+bool is_between_blocks(const Geometry& geometry, const CutLeaf& leaf, const CutLeaf::Edge& chord,
+                       const CutLeaf::Edge* opposite) {
+  if (geometry.twin(chord.segment) < 0) return opposite == nullptr;
+  if (opposite != nullptr)
+    return geometry.twin(opposite->segment) >= 0 && opposite->block != chord.block &&
+           geometry.boundary_of(opposite->segment) == geometry.boundary_of(chord.segment);
+  return !(sides_of(leaf.nodes[chord.from].site) & sides_of(leaf.nodes[chord.to].site)).empty();
+}
+
 /// Cancels a chord along a side of the leaf against that side: neither bounds a cell here. Returns false for
-/// two opposite chords, which would lose what lies between them.
-bool cancel_opposites(std::span<const CutLeaf::Edge> outline, std::pmr::vector<CutLeaf::Edge>& edges) {
+/// two opposite chords, which would lose what lies between them, unless they lie between two blocks.
+bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf, std::pmr::vector<CutLeaf::Edge>& edges) {
+  const std::span<const CutLeaf::Edge> outline = leaf.outline;
   edges.reserve(edges.size() + outline.size());  // avoids reallocation of the side edges
   const EdgesByEnds chords(outline), sides(edges);
+  const auto of_block = [&](std::size_t side, const CutLeaf::Edge& chord) {
+    return side < sides.count() && edges[side].block == chord.block ? side : sides.count();
+  };
   for (const CutLeaf::Edge& chord : outline) {
-    if (chords.first(chord.to, chord.from) < chords.count()) return false;
-    const std::size_t along = sides.first(chord.from, chord.to), against = sides.first(chord.to, chord.from);
+    const std::size_t opposite = chords.first(chord.to, chord.from);
+    if (!is_between_blocks(geometry, leaf, chord, opposite < chords.count() ? &outline[opposite] : nullptr))
+      return false;
+    const std::size_t along = of_block(sides.first(chord.from, chord.to), chord),
+                      against = of_block(sides.first(chord.to, chord.from), chord);
     if (along < against) return false;
     if (against == sides.count()) {
       edges.push_back(chord);
@@ -465,11 +582,12 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   leaf_.outline.clear();
   leaf_.loop_nodes.clear();
   leaf_.loop_starts.assign(1, 0);
+  leaf_.loop_blocks.clear();
   leaf_.refined = false;
   ShortLists<4096> lists;
-  std::pmr::vector<Stop> stops = stops_round(input, lists.memory());
+  std::pmr::vector<Stop> stops = stops_round(outline_->geometry(), input, lists.memory());
   const std::pmr::vector<NamedCrossing> crossings = name_stops(input, stops, leaf_);
-  std::optional<Sides> sides = walk_sides(input, stops, *inside_);
+  std::optional<Sides> sides = walk_sides(outline_->geometry(), input, stops, *inside_);
   if (!sides) return false;
   leaf_.inside_halves = sides->halves;
   ChordMaker chords(outline_->geometry(), input, crossings, detail, leaf_, lists.memory());
@@ -477,7 +595,7 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   settle_inner_nodes(leaf_, lists.memory());
   std::pmr::vector<CutLeaf::Edge>& edges = sides->inside;
   const bool simple = is_simple(input, leaf_);
-  if (!cancel_opposites(leaf_.outline, edges) || !trace_loops(edges, leaf_)) return false;
+  if (!cancel_opposites(outline_->geometry(), leaf_, edges) || !trace_loops(edges, leaf_)) return false;
   return simple || (loops_are_sound(edges, leaf_) &&
                     (input.snaps.empty() || sides_are_sound(edges, sides->outside, leaf_)));
 }

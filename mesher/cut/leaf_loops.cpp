@@ -47,16 +47,17 @@ class UnusedEdges {
   bool has(std::size_t e) const { return used_[e] == 0; }
   void take(std::size_t e) { used_[e] = 1; }
 
-  /// Returns the edge that continues edge `e` with the same part of the domain on its left: where loops
+  /// Returns the edge that continues edge `e` with the same part of its block on the left: where loops
   /// touch, the sharpest left turn. Returns the number of edges if there is none.
   std::size_t next(std::size_t e) const {
     std::size_t best = edges_.size();
     const std::int32_t node = edges_[e].to;
     for (std::int32_t k = node > 0 ? end_of_[node - 1] : 0; k < end_of_[node]; ++k) {
       const std::int32_t i = by_start_[k];
-      const bool better = has(i) && (best == edges_.size() ||
-                                     clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
-                                                      at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
+      const bool better =
+          has(i) && edges_[i].block == edges_[e].block &&
+          (best == edges_.size() || clockwise_before(at(leaf_, edges_[e].to), at(leaf_, edges_[e].from),
+                                                     at(leaf_, edges_[i].to), at(leaf_, edges_[best].to)));
       if (better) best = i;
     }
     return best;
@@ -70,10 +71,11 @@ class UnusedEdges {
   std::pmr::vector<std::int32_t> end_of_;  ///< end of each node's edges in by_start_
 };
 
-/// Splits off each closed part of the walk as a separate loop. Uses two work lists: `open`, and
-/// `place_in_open`, which is -1 for all nodes before and after.
-void split_into_loops(std::span<const std::int32_t> walk, std::pmr::vector<std::int32_t>& open,
-                      std::pmr::vector<std::int32_t>& place_in_open, CutLeaf& leaf) {
+/// Splits off each closed part of the walk through one block as a separate loop. Uses two work lists: `open`,
+/// and `place_in_open`, which is -1 for all nodes before and after.
+void split_into_loops(std::span<const std::int32_t> walk, std::int32_t block,
+                      std::pmr::vector<std::int32_t>& open, std::pmr::vector<std::int32_t>& place_in_open,
+                      CutLeaf& leaf) {
   open.clear();
   const auto forget = [&](std::int32_t node) { place_in_open[node] = -1; };
   for (const std::int32_t node : walk) {
@@ -81,6 +83,7 @@ void split_into_loops(std::span<const std::int32_t> walk, std::pmr::vector<std::
       const auto again = open.begin() + place_in_open[node];
       leaf.loop_nodes.insert(leaf.loop_nodes.end(), again, open.end());
       leaf.loop_starts.push_back(size32(leaf.loop_nodes));
+      leaf.loop_blocks.push_back(block);
       std::for_each(again, open.end(), forget);
       open.erase(again, open.end());
     }
@@ -99,7 +102,7 @@ bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::
   const auto folds = [](Point hub, Point p, Point q) {
     return dot(p - hub, q - hub) > 0 && orientation(hub, p, q) == 0;
   };
-  if (e.to == f.from && e.from == f.to) return true;
+  if (e.to == f.from && e.from == f.to) return e.block == f.block;
   if (e.to == f.from) return folds(b, a, d);
   if (e.from == f.to) return folds(a, b, c);
   if (e.from == f.from) return folds(a, b, d);
@@ -182,8 +185,8 @@ int times_round(const CutLeaf& leaf, std::span<const std::int32_t> around,
   return times_round_start(leaf, around, loop[0], at(leaf, loop[1]));
 }
 
-/// Every hole must lie in one outer loop, every outer loop in none or in a hole: the winding numbers of the
-/// loops around a loop sum to 0 for an outer loop, to 1 for a hole.
+/// Every hole must lie in one outer loop of its block, every outer loop in none or in a hole: the winding
+/// numbers of the block's loops around a loop sum to 0 for an outer loop, to 1 for a hole.
 bool nesting_is_sound(const CutLeaf& leaf) {
   if (leaf.loop_count() == 1) return winding_of(leaf, leaf.loop(0)) > 0;
   const auto box_of_loop = [&](std::int32_t i) {
@@ -197,7 +200,8 @@ bool nesting_is_sound(const CutLeaf& leaf) {
     const auto loop = leaf.loop(i);
     int around = 0;
     boxes.for_each_meeting(box_of_loop(i), [&](std::int32_t j) {
-      if (i != j) around += times_round(leaf, leaf.loop(j), loop);
+      if (i != j && leaf.loop_blocks[i] == leaf.loop_blocks[j])
+        around += times_round(leaf, leaf.loop(j), loop);
     });
     if (around != (winding_of(leaf, loop) > 0 ? 0 : 1)) return false;
   }
@@ -239,7 +243,7 @@ bool trace_loops(Edges edges, CutLeaf& leaf) {
       if (e == edges.size()) return false;
       unused.take(e);
     }
-    split_into_loops(walk, open, place_in_open, leaf);
+    split_into_loops(walk, edges[start].block, open, place_in_open, leaf);
   }
   return true;
 }

@@ -16,6 +16,7 @@ namespace {
 struct SideChord {
   Point low, high;     ///< its ends, in ascending order
   bool rising = true;  ///< whether it is directed from low to high
+  bool between_blocks = false;
   friend auto operator<=>(const SideChord&, const SideChord&) = default;
 };
 
@@ -26,13 +27,14 @@ std::uint64_t hash_of(const SideChord& chord) {
                     std::rotl(bits(chord.high.y), 48));
 }
 
-/// Removes most chords without an opposite one, which is faster than sorting all.
+/// Removes most chords of the outer boundary without an opposite one, which is faster than sorting all.
 void drop_single(std::vector<SideChord>& chords) {
   constexpr std::size_t slots_of_chord = 4;
   const std::size_t mask = std::bit_ceil(slots_of_chord * chords.size() + 1) - 1;
   std::vector<std::uint8_t> seen(mask + 1, 0);  // by hash, one bit per direction
   for (const SideChord& c : chords) seen[hash_of(c) & mask] |= c.rising ? 1 : 2;
-  std::erase_if(chords, [&](const SideChord& c) { return seen[hash_of(c) & mask] != 3; });
+  std::erase_if(chords,
+                [&](const SideChord& c) { return !c.between_blocks && seen[hash_of(c) & mask] != 3; });
 }
 
 /// Returns the leaves across a side.
@@ -62,8 +64,9 @@ std::vector<char> leaves_beside_ghosts(LeafFinder& finder) {
 
 }  // namespace
 
-OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, const CutForest& cut) {
-  std::vector<SideChord> chords;
+OpposedChords::OpposedChords(const Communicator& comm, const Geometry& geometry, const LeafGraph& graph,
+                             const CutForest& cut) {
+  std::vector<SideChord> chords, own;
   Outbox<SideChord> out;
   LeafFinder finder(graph);
   const std::vector<char> beside_ghosts = leaves_beside_ghosts(finder);
@@ -78,8 +81,9 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
       if (common.empty()) continue;
       const bool rising = from.position < to.position;
       const SideChord chord{rising ? from.position : to.position, rising ? to.position : from.position,
-                            rising};
+                            rising, geometry.twin(edge.segment) >= 0};
       chords.push_back(chord);
+      if (chord.between_blocks) own.push_back(chord);
       if (beside_ghosts[graph.local_index(leaf)] == 0) continue;
       for (const Side side : all_sides) {
         if (!common.contains(side)) continue;
@@ -95,9 +99,17 @@ OpposedChords::OpposedChords(const Communicator& comm, const LeafGraph& graph, c
   std::sort(chords.begin(), chords.end());
   for (std::size_t i = 0; i + 1 < chords.size(); ++i) {
     const SideChord &a = chords[i], &b = chords[i + 1];
-    if (a.low != b.low || a.high != b.high || a.rising == b.rising) continue;
+    if (a.low != b.low || a.high != b.high || a.rising == b.rising || a.between_blocks) continue;
     ends_.push_back(a.low);
     ends_.push_back(a.high);
+  }
+  for (const SideChord& chord : own) {
+    SideChord opposite = chord;
+    opposite.rising = !chord.rising;
+    if (std::ranges::binary_search(chords, opposite)) continue;
+    sides_differ_ = true;
+    ends_.push_back(chord.low);
+    ends_.push_back(chord.high);
   }
   std::sort(ends_.begin(), ends_.end());
   ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());

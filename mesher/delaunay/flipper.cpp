@@ -19,10 +19,10 @@ void Flipper::flip_to_delaunay(std::span<const Point> points, const RankOf& rank
 }
 
 void Flipper::flip_first(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
-                         std::size_t count) {
+                         std::size_t count, std::span<const std::int32_t> blocks) {
   points_ = points;
   triangles_ = triangles;
-  join({});
+  join(blocks);
   close({});
   list_firm({});
   list_blunt();

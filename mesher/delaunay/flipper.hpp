@@ -58,7 +58,7 @@ class Flipper {
 
   /// Same, if all edges that may be wrong belong to the first `count` triangles.
   void flip_first(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
-                  std::size_t count);
+                  std::size_t count, std::span<const std::int32_t> blocks = {});
 
   /// The same edge in the adjacent triangle, `border` or `open_border`, after the flips.
   Edge across(Edge e) const { return across_[e]; }

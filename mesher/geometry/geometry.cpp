@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/point_table.hpp"
@@ -117,16 +119,19 @@ Chain open_chain(const Geometry& geometry, std::int32_t first) {
 
 Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
                    std::vector<std::int32_t> loop_starts, std::vector<BoundaryId> segment_boundary,
-                   std::vector<Curve> curves)
+                   std::vector<Curve> curves, LoopBlocks blocks)
     : boundaries_{std::move(boundaries)},
       points_{std::move(points)},
       loop_starts_{std::move(loop_starts)},
       segment_boundary_{std::move(segment_boundary)},
-      curves_{std::move(curves)} {
+      curves_{std::move(curves)},
+      blocks_{std::move(blocks)} {
   QUADLOOP_REQUIRE(segment_boundary_.size() == points_.size(), "a geometry has one segment for each vertex",
                    segment_boundary_.size(), points_.size());
   QUADLOOP_REQUIRE(curves_.empty() || curves_.size() == points_.size(), "each segment has one shape",
                    curves_.size(), points_.size());
+  QUADLOOP_REQUIRE(!has_blocks() || std::ssize(blocks_.of_loop) == loop_count(), "each loop has one block",
+                   blocks_.of_loop.size(), loop_count());
   if (std::ranges::all_of(curves_, &Curve::straight)) curves_.clear();
   flags_.resize(points_.size());
   for (std::int32_t loop = 0; loop < loop_count(); ++loop) {
@@ -145,8 +150,27 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
     const bool curved = is_curved(previous(v)) || is_curved(v);
     if (before == after && !curved && straight.undercut_by(in, out)) flags_[v] |= is_straight;
   }
+  find_twins();
   keep_touching_points();
   shorten_spacing_between_corners();
+}
+
+void Geometry::find_twins() {
+  if (!has_blocks()) return;
+  std::map<std::pair<Point, Point>, std::int32_t> by_ends;
+  for (std::int32_t s = 0; s < size(); ++s) by_ends.emplace(std::pair(point(s), point(next(s))), s);
+  std::vector<std::int32_t> twins(points_.size(), -1);
+  for (std::int32_t s = 0; s < size(); ++s) {
+    const auto found = by_ends.find({point(next(s)), point(s)});
+    if (found != by_ends.end()) twins[s] = found->second;
+  }
+  if (std::ranges::any_of(twins, [](std::int32_t twin) { return twin >= 0; })) twins_ = std::move(twins);
+}
+
+/// Whether the two segments at the vertex have twins that are neighbours too.
+bool Geometry::is_between_twins(std::int32_t v) const {
+  const std::int32_t back = twin(v), back_before = twin(previous(v));
+  return back >= 0 && back_before >= 0 && next(back) == back_before;
 }
 
 void Geometry::keep_touching_points() {
@@ -154,7 +178,7 @@ void Geometry::keep_touching_points() {
   if (!table.any_twice()) return;
   for (std::int32_t v = 0; v < size(); ++v) {
     const std::int32_t first = table.find(point(v));
-    if (first == v) continue;
+    if (first == v || is_between_twins(v)) continue;
     for (const std::int32_t touching : {first, v}) {  // two loops touch there, in one node
       kept_[touching] = 1;
       flags_[touching] &= static_cast<std::uint8_t>(~is_straight);
@@ -243,6 +267,8 @@ std::uint64_t Geometry::digest() const {
   for (const Curve& curve : curves_) digest_curve(curve, digest);
   for (const std::uint64_t start : loop_starts_) digest.add(start);
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
+  for (const std::string& name : blocks_.names) digest.add(name);
+  for (const std::uint64_t block : blocks_.of_loop) digest.add(block);
   return digest.value();
 }
 
@@ -253,13 +279,23 @@ void GeometryBuilder::add(Point vertex, BoundaryId boundary, const Curve& curve)
   segment_boundary_.push_back(boundary);
 }
 
-void GeometryBuilder::end_loop() {
-  if (loop_starts_.back() < size()) loop_starts_.push_back(size());
+void GeometryBuilder::end_loop(std::int32_t block) {
+  if (loop_starts_.back() == size()) return;
+  loop_starts_.push_back(size());
+  block_of_loop_.push_back(block);
 }
 
-Geometry GeometryBuilder::geometry(std::vector<Boundary> boundaries) && {
+void GeometryBuilder::add_loop(const Geometry& geometry, std::int32_t loop) {
+  const std::int32_t begin = geometry.loop_start(loop), end = geometry.loop_start(loop + 1);
+  for (std::int32_t v = begin; v < end; ++v) add(geometry, v);
+  end_loop(geometry.block_of(begin));
+}
+
+Geometry GeometryBuilder::geometry(std::vector<Boundary> boundaries, std::vector<std::string> blocks) && {
+  LoopBlocks of_loops;
+  if (!blocks.empty()) of_loops = {std::move(blocks), std::move(block_of_loop_)};
   return Geometry(std::move(boundaries), std::move(points_), std::move(loop_starts_),
-                  std::move(segment_boundary_), std::move(curves_));
+                  std::move(segment_boundary_), std::move(curves_), std::move(of_loops));
 }
 
 std::vector<Chain> chains_of(const Geometry& geometry) {

@@ -45,16 +45,24 @@ struct LocalDemands {
   std::vector<double> bend_degrees;  ///< of each vertex: turning angle for spacing.curvature
 };
 
+/// The blocks of a domain, each bounded by loops of its own; without names the domain is one block.
+struct LoopBlocks {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_loop;  ///< index into the names
+};
+
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
-/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v).
+/// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment
+/// with domain on both sides, between two blocks, is stored twice, once in each direction: the two are twins.
 class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
   /// loop_starts[l+1]-1. `segment_boundary[v]` is the boundary of segment v.
   /// `curves`: the shape of each segment; empty: all are straight. Each curve must be close to its
   /// chord, as subdivide_curves() makes it; this is not checked here.
+  /// `blocks`: empty if the domain is one block.
   Geometry(std::vector<Boundary> boundaries, std::vector<Point> points, std::vector<std::int32_t> loop_starts,
-           std::vector<BoundaryId> segment_boundary, std::vector<Curve> curves = {});
+           std::vector<BoundaryId> segment_boundary, std::vector<Curve> curves = {}, LoopBlocks blocks = {});
 
   /// The same geometry with other requirements at single places.
   Geometry with(LocalDemands demands) const;
@@ -75,6 +83,22 @@ class Geometry {
     return (flags_[v] & is_first) == 0 ? v - 1 : loop_starts_[loop_of(v) + 1] - 1;
   }
   BoundaryId boundary_of(std::int32_t segment) const { return segment_boundary_[segment]; }
+
+  /// The names of the blocks; empty if the domain is one block.
+  const std::vector<std::string>& block_names() const { return blocks_.names; }
+  bool has_blocks() const { return !blocks_.names.empty(); }
+  /// Block to the left of a segment: 0 if the domain is one block.
+  std::int32_t block_of(std::int32_t segment) const {
+    return has_blocks() ? blocks_.of_loop[loop_of(segment)] : 0;
+  }
+  const LoopBlocks& loop_blocks() const { return blocks_; }
+  /// The segment with the same ends in the opposite direction; -1 if there is none.
+  std::int32_t twin(std::int32_t segment) const { return twins_.empty() ? -1 : twins_[segment]; }
+  bool has_twins() const { return !twins_.empty(); }
+  /// Whether it is the twin of the higher block: decisions for both are made from the other one.
+  bool is_second(std::int32_t segment) const {
+    return twin(segment) >= 0 && block_of(segment) > block_of(twin(segment));
+  }
 
   /// Whether any segment is a curve. Cells are refined and cut by the chords of the curves; then the boundary
   /// nodes move onto the curves.
@@ -139,7 +163,9 @@ class Geometry {
   std::uint64_t digest() const;
 
  private:
+  void find_twins();
   void keep_touching_points();
+  bool is_between_twins(std::int32_t v) const;
   void shorten_spacing_between_corners();
   double spacing_of_boundary(std::int32_t segment) const;
 
@@ -147,9 +173,11 @@ class Geometry {
   std::vector<Point> points_;
   std::vector<std::int32_t> loop_starts_;
   std::vector<BoundaryId> segment_boundary_;
-  std::vector<Curve> curves_;    ///< of each segment; empty: all are straight
-  std::vector<double> spacing_;  ///< of each segment, if some differ from their boundary's
-  std::vector<double> bend_;     ///< of each vertex, if set by LocalDemands
+  std::vector<Curve> curves_;  ///< of each segment; empty: all are straight
+  LoopBlocks blocks_;
+  std::vector<std::int32_t> twins_;  ///< of each segment; empty: none has one
+  std::vector<double> spacing_;      ///< of each segment, if some differ from their boundary's
+  std::vector<double> bend_;         ///< of each vertex, if set by LocalDemands
   std::vector<char> kept_;
   // Bits of flags_: first and last vertex of a loop, straight.
   static constexpr std::uint8_t is_first = 1, is_last = 2, is_straight = 4;
@@ -167,12 +195,14 @@ class GeometryBuilder {
     add(geometry.point(v), geometry.boundary_of(v), geometry.curve(v));
   }
   /// Ends a loop, if it has vertices.
-  void end_loop();
+  void end_loop(std::int32_t block = 0);
+  /// Adds a loop of a geometry with its block.
+  void add_loop(const Geometry& geometry, std::int32_t loop);
   std::int32_t size() const { return size32(points_); }
 
-  Geometry geometry(std::vector<Boundary> boundaries) &&;
-  Geometry geometry(std::span<const Boundary> boundaries) && {
-    return std::move(*this).geometry(std::vector(boundaries.begin(), boundaries.end()));
+  Geometry geometry(std::vector<Boundary> boundaries, std::vector<std::string> blocks = {}) &&;
+  Geometry geometry(std::span<const Boundary> boundaries, std::vector<std::string> blocks = {}) && {
+    return std::move(*this).geometry(std::vector(boundaries.begin(), boundaries.end()), std::move(blocks));
   }
 
  private:
@@ -180,6 +210,7 @@ class GeometryBuilder {
   std::vector<std::int32_t> loop_starts_{0};
   std::vector<BoundaryId> segment_boundary_;
   std::vector<Curve> curves_;
+  std::vector<std::int32_t> block_of_loop_;
 };
 
 /// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else one

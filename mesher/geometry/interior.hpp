@@ -12,6 +12,8 @@ class Interior {
   explicit Interior(const ShiftedOutline& outline) : outline_{&outline}, segments_{outline.geometry()} {}
 
   bool contains(Point p) const;
+  /// The block that contains a point of the domain.
+  std::int32_t block_at(Point p) const;
 
  private:
   const ShiftedOutline* outline_;

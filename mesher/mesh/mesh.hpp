@@ -27,6 +27,8 @@ struct BoundaryEdges {
   BoundaryCondition condition = {};
   std::vector<std::array<NodeId, 2>> edges;
   WallLayers layers = {};
+  /// Whether its edges lie between two blocks: each is listed once, with the first of the blocks to its left.
+  bool between_blocks = false;
 };
 
 /// Layers on both sides of an interior line, e.g. a wake, stored as columns of nodes across the line. The
@@ -53,6 +55,13 @@ struct StripLayers {
   }
 
   friend bool operator==(const StripLayers&, const StripLayers&) = default;
+};
+
+/// The blocks of a mesh: the block of each of this rank's cells, as index into the names, which are the same
+/// on all ranks.
+struct MeshBlocks {
+  std::vector<std::string> names;
+  std::vector<std::int32_t> of_triangles, of_quads;
 };
 
 using NodeFlags = IdVector<NodeId, char>;  ///< 1 or 0 for each node
@@ -104,6 +113,7 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
   std::vector<StripLayers> strips;
+  MeshBlocks blocks = {};  ///< without names there is one block, and the lists are empty
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }

@@ -379,6 +379,8 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
     whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges), boundary.layers});
   }
   whole.strips = part.strips;
+  whole.blocks = {part.blocks.names, gather_at_root(comm, part.blocks.of_triangles),
+                  gather_at_root(comm, part.blocks.of_quads)};
   return whole;
 }
 

@@ -67,6 +67,7 @@ bool Proximity::is_one_bend(std::int32_t a, Point p, std::int32_t b, Point q, do
 
 bool Proximity::faces(std::int32_t a, Point a_from, Point a_to, std::int32_t b, double width) const {
   const Geometry& g = *geometry_;
+  if (g.block_of(a) != g.block_of(b)) return false;  // the gap lies in one block
   const Point b_from = g.point(b), b_to = g.point(g.next(b));
   std::pair<Point, Point> across;
   double gap = width;

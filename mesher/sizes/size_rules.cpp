@@ -40,7 +40,8 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const TreeGrid& grid, const 
     level = level_within(g.spacing_of(s), level);
     level_of_segment_.push_back(static_cast<std::int8_t>(level));
     if (any_corner) corner_spacing_.push_back(g.corner_spacing_of(s));
-    if (options.curvature) turning_.push_back(std::llround(g.bend_degrees(s) / turning_unit));
+    if (options.curvature)  // twins turn once
+      turning_.push_back(g.is_second(s) ? 0 : std::llround(g.bend_degrees(s) / turning_unit));
   }
 }
 

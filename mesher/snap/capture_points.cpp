@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "mesher/base/ids.hpp"
 #include "mesher/forest/leaf_finder.hpp"
@@ -96,13 +97,16 @@ class PointCapture {
     return c.side == edge.side && edge.at(grid_, edge.from) <= at && at <= edge.at(grid_, edge.to);
   }
 
-  /// Number of crossings on the edge's side of the leaf between two places along it, both included. The
+  /// Number of crossings on the edge's side of the leaf between two places along it, both included; twins
+  /// count once. The
   /// crossings of a leaf are sorted once for all of its points.
   std::ptrdiff_t crossings_between(const LeafTrace& view, const LeafEdge& edge, double low, double high) {
     if (sorted_ != view.crossings.data()) {
       for (auto& places : places_) places.clear();
-      for (const Crossing& c : view.crossings)
+      for (const Crossing& c : view.crossings) {
+        if (geometry_.is_second(c.segment)) continue;
         places_[index_of(c.side)].push_back(is_vertical(c.side) ? c.position.y : c.position.x);
+      }
       for (auto& places : places_) std::sort(places.begin(), places.end());
       sorted_ = view.crossings.data();
     }
@@ -127,10 +131,10 @@ class PointCapture {
       low = std::min(low, edge.along(crossing.position));
       high = std::max(high, edge.along(crossing.position));
     }
-    std::sort(snap.absorbed.begin(), snap.absorbed.end());
     low = std::max(low, edge.at(grid_, edge.from));
     high = std::min(high, edge.at(grid_, edge.to));
     if (crossings_between(view, edge, low, high) > std::ssize(snap.absorbed)) return false;
+    settle_absorbed(geometry_, snap);
     const auto vertices = view.vertices_of(piece);
     return std::none_of(vertices.begin(), vertices.end(), [&](std::int32_t v) {
       return v != vertex && geometry_.kept(v) && length(geometry_.point(v) - p) < crossing_reach * size;
@@ -159,10 +163,26 @@ class PointCapture {
   std::array<std::vector<double>, 4> places_;  ///< along each side, ascending
 };
 
+/// Of several vertices at one place, where blocks meet, that with fewer second twins comes first.
+std::pair<int, std::int32_t> rank_of(const Geometry& geometry, std::int32_t v) {
+  return {(geometry.is_second(v) ? 1 : 0) + (geometry.is_second(geometry.previous(v)) ? 1 : 0), v};
+}
+
+/// Where blocks meet, the first claim of several from one place stands for all of them.
+template <class Claim, class Same>
+void drop_copies(const Geometry& geometry, std::vector<Claim>& claims, const Same& same) {
+  if (geometry.has_twins()) claims.erase(std::unique(claims.begin(), claims.end(), same), claims.end());
+}
+
 /// Of points that claim one grid vertex the nearest gets it; none if two are equally near.
-std::vector<CornerCapture> settle_corners(std::vector<CornerCapture> claims) {
-  std::sort(claims.begin(), claims.end(), [](const CornerCapture& a, const CornerCapture& b) {
-    return a.corner != b.corner ? comes_earlier(a.corner, b.corner) : a.distance < b.distance;
+std::vector<CornerCapture> settle_corners(const Geometry& geometry, std::vector<CornerCapture> claims) {
+  std::sort(claims.begin(), claims.end(), [&](const CornerCapture& a, const CornerCapture& b) {
+    return a.corner != b.corner       ? comes_earlier(a.corner, b.corner)
+           : a.distance != b.distance ? a.distance < b.distance
+                                      : rank_of(geometry, a.vertex) < rank_of(geometry, b.vertex);
+  });
+  drop_copies(geometry, claims, [&](const CornerCapture& a, const CornerCapture& b) {
+    return a.corner == b.corner && geometry.point(a.vertex) == geometry.point(b.vertex);
   });
   std::vector<CornerCapture> settled;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
@@ -201,9 +221,15 @@ std::optional<Snap> hanging_snap(const TreeGrid& grid, const Geometry& geometry,
 }
 
 /// An edge claimed by two points is given to neither.
-std::vector<Snap> settle_edges(std::vector<Snap> claims) {
+std::vector<Snap> settle_edges(const Geometry& geometry, std::vector<Snap> claims) {
   const auto same = [](const Snap& a, const Snap& b) { return a.corner == b.corner; };
-  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) { return a.corner < b.corner; });
+  std::sort(claims.begin(), claims.end(), [](const Snap& a, const Snap& b) {
+    return a.corner != b.corner                     ? a.corner < b.corner
+           : a.absorbed.size() != b.absorbed.size() ? a.absorbed.size() > b.absorbed.size()
+                                                    : a.absorbed < b.absorbed;
+  });
+  drop_copies(geometry, claims,
+              [&](const Snap& a, const Snap& b) { return same(a, b) && a.position == b.position; });
   std::vector<Snap> settled;
   for (std::size_t i = 0; i < claims.size(); ++i) {
     const bool contested = (i > 0 && same(claims[i - 1], claims[i])) ||
@@ -240,7 +266,7 @@ Captures capture_points(const LeafGraph& graph, const TreeGrid& grid, const Geom
       }
     }
   }
-  return {settle_corners(std::move(corners)), settle_edges(std::move(edges))};
+  return {settle_corners(geometry, std::move(corners)), settle_edges(geometry, std::move(edges))};
 }
 
 std::vector<Snap> hanging_snaps(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,

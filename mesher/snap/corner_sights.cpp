@@ -28,7 +28,7 @@ std::vector<Sight> sorted_by_corner(const std::vector<Sight>& sights) {
 
 }  // namespace
 
-std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid,
+std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                                     const TracedForest& traced) {
   std::vector<Sight> sights;
   const std::size_t crossings = traced.traces.crossings();
@@ -41,6 +41,7 @@ std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid
       if (piece.entry < 0) continue;
       for (const std::int32_t c : {piece.entry, piece.exit}) {
         const Crossing& crossing = view.crossing(c);
+        if (geometry.is_second(crossing.segment)) continue;
         const LeafEdge edge = leaf_edge_near(graph, grid, leaf, crossing.side, crossing.position);
         const double from = edge.at(grid, edge.from), to = edge.at(grid, edge.to), length = to - from;
         const double at = edge.along(crossing.position);

@@ -26,7 +26,9 @@ struct Sight {
 };
 
 /// The crossings within reach of all grid vertices of local and ghost leaves, by vertices in the order of
-/// comes_earlier; for one vertex in the order of leaves and pieces along the curve.
-std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid, const TracedForest& traced);
+/// comes_earlier; for one vertex in the order of leaves and pieces along the curve. Of two twins only the
+/// first is seen.
+std::vector<Sight> sights_by_corner(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
+                                    const TracedForest& traced);
 
 }  // namespace quadloop

@@ -39,6 +39,15 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 
 }  // namespace
 
+void settle_absorbed(const Geometry& geometry, Snap& snap) {
+  for (std::size_t i = 0, count = snap.absorbed.size(); i < count; ++i) {
+    const Snap::Absorbed one = snap.absorbed[i];
+    if (geometry.twin(one.segment) >= 0) snap.absorbed.push_back({geometry.twin(one.segment), one.vertical});
+  }
+  std::sort(snap.absorbed.begin(), snap.absorbed.end());
+  snap.absorbed.erase(std::unique(snap.absorbed.begin(), snap.absorbed.end()), snap.absorbed.end());
+}
+
 void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps) {
   LeafFinder finder(graph);
   for (Snap& snap : snaps) snap.leaves_round = finder.leaves_round(snap.corner);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/forest/leaf_graph.hpp"
+#include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
 
@@ -28,6 +29,9 @@ struct Snap {
   bool vertical = false;                    ///< the edge is vertical
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
+
+/// Sorts what the snap absorbs, each crossing once, with those of twins.
+void settle_absorbed(const Geometry& geometry, Snap& snap);
 
 /// Sets `leaves_round` of the snaps; fast if consecutive snaps are near each other.
 void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps);

@@ -384,8 +384,7 @@ class CornerDecision {
     snap.absorbed.reserve(run->sights.size());
     for (const std::int32_t i : run->sights)
       snap.absorbed.push_back({sights_[i].segment, is_vertical(sights_[i].direction)});
-    std::sort(snap.absorbed.begin(), snap.absorbed.end());
-    snap.absorbed.erase(std::unique(snap.absorbed.begin(), snap.absorbed.end()), snap.absorbed.end());
+    settle_absorbed(geometry_, snap);
     return snap;
   }
 

@@ -50,7 +50,7 @@ void add_hanging(std::vector<Snap> hanging, std::size_t edges, std::vector<Snap>
 
 std::vector<Snap> choose_snaps(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                                const TracedForest& traced, double share, std::optional<MirrorAxis> mirror) {
-  std::vector<Sight> sights = sights_by_corner(graph, grid, traced);
+  std::vector<Sight> sights = sights_by_corner(graph, grid, geometry, traced);
   Captures captures = capture_points(graph, grid, geometry, traced, share);
   drop_taken(captures.edges, sights);
   std::vector<Snap> snaps = std::move(captures.edges);

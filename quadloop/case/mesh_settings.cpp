@@ -211,6 +211,25 @@ const KeyTable<SourceKeys>& source_keys() {
   return keys;
 }
 
+const KeyTable<BlockRule>& block_keys() {
+  static const KeyTable<BlockRule> keys{
+      "block",
+      {key<&BlockRule::name>("name", text(),
+                             "Name of the block in the mesh. Blocks of one name are one block. Where blocks "
+                             "overlap, the last one takes the place.",
+                             {.required = {{"a word for the block, as in name = \"solid\""}}}),
+       key<&BlockRule::boundaries>(
+           "boundaries", texts(),
+           "The boundaries around the block and its holes. A minus before a name (walked in the other "
+           "direction) has no effect, as the sides follow from the closed lines. A block has one of "
+           "`boundaries`, `loop` and `inside`."),
+       key<&BlockRule::loop>("loop", text(), "The closed boundary that encloses the block."),
+       key<&BlockRule::inside>(
+           "inside", point(),
+           "A point of the block, which reaches from there to the boundaries around it.")}};
+  return keys;
+}
+
 const KeyTable<Settings>& mesh_keys() {
   static const KeyTable<Settings> keys{
       "mesh",
@@ -307,6 +326,24 @@ SizeSource read_source(const io::CaseTable& table) {
   if (!box.empty()) return {Box{{box[0], box[2]}, {box[1], box[3]}}, spacing, table.place()};
   if (!disc.empty()) return {SizeSource::Disc{{disc[0], disc[1]}, disc[2]}, spacing, table.place()};
   return {SizeSource::Line{{line[0], line[1]}, {line[2], line[3]}}, spacing, table.place()};
+}
+
+BlockRule read_block(const io::CaseTable& table) {
+  BlockRule rule;
+  block_keys().read(table, rule);
+  const std::string& name = rule.name;
+  const bool is_word = !name.empty() && name.front() != '#' &&
+                       std::ranges::all_of(name, [](unsigned char c) { return c > ' ' && c != 127; });
+  if (!is_word) table.refuse("name", "is no name for a block; give a word without blanks");
+  if (int{!rule.boundaries.empty()} + int{!rule.loop.empty()} + int{rule.inside.has_value()} != 1)
+    throw InputError(table.place() +
+                     ": a [[block]] needs exactly one of boundaries = [\"A\", \"B\"], loop = \"A\", inside "
+                     "= [x, y]");
+  for (std::string& boundary : rule.boundaries) {
+    if (boundary.starts_with('-')) boundary.erase(0, 1);
+  }
+  rule.where = table.place();
+  return rule;
 }
 
 void read_mesh_table(const io::CaseTable& table, Settings& settings) {

@@ -208,13 +208,13 @@ TEST(CutForest, SnapsThatWouldSwallowAThinSpikeAreTakenBack) {
     CutSquare thin(spike, 0.5, 0.4);
     EXPECT_NEAR(thin.area(), area_of(spike), 1e-13 * 64) << trial;
     thin.expect_states();
-    EXPECT_TRUE(OpposedChords(test::world(), thin.graph, thin.cut).ends().empty());
+    EXPECT_TRUE(OpposedChords(test::world(), thin.geometry, thin.graph, thin.cut).ends().empty());
     const std::vector<Points> slit{
         {{0.5, y - 3}, {7.5, y - 3}, {7.5, y + 3}, {0.5, y + 3}, {0.5, y + half}, {tip, y}, {0.5, y - half}}};
     CutSquare split(slit, 0.5, 0.4);
     EXPECT_NEAR(split.area(), area_of(slit), 1e-13 * 64) << trial;
     split.expect_states();
-    EXPECT_TRUE(OpposedChords(test::world(), split.graph, split.cut).ends().empty());
+    EXPECT_TRUE(OpposedChords(test::world(), split.geometry, split.graph, split.cut).ends().empty());
   }
 }
 
@@ -224,7 +224,7 @@ TEST(CutForest, WithoutSnappingATipThinnerThanRoundingStillHasOneSide) {
   const Points body{{5e-17, y}, {-1.5, y - 2.25}, {-2, y + 0.5}};
   const std::vector<Points> loops{{{-3.5, y - 3.5}, {3.5, y - 3.5}, {3.5, y + 3.5}, {-3.5, y + 3.5}}, body};
   CutSquare square(loops, 0.25, 0, 1, {}, {-4, y - 4});
-  EXPECT_TRUE(OpposedChords(test::world(), square.graph, square.cut).ends().empty());
+  EXPECT_TRUE(OpposedChords(test::world(), square.geometry, square.graph, square.cut).ends().empty());
   EXPECT_NEAR(square.area(), area_of(loops), 1e-12 * 64);
   square.expect_states();
 }

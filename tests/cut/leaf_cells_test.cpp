@@ -24,6 +24,7 @@ CutLeaf leaf_of(const std::vector<CutLeaf::Node>& nodes) {
   CutLeaf leaf;
   leaf.nodes = nodes;
   leaf.loop_starts = {0, static_cast<std::int32_t>(nodes.size())};
+  leaf.loop_blocks = {0};
   for (std::size_t i = 0; i < nodes.size(); ++i) leaf.loop_nodes.push_back(static_cast<std::int32_t>(i));
   return leaf;
 }
@@ -79,11 +80,17 @@ TEST(LeafCells, TheSmallestSineIsThatOfAllLoops) {
                     {{{1, 1}, Site::inside}, {{0, 1}, Site::inside}, {{1, 0.5}, Site::inside}});
   leaf.loop_nodes.insert(leaf.loop_nodes.end(), {3, 4, 5});
   leaf.loop_starts.push_back(6);
+  leaf.loop_blocks.push_back(0);
   LeafCellMaker maker;
   LeafCells cells;
   ASSERT_TRUE(maker.make(quadrant, unit_box, leaf, cells));
   EXPECT_EQ(cells.triangles.size(), 2U);
+  EXPECT_EQ(cells.triangle_blocks, (std::vector<std::int32_t>{0, 0}));
   EXPECT_NEAR(maker.smallest_sine(), 0.1 / std::sqrt(1.01), 1e-15);
+  leaf.loop_blocks = {3, 1};
+  ASSERT_TRUE(maker.make(quadrant, unit_box, leaf, cells));
+  EXPECT_EQ(cells.triangle_blocks, (std::vector<std::int32_t>{1, 3}));
+  EXPECT_EQ(cells.triangles[0], (LocalTriangle{3, 4, 5}));
 }
 
 Point place_of(Site site) {

@@ -20,6 +20,7 @@ CutLeaf leaf_of(const std::vector<Point>& places, const std::vector<Loop>& loops
     leaf.loop_nodes.insert(leaf.loop_nodes.end(), loop.begin(), loop.end());
     leaf.loop_starts.push_back(size32(leaf.loop_nodes));
   }
+  leaf.loop_blocks.assign(loops.size(), 0);
   return leaf;
 }
 
@@ -55,6 +56,23 @@ const std::vector<Point> squares{{0, 0},     {8, 0},     {8, 8},     {0, 8},  //
                                  {2, 2},     {6, 2},     {6, 6},     {2, 6},  // 8 to 11
                                  {9, 2},     {12, 2},    {12, 6},    {9, 6},  // 12 to 15: beside the first
                                  {8.5, 0.5}, {8.5, 1.5}, {9.5, 1.5}, {9.5, 0.5}};  // clockwise
+
+TEST(LoopsAreSound, ABlockMayFillAHoleOfAnother) {
+  const Loop outer{0, 1, 2, 3}, hole{7, 6, 5, 4}, filling{4, 5, 6, 7};
+  CutLeaf leaf = leaf_of(squares, {outer, hole, filling});
+  Edges edges = edges_of(outer);
+  for (const Loop& loop : {hole, filling}) {
+    const Edges more = edges_of(loop);
+    edges.insert(edges.end(), more.begin(), more.end());
+  }
+  EXPECT_FALSE(loops_are_sound(edges, leaf)) << "opposite edges of one block";
+  leaf.loop_blocks = {0, 0, 1};
+  for (std::size_t e = 8; e < edges.size(); ++e) edges[e].block = 1;
+  EXPECT_TRUE(loops_are_sound(edges, leaf));
+  leaf.loop_blocks = {0, 1, 1};
+  for (std::size_t e = 4; e < 8; ++e) edges[e].block = 1;
+  EXPECT_FALSE(loops_are_sound(edges, leaf)) << "a hole of the wrong block";
+}
 
 TEST(LoopsAreSound, OutlinesAndHolesLieInTurnInEachOther) {
   const Loop outer{0, 1, 2, 3}, middle{4, 5, 6, 7}, inner{8, 9, 10, 11};

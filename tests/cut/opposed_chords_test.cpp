@@ -49,7 +49,7 @@ struct Leaves {
         cut.entries.back().end = {size32(cut.nodes), 0, 0, size32(cut.outline)};
       }
     }
-    return OpposedChords(test::world(), graph, cut).ends();
+    return OpposedChords(test::world(), Geometry({}, {}, {0}, {}), graph, cut).ends();
   }
 
   bool owns(std::int64_t column, std::int64_t row) const {

@@ -27,6 +27,21 @@ TEST(Proximity, FindsWhereSidesFaceEachOther) {
   EXPECT_FALSE(proximity.narrower({}, middle, 1));
 }
 
+TEST(Proximity, AGapLiesInOneBlock) {
+  // As the two directions of an interface do where rounding separates them.
+  const Geometry one = two_bars();
+  const std::vector<Point> points{one.points().begin(), one.points().end()};
+  const auto in_blocks = [&](const std::vector<std::int32_t>& of_loop) {
+    return Geometry({{"wall"}}, points, {0, 4, 8, 12}, std::vector<BoundaryId>(12, BoundaryId{0}), {},
+                    {{"a", "b"}, of_loop});
+  };
+  const Geometry same = in_blocks({0, 1, 1}), other = in_blocks({0, 0, 1});
+  const Box middle{{-0.1, -0.1}, {0.1, 0.1}};
+  const std::vector<std::int32_t> lower_side{7};
+  EXPECT_TRUE(Proximity(same).narrower(lower_side, middle, 0.021));
+  EXPECT_FALSE(Proximity(other).narrower(lower_side, middle, 0.021));
+}
+
 TEST(Proximity, OnlyThePieceInTheBoxCounts) {
   const Geometry geometry = two_bars();
   const Proximity proximity(geometry);

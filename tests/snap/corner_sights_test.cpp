@@ -28,7 +28,7 @@ std::vector<Sight> seen_from(const std::vector<Sight>& sights, GridPoint corner)
 
 TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
   const TracedLeaves leaves(above());
-  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.geometry, leaves.traced);
   EXPECT_TRUE(std::is_sorted(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
     return comes_earlier(a.corner, b.corner);
   }));
@@ -51,7 +51,7 @@ TEST(CornerSights, TheNearerEndOfAnEdgeSeesItsCrossingThroughBothLeaves) {
 
 TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
   const TracedLeaves leaves(above(1.5));
-  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.geometry, leaves.traced);
   int corners = 0;
   for (std::int64_t x = 0; x <= 4; ++x) {
     for (const std::int64_t y : {1, 2}) {
@@ -70,7 +70,7 @@ TEST(CornerSights, BothEndsOfAnEdgeSeeACrossingInItsMiddle) {
 
 TEST(CornerSights, OneOfTheTwoLeavesSeesAnEntryTheOtherAnExit) {
   const TracedLeaves leaves(above());
-  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.traced);
+  const auto sights = sights_by_corner(leaves.graph, leaves.grid, leaves.geometry, leaves.traced);
   int corners = 0;
   for (std::int64_t x = 1; x <= 3; ++x) {
     if (!leaves.at_local_leaf(at(x, 1))) continue;

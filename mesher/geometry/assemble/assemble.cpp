@@ -118,16 +118,18 @@ std::vector<Boundary> boundaries_of(Outline& outline, const AssembleOptions& opt
   return left;
 }
 
-Geometry to_geometry(Outline outline, const AssembleOptions& options) {
+Geometry to_geometry(BlockOutline blocks, const AssembleOptions& options) {
+  Outline& outline = blocks.outline;
   std::vector<Boundary> boundaries = boundaries_of(outline, options);
   GeometryBuilder builder;
-  for (OutlineLoop& loop : outline.loops) {
+  for (std::size_t l = 0; l < outline.loops.size(); ++l) {
+    OutlineLoop& loop = outline.loops[l];
     for (std::size_t i = 0; i < loop.points.size(); ++i)
       builder.add(loop.points[i], loop.boundary[i], loop.curves.empty() ? Curve{} : loop.curves[i]);
-    builder.end_loop();
+    builder.end_loop(blocks.names.empty() ? 0 : blocks.block_of_loop[l]);
     loop = {};  // frees a long loop at once
   }
-  return std::move(builder).geometry(std::move(boundaries));
+  return std::move(builder).geometry(std::move(boundaries), std::move(blocks.names));
 }
 
 constexpr const char* union_remedy = ", or set geometry.overlap = \"union\" to join islands that overlap";
@@ -142,13 +144,7 @@ void require_extent(const Geometry& g) {
                   g.boundary(g.boundary_of(0)).name, g.point(0).x, g.point(0).y));
 }
 
-}  // namespace
-
-Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
-  clean_chains(chains, warnings);
-  join_rounded_ends(chains, options.join, warnings);
-  leave_out_strays(chains, options.far_field, warnings);
-  subdivide_curves(chains, options, warnings);
+void require_countable(const std::vector<Chain>& chains) {
   if (chains.empty())
     throw InputError(
         "the geometry has no boundary, so there is no domain to mesh; name a file with at least one closed "
@@ -158,6 +154,30 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   if (size > std::numeric_limits<std::int32_t>::max() / 2) {
     throw InputError(fmt::format("the geometry has {} points, more than can be numbered; thin it out", size));
   }
+}
+
+/// Boundaries between blocks get their names later.
+AssembleOptions without_required_rules(AssembleOptions options) {
+  for (BoundaryRule& rule : options.rules) rule.must_match = false;
+  return options;
+}
+
+Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  Warnings of_twins;  // a line between two blocks may be given for each of them
+  join_rounded_ends(chains, options.join, of_twins);
+  subdivide_curves(chains, without_required_rules(options), warnings);
+  require_countable(chains);
+  const Box box = box_of(chains);
+  return to_geometry(
+      block_loops(chains, options.blocks, options.join * std::max(box.width(), box.height()), warnings),
+      options);
+}
+
+Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  join_rounded_ends(chains, options.join, warnings);
+  leave_out_strays(chains, options.far_field, warnings);
+  subdivide_curves(chains, options, warnings);
+  require_countable(chains);
   Outline outline = join_chains(std::move(chains));
   if (options.unite_islands) outline = united_islands(outline, options.join, warnings);
   const std::vector<LoopNesting> nestings = validate(outline, options.unite_islands ? "" : union_remedy);
@@ -167,7 +187,15 @@ Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, War
   orient(outline, nestings, of_domain);
   warn_of_regions(outline, nestings, of_domain);
   if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
-  Geometry geometry = to_geometry(std::move(outline), options);
+  return to_geometry({std::move(outline), {}, {}}, options);
+}
+
+}  // namespace
+
+Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  clean_chains(chains, warnings);
+  Geometry geometry = options.blocks.empty() ? assemble_domain(std::move(chains), options, warnings)
+                                             : assemble_blocks(std::move(chains), options, warnings);
   require_extent(geometry);
   return geometry;
 }

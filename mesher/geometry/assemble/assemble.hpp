@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/geometry/assemble/block_loops.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
 #include "mesher/geometry/geometry.hpp"
 
@@ -25,15 +26,18 @@ struct AssembleOptions {
   /// The setting that added a boundary around all others, empty if there is none. With it no other boundary
   /// may enclose a domain.
   std::string far_field;
+  /// The blocks of the domain; empty: the domain is one block.
+  std::vector<BlockRule> blocks;
   /// Boundaries of bodies, such as airfoils; each needs an outer boundary, as the flow is around them.
   std::vector<std::string> bodies;
 };
 
 /// Builds the geometry of the domain from polylines. Joins open chains end to end into loops (ends must be
-/// bit-identical after join_rounded_ends; either direction). Chains of one name form one boundary. Drops
-/// consecutive points that coincide. Reverses loops so that the domain is to their left; the domain is inside
-/// loops of even nesting depth and outside loops of odd depth. Boundaries and loops keep the order of the
-/// input. Throws InputError with boundary and coordinates if the chains do not bound a domain.
+/// bit-identical after join_rounded_ends; either direction), or finds the loops of blocks (block_loops()).
+/// Chains of one name form one boundary. Drops consecutive points that coincide. Reverses loops so that the
+/// domain is to their left; the domain is inside loops of even nesting depth and outside loops of odd depth.
+/// Boundaries and loops keep the order of the input. Throws InputError with boundary and coordinates if the
+/// chains do not bound a domain.
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings);
 
 }  // namespace quadloop

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -68,7 +69,7 @@ class SplitRound {
   explicit SplitRound(const std::vector<SplitLoop>& loops) {
     for (std::size_t l = 0; l < loops.size(); ++l) {
       const auto& points = loops[l].points;
-      for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t i = 0; i < loops[l].segment.size(); ++i)
         pieces_.push_back({points[i], points[(i + 1) % points.size()], static_cast<std::int32_t>(l)});
     }
   }
@@ -93,7 +94,7 @@ class SplitRound {
   void apply_to(std::vector<SplitLoop>& loops) {
     std::size_t piece = 0;
     for (SplitLoop& loop : loops) {
-      SplitLoop split;
+      SplitLoop split{{}, {}, loop.open};
       for (const std::int32_t segment : loop.segment) {
         SplitPiece& here = pieces_[piece++];
         if (here.a == here.b) continue;
@@ -104,6 +105,7 @@ class SplitRound {
         split.points.insert(split.points.end(), here.inner.begin(), here.inner.end());
         split.segment.resize(split.points.size(), segment);
       }
+      if (loop.open) split.points.push_back(loop.points.back());
       loop = std::move(split);
     }
   }
@@ -137,15 +139,8 @@ class SplitRound {
   Point place_;
 };
 
-}  // namespace
-
-std::vector<SplitLoop> split_loops(const Outline& outline, double near) {
+std::vector<SplitLoop> split(std::vector<SplitLoop> loops, double near) {
   constexpr int most_rounds = 50;  // each round bends pieces by rounding only; two or three are usual
-  std::vector<SplitLoop> loops;
-  for (const OutlineLoop& loop : outline.loops) {
-    loops.push_back({loop.points, {}});
-    for (std::int32_t s = 0; s < size32(loop.points); ++s) loops.back().segment.push_back(s);
-  }
   join_near_points(loops, near);
   Point place;
   for (int round = 0; round < most_rounds; ++round) {
@@ -159,6 +154,26 @@ std::vector<SplitLoop> split_loops(const Outline& outline, double near) {
       fmt::format("the boundaries near ({}, {}) overlap in too many places closer than rounding; make "
                   "geometry.join larger, or simplify the outline there",
                   place.x, place.y));
+}
+
+SplitLoop unsplit(const std::vector<Point>& points, bool open) {
+  SplitLoop loop{points, std::vector<std::int32_t>(points.size() - (open ? 1 : 0)), open};
+  std::iota(loop.segment.begin(), loop.segment.end(), 0);
+  return loop;
+}
+
+}  // namespace
+
+std::vector<SplitLoop> split_loops(const Outline& outline, double near) {
+  std::vector<SplitLoop> loops;
+  for (const OutlineLoop& loop : outline.loops) loops.push_back(unsplit(loop.points, false));
+  return split(std::move(loops), near);
+}
+
+std::vector<SplitLoop> split_lines(std::span<const Chain> chains, double near) {
+  std::vector<SplitLoop> lines;
+  for (const Chain& chain : chains) lines.push_back(unsplit(chain.points, chain.open));
+  return split(std::move(lines), near);
 }
 
 }  // namespace quadloop

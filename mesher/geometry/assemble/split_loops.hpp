@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/geometry/outline.hpp"
@@ -11,6 +12,7 @@ namespace quadloop {
 struct SplitLoop {
   std::vector<Point> points;
   std::vector<std::int32_t> segment;  ///< for each piece the segment of the original loop that contains it
+  bool open = false;                  ///< a line, without a piece from its last point to the first
 };
 
 /// Splits all loops where they cross, touch or overlap, so that two pieces are equal or share only end
@@ -19,5 +21,7 @@ struct SplitLoop {
 /// rounded once. Uses exact predicates on the rounded coordinates and repeats until nothing is left to split.
 /// Each loop must be simple. Throws InputError with a place if the process does not terminate.
 std::vector<SplitLoop> split_loops(const Outline& outline, double near);
+/// Same for loops and lines.
+std::vector<SplitLoop> split_lines(std::span<const Chain> chains, double near);
 
 }  // namespace quadloop

@@ -395,10 +395,30 @@ TEST_F(SettingsTest, ReadsWhatFlowsInTimeAreToDo) {
   EXPECT_FALSE(timed.time_step);
 }
 
+TEST_F(SettingsTest, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
+  const std::string gas = "[[block]]\nname = \"gas\"\nboundaries = [\"box\", \"-hole\"]\n";
+  const Settings settings = read(gas + "[[block]]\nname = \"solid\"\ninside = [1, 2]\n");
+  ASSERT_EQ(settings.outline.blocks.size(), 2U);
+  EXPECT_EQ(settings.outline.blocks[0].boundaries, (std::vector<std::string>{"box", "hole"}));
+  EXPECT_EQ(settings.outline.blocks[1].inside, (Point{1, 2}));
+  EXPECT_EQ(refused("[[block]]\nname = \"gas\"\n").find("case.toml:3: a [[block]] needs exactly one"), 0u);
+  EXPECT_EQ(refused(gas + "loop = \"box\"\n").find("case.toml:3: a [[block]] needs exactly one"), 0u);
+  EXPECT_EQ(refused("[[block]]\nloop = \"box\"\n").find("case.toml:3: 'block.0.name' is missing"), 0u);
+  EXPECT_EQ(refused("[[block]]\nname = \"a b\"\nloop = \"box\"\n").find("case.toml:4: 'block.0.name'"), 0u);
+  const std::string start = "case.toml:3: a mesh of several blocks cannot have ";
+  for (const auto& [more, what] :
+       {std::pair{"[boundary.box.layers]\nfirst = 0.1\ngrowth = 1.2\ncount = 2\n", "boundary layers"},
+        {"[mesh]\nmirror = \"x\"\n", "mirror images"},
+        {"[adapt]\nvariable = \"density\"\n", "adaptation"},
+        {"[output]\npartitions = 2\n", "partitions"},
+        {"[output]\nformats = [\"polyMesh\"]\n", "the formats fluent.msh and polyMesh"}})
+    EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
+}
+
 TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
   EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
-  EXPECT_EQ(refused("[[block]]\nname = \"gas\"\n").find("case.toml:3: unknown key 'block'"), 0u);
+  EXPECT_EQ(refused("[[pair]]\nfrom = \"low\"\n").find("case.toml:3: unknown key 'pair'"), 0u);
   EXPECT_EQ(refused("[solver]\nmachs = 1\n").find("case.toml:4: unknown key 'solver.machs'"), 0u);
   EXPECT_EQ(
       refused("[solver]\niterations = 1.5\n").find("case.toml:4: 'solver.iterations' must be a whole number"),
