@@ -68,13 +68,14 @@ NacaAirfoil airfoil_of(const AirfoilArguments& arguments) {
 std::vector<Chain> placed_chains(const AirfoilArguments& arguments) {
   std::vector<Chain> chains{naca_chain("airfoil", airfoil_of(arguments), arguments.section)};
   apply({1, -arguments.alpha, {}}, chains);
+  constexpr FarFieldShape shape = FarFieldShape::square;
   std::optional<Box> square;
-  if (arguments.far) square = far_field_box(chains, *arguments.far, "--far");
+  if (arguments.far) square = far_field_box(chains, shape, *arguments.far, "--far");
   if (!arguments.shift.empty()) {
     const auto shift = number_list(arguments.shift, ',', 2, 2, "--shift takes two numbers DX,DY");
     apply({1, 0, {shift[0], shift[1]}}, chains);
   }
-  if (square) add_far_field(chains, *square, "--far");
+  if (square) add_far_field(chains, shape, *square, "--far");
   return chains;
 }
 

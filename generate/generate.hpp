@@ -30,7 +30,7 @@ struct MeshInput {
   std::optional<double> stretch = {};
 
   /// Returns the background grid of the whole domain. The mesh outside the layers uses the same grid.
-  TreeGrid grid() const { return choose_root(geometry, mesh.size.root); }
+  TreeGrid grid() const { return choose_root(geometry, mesh.size); }
 };
 
 /// A smoothed mesh and its tree record (the quadtree as it is stored in a file), without the attributes that

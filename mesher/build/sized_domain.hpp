@@ -10,7 +10,7 @@ namespace quadloop {
 /// object; it cannot be moved.
 struct SizedDomain {
   SizedDomain(const Geometry& geometry, const SizeOptions& options, const DemandedSplits& demanded)
-      : grid{choose_root(geometry, options.root)},
+      : grid{choose_root(geometry, options)},
         outline{geometry},
         inside{outline},
         resolution{grid, outline, inside},

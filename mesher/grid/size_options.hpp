@@ -42,8 +42,10 @@ struct RootOptions {
 
 /// Options of the size field. Lengths in the geometry's unit.
 struct SizeOptions {
-  double min = 0;                   ///< lower limit of leaf sizes, positive
-  double max = 0;                   ///< upper limit of leaf sizes, at least min
+  double min = 0;  ///< lower limit of leaf sizes, positive
+  double max = 0;  ///< upper limit of leaf sizes, at least min
+  /// The size that the root is chosen to meet, from min to max; without it, max.
+  std::optional<double> aim = {};
   double gradation = 1.5;           ///< growth limit 1 < g <= 2: h <= h' + (g-1)/2 d
   std::optional<double> curvature;  ///< maximum turning angle of a boundary per leaf, degrees
   std::optional<double> gap;        ///< number of leaves across the gap between two boundaries

@@ -1,7 +1,9 @@
 #include "mesher/grid/tree_grid.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -13,8 +15,6 @@ namespace {
 
 constexpr int most_trees = 16;     ///< along one side of the root
 constexpr int deepest_level = 29;  ///< p4est's limit
-/// Mantissa bits of a padded root's tree edge, so that grid coordinates are exact.
-constexpr int root_mantissa_bits = 16;
 
 std::string text(Point p) {
   std::ostringstream out;
@@ -65,30 +65,49 @@ std::optional<std::pair<int, int>> tiling(const Box& box) {
   return std::nullopt;
 }
 
-double round_up_mantissa(double value) {
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  return std::ldexp(std::ceil(std::ldexp(fraction, root_mantissa_bits)), exponent - root_mantissa_bits);
+/// The ratio, at least 1, of the size to meet and that of the leaves which it yields in trees of this edge.
+double misfit(double tree_edge, const SizeOptions& sizes) {
+  const double aim = sizes.aim.value_or(sizes.max), tolerance = 1 + TreeGrid::rounding;
+  double reached = tree_edge / 2;
+  while (reached > aim * tolerance && reached / 2 * tolerance >= sizes.min) reached /= 2;
+  return std::max(reached / aim, aim / reached);
 }
 
-TreeGrid padded_root(const Box& box) {
-  const double longer = std::max(box.width(), box.height()), shorter = std::min(box.width(), box.height());
-  const double pad = longer / 64;
-  int along = 1, across = 1;
-  for (along = 1; along <= most_trees; ++along) {
-    const double edge = (longer + 2 * pad) / along;
-    across = std::max(1, static_cast<int>(std::ceil((shorter + 2 * pad) / edge)));
-    if (across * edge - (shorter + 2 * pad) < (shorter + 2 * pad) / 8) break;
+/// The trees that tile the box and meet the size best. More trees than necessary are used for a better fit if
+/// they create no leaves that are finer than by `max`, or if the fit would be bad without.
+std::optional<TreeGrid> framing_root(const Box& box, const SizeOptions& sizes) {
+  constexpr double good = 1 + 1.0 / 16, acceptable = 1.1;
+  constexpr int most_multiples = 32, most_in_all = 16384, most_fine = 1024;
+  const auto trees = tiling(box);
+  if (!trees) return std::nullopt;
+  double best = std::numeric_limits<double>::infinity();
+  int multiple = 1;
+  for (int m = 1; m <= most_multiples; ++m) {
+    const double edge = box.width() / (m * trees->first);
+    const bool is_coarse = edge >= sizes.max * (1 - TreeGrid::rounding);
+    if (m * m * trees->first * trees->second > (is_coarse ? most_in_all : most_fine)) break;
+    const double found = misfit(edge, sizes);
+    if (found >= best * (1 - TreeGrid::rounding) || (best <= good && !is_coarse)) continue;
+    best = found;
+    multiple = m;
   }
-  along = std::min(along, most_trees);
-  const double edge = round_up_mantissa((longer + 2 * pad) / along);
-  const double grain = edge / 256;
-  const Point centre{grain * std::nearbyint(box.centre().x / grain),
-                     grain * std::nearbyint(box.centre().y / grain)};
-  const int nx = box.width() >= box.height() ? along : across,
-            ny = box.width() >= box.height() ? across : along;
+  if (best > acceptable) return std::nullopt;
+  return TreeGrid(box, multiple * trees->first, multiple * trees->second);
+}
+
+/// A root round the box, with the same centre, whose trees have the edge size * 2^k. It is less than twice as
+/// large as the padded box, along each axis, unless that needs too many trees.
+TreeGrid padded_root(const Box& box, double size) {
+  const double pad = std::max(box.width(), box.height()) / 64;
+  const double width = box.width() + 2 * pad, height = box.height() + 2 * pad;
+  const double longer = std::max(width, height), shorter = std::min(width, height);
+  double edge = size;
+  while (edge < longer) edge *= 2;
+  while (edge / 2 >= longer) edge /= 2;
+  while (edge >= 2 * shorter && edge / 2 >= std::max(2 * size, longer / most_trees)) edge /= 2;
+  const int nx = static_cast<int>(std::ceil(width / edge)), ny = static_cast<int>(std::ceil(height / edge));
   const Point half{0.5 * nx * edge, 0.5 * ny * edge};
-  return {{centre - half, centre + half}, nx, ny};
+  return {{box.centre() - half, box.centre() + half}, nx, ny};
 }
 
 TreeGrid users_root(const Geometry& g, const RootOptions& root) {
@@ -114,7 +133,8 @@ TreeGrid::Axis TreeGrid::make_axis(double low, double high, int trees) {
   axis.unit = static_cast<double>(unit);
   axis.unit_rest = static_cast<double>(unit - axis.unit);
   int exponent = 0;
-  const double spare = std::ldexp(std::frexp(axis.unit, &exponent), 53 - 35);  // a count has at most 35 bits
+  const int bits_of_count = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(axis.count - 1)));
+  const double spare = std::ldexp(std::frexp(axis.unit, &exponent), 53 - bits_of_count);
   axis.exact = axis.unit_rest == 0 && spare == std::floor(spare);
   return axis;
 }
@@ -154,10 +174,11 @@ TreeGrid::TreeGrid(const Box& box, int trees_x, int trees_y)
 
 int TreeGrid::finest_level(double min, const char* setting) const {
   int level = 1;
-  while (level < deepest_level && edge(level + 1) >= min) ++level;
+  const auto allows = [&](int next) { return edge(next) * (1 + rounding) >= min; };
+  while (level < deepest_level && allows(level + 1)) ++level;
   const double largest =
       std::max({std::abs(box_.low.x), std::abs(box_.low.y), std::abs(box_.high.x), std::abs(box_.high.y)});
-  const bool too_deep = edge(level + 1) >= min;
+  const bool too_deep = allows(level + 1);
   const bool too_fine = edge(level) < largest * 0x1p-44;
   if (too_deep || too_fine) {
     std::ostringstream out;
@@ -169,13 +190,12 @@ int TreeGrid::finest_level(double min, const char* setting) const {
   return level;
 }
 
-TreeGrid choose_root(const Geometry& geometry, const std::optional<RootOptions>& wanted) {
-  if (wanted) return users_root(geometry, *wanted);
-  const Box& box = geometry.box();
+TreeGrid choose_root(const Geometry& geometry, const SizeOptions& sizes) {
+  if (sizes.root) return users_root(geometry, *sizes.root);
   if (is_own_root(geometry)) {
-    if (const auto trees = tiling(box)) return {box, trees->first, trees->second};
+    if (const std::optional<TreeGrid> root = framing_root(geometry.box(), sizes)) return *root;
   }
-  return padded_root(box);
+  return padded_root(geometry.box(), sizes.aim.value_or(sizes.max));
 }
 
 }  // namespace quadloop

@@ -79,6 +79,8 @@ class TreeGrid {
   const Box& box() const { return box_; }
   double tree_edge() const { return tree_edge_; }
   double edge(int level) const { return tree_edge_ / static_cast<double>(std::int64_t{1} << level); }
+  /// Whether leaves of this level are larger than requested. Rounding errors of the root do not count.
+  bool is_larger(int level, double size) const { return edge(level) > size * (1 + rounding); }
 
   double x(std::int64_t i) const { return x_.at(i); }
   double y(std::int64_t j) const { return y_.at(j); }
@@ -94,9 +96,11 @@ class TreeGrid {
   std::optional<std::int64_t> row_on(double y, int level) const { return y_.line_on(y, level); }
   Box box_of(const Quadrant& q) const { return {corner(q.x, q.y), corner(q.x + q.size(), q.y + q.size())}; }
 
-  /// The finest level whose leaves are not smaller than `min`. Throws InputError, naming the setting, if that
-  /// is deeper than the forest or than double precision allows.
+  /// The finest level whose leaves are not smaller than `min`, except for rounding. Throws InputError, naming
+  /// the setting, if that is deeper than the forest or than double precision allows.
   int finest_level(double min, const char* setting = "spacing.min") const;
+
+  static constexpr double rounding = 1e-12;  ///< relative error of edges that does not count
 
  private:
   struct Axis {
@@ -121,8 +125,9 @@ class TreeGrid {
 };
 
 /// The root for a geometry: as specified by the user; the geometry's bounding box if all four of its sides
-/// are boundaries and square trees tile it; else that box, padded. Throws InputError if the geometry exceeds
-/// the user's root.
-TreeGrid choose_root(const Geometry& geometry, const std::optional<RootOptions>& wanted);
+/// are boundaries and square trees tile it such that leaves have nearly the size to meet (within a tenth);
+/// else a larger one, with leaves of exactly that size. Throws InputError if the geometry exceeds the user's
+/// root.
+TreeGrid choose_root(const Geometry& geometry, const SizeOptions& sizes);
 
 }  // namespace quadloop

@@ -23,7 +23,7 @@ SizeRules::SizeRules(const ShiftedOutline& outline, const TreeGrid& grid, const 
       finest_{std::max(finest_of_case_, demanded.finest_level())},
       coarsest_{1},
       slope_{std::llround((options.gradation - 1) / 2 * static_cast<double>(1 << slope_bits))} {
-  while (coarsest_ < finest_of_case_ && grid.edge(coarsest_) > options.max) ++coarsest_;
+  while (coarsest_ < finest_of_case_ && grid.is_larger(coarsest_, options.max)) ++coarsest_;
   const Geometry& g = outline.geometry();
   const auto line_after = [](std::int64_t line, double at, double coordinate) {
     return at < coordinate ? line + 1 : line;
@@ -80,14 +80,14 @@ std::int64_t SizeRules::gap_to_domain(const Quadrant& q) const {
 
 int SizeRules::level_for(double spacing) const {
   int level = coarsest_;
-  while (level < finest_of_case_ && grid_->edge(level) > spacing) ++level;
+  while (level < finest_of_case_ && grid_->is_larger(level, spacing)) ++level;
   return level;
 }
 
 int SizeRules::level_within(double spacing, int from) const {
   int level = from;
-  while (level > 0 && grid_->edge(level - 1) <= spacing) --level;
-  while (level < finest_of_case_ && grid_->edge(level) > spacing) ++level;
+  while (level > 0 && !grid_->is_larger(level - 1, spacing)) --level;
+  while (level < finest_of_case_ && grid_->is_larger(level, spacing)) ++level;
   return level;
 }
 
@@ -111,11 +111,12 @@ bool SizeRules::wants_split(const SizedQuadrant& sized) const {
   if (q.level >= finest_of_case_) return false;
   const Box& box = sized.box;
   if (q.level < coarsest_ && in_domains_box(q)) return true;
-  const double size = grid_->edge(q.level);
   for (const SizeSource& source : options_.sources) {
-    if (size > source.spacing && meets(source, box)) return true;
+    if (grid_->is_larger(q.level, source.spacing) && meets(source, box)) return true;
   }
-  const auto too_large_for = [&](std::int32_t vertex) { return size > corner_spacing_[vertex]; };
+  const auto too_large_for = [&](std::int32_t vertex) {
+    return grid_->is_larger(q.level, corner_spacing_[vertex]);
+  };
   if (std::ranges::any_of(sized.corners, too_large_for)) return true;
   const std::span<const std::int32_t> inside = sized.segments;
   if (inside.empty()) return false;
@@ -123,7 +124,7 @@ bool SizeRules::wants_split(const SizedQuadrant& sized) const {
     if (q.level < level_of_segment_[s]) return true;
   }
   if (options_.curvature && turns_too_far(inside, box)) return true;
-  if (proximity_ && proximity_->narrower(inside, box, *options_.gap * size)) return true;
+  if (proximity_ && proximity_->narrower(inside, box, *options_.gap * grid_->edge(q.level))) return true;
   return unresolved_(q, inside);
 }
 

@@ -238,16 +238,34 @@ class CornerDecision {
     return view.crossing(s.at_entry ? piece.exit : piece.entry).position;
   }
 
+  Point crossing_at(std::int32_t sight) const {
+    const Sight& s = sights_[sight];
+    const LeafTrace view = traces_[s.trace];
+    const Piece& piece = view.pieces[s.piece];
+    return view.crossing(s.at_entry ? piece.entry : piece.exit).position;
+  }
+
+  /// The run's nearest crossing to which no other one is equally near, if any. Where the boundary is its own
+  /// mirror image, that is a crossing on the axis.
+  std::optional<Point> single_crossing(const Run& run) const {
+    std::optional<Point> nearest;
+    for (const std::int32_t i : run.sights) {
+      const Point p = crossing_at(i);
+      const bool single = std::ranges::none_of(run.sights, [&](std::int32_t k) {
+        return sights_[k].distance == sights_[i].distance && crossing_at(k) != p;
+      });
+      if (single && (!nearest || distance(p) < distance(*nearest))) nearest = p;
+    }
+    return nearest;
+  }
+
   /// For a vertex that moves along an axis: the run's crossing there. Off the axis the boundary may be
   /// equally near on both sides, and neither place is its own image.
   std::optional<Point> crossing_on_axis(const Run& run) const {
     std::optional<Point> nearest;
     if (!corner_.mirror || side_of(*corner_.mirror, corner_.position) != 0) return nearest;
     for (const std::int32_t i : run.sights) {
-      const Sight& s = sights_[i];
-      const LeafTrace view = traces_[s.trace];
-      const Piece& piece = view.pieces[s.piece];
-      const Point p = view.crossing(s.at_entry ? piece.entry : piece.exit).position;
+      const Point p = crossing_at(i);
       if (side_of(*corner_.mirror, p) == 0 && (!nearest || distance(p) < distance(*nearest))) nearest = p;
     }
     return nearest;
@@ -269,10 +287,12 @@ class CornerDecision {
     if (const auto on_axis = crossing_on_axis(run)) return *on_axis;
     Point nearest;
     double least = std::numeric_limits<double>::infinity();
+    bool contested = false;  // two places are equally near
     const auto see = [&](std::int32_t s) {
       const Point p =
           nearest_on_segment(corner_.position, geometry_.point(s), geometry_.point(geometry_.next(s)));
       const double to_p = distance(p);
+      contested = to_p == least ? contested || p != nearest : contested && to_p > least;
       if (to_p > least || (to_p == least && !goes_before(p, nearest))) return;
       least = to_p;
       nearest = p;
@@ -280,6 +300,7 @@ class CornerDecision {
     for (const std::int32_t i : run.sights)
       follow(
           sights_[i], [](std::int32_t) {}, see);
+    if (contested && !corner_.mirror) return single_crossing(run).value_or(nearest);
     return nearest;
   }
 

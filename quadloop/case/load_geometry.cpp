@@ -19,14 +19,13 @@ namespace quadloop {
 
 namespace {
 
-/// Returns the far field of the saved tree, if its root is one of that size.
-Box saved_far_field(const Box& square, const TreeAttributes& saved) {
+/// Returns the box of the far field of the saved tree, if its root is one of that size.
+Box saved_far_field(const Box& box, const TreeAttributes& saved) {
   constexpr double rounding = 1e-9;
-  const Point low{saved.root_x, saved.root_y};
-  const bool is_root = saved.trees_x == 1 && saved.trees_y == 1 &&
-                       std::abs(square.width() - saved.tree_edge) <= rounding * saved.tree_edge;
-  if (!is_root || (square.low == low && square.width() == saved.tree_edge)) return square;
-  return root_box(saved);
+  const Box root = root_box(saved);
+  const bool is_root = std::abs(box.width() - root.width()) <= rounding * root.width() &&
+                       std::abs(box.height() - root.height()) <= rounding * root.height();
+  return is_root ? root : box;
 }
 
 /// Records bounding box and unit of a file. Throws InputError if the file must declare a unit and does not.
@@ -115,9 +114,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;
   if (axis) fit_to_mirror(chains, *axis, warnings);
   if (settings.far_field) {
-    const auto& [half_width, where] = *settings.far_field;
-    const Box square = far_field_box(chains, half_width, where);
-    add_far_field(chains, saved ? saved_far_field(square, *saved) : square, where);
+    const auto& [shape, radius, spacing, where] = *settings.far_field;
+    const Box box = far_field_box(chains, shape, radius, where);
+    add_far_field(chains, shape, saved ? saved_far_field(box, *saved) : box, where);
     options.far_field = where;
   }
   Geometry geometry = assemble(std::move(chains), options, warnings);

@@ -53,10 +53,16 @@ ValueForm<io::BoundaryNames> boundary_names() {
           }};
 }
 
+/// The half width of a square, or a table.
 ValueForm<FarField> far_field() {
-  return {"number, above 0", "20", [](const io::CaseTable& table, const std::string& key) {
-            return FarField{*table.number(key, io::Range::positive()),
-                            fmt::format("{}: 'geometry.far_field'", table.place(key))};
+  return {"number, above 0, or a table", "20", [](const io::CaseTable& table, const std::string& key) {
+            FarField field;
+            if (table.is_table(key))
+              far_field_keys().read(*table.table(key), field);
+            else
+              field.radius = *table.number(key, io::Range::positive());
+            field.where = fmt::format("{}: 'geometry.far_field'", table.place(key));
+            return field;
           }};
 }
 
@@ -121,7 +127,8 @@ const KeyTable<Settings>& geometry_keys() {
            "`union`: islands that overlap or share edges are merged, see below."),
        key<&Settings::far_field>("far_field", far_field(),
                                  "Half width of a generated square boundary `farfield`, centred on the "
-                                 "bounding box of all other boundaries.",
+                                 "bounding box of all other boundaries. A table gives "
+                                 "[other shapes](#far-field).",
                                  {.unit = "length"}),
        key<&Settings::inside>("inside", flag(),
                               "Mesh the inside of an airfoil (`.dat` or `[[shape]]`) without outer boundary. "
@@ -130,6 +137,27 @@ const KeyTable<Settings>& geometry_keys() {
            "vanish", choice<bool>({{"error", false}, {"allow", true}}),
            "Treatment of a named boundary whose loops are all "
            "smaller than `spacing.min`: `\"error\"` stops the run, `\"allow\"` drops the boundary.")}};
+  return keys;
+}
+
+const KeyTable<FarField>& far_field_keys() {
+  using FarShape = FarFieldShape;
+  static const KeyTable<FarField> keys{
+      "geometry.far_field",
+      {key<&FarField::shape>("shape",
+                             choice<FarShape>({{"square", FarShape::square},
+                                               {"rectangle", FarShape::rectangle},
+                                               {"c", FarShape::rounded_front},
+                                               {"circle", FarShape::circle}}),
+                             "Shape of the boundary `farfield`, see below."),
+       key<&FarField::radius>(
+           "radius", number(io::Range::positive()),
+           "Half width of the square, radius of the circle and of the half circle of `\"c\"`, distance of "
+           "the rectangle from the bounding box of all other boundaries.",
+           {.unit = "length", .required = {{"the size of the far field, as in radius = 50.0"}}}),
+       key<&FarField::spacing>("spacing", number(io::Range::positive()),
+                               "Cell size along it. `spacing` in `[boundary.farfield]` overrides it.",
+                               {.unit = "length", .fallback = "`spacing.max`"})}};
   return keys;
 }
 

@@ -14,8 +14,9 @@ struct SourceKeys {
   double spacing = 0;
 };
 
-/// The tables [geometry], [spacing], [[source]], [[block]] and [mesh].
+/// The tables [geometry], geometry.far_field, [spacing], [[source]], [[block]] and [mesh].
 const KeyTable<Settings>& geometry_keys();
+const KeyTable<FarField>& far_field_keys();
 const KeyTable<Settings>& spacing_keys();
 const KeyTable<SourceKeys>& source_keys();
 const KeyTable<BlockRule>& block_keys();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "flow/postprocess/flow_quantities.hpp"
 #include "io/formats.hpp"
@@ -83,8 +84,13 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "spacing", [&](const CaseTable& table) { read_spacing_table(table, settings); });
   settings.flow = read_flow_table(root);
   if (settings.far_field)  // default; overridden by the case
-    settings.outline.rules.push_back(
-        {"farfield", {}, {}, BoundaryCondition::farfield, settings.far_field->where, false, true});
+    settings.outline.rules.push_back({"farfield",
+                                      settings.far_field->spacing,
+                                      {},
+                                      BoundaryCondition::farfield,
+                                      settings.far_field->where,
+                                      false,
+                                      true});
   read_table(root, "boundary", [&](const CaseTable& table) { read_boundary_tables(table, settings); });
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
@@ -227,6 +233,18 @@ double size_of_gaps(const Geometry& geometry, double gap, double start, double f
   return size;
 }
 
+/// The size that the root of the quadtrees is to meet: the smallest that the case specifies for a boundary,
+/// by its spacing or by its last layer, else spacing.max, else `smallest`.
+double size_to_meet(const Settings& settings, const Geometry& geometry, double smallest) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const Boundary& boundary : geometry.boundaries()) {
+    if (boundary.spacing > 0) finest = std::min(finest, boundary.spacing);
+    if (boundary.layers)
+      finest = std::min(finest, leaf_over_last_layer * layer_heights(*boundary.layers).back());
+  }
+  return std::isfinite(finest) ? finest : settings.max.value_or(smallest);
+}
+
 }  // namespace
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
@@ -239,6 +257,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
       smallest = std::min(smallest, at_corner);
   }
   for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  const double aim = size_to_meet(settings, geometry, smallest);
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;
@@ -247,6 +266,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   options.size.min = settings.min.value_or(std::min(std::max(smallest / 2, floor), max / 2));
   if (!settings.min && options.size.gap)
     options.size.min = size_of_gaps(geometry, *options.size.gap, options.size.min, floor);
+  options.size.aim = std::clamp(aim, options.size.min, max);
   return options;
 }
 

@@ -58,8 +58,10 @@ struct FileExtent {
 
 /// Far field of the case.
 struct FarField {
-  double half_width = 0;
-  std::string where;
+  FarFieldShape shape = FarFieldShape::square;
+  double radius = 0;                   ///< as far_field_box()
+  std::optional<double> spacing = {};  ///< cell size at it
+  std::string where = {};
 
   friend bool operator==(const FarField&, const FarField&) = default;
 };
@@ -131,7 +133,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
 /// Returns the options with defaults for the sizes that the case leaves open. max: 1/16 of the longer side of
 /// the geometry's bounding box (or min if larger). min: half the smallest spacing that follows from its
 /// points, boundaries, corners, layers, lines with layers or the case's sources, at least 2^-20 of that side
-/// and at most half of max.
+/// and at most half of max. The size that the root meets: the smallest that the case specifies for a
+/// boundary, by its spacing or by twice the height of its last layer, else spacing.max, else the smallest of
+/// the sizes above; within min and max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
 /// Returns a line for each boundary, sharp corner or source whose spacing is smaller than the smallest

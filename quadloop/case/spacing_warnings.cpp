@@ -173,9 +173,10 @@ void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warn
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;
-  const TreeGrid grid = choose_root(geometry, options.size.root);
-  const double min = options.size.min, finest = grid.edge(grid.finest_level(min));
-  if (finest > options.size.max) {
+  const TreeGrid grid = choose_root(geometry, options.size);
+  const int finest_level = grid.finest_level(options.size.min);
+  const double min = options.size.min, finest = grid.edge(finest_level);
+  if (grid.is_larger(finest_level, options.size.max)) {
     warnings.push_back(fmt::format(
         "the cells are {} wide, larger than spacing.max = {}: sizes are the root's edge divided by "
         "powers of two, and spacing.min = {} forbids the next one; set spacing.min to {} or less",

@@ -27,7 +27,7 @@ class CgnsBoundaries(ProgramTest):
         loops = [f"{name}\n4\n{x - .4} {y - .4}\n{x - .4} {y + .4}\n{x + .4} {y + .4}\n{x + .4} {y - .4}\n" for name, x, y in squares]
         self.write("a.geom", "4\n" + "".join(loops))
         tables = "".join(f'[boundary.{name}]\nbc = "{condition}"\n' for name, (condition, _) in CONDITIONS.items())
-        self.write("a.toml", '[geometry]\nfile = "a.geom"\nfar_field = 3\n[spacing]\nmin = 0.2\nmax = 0.5\n' + tables)
+        self.write("a.toml", '[geometry]\nfile = "a.geom"\nfar_field = 3\n[spacing]\nmin = 0.2\nmax = 0.5\n[mesh]\nroot = [-3, -3, 6, 1, 1]\n' + tables)
         self.done("mesh", "a.toml", "-o", "m")
         self.path = str(self.folder / "m.cgns")
 

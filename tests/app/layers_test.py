@@ -135,7 +135,7 @@ class Layers(ProgramTest):
 
     def test_smoothing_keeps_their_nodes_to_the_bit(self):
         for kind in ("hybrid", "delaunay"):
-            self.make("first = 0.001, growth = 1.3, count = 12", "[smooth]\nsweeps = 0\n", "--type", kind)
+            self.make("first = 0.001, growth = 1.3, count = 12", "[smooth]\nsweeps = 0\n", "--type", kind, "--set", "mesh.root=[0, 0, 2, 2, 1]")
             rows = (self.folder / "out.mesh").read_text().splitlines()
             thickness = float(next(row for row in rows if row.startswith("# layers")).split()[-1])
             # the nodes outside are shaken, so that there is something to do

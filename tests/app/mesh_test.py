@@ -79,7 +79,8 @@ class MeshWarnings(ProgramTest):
         self.assertEqual(self.done("mesh", "case.toml")[1], "")
         edges = json.loads(self.done("check", "case.mesh", "--json")[0])["boundary_edges"]
         self.assertGreaterEqual(edges, 8 / 0.05)
-        _, warnings = self.done("mesh", "case.toml", "--set", "spacing.min=0.05")
+        self.assertEqual(self.done("mesh", "case.toml", "--set", "spacing.min=0.05")[1], "")  # the root follows
+        _, warnings = self.done("mesh", "case.toml", "--set", "spacing.min=0.05", "mesh.root=[0, 0, 1, 3, 1]")
         self.assertIn("the cells are 0.0625 wide, larger than spacing.max = 0.05", warnings)
         self.assertIn("set spacing.min to 0.03125 or less", warnings)
 
@@ -93,7 +94,8 @@ class MeshWarnings(ProgramTest):
         circle = lambda name, r, way: f"{name}\n100\n" + "".join(
             f"{r * math.cos(math.tau * k / 100)} {r * math.sin(way * math.tau * k / 100)}\n" for k in range(100))
         self.write("a.geom", "2\n" + circle("out", 1, 1) + circle("in", 0.99, -1))
-        self.write("case.toml", '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.1\n[boundary."*"]\nspacing = 0.1\n[mesh]\ntype = "delaunay"\n')
+        self.write("case.toml", '[geometry]\nfile = "a.geom"\n[spacing]\nmin = 0.1\n[boundary."*"]\nspacing = 0.1\n[mesh]\ntype = "delaunay"\n'
+                   'root = [-1.03125, -1.03125, 2.0625, 1, 1]\n')
         self.refused(1, ["boundary '", "area of the mesh differs by", "set smooth.sweeps = 0"], "mesh", "case.toml")
         self.done("mesh", "case.toml", "--set", "smooth.sweeps=0")
 
@@ -217,7 +219,7 @@ class MeshWarnings(ProgramTest):
 #14=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#11),#13);
 """
         self.write("a.stp", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n")
-        case = '[geometry]\nfile = "a.stp"\n[spacing]\nmax = 0.5\n[boundary.hole]\nspacing = 0.1\n'
+        case = '[geometry]\nfile = "a.stp"\n[spacing]\nmax = 0.5\n[boundary.hole]\nspacing = 0.05\n'
         self.same_on_ranks(case)
         table = self.done("mesh", "case.toml", "-o", "m")[0]
         self.assertIn("a.stp: coordinates from (0, 0) to (4, 4) in the XZ plane, in mm, meshed as given", table)

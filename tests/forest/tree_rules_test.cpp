@@ -30,7 +30,7 @@ Geometry circle_in_square(double spacing, double second_spacing = 0) {
 struct Tree {
   Tree(const Geometry& geometry, const SizeOptions& options, const std::vector<SplitDemand>& demands = {})
       : outline{geometry},
-        grid{choose_root(geometry, options.root)},
+        grid{choose_root(geometry, options)},
         demanded{test::world(), demands},
         sizes{outline, grid, options, [](const Quadrant&, std::span<const std::int32_t>) { return false; },
               demanded},

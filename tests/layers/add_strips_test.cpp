@@ -50,11 +50,12 @@ LayerLine free_line() {
 
 struct Made {
   Made(const Communicator& comm, const Geometry& geometry, const std::vector<LayerLine>& lines, bool divided,
-       double min = 0.02)
+       double min = 0.02, std::optional<RootOptions> root = {})
       : front{layer_front(geometry, {}, lines)} {
     MeshOptions options;
     options.size.min = min;
     options.size.max = 1;
+    options.size.root = root;
     MeshResult outside = build_mesh(comm, front.outer, options);
     mesh = std::move(outside.mesh);
     leaves = std::move(outside.tree.leaves);
@@ -210,7 +211,8 @@ TEST(AddStrips, ALineThinnerThanTheLeavesIsRefusedByName) {
   line.path = {{-2.8, 3.718}, {2.73, 3.741}};
   line.spacing = 0.05;
   line.layers = {0.0001, 1.3, 1.3, 4};
-  const std::string message = test::refusal([&] { Made(world(), box, {line}, false, 0.003); });
+  const RootOptions root{{-5.5, -5.5}, 12};
+  const std::string message = test::refusal([&] { Made(world(), box, {line}, false, 0.003, root); });
   EXPECT_NE(message.find("layer_line: its layers are 0.00124 wide"), std::string::npos) << message;
   EXPECT_NE(message.find("reduce spacing.min"), std::string::npos) << message;
 }

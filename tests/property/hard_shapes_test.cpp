@@ -99,7 +99,7 @@ std::string smoothing_fault(Mesh mesh, const Geometry& geometry, const MeshOptio
                             double area_dropped) {
   smoother::SmoothOptions how;
   how.geometry = &geometry;
-  const TreeGrid grid = choose_root(geometry, options.size.root);
+  const TreeGrid grid = choose_root(geometry, options.size);
   if (options.type == MeshType::delaunay) {
     how.delaunay = [&](Point p) { return tie_rank(grid, grid.finest_level(options.size.min), p); };
   }

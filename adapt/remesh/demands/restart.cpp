@@ -141,7 +141,7 @@ ChangedSplits changed_splits(const Communicator& comm, const TreeRecord& tree,
 void keep_root(const TreeAttributes& tree, MeshInput& input) {
   const Box root = root_box(tree);
   if (!input.mesh.size.root) {
-    const TreeGrid grid = choose_root(input.geometry, {});
+    const TreeGrid grid = choose_root(input.geometry, input.mesh.size);
     const bool same = grid.box().low == root.low && grid.tree_edge() == tree.tree_edge &&
                       grid.trees_x() == tree.trees_x && grid.trees_y() == tree.trees_y;
     if (same) return;

@@ -1,6 +1,7 @@
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -125,31 +126,128 @@ std::vector<Row> deliver_sorted(const Communicator& comm, const std::vector<Row>
   return arrived;
 }
 
-template <class Row>
-std::vector<Row> of_block(const std::vector<Row>& rows, std::int32_t block) {
-  std::vector<Row> found;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(found),
-               [&](const Row& row) { return row.block == block; });
+/// A side of a removed or new triangle.
+struct ChangedSide {
+  std::array<GlobalNodeId, 2> ends;  ///< smaller first
+  bool backward;                     ///< the triangle turns from the second end to the first
+  bool made;
+  std::int64_t triangle;
+  friend auto operator<=>(const ChangedSide&, const ChangedSide&) = default;
+};
+
+/// Pairs of removed or new triangles that overlap or are beside each other in one cavity: on one side of an
+/// edge that stays, or on both sides of one that is removed or new. Each triangle's rank has its pairs.
+/// `numbers` are those by which ChangedSide names the triangles. *Collective.*
+std::vector<std::array<std::int64_t, 2>> pairs_in_cavities(const Communicator& comm,
+                                                           std::vector<ChangedSide> sides,
+                                                           const RankRanges& numbers) {
+  std::ranges::sort(sides);
+  Outbox<std::array<std::int64_t, 2>> pairs;
+  for (auto at = sides.begin(); at != sides.end();) {
+    const auto end =
+        std::find_if(at, sides.end(), [&](const ChangedSide& side) { return side.ends != at->ends; });
+    const bool stays = std::any_of(at, end, [&](const ChangedSide& side) { return side.made != at->made; });
+    for (auto a = at; a != end; ++a) {
+      for (auto b = at; b != end; ++b) {
+        if (a != b && (!stays || a->backward == b->backward))
+          pairs.add(numbers.rank_of(a->triangle), {a->triangle, b->triangle});
+      }
+    }
+    at = end;
+  }
+  return pairs.deliver(comm);
+}
+
+/// Returns the cavity of each removed, then of each new triangle of this rank: the lowest number of a removed
+/// triangle in it. Cavities are the smallest regions with removed and new triangles, equally many of each.
+/// *Collective.*
+std::vector<std::int64_t> cavities(const Communicator& comm, const Mesh& mesh,
+                                   const std::vector<FreedTriangle>& freed,
+                                   const std::vector<MadeTriangle>& made, std::int64_t first_triangle) {
+  const NodeOwners owners(comm, mesh.first_node);
+  std::int64_t next = comm.exclusive_sum(std::ssize(freed) + std::ssize(made));
+  const std::int64_t first = next;
+  const RankRanges numbers(comm, first);
+  Outbox<ChangedSide> sides;
+  const auto add = [&](const std::array<GlobalNodeId, 3>& nodes, bool is_made) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(nodes[k], nodes[(k + 1) % 3]);
+      sides.add(owners.rank_of(low), {{low, high}, low != nodes[k], is_made, next});
+    }
+    ++next;
+  };
+  std::vector<std::int64_t> found;
+  for (const FreedTriangle& t : freed) {
+    const auto& [a, b, c] = mesh.triangles[t.number - first_triangle];
+    add({mesh.global(a), mesh.global(b), mesh.global(c)}, false);
+    found.push_back(t.number);
+  }
+  for (const MadeTriangle& t : made) add(t.nodes, true);
+  found.resize(freed.size() + made.size(), std::numeric_limits<std::int64_t>::max());
+
+  const auto pairs = pairs_in_cavities(comm, sides.deliver(comm), numbers);
+  std::vector<int> ranks;
+  std::vector<std::int64_t> others;
+  for (const auto& [own, other] : pairs) {
+    ranks.push_back(numbers.rank_of(other));
+    others.push_back(other);
+  }
+  const Exchange questions(comm, ranks);
+  const std::vector<std::int64_t> asked = questions.deliver(others);
+  for (bool any_changed = true; any_changed;) {
+    std::vector<std::int64_t> answers;
+    for (const std::int64_t triangle : asked) answers.push_back(found[triangle - first]);
+    answers = questions.answer(answers);
+    const auto before = found;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      std::int64_t& own = found[pairs[i][0] - first];
+      own = std::min(own, answers[i]);
+    }
+    any_changed = comm.any(found != before);
+  }
   return found;
 }
 
-/// Assigns a block's new triangles to its free slots in a global order: slots by number, triangles by the
-/// number of the nearest previous one. *Collective.*
-void replace_triangles(const Communicator& comm, const std::vector<FreedTriangle>& freed,
-                       std::vector<MadeTriangle> made, Mesh& mesh) {
-  const auto size_of = [](const auto& rows) { return std::ssize(rows); };
-  QUADLOOP_REQUIRE(comm.sum(size_of(freed)) == comm.sum(size_of(made)), "flips keep the number of triangles");
+/// A removed or new triangle with the number of its cavity or slot.
+template <class Triangle>
+struct Numbered {
+  std::int64_t number = 0;
+  Triangle triangle;
+  friend auto operator<=>(const Numbered&, const Numbered&) = default;
+};
+
+/// Assigns new triangles to the slots of removed ones in the same cavity, which are near. *Collective.*
+void put_in_slots(const Communicator& comm, const RegionTriangulation& changed, Mesh& mesh) {
   const RankRanges triangles = ranges_of(comm, mesh.triangles);
-  std::vector<FreedTriangle> slots =
-      deliver_sorted(comm, freed, [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
-  made = deliver_sorted(comm, made, [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
-  const RankRanges free_slots = ranges_of(comm, slots);
-  std::int64_t next = comm.exclusive_sum(size_of(made));
-  made = deliver(comm, made, [&](const MadeTriangle&) { return free_slots.rank_of(next++); });
-  NodeTable nodes(mesh);
+  const std::int64_t first = triangles.begin(comm.rank());
+  const auto freed =
+      deliver(comm, changed.freed(), [&](const FreedTriangle& t) { return triangles.rank_of(t.number); });
+  const auto made =
+      deliver(comm, changed.made(), [&](const MadeTriangle& t) { return triangles.rank_of(t.near); });
+  const std::vector<std::int64_t> found = cavities(comm, mesh, freed, made, first);
+  Outbox<Numbered<FreedTriangle>> slots_out;
+  Outbox<Numbered<MadeTriangle>> made_out;
+  for (std::size_t i = 0; i < freed.size(); ++i)
+    slots_out.add(triangles.rank_of(found[i]), {found[i], freed[i]});
   for (std::size_t i = 0; i < made.size(); ++i) {
-    auto& triangle = mesh.triangles[slots[i].number - triangles.begin(comm.rank())];
-    for (std::size_t k = 0; k < 3; ++k) triangle[k] = nodes.local(made[i].nodes[k], made[i].points[k]);
+    const std::int64_t cavity = found[freed.size() + i];
+    made_out.add(triangles.rank_of(cavity), {cavity, made[i]});
+  }
+  auto slots = slots_out.deliver(comm);
+  auto fillings = made_out.deliver(comm);
+  std::ranges::sort(slots);
+  std::ranges::sort(fillings);
+  QUADLOOP_REQUIRE(slots.size() == fillings.size(), "flips keep the number of triangles");
+  Outbox<Numbered<MadeTriangle>> filled;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    QUADLOOP_REQUIRE(slots[i].number == fillings[i].number, "a cavity keeps the number of its triangles");
+    const std::int64_t slot = slots[i].triangle.number;
+    filled.add(triangles.rank_of(slot), {slot, fillings[i].triangle});
+  }
+  NodeTable nodes(mesh);
+  for (const auto& [slot, triangle] : filled.deliver(comm)) {
+    for (std::size_t k = 0; k < 3; ++k)
+      mesh.triangles[slot - first][k] = nodes.local(triangle.nodes[k], triangle.points[k]);
   }
 }
 
@@ -180,12 +278,6 @@ std::vector<std::int32_t> insert_triangles(const Communicator& comm, std::vector
   return standing;
 }
 
-std::int32_t number_of_blocks(const Communicator& comm, const std::vector<std::int32_t>& triangle_to_block) {
-  const auto last = std::max_element(triangle_to_block.begin(), triangle_to_block.end());
-  return static_cast<std::int32_t>(comm.maximum(std::int64_t{last == triangle_to_block.end() ? 0 : *last})) +
-         1;
-}
-
 void require_restorable(const Mesh& mesh, const std::vector<std::int32_t>& triangle_to_block) {
   QUADLOOP_REQUIRE(mesh.quads.empty(), "triangles alone");
   QUADLOOP_REQUIRE(triangle_to_block.empty() || triangle_to_block.size() == mesh.triangles.size(),
@@ -208,15 +300,6 @@ std::optional<RegionTriangulation> changed_region(const Communicator& comm, cons
   return triangulation;
 }
 
-/// Assigns new triangles to freed slots, block by block. *Collective.*
-void put_in_slots(const Communicator& comm, const RegionTriangulation& changed,
-                  const std::vector<std::int32_t>& triangle_to_block, Mesh& mesh) {
-  const std::int32_t blocks = number_of_blocks(comm, triangle_to_block);
-  for (std::int32_t block = 0; block < blocks; ++block) {
-    replace_triangles(comm, of_block(changed.freed(), block), of_block(changed.made(), block), mesh);
-  }
-}
-
 }  // namespace
 
 void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<GlobalNodeId> nodes,
@@ -228,7 +311,7 @@ void restore_delaunay_at(const Communicator& comm, Mesh& mesh, std::vector<Globa
     Region region(comm, mesh, {triangle_to_block, not_said});
     region.add(nodes);
     const RegionTriangulation changed = region.triangulate(rank_of);
-    put_in_slots(comm, changed, triangle_to_block, mesh);
+    put_in_slots(comm, changed, mesh);
     nodes = changed.outgrown();
   }
 }
@@ -238,7 +321,7 @@ void restore_delaunay(const Communicator& comm, Mesh& mesh, const NodeFlags& mov
                       const std::vector<std::int32_t>& triangle_to_block) {
   const std::optional<RegionTriangulation> changed =
       changed_region(comm, mesh, rank_of, {triangle_to_block, moved});
-  if (changed) put_in_slots(comm, *changed, triangle_to_block, mesh);
+  if (changed) put_in_slots(comm, *changed, mesh);
 }
 
 std::vector<std::int32_t> restore_delaunay_nearby(const Communicator& comm, Mesh& mesh,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -59,25 +60,72 @@ Box box_without_far_field(const std::vector<Chain>& chains, const std::string& w
   return box_of(chains);
 }
 
-}  // namespace
-
-Box far_field_box(const std::vector<Chain>& chains, double half_width, const std::string& where) {
-  const Point centre = box_without_far_field(chains, where).centre();
-  return {centre - Point{half_width, half_width}, centre + Point{half_width, half_width}};
+/// How far the control points of the chains reach from a centre towards a far field; without the rounding of
+/// corners that is the larger distance along the axes.
+double reach_of(const std::vector<Chain>& chains, FarFieldShape shape, Point centre) {
+  double reach = 0;
+  const auto include = [&](Point p) {
+    const Point arm = p - centre;
+    const bool is_round =
+        shape == FarFieldShape::circle || (shape == FarFieldShape::rounded_front && arm.x < 0);
+    reach = std::max(reach, is_round ? length(arm) : std::max(std::abs(arm.x), std::abs(arm.y)));
+  };
+  for (const Chain& chain : chains) {
+    std::ranges::for_each(chain.points, include);
+    for (const Curve& curve : chain.curves) std::ranges::for_each(curve.inner, include);
+  }
+  return reach;
 }
 
-void add_far_field(std::vector<Chain>& chains, const Box& square, const std::string& where) {
+/// The boundary of a square box, counter-clockwise, some of its corners replaced by quarters of a circle.
+Chain rounded_square(FarFieldShape shape, const Box& box, const std::string& where) {
+  const auto& [low, high] = box;
+  const Point centre = box.centre();
+  Chain chain{"farfield", false, {{centre.x, low.y}}, where};
+  const auto add_corner = [&](Point corner, Point to, bool is_round) {
+    if (is_round) return append_segment(chain, {{corner}, {1, std::numbers::sqrt2 / 2, 1}}, to);
+    append_line(chain, corner);
+    append_line(chain, to);
+  };
+  const bool all = shape == FarFieldShape::circle;
+  add_corner({high.x, low.y}, {high.x, centre.y}, all);
+  add_corner(high, {centre.x, high.y}, all);
+  add_corner({low.x, high.y}, {low.x, centre.y}, true);
+  add_corner(low, chain.points.front(), true);
+  chain.points.pop_back();  // the last curve ends at the first point
+  return chain;
+}
+
+}  // namespace
+
+Box far_field_box(const std::vector<Chain>& chains, FarFieldShape shape, double radius,
+                  const std::string& where) {
   const Box box = box_without_far_field(chains, where);
-  const auto& [low, high] = square;
-  if (!(low.x < box.low.x && low.y < box.low.y && box.high.x < high.x && box.high.y < high.y)) {
+  const Point reach{radius, radius};
+  if (shape == FarFieldShape::rectangle) return {box.low - reach, box.high + reach};
+  return {box.centre() - reach, box.centre() + reach};
+}
+
+void add_far_field(std::vector<Chain>& chains, FarFieldShape shape, const Box& box,
+                   const std::string& where) {
+  const Box inner = box_without_far_field(chains, where);
+  const auto& [low, high] = box;
+  const double radius = 0.5 * box.width();
+  const bool is_rectangle = shape == FarFieldShape::rectangle;
+  const double reach = is_rectangle ? 0 : reach_of(chains, shape, box.centre());
+  const bool encloses = low.x < inner.low.x && low.y < inner.low.y && inner.high.x < high.x &&
+                        inner.high.y < high.y && reach < radius;
+  if (!encloses) {
     throw InputError(
         fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which "
-                    "reaches from ({}, {}) to "
-                    "({}, {}); make it larger than {}",
-                    where, 0.5 * square.width(), square.centre().x, square.centre().y, box.low.x, box.low.y,
-                    box.high.x, box.high.y, 0.5 * std::max(box.width(), box.height())));
+                    "reaches from ({}, {}) to ({}, {}); make it larger than {}",
+                    where, radius, box.centre().x, box.centre().y, inner.low.x, inner.low.y, inner.high.x,
+                    inner.high.y, reach));
   }
-  chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
+  if (shape == FarFieldShape::circle || shape == FarFieldShape::rounded_front)
+    chains.push_back(rounded_square(shape, box, where));
+  else
+    chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});
 }
 
 }  // namespace quadloop

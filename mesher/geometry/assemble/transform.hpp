@@ -24,12 +24,17 @@ Point turned_about(Point about, Point p, Point direction);
 /// Places the points. Quarter turns are exact: no sine of 90 degrees is rounded.
 void apply(const Transform& transform, std::vector<Chain>& chains);
 
-/// The square with the given half width around the centre of the chains' bounding box. Throws InputError as
-/// add_far_field does; `where` names the setting.
-Box far_field_box(const std::vector<Chain>& chains, double half_width, const std::string& where);
+/// `rounded_front`: the letter C, a square whose left half is a half circle.
+enum class FarFieldShape { square, rectangle, circle, rounded_front };
 
-/// Adds a closed boundary "farfield" along the sides of the square. Throws InputError if a boundary already
-/// has that name or the square does not enclose the chains; `where` names the setting in messages.
-void add_far_field(std::vector<Chain>& chains, const Box& square, const std::string& where);
+/// The bounding box of a far field: a square of the given half width around the centre of the chains'
+/// bounding box, or, for a rectangle, that box extended by `radius` on each side. Throws InputError as
+/// add_far_field does; `where` names the setting.
+Box far_field_box(const std::vector<Chain>& chains, FarFieldShape shape, double radius,
+                  const std::string& where);
+
+/// Adds a closed boundary "farfield" of this shape in the box. Throws InputError if a boundary already has
+/// that name or the far field does not enclose the chains; `where` names the setting in messages.
+void add_far_field(std::vector<Chain>& chains, FarFieldShape shape, const Box& box, const std::string& where);
 
 }  // namespace quadloop

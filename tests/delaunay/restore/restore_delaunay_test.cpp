@@ -252,6 +252,24 @@ TEST(RestoreDelaunayNearby, PutsTrianglesWhereOldOnesWere) {
   }
 }
 
+/// Leaves know their triangles by the slots.
+TEST(RestoreDelaunay, PutsTrianglesInSlotsOfTheSameCavity) {
+  const Communicator self(MPI_COMM_SELF);
+  const Mesh start = delaunay_mesh(self);
+  for (const std::int64_t every : {3, 30, 200}) {
+    Mesh moved = start;
+    const NodeFlags flags = Moves(start, every, 5).apply(moved);
+    Mesh whole = moved;
+    restore_delaunay(self, whole, flags, rank_of);
+    for (std::size_t slot = 0; slot < whole.triangles.size(); ++slot) {
+      const auto &then = moved.triangles[slot], &now = whole.triangles[slot];
+      EXPECT_LE(length(centroid(moved, then) - centroid(moved, now)),
+                2 * (reach(moved, then) + reach(moved, now)))
+          << "slot " << slot << ", every " << every;
+    }
+  }
+}
+
 TEST(RestoreDelaunay, LooksNoFartherThanItMust) {
   const Communicator self(MPI_COMM_SELF);
   const Mesh start = delaunay_mesh(self);

@@ -52,6 +52,7 @@ class Dump {
   void add_one(const SizeSource::Disc& d) { add(d.centre, d.radius); }
   void add_one(const SizeSource::Line& l) { add(l.from, l.to); }
   void add_one(const RootOptions& r) { add(r.corner, r.tree_edge, r.trees_x, r.trees_y); }
+  void add_one(const FarField& f) { add(f.shape, f.radius, f.spacing); }
   void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
   void add_one(const flow::Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
   void add_one(const LayerSpec& s) { add(s.first, s.growth, s.growth_to, s.count, s.equal, s.y_plus); }
@@ -89,7 +90,7 @@ std::string text_of(const Settings& s) {
   Dump dump;
   dump.add(s.title, s.files, s.shapes, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt,
            s.morph_to);
-  dump.add(s.far_field ? s.far_field->half_width : 0, s.output_prefix, s.formats, s.fields, s.partitions);
+  dump.add(s.far_field, s.output_prefix, s.formats, s.fields, s.partitions);
   dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands,
            s.outline.blocks);
   dump.add(s.mesh.type, s.mesh.quads, s.mesh.snap, s.mesh.may_vanish, s.mesh.mirror, size.gradation,
@@ -245,6 +246,7 @@ TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
   expect_effects(title_keys());
   expect_effects(geometry_keys());
   expect_effects(shape_keys());
+  expect_effects(far_field_keys());
   expect_effects(spacing_keys());
   expect_effects(boundary_keys());
   expect_effects(layer_keys());

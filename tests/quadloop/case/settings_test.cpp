@@ -1,5 +1,6 @@
 #include "quadloop/case/settings.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -127,7 +128,7 @@ formats = ["cgns"]
   EXPECT_EQ(s.files[0].transform.scale, 2);
   EXPECT_EQ(s.files[0].transform.rotate_degrees, 90);
   EXPECT_EQ(s.files[0].transform.translate, (Point{1, 2}));
-  EXPECT_EQ(s.far_field->half_width, 10);
+  EXPECT_EQ(s.far_field->radius, 10);
   EXPECT_EQ(s.mesh.size.gradation, 1.25);
   EXPECT_EQ(s.mesh.size.curvature, 10);
   EXPECT_EQ(s.mesh.size.gap, 2);
@@ -186,6 +187,60 @@ TEST_F(SettingsTest, SizesFollowTheGeometryWhereTheyAreNotGiven) {
   const Settings fine = read("far_field = 16\n[spacing]\nmax = 0.5\n");
   EXPECT_EQ(mesh_options(fine, load(fine)).size.min,
             0.25);  // sizes halve: so there is a leaf no larger than max
+}
+
+TEST_F(SettingsTest, TheRootMeetsTheSmallestRequestOfABoundaryElseMax) {
+  const auto aim = [&](const std::string& text) {
+    const Settings settings = read("far_field = 16\n" + text);
+    return mesh_options(settings, load(settings)).size.aim;
+  };
+  const std::string box = "[boundary.box]\nspacing = 0.3\n",
+                    farfield = "[boundary.farfield]\nspacing = 0.7\n";
+  EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + box + farfield), 0.3);
+  const std::string layers = "layers = { first = 0.1, growth = 1.2, count = 2 }\n";
+  EXPECT_EQ(aim(box + layers), 0.24) << "twice the last layer";
+  EXPECT_EQ(aim("[boundary.box]\n" + layers + farfield), 0.24);
+  EXPECT_EQ(aim("[boundary.box]\nspacing = 0.2\n" + layers), 0.2);
+  EXPECT_EQ(aim("[spacing]\nmax = 0.9\n" + farfield), 0.7);
+  EXPECT_EQ(aim("[spacing]\nmax = 0.9\n"), 0.9);
+  EXPECT_EQ(aim("[spacing]\nmin = 0.4\nmax = 0.9\n" + box), 0.4) << "no smaller than min";
+  EXPECT_EQ(aim("[spacing]\nmax = 0.2\n" + box), 0.2) << "no larger than max";
+  EXPECT_EQ(aim("[[source]]\ndisc = [9, 9, 1]\nspacing = 0.11\n"), 0.11) << "the smallest of all";
+}
+
+TEST_F(SettingsTest, TheDefaultOfMinPermitsCellsOfMax) {
+  for (double max = 0.011; max < 9; max *= 1.37) {
+    for (const char* const rest : {"", "gap = 2\n", "curvature = 10\n", "[boundary.box]\nspacing = 7\n"}) {
+      for (const char* const far_field :
+           {"", "far_field = 9\n", "far_field = { shape = \"c\", radius = 17 }\n"}) {
+        const Settings settings = read(far_field + fmt::format("[spacing]\nmax = {}\n", max) + rest);
+        const Geometry geometry = load(settings);
+        const SizeOptions sizes = mesh_options(settings, geometry).size;
+        const TreeGrid root = choose_root(geometry, sizes);
+        EXPECT_FALSE(root.is_larger(root.finest_level(sizes.min), max)) << max << rest << far_field;
+        EXPECT_TRUE(spacing_warnings(mesh_options(settings, geometry), geometry).empty()) << max << rest;
+      }
+    }
+  }
+}
+
+TEST_F(SettingsTest, AFarFieldMayBeATable) {
+  const auto far_field = [&](const std::string& keys) { return "far_field = { " + keys + " }\n"; };
+  const Settings settings = read(far_field("shape = \"circle\", radius = 20, spacing = 3"));
+  EXPECT_EQ(settings.far_field->shape, FarFieldShape::circle);
+  const Geometry circle = load(settings);
+  EXPECT_EQ(circle.boundary(BoundaryId{1}).spacing, 3);
+  EXPECT_EQ(circle.boundary(BoundaryId{1}).condition, BoundaryCondition::farfield);
+  EXPECT_EQ(circle.box().high, (Point{22, 22}));
+  EXPECT_EQ(load(read(far_field("radius = 20"))).box().low, (Point{-18, -18})) << "a square";
+  const Settings both = read(far_field("radius = 20, spacing = 3") + "[boundary.farfield]\nspacing = 2\n");
+  EXPECT_EQ(load(both).boundary(BoundaryId{1}).spacing, 2);
+  EXPECT_NE(refused(far_field("shape = \"circle\"")).find("'geometry.far_field.radius' is missing"),
+            std::string::npos);
+  EXPECT_NE(refused(far_field("shape = \"oval\", radius = 9")).find("'geometry.far_field.shape' is 'oval'"),
+            std::string::npos);
+  EXPECT_NE(refused(far_field("shape = \"circle\", radius = 2")).find("case.toml:3: 'geometry.far_field'"),
+            std::string::npos);
 }
 
 TEST_F(SettingsTest, SizesAreSmallEnoughForLayersAndLines) {

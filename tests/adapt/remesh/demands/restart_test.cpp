@@ -246,7 +246,7 @@ TEST(Restart, TheRootStaysAndAGeometryOutsideIsRefused) {
   EXPECT_EQ(input.mesh.size.root->far_corner, end);
   larger.root_far = beyond;
   keep_root(larger, input);
-  EXPECT_EQ(choose_root(input.geometry, input.mesh.size.root).box().high, beyond) << "to the bit";
+  EXPECT_EQ(choose_root(input.geometry, input.mesh.size).box().high, beyond) << "to the bit";
   elsewhere.root_x += 0.5;
   EXPECT_THROW(keep_root(elsewhere, input), InputError);
 }
