@@ -5,7 +5,6 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_sink.hpp"
 #include "io/model/layers_text.hpp"
-#include "io/model/strip_text.hpp"
 
 namespace quadloop::io {
 
@@ -58,15 +57,50 @@ void CgnsPatches::put(std::span<const BoundaryStream::Edge> edges) {
   put(std::span<const cgsize_t>(ends));
 }
 
-void CgnsPatches::put_strips(const std::vector<StripLayers>& strips) {
-  std::string text;
-  for (const StripLayers& strip : strips) text += comments_of(strip);
-  if (!text.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", text);
+void CgnsPatches::put_comments(const std::string& comments) {
+  if (!comments.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", comments);
+}
+
+void CgnsPatches::put_pair(const std::string& name, const PeriodicPair& pair, const PairedNodes& nodes) {
+  const PeriodicPair* const translated = pair.rotates() ? nullptr : &pair;
+  put_connection(name, nodes.from, nodes.to, translated, 1);
+  put_connection(name + "_back", nodes.to, nodes.from, translated, -1);
+}
+
+void CgnsPatches::put_connection(const std::string& name, const BoundaryLine& from, const BoundaryLine& to,
+                                 const PeriodicPair* translated, float sign) {
+  if (!connections_.valid())
+    connections_ = nodes_.add(zone_, "ZoneGridConnectivity", "ZoneGridConnectivity_t");
+  const CgnsNodes::Node connection =
+      nodes_.add_text(connections_, name, "GridConnectivity_t", CgnsSink::zone_name);
+  nodes_.add_text(connection, "GridConnectivityType", "GridConnectivityType_t",
+                  cg_GridConnectivityTypeName(Abutting1to1));
+  nodes_.add_text(connection, "GridLocation", "GridLocation_t", cg_GridLocationName(Vertex));
+  for (const auto& [list, line] : {std::pair("PointList", &from), std::pair("PointListDonor", &to)}) {
+    std::vector<cgsize_t> numbers;
+    for (const GlobalNodeId node : line->nodes) numbers.push_back(static_cast<cgsize_t>(node.value() + 1));
+    nodes_.add_integers(connection, list, "IndexArray_t", numbers, 1);
+  }
+  if (translated == nullptr) return;
+  const CgnsNodes::Node property =
+      nodes_.add(connection, "GridConnectivityProperty", "GridConnectivityProperty_t");
+  const CgnsNodes::Node periodic = nodes_.add(property, "Periodic", "Periodic_t");
+  const std::array<float, 2> none{}, way{sign * static_cast<float>(translated->translation.x),
+                                         sign * static_cast<float>(translated->translation.y)};
+  const std::array<float, 5> of_length{0, 1, 0, 0, 0},
+      of_angle{0, 0, 0, 0, 1};  // exponents of the five units
+  const auto put_reals = [&](const char* of, const auto& values, const auto& exponents) {
+    const CgnsNodes::Node reals = nodes_.add_reals(periodic, of, "DataArray_t", values);
+    nodes_.add_reals(reals, "DimensionalExponents", "DimensionalExponents_t", exponents);
+  };
+  put_reals("RotationCenter", none, of_length);
+  put_reals("RotationAngle", none, of_angle);
+  put_reals("Translation", way, of_length);
 }
 
 void CgnsPatches::close() {
   elements_.reset();
-  for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_})
+  for (CgnsNodes::Node* node : {&base_, &zone_, &conditions_, &connections_})
     *node = {};  // HDF5 keeps a file open as long as any object in it is open
   nodes_.close();
 }

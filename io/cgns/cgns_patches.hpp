@@ -12,6 +12,7 @@
 #include "io/files/boundary_stream.hpp"
 #include "io/files/output_file.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -34,14 +35,20 @@ class CgnsPatches {
   void put(std::span<const cgsize_t> nodes) { elements_->put(nodes); }
   void put(std::span<const BoundaryStream::Edge> edges);
 
-  /// Writes the nodes of strips as a descriptor of the zone.
-  void put_strips(const std::vector<StripLayers>& strips);
+  /// Writes strips and pairs, as comments_of() the mesh, as a descriptor of the zone.
+  void put_comments(const std::string& comments);
+  /// Writes a pair as two vertex connections of the zone with itself, one for each direction. A rotation in
+  /// the plane has no place in the angles of a base of two dimensions: of it only the nodes are written.
+  void put_pair(const std::string& name, const PeriodicPair& pair, const PairedNodes& nodes);
 
   void close();
 
  private:
+  void put_connection(const std::string& name, const BoundaryLine& from, const BoundaryLine& to,
+                      const PeriodicPair* translated, float sign);
+
   CgnsNodes nodes_;
-  CgnsNodes::Node base_, zone_, conditions_;
+  CgnsNodes::Node base_, zone_, conditions_, connections_;
   std::optional<CgnsNodes::Array> elements_;
   cgsize_t first_ = 0, next_;
 };

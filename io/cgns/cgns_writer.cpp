@@ -8,6 +8,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/stream/stream_cell_values.hpp"
 #include "mesher/base/error.hpp"
@@ -151,7 +152,13 @@ class CgnsWriter {
           patches_->put_condition(name, *boundary, EdgeCenter);
         },
         [&](std::span<const BoundaryStream::Edge> edges) { patches_->put(edges); });
-    stream_.on_root([&] { patches_->put_strips(stream_.extruded()->plane.strips); });
+    const Mesh& mesh = stream_.extruded()->plane;
+    stream_.on_root([&] { patches_->put_comments(comments_of(mesh)); });
+    for (const PeriodicPair& pair : mesh.pairs) {
+      const PairedNodes nodes = paired_nodes(stream_.communicator(), mesh, pair);
+      const std::ptrdiff_t number = &pair - mesh.pairs.data() + 1;
+      stream_.on_root([&] { patches_->put_pair("pair_" + std::to_string(number), pair, nodes); });
+    }
   }
 
   void write_patches() {

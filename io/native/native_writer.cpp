@@ -1,7 +1,7 @@
 #include <span>
 
 #include "io/model/layers_text.hpp"
-#include "io/model/strip_text.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -105,7 +105,7 @@ class NativeWriter {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
-    for (const StripLayers& strip : mesh_.strips) file_.write(comments_of(strip));
+    file_.write(comments_of(mesh_));
   }
 
   static std::string layers_text(const BoundaryEdges& boundary) {

@@ -90,8 +90,8 @@ void GrownMesh::put_together(const std::function<void(NodeId, std::vector<Point>
   refuse_bad_cells();
   place_nodes(append_behind);
   merge_boundaries();
-  merge_cells(mesh_.triangles, triangles_, &LeafRecord::triangles);
-  merge_cells(mesh_.quads, quads_, &LeafRecord::quads);
+  merge_cells(mesh_.triangles, triangles_, dropped_triangles_, &LeafRecord::triangles);
+  merge_cells(mesh_.quads, quads_, dropped_quads_, &LeafRecord::quads);
   for (LeafRecord& leaf : leaves_) leaf.block = has_cells(leaf) ? 1 : 0;
 }
 
@@ -127,10 +127,17 @@ std::array<NodeId, width> GrownMesh::numbered(const std::array<GlobalNodeId, wid
   return nodes;
 }
 
-/// Inserts the added cells of each leaf after the leaf's own cells.
+/// Inserts the added cells of each leaf after the leaf's own cells, of which some may be dropped.
 template <std::size_t width>
 void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                            std::int32_t LeafRecord::*count) const {
+                            std::vector<std::int32_t>& dropped, std::int32_t LeafRecord::*count) const {
+  std::ranges::sort(dropped);
+  auto next_dropped = dropped.cbegin();
+  const auto is_dropped = [&](auto cell) {
+    if (next_dropped == dropped.cend() || cell - cells.cbegin() != *next_dropped) return false;
+    ++next_dropped;
+    return true;
+  };
   std::ranges::stable_sort(added, {}, &OfLeaf<width>::leaf);
   std::vector<std::array<NodeId, width>> merged;
   merged.reserve(cells.size() + added.size());
@@ -138,6 +145,10 @@ void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::
   auto next = added.cbegin();
   for (std::int32_t leaf = 0; leaf < std::ssize(leaves_); ++leaf) {
     for (const auto end = own + leaves_[leaf].*count; own != end; ++own) {
+      if (is_dropped(own)) {
+        --(leaves_[leaf].*count);
+        continue;
+      }
       std::array<GlobalNodeId, width> ids;
       std::ranges::transform(*own, ids.begin(), [&](NodeId node) { return after_[node]; });
       merged.push_back(numbered(ids));

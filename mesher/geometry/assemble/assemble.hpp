@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesher/geometry/assemble/boundary_rules.hpp"
+#include "mesher/geometry/assemble/pair_outlines.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -27,6 +28,7 @@ struct AssembleOptions {
   std::string far_field;
   /// Boundaries of bodies, such as airfoils; each needs an outer boundary, as the flow is around them.
   std::vector<std::string> bodies;
+  std::vector<WantedPair> pairs = {};  ///< made exact: match_outlines()
 };
 
 /// Builds the geometry of the domain from polylines. Joins open chains end to end into loops (ends must be

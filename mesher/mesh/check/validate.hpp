@@ -25,6 +25,7 @@ enum class MeshRule {
   closed,      ///< boundary edges form closed loops, none is listed twice
   area,        ///< the cells' areas sum to that enclosed by the boundary (relative 1e-10)
   overlap,     ///< cells wind once around an inner node; boundary edges meet only at shared nodes
+  pairs,       ///< the nodes of a periodic pair are images of each other
   geometry,    ///< boundary nodes lie on their boundary, and points of the geometry near the mesh's boundary
 };
 const char* name_of(MeshRule rule);

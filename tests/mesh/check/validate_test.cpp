@@ -94,6 +94,12 @@ TEST(Validate, BothSidesOfACrackAreBoundary) {
   EXPECT_TRUE(has(validate(mesh), MeshRule::coincident));
 }
 
+TEST(Validate, PairsAreImages) {
+  Mesh mesh = test::mixed_square();
+  mesh.pairs = {{"wall", "far", {0, 2}}};  // it has corners
+  EXPECT_TRUE(has(validate(mesh), MeshRule::pairs));
+}
+
 TEST(Validate, Positive) {
   expect_fault(MeshRule::positive, [](Mesh& m) { std::swap(m.triangles[0][0], m.triangles[0][1]); });
   expect_fault(MeshRule::positive, [](Mesh& m) { m.points[4] = {1, 0}; });
