@@ -94,7 +94,7 @@ std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, 
 
 // Structured bindings, so that a new option does not compile before it is considered here.
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
-  const auto& [type, quads, size, snap, may_vanish, limit, mirror] = options;
+  const auto& [type, quads, size, snap, may_vanish, limit, mirror, pairs] = options;
   // may_vanish and limit do not affect the mesh
   const auto& [min, max, aim, gradation, curvature, gap, sources, root] = size;
   // aim follows from the case's other options and the geometry
@@ -120,6 +120,13 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
   digest.add(snap);
   for (const LayerLine& line : lines) digest.add(line);
   if (mirror) digest.add(std::uint64_t{*mirror == MirrorAxis::x ? 1U : 2U});
+  for (const PeriodicPair& pair : pairs) {
+    digest.add(text_digest(pair.from));
+    digest.add(text_digest(pair.to));
+    digest.add(pair.translation);
+    digest.add(pair.degrees);
+    digest.add(pair.centre);
+  }
   return digest.value();
 }
 

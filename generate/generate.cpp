@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "generate/digests.hpp"
+#include "generate/match_pairs.hpp"
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
 #include "mesher/base/log.hpp"
@@ -73,7 +74,10 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   if (input.smooth.sweeps == 0) return;
   const int finest = result.report.finest_allowed;
   smoother::SmoothOptions options = smooth_options_for(input, finest);
-  if (!pinned.empty()) options.pinned = owned_among(pinned, result.mesh);
+  std::vector<GlobalNodeId> fixed = nodes_of_pairs(comm, input.mesh.pairs, result.mesh);
+  fixed.insert(fixed.end(), pinned.begin(), pinned.end());
+  std::ranges::sort(fixed);
+  if (!fixed.empty()) options.pinned = owned_among(fixed, result.mesh);
   options.triangle_to_block = result.mesh.blocks.of_triangles;
   options.keep_slots = !has_triangles_alone(input.mesh.type) || input.geometry.has_blocks();
   const smoother::SmoothReport report = smoother::smooth_mesh(comm, result.mesh, options);
@@ -96,7 +100,8 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
   }
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     const auto& layers = geometry.boundaries()[b].layers;
-    if (layers && has_other_parts[b] == 0) mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
+    if (layers && has_other_parts[b] == 0)
+      mesh.boundaries[b].layers = {layers->count, layers_thickness(*layers)};
   }
 }
 
@@ -114,9 +119,9 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
   result.tree.attributes.geometry_digest = input.geometry.digest();
 }
 
-/// Moves the boundary nodes onto the geometry's curves; a Delaunay mesh stays Delaunay. *Collective.*
-void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult& result) {
-  const NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, result.mesh);
+/// Makes a mesh Delaunay again after nodes have moved, if it is to be. *Collective.*
+void restore_after(const Communicator& comm, const MeshInput& input, const NodeFlags& moved,
+                   MeshResult& result) {
   if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
   const auto order = order_of_nodes(input, result.report.finest_allowed);
   if (input.geometry.has_blocks())
@@ -125,13 +130,31 @@ void follow_curves(const Communicator& comm, const MeshInput& input, MeshResult&
     count_triangles(restore_delaunay_nearby(comm, result.mesh, moved, order), result.tree.leaves);
 }
 
-/// Builds a mesh without smoothing. *Collective.*
+/// Builds a mesh whose quadtree cells have the same sizes on both sides of periodic pairs. *Collective.*
+MeshResult build_with_partners(const Communicator& comm, const MeshInput& input,
+                               const DemandedSplits& demanded) {
+  const std::vector<PeriodicPair>& pairs = input.mesh.pairs;
+  MeshResult result = build_mesh(comm, input.geometry, input.mesh, demanded);
+  if (pairs.empty()) return result;
+  DemandedSplits splits = demanded;
+  while (demand_sizes_of_partners(comm, input.geometry, pairs, result, splits))
+    result = build_mesh(comm, input.geometry, input.mesh, splits);
+  forget_splits(demanded, result.tree);
+  restore_after(comm, input, match_pairs(comm, input.geometry, pairs, result), result);
+  if (keeps_parallelograms(input.mesh))
+    split_skew_quads(result.mesh, result.tree.leaves, order_of_nodes(input, result.report.finest_allowed));
+  return result;
+}
+
+/// Builds a mesh without smoothing, with its boundary nodes on the geometry's curves. *Collective.*
 GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
-  GeneratedMesh generated{build_mesh(comm, input.geometry, input.mesh, demanded), {}, {}};
+  GeneratedMesh generated{build_with_partners(comm, input, demanded), {}, {}};
   const MeshReport& report = generated.result.report;
   generated.times.append(report.times);
   require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
-  follow_curves(comm, input, generated.result);
+  NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, generated.result.mesh);
+  place_images(comm, input.mesh.pairs, generated.result.mesh);
+  restore_after(comm, input, moved, generated.result);
   return generated;
 }
 
@@ -292,6 +315,8 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
                                               : generate_plain(comm, input, demanded, change);
   MeshResult& result = generated.result;
   generated.times.begin("check");
+  place_images(comm, input.mesh.pairs, result.mesh);
+  result.mesh.pairs = input.mesh.pairs;
   require_sound(comm, result.mesh);
   generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);

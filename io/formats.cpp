@@ -54,7 +54,7 @@ template <MshVersion version>
 FileFormat msh_row(const std::string& name) {
   return {.name = name,
           .program = "Gmsh",
-          .places = {Content::mesh, Content::blocks, Content::block_names, Content::mesh3d},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
@@ -100,12 +100,12 @@ FileFormat medit_row() {
 std::vector<FileFormat> native_rows() {
   using enum Content;
   return {{.name = "mesh",
-           .places = {mesh, solution, constants, blocks, block_names, layers},
+           .places = {mesh, solution, constants, blocks, block_names, layers, pairs},
            .by_default = true,
            .read = read_native_or_medit,
            .write = write_native},
           {.name = "qmesh",
-           .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
+           .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
            .write = write_binary}};
 }
@@ -113,7 +113,7 @@ std::vector<FileFormat> native_rows() {
 FileFormat cgns_row() {
   using enum Content;
   return {.name = "cgns",
-          .places = {mesh, solution, blocks, block_names, conditions, layers, mesh3d},
+          .places = {mesh, solution, blocks, block_names, conditions, layers, pairs, mesh3d},
           .by_default = true,
           .read = read_cgns,
           .write = write_cgns,
@@ -127,13 +127,13 @@ FileFormat cgns_row() {
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
-           .places = {mesh, solution, blocks, block_names, layers, mesh3d},
+           .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
            .write = write_vtu},
           {.name = "pvtu",
            .program = "VTK",
-           .places = {mesh, solution, blocks, block_names, layers, mesh3d},
+           .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
            .write = write_pvtu,
@@ -142,7 +142,7 @@ std::vector<FileFormat> vtk_rows() {
 
 FileFormat su2_row() {
   return {.name = "su2",
-          .places = {Content::mesh, Content::blocks, Content::block_names, Content::mesh3d},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
           .read = read_su2,
           .write = write_su2,
           .boundary_names = su2_marker_names,
@@ -179,7 +179,7 @@ FileFormat foam_row() {
   using enum Content;
   return {.name = "polyMesh",
           .program = "OpenFOAM",
-          .places = {mesh, blocks, block_names, conditions, mesh3d},
+          .places = {mesh, blocks, block_names, conditions, pairs, mesh3d},
           .read = read_foam,
           .write = write_foam,
           .boundary_names = foam_patch_names,

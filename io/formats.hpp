@@ -20,6 +20,7 @@ enum class Content {
   block_names,
   conditions,  ///< of boundaries
   layers,      ///< number of layers on boundaries
+  pairs,       ///< periodic pairs of boundaries
   mesh3d       ///< a 3D mesh
 };
 

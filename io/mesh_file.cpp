@@ -13,6 +13,7 @@
 
 #include "io/formats.hpp"
 #include "io/model/orient_mesh3d.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
@@ -59,6 +60,8 @@ void finish_reading(LoadedMesh& loaded, const std::string& path) {
   for (BoundaryEdges& boundary : loaded.mesh.boundaries) names.push_back(&boundary.name);
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
+  const std::vector<NodeId> of_pairs = nodes_of_pairs(loaded.mesh);
+  loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), of_pairs.begin(), of_pairs.end());
   clean_up_names(std::move(names), loaded.solution, path, loaded.warnings);
   if (loaded.blocks > 1) loaded.mesh.blocks = plane_blocks(loaded);
 }
@@ -80,7 +83,7 @@ struct MeshContent {
   std::vector<std::string> interfaces = {};   ///< names of boundaries with an edge between two cells
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
-  bool has_layers = false;
+  bool has_layers = false, has_pairs = false;
   bool knows_walls = false;  ///< a case determines the conditions, also if all are "none"
 
   bool knows_conditions() const {
@@ -103,6 +106,7 @@ MeshContent content_of(const Boundaries& boundaries) {
 MeshContent content_of(const Mesh& mesh, const Field* solution) {
   MeshContent content = content_of(mesh.boundaries);
   content.has_layers = has_layers(mesh);
+  content.has_pairs = !mesh.pairs.empty();
   content.solution = solution;
   return content;
 }
@@ -225,6 +229,8 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
     losses.push_back(std::move(lost));
   if (content.has_layers && !format.holds(Content::layers))
     lose("this format cannot store the number of layers, which is omitted");
+  if (content.has_pairs && !format.holds(Content::pairs))
+    lose("this format cannot store periodic pairs, which are omitted");
   append_block_losses(format, content, path, losses);
   if (format.unknown_boundary != nullptr && !content.knows_conditions() && !content.boundary_names.empty())
     losses.push_back(

@@ -16,6 +16,7 @@
 #include "io/cgns/cgns_values.hpp"
 #include "io/model/clean_up.hpp"
 #include "io/model/layers_text.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "mesher/base/error.hpp"
 
@@ -333,8 +334,8 @@ class ZoneReader {
     own.donor = donor.data();
     own.nodes.resize(count);
     own.of_donor.resize(count);
-    file_.check(cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type,
-                             own.of_donor.data()));
+    file_.check(
+        cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type, own.of_donor.data()));
   }
 
   void mark_periodic(int connection) {
@@ -368,6 +369,7 @@ class ZoneReader {
     file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "end"));
     const std::string text = file_.descriptor_here(strips_descriptor).value_or("");
     mesh_.strips = strips_in_comments(text, static_cast<std::int32_t>(nodes_)).strips;
+    mesh_.pairs = pairs_in_comments(text);
   }
 
   void read_solution() {
@@ -430,8 +432,9 @@ NodeLinks links_of(const std::vector<ZoneConnection>& connections, const std::ve
   const auto number_of = [&](std::size_t zone, cgsize_t node) {
     const std::size_t end = zone + 1 < first_nodes.size() ? first_nodes[zone + 1] : nodes;
     if (node < 1 || node > std::int64_t(end - first_nodes[zone]))
-      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " + std::to_string(node) +
-                       ", which is none of 1 to " + std::to_string(end - first_nodes[zone]));
+      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " +
+                       std::to_string(node) + ", which is none of 1 to " +
+                       std::to_string(end - first_nodes[zone]));
     return static_cast<std::int32_t>(first_nodes[zone] + node - 1);
   };
   NodeLinks links;

@@ -85,6 +85,14 @@ CgnsNodes::Node CgnsNodes::add_integers(const Node& parent, const std::string& n
   return node;
 }
 
+CgnsNodes::Node CgnsNodes::add_reals(const Node& parent, const std::string& name, const char* label,
+                                     std::span<const float> values) const {
+  Node node = group(parent, name, label, "R4");
+  const hsize_t size = values.size();
+  put_data(node, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, std::span(&size, 1), values.data());
+  return node;
+}
+
 CgnsNodes::Array CgnsNodes::add_array(const Node& parent, const std::string& name, const char* label,
                                       std::int64_t count) const {
   const hsize_t size = count;

@@ -23,13 +23,15 @@ class CgnsNodes {
   /// Returns the node at a path of names ("/Base/domain").
   Node at(const std::string& path) const;
 
-  /// Add a child without data, with text, or with integers (`rows` x `columns` in C order; a list if
-  /// `columns` is 0).
+  /// Add a child without data, with text, with integers (`rows` x `columns` in C order; a list if
+  /// `columns` is 0), or with real numbers.
   Node add(const Node& parent, const std::string& name, const char* label) const;
   Node add_text(const Node& parent, const std::string& name, const char* label,
                 const std::string& text) const;
   Node add_integers(const Node& parent, const std::string& name, const char* label,
                     std::span<const std::int32_t> values, std::size_t columns = 0) const;
+  Node add_reals(const Node& parent, const std::string& name, const char* label,
+                 std::span<const float> values) const;
 
   /// A list of `count` integers written in pieces; must be destroyed before the file.
   class Array {

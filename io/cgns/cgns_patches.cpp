@@ -5,7 +5,6 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_sink.hpp"
 #include "io/model/layers_text.hpp"
-#include "io/model/strip_text.hpp"
 
 namespace quadloop::io {
 
@@ -68,25 +67,57 @@ void CgnsPatches::put(std::span<const BoundaryStream::Edge> edges) {
   put(std::span<const cgsize_t>(ends));
 }
 
-void CgnsPatches::put_strips(const std::vector<StripLayers>& strips) {
-  std::string text;
-  for (const StripLayers& strip : strips) text += comments_of(strip);
-  if (!text.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", text);
+void CgnsPatches::put_comments(const std::string& comments) {
+  if (!comments.empty()) nodes_.add_text(zone_, strips_descriptor, "Descriptor_t", comments);
 }
 
-void CgnsPatches::put_connection(const std::string& zone, const std::string& donor,
-                                 std::span<const cgsize_t> nodes, std::span<const cgsize_t> of_donor) {
-  constexpr const char* name = "ZoneGridConnectivity";
+void CgnsPatches::put_pair(const std::string& zone, const std::string& name, const PeriodicPair& pair,
+                           const PairedNodes& nodes) {
+  const auto numbers_of = [](const BoundaryLine& line) {
+    std::vector<cgsize_t> numbers;
+    for (const GlobalNodeId node : line.nodes) numbers.push_back(static_cast<cgsize_t>(node.value() + 1));
+    return numbers;
+  };
+  const std::vector<cgsize_t> from = numbers_of(nodes.from), to = numbers_of(nodes.to);
+  const CgnsNodes::Node forth = put_connection(zone, name, zone, from, to),
+                        back = put_connection(zone, name + "_back", zone, to, from);
+  if (pair.rotates()) return;
+  put_translation(forth, pair.translation);
+  put_translation(back, -1.0 * pair.translation);
+}
+
+void CgnsPatches::put_translation(const CgnsNodes::Node& connection, Point translation) {
+  const CgnsNodes::Node property =
+      nodes_.add(connection, "GridConnectivityProperty", "GridConnectivityProperty_t");
+  const CgnsNodes::Node periodic = nodes_.add(property, "Periodic", "Periodic_t");
+  const std::array<float, 2> none{},
+      way{static_cast<float>(translation.x), static_cast<float>(translation.y)};
+  const std::array<float, 5> of_length{0, 1, 0, 0, 0},
+      of_angle{0, 0, 0, 0, 1};  // exponents of the five units
+  const auto put_reals = [&](const char* of, const auto& values, const auto& exponents) {
+    const CgnsNodes::Node reals = nodes_.add_reals(periodic, of, "DataArray_t", values);
+    nodes_.add_reals(reals, "DimensionalExponents", "DimensionalExponents_t", exponents);
+  };
+  put_reals("RotationCenter", none, of_length);
+  put_reals("RotationAngle", none, of_angle);
+  put_reals("Translation", way, of_length);
+}
+
+CgnsNodes::Node CgnsPatches::put_connection(const std::string& zone, const std::string& name,
+                                            const std::string& donor, std::span<const cgsize_t> nodes,
+                                            std::span<const cgsize_t> of_donor) {
+  constexpr const char* list = "ZoneGridConnectivity";
   const std::string path = CgnsSink::path_of_zone(zone);
   const CgnsNodes::Node all = connected_.insert(zone).second
-                                  ? nodes_.add(nodes_.at(path), name, "ZoneGridConnectivity_t")
-                                  : nodes_.at(path + "/" + name);
-  const CgnsNodes::Node here = nodes_.add_text(all, donor, "GridConnectivity_t", donor);
+                                  ? nodes_.add(nodes_.at(path), list, "ZoneGridConnectivity_t")
+                                  : nodes_.at(path + "/" + list);
+  CgnsNodes::Node here = nodes_.add_text(all, name, "GridConnectivity_t", donor);
   nodes_.add_text(here, "GridConnectivityType", "GridConnectivityType_t",
                   cg_GridConnectivityTypeName(Abutting1to1));
   nodes_.add_text(here, "GridLocation", "GridLocation_t", cg_GridLocationName(Vertex));
   nodes_.add_integers(here, "PointList", "IndexArray_t", nodes, 1);
   nodes_.add_integers(here, "PointListDonor", "IndexArray_t", of_donor, 1);
+  return here;
 }
 
 void CgnsPatches::put_block(const std::string& zone, std::int32_t number, const std::string& name) {

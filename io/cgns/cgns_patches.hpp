@@ -13,6 +13,7 @@
 #include "io/files/boundary_stream.hpp"
 #include "io/files/output_file.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -38,19 +39,25 @@ class CgnsPatches {
   void put(std::span<const cgsize_t> nodes) { elements_->put(nodes); }
   void put(std::span<const BoundaryStream::Edge> edges);
 
-  /// Writes the nodes of strips as a descriptor of the zone.
-  void put_strips(const std::vector<StripLayers>& strips);
+  /// Writes strips and pairs, as comments_of() the mesh, as a descriptor of the zone.
+  void put_comments(const std::string& comments);
+  /// Writes a pair as two vertex connections of the zone with itself, one for each direction. A rotation in
+  /// the plane has no place in the angles of a base of two dimensions: of it only the nodes are written.
+  void put_pair(const std::string& zone, const std::string& name, const PeriodicPair& pair,
+                const PairedNodes& nodes);
 
   /// Writes the nodes of a zone that another one, the donor, also has: lists of the same length, from 1, in
   /// the same order.
-  void put_connection(const std::string& zone, const std::string& donor, std::span<const cgsize_t> nodes,
-                      std::span<const cgsize_t> of_donor);
+  CgnsNodes::Node put_connection(const std::string& zone, const std::string& name, const std::string& donor,
+                                 std::span<const cgsize_t> nodes, std::span<const cgsize_t> of_donor);
   /// Writes the number of a zone among all, from 1, as libcgns sorts them by name, and its original name.
   void put_block(const std::string& zone, std::int32_t number, const std::string& name);
 
   void close();
 
  private:
+  void put_translation(const CgnsNodes::Node& connection, Point translation);
+
   CgnsNodes nodes_;
   CgnsNodes::Node base_, zone_, conditions_;
   std::set<std::string> families_, connected_;  ///< names of families; of zones with connections

@@ -9,6 +9,7 @@
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
 #include "io/cgns/cgns_sink.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/stream/block_meshes.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/stream/stream_blocks.hpp"
@@ -59,7 +60,12 @@ class CgnsZoneWriter {
   /// `sink` and `patches` exist on rank 0 only.
   CgnsZoneWriter(const MeshStream& stream, std::string zone, std::unique_ptr<CgnsSink>& sink,
                  std::unique_ptr<CgnsPatches>& patches)
-      : stream_{stream}, zone_{std::move(zone)}, cells_{stream}, names_{stream}, sink_{sink}, patches_{patches} {}
+      : stream_{stream},
+        zone_{std::move(zone)},
+        cells_{stream},
+        names_{stream},
+        sink_{sink},
+        patches_{patches} {}
 
   const MeshStream& stream() const { return stream_; }
   const std::string& zone() const { return zone_; }
@@ -164,7 +170,13 @@ class CgnsZoneWriter {
           patches_->put_condition(name, *boundary, EdgeCenter);
         },
         [&](std::span<const BoundaryStream::Edge> edges) { patches_->put(edges); });
-    stream_.on_root([&] { patches_->put_strips(stream_.extruded()->plane.strips); });
+    const Mesh& mesh = stream_.extruded()->plane;
+    stream_.on_root([&] { patches_->put_comments(comments_of(mesh)); });
+    for (const PeriodicPair& pair : mesh.pairs) {
+      const PairedNodes nodes = paired_nodes(stream_.communicator(), mesh, pair);
+      const std::ptrdiff_t number = &pair - mesh.pairs.data() + 1;
+      stream_.on_root([&] { patches_->put_pair(zone_, "pair_" + std::to_string(number), pair, nodes); });
+    }
   }
 
   void write_patches() {
@@ -177,7 +189,8 @@ class CgnsZoneWriter {
     const StreamedPatch& about = stream_.patches()[patch];
     patches_->begin_patch();
     if (quads > 0) patches_->begin_section(names_.of(patch), QUAD_4, quads);
-    if (triangles == 0) patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
+    if (triangles == 0)
+      patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
   }
 
   /// Writes a patch that is not a side.
@@ -277,8 +290,10 @@ class CgnsWriter {
         });
     stream_.on_root([&] {
       if (of_first.empty()) return;
-      patches_->put_connection(zones_[first].zone(), zones_[second].zone(), of_first, of_second);
-      patches_->put_connection(zones_[second].zone(), zones_[first].zone(), of_second, of_first);
+      patches_->put_connection(zones_[first].zone(), zones_[second].zone(), zones_[second].zone(), of_first,
+                               of_second);
+      patches_->put_connection(zones_[second].zone(), zones_[first].zone(), zones_[first].zone(), of_second,
+                               of_first);
     });
   }
 

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "io/foam/foam_cyclic.hpp"
 #include "io/foam/foam_file.hpp"
 #include "io/foam/foam_patches.hpp"
 #include "io/stream/stream_blocks.hpp"
@@ -89,7 +91,8 @@ class FoamWriter {
       put_foam_face(text, nodes);
     });
     faces_.write_patches(file, 5, no_head,
-                         [](TextRows& text, std::size_t, const auto& nodes, std::int64_t, std::int64_t) {
+                         [&](TextRows& text, std::size_t n, auto nodes, std::int64_t, std::int64_t) {
+                           if (is_image(n)) std::ranges::rotate(nodes, nodes.begin() + 1);
                            put_foam_face(text, nodes);
                          });
     finish(file);
@@ -135,7 +138,7 @@ class FoamWriter {
     std::int64_t start = faces_.internal();
     for (std::size_t n = 0; n < names.size(); ++n) {
       const std::string type = type_of(n);
-      text += "    " + names[n] + "\n    {\n        type            " + type + ";\n" +
+      text += "    " + names[n] + "\n    {\n        type            " + type + ";\n" + neighbour_entry(n) +
               foam_physical_type(patches[n].condition, type) + "        nFaces          " +
               std::to_string(patches[n].faces()) + ";\n        startFace       " + std::to_string(start) +
               ";\n    }\n";
@@ -145,7 +148,31 @@ class FoamWriter {
     finish(file);
   }
 
+  /// The pair of a patch, or null.
+  const PeriodicPair* pair_of(std::size_t patch) const {
+    if (stream_.held() != nullptr || patch >= stream_.side_patches()) return nullptr;
+    const std::vector<PeriodicPair>& pairs = stream_.extruded()->plane.pairs;
+    const std::string& name = stream_.patches()[patch].name;
+    const auto at =
+        std::ranges::find_if(pairs, [&](const PeriodicPair& p) { return p.from == name || p.to == name; });
+    return at == pairs.end() ? nullptr : &*at;
+  }
+  /// Whether faces are the images of those of another patch: point 0 of either is the partner of the other.
+  bool is_image(std::size_t patch) const {
+    const PeriodicPair* const pair = pair_of(patch);
+    return pair != nullptr && pair->to == stream_.patches()[patch].name;
+  }
+  /// Returns the entry that names the other patch of a pair; empty without one.
+  std::string neighbour_entry(std::size_t patch) const {
+    const PeriodicPair* const pair = pair_of(patch);
+    if (pair == nullptr) return {};
+    const std::vector<std::string> all = stream_.patch_names(), names = foam_patch_names(all);
+    const auto other = std::ranges::find(all, is_image(patch) ? pair->from : pair->to) - all.begin();
+    return "        neighbourPatch  " + names[other] + ";\n";
+  }
+
   std::string type_of(std::size_t patch) const {
+    if (pair_of(patch) != nullptr) return "cyclic";
     if (const FileMesh* held = stream_.held(); held != nullptr && held->boundaries[patch].is_empty)
       return "empty";
     if (stream_.held() == nullptr && patch >= stream_.side_patches())
@@ -205,8 +232,17 @@ std::vector<std::string> foam_patch_names(const std::vector<std::string>& names)
 }
 
 void write_foam(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  if (mesh.extruded() != nullptr && !mesh.is_plane() && !mesh.extruded()->plane.pairs.empty()) {
+    const ExtrudedMesh& given = *mesh.extruded();
+    Mesh plane = given.plane;
+    order_edges_of_pairs(outputs.communicator(), plane);
+    const ExtrudedMesh ordered{plane,       given.heights,  given.axis,  given.back,
+                               given.front, given.solution, given.blocks};
+    return FoamWriter(outputs, MeshStream(outputs.communicator(), ordered), path).write();
+  }
   if (!mesh.is_plane()) return FoamWriter(outputs, mesh, path).write();
-  const Mesh plane = without_interfaces(outputs.communicator(), mesh.extruded()->plane);
+  Mesh plane = without_interfaces(outputs.communicator(), mesh.extruded()->plane);
+  order_edges_of_pairs(outputs.communicator(), plane);
   ExtrudedMesh layer = extruded(plane, even_heights(1, 1), ExtrusionAxis::z);
   layer.blocks = mesh.extruded()->blocks;
   FoamWriter(outputs, MeshStream(outputs.communicator(), layer), path).write();

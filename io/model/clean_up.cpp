@@ -189,6 +189,7 @@ LoadedMesh cells_and_points(FileMesh& file) {
   mesh.triangles = with_ids(file.triangles);
   mesh.quads = with_ids(file.quads);
   mesh.strips = std::move(file.strips);
+  mesh.pairs = std::move(file.pairs);
   loaded.triangle_to_block = std::move(file.cell_to_block[0]);
   loaded.quad_to_block = std::move(file.cell_to_block[1]);
   loaded.block_names = std::move(file.block_names);
@@ -433,6 +434,7 @@ FileMesh file_mesh_of(const LoadedMesh& loaded) {
   for (const NodeId node : loaded.periodic_nodes) file.periodic_nodes.push_back(node.value());
   file.solution = loaded.solution;
   file.strips = loaded.mesh.strips;
+  file.pairs = loaded.mesh.pairs;
   file.warnings = loaded.warnings;
   return file;
 }

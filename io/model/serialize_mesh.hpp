@@ -13,6 +13,11 @@ void pass_fields(Pipe& pipe, StripLayers& strip) {
 }
 
 template <class Pipe>
+void pass_fields(Pipe& pipe, PeriodicPair& pair) {
+  pass(pipe, pair.from, pair.to, pair.translation, pair.degrees, pair.centre);
+}
+
+template <class Pipe>
 void pass_fields(Pipe& pipe, Field& solution) {
   pass(pipe, solution.constants, solution.names, solution.values, solution.cells.names,
        solution.cells.values);
@@ -28,7 +33,7 @@ template <class Pipe>
 void pass_fields(Pipe& pipe, FileMesh& mesh) {
   pass(pipe, mesh.dimension, mesh.points, mesh.triangles, mesh.quads, mesh.tetrahedra, mesh.pyramids,
        mesh.prisms, mesh.hexahedra, mesh.boundaries, mesh.solution, mesh.block_names, mesh.periodic_nodes,
-       mesh.strips, mesh.warnings);
+       mesh.strips, mesh.pairs, mesh.warnings);
   for (std::vector<std::int32_t>& blocks : mesh.cell_to_block) pass(pipe, blocks);
 }
 

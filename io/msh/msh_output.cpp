@@ -37,6 +37,18 @@ void MshOutput::write_head(const Box& box) {
   file_.write(text);
 }
 
+void MshOutput::write_periodic(const std::vector<Link>& links) {
+  if (links.empty()) return;
+  std::string text = "$Periodic\n" + std::to_string(links.size()) + "\n";
+  for (const Link& link : links) {
+    text += "1 " + std::to_string(link.group) + " " + std::to_string(link.partner) + "\n" +
+            (is_new_ ? "16 " : "Affine ") + link.affine + "\n" + std::to_string(link.nodes.size()) + "\n";
+    for (const auto& [node, partner] : link.nodes)
+      text += std::to_string(node + 1) + " " + std::to_string(partner + 1) + "\n";
+  }
+  file_.write(text + "$EndPeriodic\n");
+}
+
 std::string MshOutput::new_nodes_head(std::int64_t all) const {
   const std::string count = std::to_string(all);
   return "$Nodes\n1 " + count + " 1 " + count + "\n" + std::to_string(groups_.back().dimension) + " " +

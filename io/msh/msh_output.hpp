@@ -92,10 +92,16 @@ class MshOutput {
     next_ += boundaries.all_edges() * on_each;
   }
 
-  void end_elements() {
-    file_.write("$EndElements\n");
-    file_.close();
-  }
+  void end_elements() { file_.write("$EndElements\n"); }
+
+  /// A periodic curve, by its group, with its partner and their nodes, from 0.
+  struct Link {
+    std::int64_t group, partner;
+    std::string affine;  ///< 16 numbers: the map from the partner, row by row
+    std::vector<std::array<std::int64_t, 2>> nodes;
+  };
+  void write_periodic(const std::vector<Link>& links);
+  void close() { file_.close(); }
 
  private:
   using Box = std::array<double, 6>;  ///< minimum x, y and z, then the maxima

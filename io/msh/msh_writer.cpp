@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "io/msh/msh_file.hpp"
 #include "io/msh/msh_output.hpp"
 #include "io/msh/msh_text.hpp"
 #include "io/stream/stream_blocks.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop::io {
 
@@ -14,6 +19,12 @@ constexpr MshType msh_type_of = kind == CellKind::triangle      ? msh_triangle
                                 : kind == CellKind::pyramid     ? msh_pyramid
                                 : kind == CellKind::prism       ? msh_prism
                                                                 : msh_hexahedron;
+
+/// The map from `from` to `to`, as a matrix of 4 x 4.
+std::string affine_of(const PeriodicPair& pair) {
+  const Point origin = pair.image({}), x = pair.image({1, 0}) - origin;
+  return fmt::format("{} {} 0 {} {} {} 0 {} 0 0 1 0 0 0 0 1", x.x, -x.y, origin.x, x.y, x.x, origin.y);
+}
 
 /// The boundaries, then the blocks.
 std::vector<MshOutputGroup> groups_of(const MeshStream& stream) {
@@ -43,6 +54,8 @@ class MshWriter {
     for (std::int32_t block = 0; block < blocks_.count(); ++block)
       for_each_kind([&]<CellKind kind>() { write_cells<kind>(block); });
     output_.end_elements();
+    output_.write_periodic(links());
+    output_.close();
   }
 
  private:
@@ -56,6 +69,25 @@ class MshWriter {
         count += stream_.communicator().any(blocks_.rows<kind>(block).size() > 0) ? 1 : 0;
       });
     return count;
+  }
+
+  /// The pairs of a plane mesh, each `to` with its partner `from`. *Collective.*
+  std::vector<MshOutput::Link> links() const {
+    std::vector<MshOutput::Link> links;
+    if (!stream_.is_plane()) return links;
+    const Mesh& mesh = stream_.extruded()->plane;
+    const std::vector<std::string> names = stream_.patch_names();
+    const auto group = [&](const std::string& name) {
+      return std::ranges::find(names, name) - names.begin() + 1;
+    };
+    for (const PeriodicPair& pair : mesh.pairs) {
+      const PairedNodes nodes = paired_nodes(stream_.communicator(), mesh, pair);
+      MshOutput::Link link{group(pair.to), group(pair.from), affine_of(pair), {}};
+      for (std::size_t i = 0; i < nodes.from.nodes.size(); ++i)
+        link.nodes.push_back({nodes.to.nodes[i].value(), nodes.from.nodes[i].value()});
+      links.push_back(std::move(link));
+    }
+    return links;
   }
 
   void write_sides() {

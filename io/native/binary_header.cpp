@@ -82,7 +82,7 @@ class HeaderParser {
     } else if (take("cell_variable ")) {
       header_.cell_variables.emplace_back(line_);
     } else if (line_.starts_with('#')) {
-      header_.strips.append(line_).append("\n");
+      header_.comments.append(line_).append("\n");
     } else {
       refuse(fmt::format("'{}' is not a line of a head", line_.substr(0, longest_quote)));
     }
@@ -174,7 +174,7 @@ std::string text_of(const BinaryHeader& header) {
   if (header.constants > 0) lines += fmt::format("constants {}\n", header.constants);
   for (const std::string& name : header.variables) lines += "variable " + one_line(name) + "\n";
   for (const std::string& name : header.cell_variables) lines += "cell_variable " + one_line(name) + "\n";
-  lines += header.strips + "end";
+  lines += header.comments + "end";
   constexpr std::size_t digits = 12;
   const std::size_t before = binary_first_line.size() + std::string_view("header \n").size() + digits;
   // including a line end

@@ -5,7 +5,7 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/files/shared_output.hpp"
-#include "io/model/strip_text.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -30,7 +30,7 @@ class BinaryWriter {
       header_.boundaries.push_back(
           {boundary.name, boundary.condition, boundaries_.edges_of(n), boundary.layers});
     }
-    for (const StripLayers& strip : mesh_.strips) header_.strips += comments_of(strip);
+    header_.comments = comments_of(mesh_);
     put_blocks(stream);
     if (solution_ == nullptr) return;
     header_.constants = std::ssize(solution_->constants);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "io/model/layers_text.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/name_index.hpp"
@@ -120,6 +121,7 @@ class NativeReader {
     scan_.at_end();
     const StripsInText found = strips_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
+    loaded_.mesh.pairs = pairs_in_comments(scan_.passed_over());
     for (const std::string& name : found.damaged)
       loaded_.warnings.push_back(
           scan_.path() + ": the comment '# strip " + name +

@@ -1,6 +1,6 @@
 #include "io/model/layers_text.hpp"
 #include "io/model/loaded_mesh.hpp"
-#include "io/model/strip_text.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/base/ids.hpp"
@@ -111,7 +111,7 @@ class NativeWriter {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
-    for (const StripLayers& strip : mesh_.strips) file_.write(comments_of(strip));
+    file_.write(comments_of(mesh_));
   }
 
   /// A block without a name of its own has no comment.

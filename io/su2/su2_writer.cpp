@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "io/stream/block_meshes.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/stream/stream_blocks.hpp"
@@ -86,6 +88,17 @@ class Su2Writer {
       file_.write(head(n));
       write_faces<3>(n);
       write_faces<4>(n);
+    }
+    if (stream_.is_plane()) write_pairs();
+  }
+
+  /// Writes what the solver's configuration must say of pairs, as comments.
+  void write_pairs() {
+    for (const PeriodicPair& pair : stream_.extruded()->plane.pairs) {
+      const std::vector<std::string> names = su2_marker_names({pair.from, pair.to});
+      file_.write(fmt::format("% MARKER_PERIODIC= ( {}, {}, {}, {}, 0, 0, 0, {}, {}, {}, 0 )\n", names[0],
+                              names[1], pair.centre.x, pair.centre.y, pair.degrees, pair.translation.x,
+                              pair.translation.y));
     }
   }
 

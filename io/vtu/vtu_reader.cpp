@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/model/clean_up.hpp"
+#include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/stream/vtk_cell.hpp"
 #include "io/vtu/vtu_arrays.hpp"
@@ -136,6 +137,7 @@ class VtuReader {
     std::string texts;
     for (const std::string& text : numbers_.texts(array)) texts += text + "\n";
     mesh_.strips = strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
+    mesh_.pairs = pairs_in_comments(texts);
   }
 
   /// In our own files; invalid counts are ignored.

@@ -1,3 +1,4 @@
+#include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/stream/stream_blocks.hpp"
@@ -91,13 +92,13 @@ class VtuWriter {
            "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
            vtu_text_array("boundary_names", stream_.patch_names()) +
            (blocks_.are_named() ? vtu_text_array("block_names", blocks_.names()) : "") +
-           (layered_ != nullptr ? layer_arrays() : "") +
+           (layered_ != nullptr ? layer_arrays() : "") + comment_array() +
            vtu_name_arrays(stream_.patch_names(), stream_.is_plane() ? 1 : 2) +
            "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(stream_.counts().nodes) +
            "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n";
   }
 
-  /// Count and thickness of each boundary's layers, and strips.
+  /// Count and thickness of each boundary's layers.
   std::string layer_arrays() const {
     const auto& boundaries = stream_.boundaries()->present();
     const auto tag = [&](const char* type, const char* name) {
@@ -110,11 +111,18 @@ class VtuWriter {
       thicknesses.put(boundary->layers.thickness, '\n');
     }
     const std::vector<char> first = counts.take(), second = thicknesses.take();
-    std::vector<std::string> strips;
-    for (const StripLayers& strip : layered_->strips) strips.push_back(comments_of(strip));
     return tag("Int32", vtu_layer_counts) + std::string(first.begin(), first.end()) + "</DataArray>\n" +
            tag("Float64", vtu_layer_thicknesses) + std::string(second.begin(), second.end()) +
-           "</DataArray>\n" + (strips.empty() ? std::string() : vtu_text_array(vtu_strips, strips));
+           "</DataArray>\n";
+  }
+
+  /// Strips and pairs of a plane mesh.
+  std::string comment_array() const {
+    if (!stream_.is_plane()) return {};
+    std::vector<std::string> comments;
+    for (const StripLayers& strip : stream_.extruded()->plane.strips) comments.push_back(comments_of(strip));
+    for (const PeriodicPair& pair : stream_.extruded()->plane.pairs) comments.push_back(comment_of(pair));
+    return comments.empty() ? std::string() : vtu_text_array(vtu_strips, comments);
   }
 
   void add_points() {

@@ -10,6 +10,7 @@
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
+#include "mesher/geometry/periodic_pair.hpp"
 #include "mesher/grid/size_options.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -63,6 +64,9 @@ struct MeshOptions {
   /// The mesh must be symmetric in this axis, as the geometry is. build_mesh() guarantees this if sizes and
   /// root are symmetric; the axis must be a line between leaves.
   std::optional<MirrorAxis> mirror = {};
+  /// Pairs of boundaries of the geometry, each the exact image of the other. build_mesh() does not know them:
+  /// generate_mesh() makes their nodes match.
+  std::vector<PeriodicPair> pairs = {};
 };
 
 /// Report of mesh generation for the user. Numbers are over all ranks, the same on each.

@@ -90,8 +90,9 @@ void GrownMesh::put_together(const std::function<void(NodeId, std::vector<Point>
   refuse_bad_cells();
   place_nodes(append_behind);
   merge_boundaries();
-  merge_cells(mesh_.triangles, triangles_, &LeafRecord::triangles, mesh_.blocks.of_triangles);
-  merge_cells(mesh_.quads, quads_, &LeafRecord::quads, mesh_.blocks.of_quads);
+  merge_cells(mesh_.triangles, triangles_, dropped_triangles_, &LeafRecord::triangles,
+              mesh_.blocks.of_triangles);
+  merge_cells(mesh_.quads, quads_, dropped_quads_, &LeafRecord::quads, mesh_.blocks.of_quads);
   for (LeafRecord& leaf : leaves_)
     leaf.block = has_cells(leaf) ? std::max<std::int16_t>(leaf.block, 1) : std::int16_t{0};
 }
@@ -128,11 +129,20 @@ std::array<NodeId, width> GrownMesh::numbered(const std::array<GlobalNodeId, wid
   return nodes;
 }
 
-/// Inserts the added cells of each leaf after the leaf's own cells, and their blocks.
+/// Inserts the added cells of each leaf after the leaf's own cells, of which some may be dropped, and their
+/// blocks.
 template <std::size_t width>
 void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                            std::int32_t LeafRecord::*count, std::vector<std::int32_t>& blocks) const {
+                            std::vector<std::int32_t>& dropped, std::int32_t LeafRecord::*count,
+                            std::vector<std::int32_t>& blocks) const {
   const bool has_blocks = !mesh_.blocks.names.empty();
+  std::ranges::sort(dropped);
+  auto next_dropped = dropped.cbegin();
+  const auto is_dropped = [&](auto cell) {
+    if (next_dropped == dropped.cend() || cell - cells.cbegin() != *next_dropped) return false;
+    ++next_dropped;
+    return true;
+  };
   std::ranges::stable_sort(added, {}, &OfLeaf<width>::leaf);
   std::vector<std::array<NodeId, width>> merged;
   std::vector<std::int32_t> merged_blocks;
@@ -141,9 +151,13 @@ void GrownMesh::merge_cells(std::vector<std::array<NodeId, width>>& cells, std::
   auto next = added.cbegin();
   for (std::int32_t leaf = 0; leaf < std::ssize(leaves_); ++leaf) {
     for (const auto end = own + leaves_[leaf].*count; own != end; ++own) {
+      if (is_dropped(own)) {
+        --(leaves_[leaf].*count);
+        continue;
+      }
       std::array<GlobalNodeId, width> ids;
       std::ranges::transform(*own, ids.begin(), [&](NodeId node) { return after_[node]; });
-      if (has_blocks) merged_blocks.push_back(blocks[merged.size() - (next - added.cbegin())]);
+      if (has_blocks) merged_blocks.push_back(blocks[own - cells.cbegin()]);
       merged.push_back(numbered(ids));
     }
     for (; next != added.end() && next->leaf == leaf; ++next, ++(leaves_[leaf].*count)) {

@@ -45,6 +45,9 @@ class GrownMesh {
   /// Of three corners or four, counter-clockwise. Where its diagonals are equally long, that of the higher
   /// ranked of corners `outer` and `outer + 1` divides it: those away from the wall, alike in mirror images.
   void add_cell(std::int32_t leaf, std::span<const GrownNode> corners, std::size_t outer = 2);
+  /// Leaves out a cell of the mesh, by its former number on this rank.
+  void drop_triangle(std::int32_t triangle) { dropped_triangles_.push_back(triangle); }
+  void drop_quad(std::int32_t quad) { dropped_quads_.push_back(quad); }
   void add_edge(std::size_t boundary, std::int32_t leaf, const GrownNode& from, const GrownNode& to);
   /// Boundaries for which neither keep_edge() nor add_edge() is called have no edges in the end.
   void keep_edge(std::size_t boundary, std::int32_t leaf, const std::array<NodeId, 2>& edge);
@@ -71,7 +74,8 @@ class GrownMesh {
   void merge_boundaries();
   template <std::size_t width>
   void merge_cells(std::vector<std::array<NodeId, width>>& cells, std::vector<OfLeaf<width>>& added,
-                   std::int32_t LeafRecord::*count, std::vector<std::int32_t>& blocks) const;
+                   std::vector<std::int32_t>& dropped, std::int32_t LeafRecord::*count,
+                   std::vector<std::int32_t>& blocks) const;
   template <std::size_t width>
   std::array<NodeId, width> numbered(const std::array<GlobalNodeId, width>& ids) const;
   bool owns(GlobalNodeId id) const {
@@ -89,6 +93,7 @@ class GrownMesh {
   std::map<GlobalNodeId, NodeId> local_copy_;
   std::vector<OfLeaf<3>> triangles_;
   std::vector<OfLeaf<4>> quads_;
+  std::vector<std::int32_t> dropped_triangles_, dropped_quads_;
   std::vector<std::vector<OfLeaf<2>>> edges_;
   struct BadCell {
     Point corner;

@@ -9,6 +9,7 @@
 
 #include "mesher/base/id_vector.hpp"
 #include "mesher/geometry/boundary_conditions.hpp"
+#include "mesher/geometry/periodic_pair.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -113,7 +114,8 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
   std::vector<StripLayers> strips;
-  MeshBlocks blocks = {};  ///< without names there is one block, and the lists are empty
+  std::vector<PeriodicPair> pairs = {};  ///< of boundaries whose nodes match: paired_nodes()
+  MeshBlocks blocks = {};                ///< without names there is one block, and the lists are empty
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }

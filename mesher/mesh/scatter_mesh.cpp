@@ -182,6 +182,27 @@ std::vector<StripLayers> broadcast_strips(const Communicator& comm, const Mesh& 
   return strips;
 }
 
+/// Broadcasts the root's pairs.
+std::vector<PeriodicPair> broadcast_pairs(const Communicator& comm, const Mesh& whole) {
+  struct Map {
+    Point translation, centre;
+    double degrees = 0;
+  };
+  std::vector<std::string> names;
+  std::vector<Map> maps;
+  for (const PeriodicPair& pair : whole.pairs) {
+    names.push_back(pair.from);
+    names.push_back(pair.to);
+    maps.push_back({pair.translation, pair.centre, pair.degrees});
+  }
+  names = broadcast_words(comm, names);
+  comm.broadcast(maps);
+  std::vector<PeriodicPair> pairs;
+  for (std::size_t p = 0; p < maps.size(); ++p)
+    pairs.push_back({names[2 * p], names[2 * p + 1], maps[p].translation, maps[p].degrees, maps[p].centre});
+  return pairs;
+}
+
 /// Builds a rank's part from its nodes and from cells with global node numbers.
 class PartBuilder {
  public:
@@ -331,6 +352,7 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
   builder.part().boundaries = broadcast_boundaries(comm, whole);
   builder.add_edges(scatter_edges(comm, whole, numbers));
   builder.part().strips = broadcast_strips(comm, whole, numbers);
+  builder.part().pairs = broadcast_pairs(comm, whole);
   return builder.finish(comm);
 }
 
@@ -381,6 +403,7 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
   whole.strips = part.strips;
   whole.blocks = {part.blocks.names, gather_at_root(comm, part.blocks.of_triangles),
                   gather_at_root(comm, part.blocks.of_quads)};
+  whole.pairs = part.pairs;
   return whole;
 }
 

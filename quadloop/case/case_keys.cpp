@@ -13,6 +13,7 @@
 #include "quadloop/case/flow_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/pair_settings.hpp"
 #include "quadloop/case/shape_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
 
@@ -105,11 +106,11 @@ std::string general_name(const std::string& topic) {
 
 const std::vector<TableText>& case_tables() {
   static const std::vector<TableText> tables{
-      title_keys().text(),      geometry_keys().text(), far_field_keys().text(), shape_keys().text(),
-      spacing_keys().text(),    boundary_keys().text(), layer_keys().text(),     wake_keys().text(),
-      layer_line_keys().text(), flow_keys().text(),     source_keys().text(),    block_keys().text(),
-      mesh_keys().text(),       smooth_keys().text(),   adapt_keys().text(),     until_keys().text(),
-      design_keys().text(),     solver_keys().text(),   output_keys().text()};
+      title_keys().text(), geometry_keys().text(),   far_field_keys().text(), shape_keys().text(),
+      pair_keys().text(),  spacing_keys().text(),    boundary_keys().text(),  layer_keys().text(),
+      wake_keys().text(),  layer_line_keys().text(), flow_keys().text(),      source_keys().text(),
+      block_keys().text(), mesh_keys().text(),       smooth_keys().text(),    adapt_keys().text(),
+      until_keys().text(), design_keys().text(),     solver_keys().text(),    output_keys().text()};
   return tables;
 }
 

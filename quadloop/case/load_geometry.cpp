@@ -13,6 +13,7 @@
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
+#include "quadloop/case/pair_settings.hpp"
 #include "quadloop/case/settings.hpp"
 
 namespace quadloop {
@@ -120,6 +121,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     options.far_field = where;
   }
   Geometry geometry = assemble(std::move(chains), options, warnings);
+  require_no_conditions(settings, geometry);
   if (!axis) return geometry;
   const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);
   if (!settings.half) return geometry;

@@ -18,6 +18,7 @@
 #include "quadloop/case/case_keys.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/pair_settings.hpp"
 #include "quadloop/case/shape_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
 
@@ -198,8 +199,13 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   if (settings.files.empty() && settings.shapes.empty())
     root.refuse("geometry",
                 "needs an outline; name one, as in [geometry] file = \"outline.geom\", or add a [[shape]]");
+  for (const CaseTable& pair : root.tables("pair")) {
+    settings.outline.pairs.push_back(read_pair(pair));
+    settings.mesh.pairs.push_back(settings.outline.pairs.back().pair);
+  }
   read_tables(root, settings);
   require_blocks_alone(settings);
+  require_plain_pairs(settings);
   settings.solver.euler.mirror = settings.mesh.mirror;
   const bool is_built_in = settings.solver.kind == SolverSettings::Kind::euler;
   if (settings.flow && !is_built_in) settings.stream = settings.flow->stream();

@@ -5,9 +5,6 @@
 
 namespace quadloop::smoother {
 
-namespace {
-
-/// The geometry with its chords as segments.
 Geometry chords_of(const Geometry& geometry) {
   GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
@@ -17,8 +14,6 @@ Geometry chords_of(const Geometry& geometry) {
   }
   return std::move(builder).geometry(geometry.boundaries());
 }
-
-}  // namespace
 
 NodeFlags move_nodes_to_curves(const Communicator& comm, const Geometry& geometry, Mesh& mesh) {
   if (!geometry.has_curves()) return {};

@@ -183,6 +183,7 @@ Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& optio
   require_countable(chains);
   Outline outline = join_chains(std::move(chains));
   if (options.unite_islands) outline = united_islands(outline, options.join, warnings);
+  match_outlines(outline, options.pairs, warnings);
   const std::vector<LoopNesting> nestings = validate(outline, options.unite_islands ? "" : union_remedy);
   require_far_field_only(outline, nestings, options.far_field);
   require_outer_boundary(outline, nestings, options.bodies);

@@ -6,6 +6,7 @@
 
 #include "mesher/geometry/assemble/block_loops.hpp"
 #include "mesher/geometry/assemble/boundary_rules.hpp"
+#include "mesher/geometry/assemble/pair_outlines.hpp"
 #include "mesher/geometry/geometry.hpp"
 
 namespace quadloop {
@@ -30,6 +31,7 @@ struct AssembleOptions {
   std::vector<BlockRule> blocks;
   /// Boundaries of bodies, such as airfoils; each needs an outer boundary, as the flow is around them.
   std::vector<std::string> bodies;
+  std::vector<WantedPair> pairs = {};  ///< made exact: match_outlines()
 };
 
 /// Builds the geometry of the domain from polylines. Joins open chains end to end into loops (ends must be

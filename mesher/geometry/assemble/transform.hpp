@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/geometry/turn.hpp"
 
 namespace quadloop {
 
@@ -14,12 +15,6 @@ struct Transform {
   Point translate;
   Point rotate_about = {};  ///< in scaled coordinates
 };
-
-/// Cosine and sine of an angle in degrees; exactly -1, 0 or 1 for multiples of 90.
-Point unit_vector(double degrees);
-
-/// The point p turned about another one by the angle of a unit vector.
-Point turned_about(Point about, Point p, Point direction);
 
 /// Places the points. Quarter turns are exact: no sine of 90 degrees is rounded.
 void apply(const Transform& transform, std::vector<Chain>& chains);

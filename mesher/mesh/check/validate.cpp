@@ -1,5 +1,7 @@
 #include "mesher/mesh/check/validate.hpp"
 
+#include <mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +11,7 @@
 #include "mesher/geometry/point_table.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/validate_rules.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 
 namespace quadloop {
 
@@ -99,6 +102,7 @@ const char* name_of(MeshRule rule) {
     case MeshRule::closed: return "closed";
     case MeshRule::area: return "area";
     case MeshRule::overlap: return "overlap";
+    case MeshRule::pairs: return "pairs";
     case MeshRule::geometry: return "geometry";
   }
   return "unknown";
@@ -224,6 +228,10 @@ std::vector<MeshFault> validate(const Mesh& mesh, const CellBlocks& blocks) {
   check_closed(mesh, topology, faults);
   check_area(mesh, topology, faults);
   check_overlap(mesh, topology, faults);
+  for (const PeriodicPair& pair : mesh.pairs) {
+    if (const auto fault = fault_of_pair(Communicator(MPI_COMM_SELF), mesh, pair))
+      faults.push_back({MeshRule::pairs, fault->what, fault->place});
+  }
   return faults;
 }
 

@@ -95,6 +95,12 @@ TEST(Validate, BothSidesOfACrackAreBoundary) {
   EXPECT_TRUE(has(validate(mesh), MeshRule::coincident));
 }
 
+TEST(Validate, PairsAreImages) {
+  Mesh mesh = test::mixed_square();
+  mesh.pairs = {{"wall", "far", {0, 2}}};  // it has corners
+  EXPECT_TRUE(has(validate(mesh), MeshRule::pairs));
+}
+
 TEST(Validate, Positive) {
   expect_fault(MeshRule::positive, [](Mesh& m) { std::swap(m.triangles[0][0], m.triangles[0][1]); });
   expect_fault(MeshRule::positive, [](Mesh& m) { m.points[4] = {1, 0}; });
@@ -250,10 +256,9 @@ TEST(ValidateGeometry, AnInterfaceHasCellsOnBothSides) {
   two.of_triangle.clear();
   two.mesh.points.resize(6);
   two.mesh.owned_nodes = 6;
-  two.mesh.boundaries = {
-      {"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}}},
-      {"far", "farfield", {{node(3), node(0)}}},
-      {"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}}};
+  two.mesh.boundaries = {{"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}}},
+                         {"far", "farfield", {{node(3), node(0)}}},
+                         {"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}}};
   const GeometryFit fit = validate_geometry(two.mesh, two.geometry, two.blocks());
   EXPECT_TRUE(std::ranges::any_of(fit.faults, [](const MeshFault& fault) {
     return fault.what.find("boundary middle has cells on one side only") != std::string::npos;

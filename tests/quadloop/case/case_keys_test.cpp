@@ -10,6 +10,7 @@
 #include "quadloop/case/adapt_settings.hpp"
 #include "quadloop/case/layer_settings.hpp"
 #include "quadloop/case/mesh_settings.hpp"
+#include "quadloop/case/pair_settings.hpp"
 #include "quadloop/case/shape_settings.hpp"
 #include "quadloop/case/smooth_settings.hpp"
 #include "tests/io/input/temporary_file.hpp"
@@ -72,6 +73,7 @@ class Dump {
     std::visit([&](const auto& shape) { add_one(shape); }, s.shape);
     add(s.spacing);
   }
+  void add_one(const PeriodicPair& p) { add(p.from, p.to, p.translation, p.degrees, p.centre); }
   void add_one(const FlowSettings& f) {
     add(f.reynolds, f.reference_length, f.density, f.speed, f.alpha, f.gamma, f.pressure);
   }
@@ -93,8 +95,8 @@ std::string text_of(const Settings& s) {
   dump.add(s.far_field, s.output_prefix, s.formats, s.fields, s.partitions);
   dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands,
            s.outline.blocks);
-  dump.add(s.mesh.type, s.mesh.quads, s.mesh.snap, s.mesh.may_vanish, s.mesh.mirror, size.gradation,
-           size.curvature, size.gap, size.sources, size.root);
+  dump.add(s.mesh.type, s.mesh.quads, s.mesh.snap, s.mesh.may_vanish, s.mesh.mirror, s.mesh.pairs,
+           size.gradation, size.curvature, size.gap, size.sources, size.root);
   dump.add(s.smooth.sweeps, s.smooth.objective, s.smooth.method, s.solver.kind, s.solver.case_template);
   dump.add(e.mach, e.alpha, e.gamma, e.viscosity, e.prandtl, e.time, e.end_time, e.time_step, e.average_from,
            e.unsteady, e.flow_throughs, e.cfl, e.iterations, e.tolerance, e.limiter, e.initial, e.far_field,
@@ -110,6 +112,7 @@ std::string text_of(const Settings& s) {
 std::string place_of(const std::string& table) {
   const std::map<std::string, std::string> places{{"boundary.NAME", "boundary.box"},
                                                   {"boundary.NAME.layers", "boundary.box.layers"},
+                                                  {"pair", "pair.0"},
                                                   {"shape", "shape.0"},
                                                   {"source", "source.0"},
                                                   {"block", "block.0"},
@@ -197,7 +200,7 @@ class CaseKeys : public ::testing::Test {
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
     std::string tables;
-    for (const char* const list : {"shape", "source", "block", "wake", "layer_line"})
+    for (const char* const list : {"pair", "shape", "source", "block", "wake", "layer_line"})
       if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
     const std::string path = folder_.write("case.toml", tables);
     const Settings settings = read_settings(path, accepted.assignments());
@@ -245,6 +248,7 @@ class CaseKeys : public ::testing::Test {
 TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
   expect_effects(title_keys());
   expect_effects(geometry_keys());
+  expect_effects(pair_keys());
   expect_effects(shape_keys());
   expect_effects(far_field_keys());
   expect_effects(spacing_keys());
