@@ -333,8 +333,8 @@ class ZoneReader {
     own.donor = donor.data();
     own.nodes.resize(count);
     own.of_donor.resize(count);
-    file_.check(cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type,
-                             own.of_donor.data()));
+    file_.check(
+        cg_conn_read(file_.id(), 1, zone_, connection, own.nodes.data(), cgsize_type, own.of_donor.data()));
   }
 
   void mark_periodic(int connection) {
@@ -430,8 +430,9 @@ NodeLinks links_of(const std::vector<ZoneConnection>& connections, const std::ve
   const auto number_of = [&](std::size_t zone, cgsize_t node) {
     const std::size_t end = zone + 1 < first_nodes.size() ? first_nodes[zone + 1] : nodes;
     if (node < 1 || node > std::int64_t(end - first_nodes[zone]))
-      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " + std::to_string(node) +
-                       ", which is none of 1 to " + std::to_string(end - first_nodes[zone]));
+      throw InputError(path + ": zone " + names[zone] + ": a connectivity names node " +
+                       std::to_string(node) + ", which is none of 1 to " +
+                       std::to_string(end - first_nodes[zone]));
     return static_cast<std::int32_t>(first_nodes[zone] + node - 1);
   };
   NodeLinks links;

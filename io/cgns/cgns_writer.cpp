@@ -59,7 +59,12 @@ class CgnsZoneWriter {
   /// `sink` and `patches` exist on rank 0 only.
   CgnsZoneWriter(const MeshStream& stream, std::string zone, std::unique_ptr<CgnsSink>& sink,
                  std::unique_ptr<CgnsPatches>& patches)
-      : stream_{stream}, zone_{std::move(zone)}, cells_{stream}, names_{stream}, sink_{sink}, patches_{patches} {}
+      : stream_{stream},
+        zone_{std::move(zone)},
+        cells_{stream},
+        names_{stream},
+        sink_{sink},
+        patches_{patches} {}
 
   const MeshStream& stream() const { return stream_; }
   const std::string& zone() const { return zone_; }
@@ -177,7 +182,8 @@ class CgnsZoneWriter {
     const StreamedPatch& about = stream_.patches()[patch];
     patches_->begin_patch();
     if (quads > 0) patches_->begin_section(names_.of(patch), QUAD_4, quads);
-    if (triangles == 0) patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
+    if (triangles == 0)
+      patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
   }
 
   /// Writes a patch that is not a side.

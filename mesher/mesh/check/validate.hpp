@@ -82,7 +82,7 @@ struct GeometryFit {
   double boundary_node_distance = 0;    ///< largest distance of a boundary node from its boundary
   /// Largest distance of a point of the geometry from its boundary in the mesh.
   double geometry_distance = 0;
-  double area_error = 0;  ///< relative
+  double area_error = 0;                       ///< relative
   std::vector<double> block_area_errors = {};  ///< the same of each block, if there are several
 };
 
@@ -93,7 +93,7 @@ inline constexpr double largest_area_error = 0.05;
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to
 /// the mesh's extent. With several blocks the polylines must have points where blocks meet; one between two
 /// blocks may occur twice, once in each direction: then the mesh must have cells on both sides of it.
-GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry, const CellBlocks& blocks = {},
-                              double tolerance = 1e-9);
+GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry,
+                              const CellBlocks& blocks = {}, double tolerance = 1e-9);
 
 }  // namespace quadloop

@@ -250,10 +250,9 @@ TEST(ValidateGeometry, AnInterfaceHasCellsOnBothSides) {
   two.of_triangle.clear();
   two.mesh.points.resize(6);
   two.mesh.owned_nodes = 6;
-  two.mesh.boundaries = {
-      {"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}}},
-      {"far", "farfield", {{node(3), node(0)}}},
-      {"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}}};
+  two.mesh.boundaries = {{"wall", "wall", {{node(0), node(1)}, {node(1), node(2)}, {node(2), node(5)}}},
+                         {"far", "farfield", {{node(3), node(0)}}},
+                         {"middle", {}, {{node(5), node(4)}, {node(4), node(3)}}}};
   const GeometryFit fit = validate_geometry(two.mesh, two.geometry, two.blocks());
   EXPECT_TRUE(std::ranges::any_of(fit.faults, [](const MeshFault& fault) {
     return fault.what.find("boundary middle has cells on one side only") != std::string::npos;
