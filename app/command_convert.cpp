@@ -84,8 +84,7 @@ io::MeshOfFile read_convert_input(const ConvertArguments& arguments) {
 io::MeshOfFile only_block(io::MeshOfFile input, const ConvertArguments& arguments) {
   if (arguments.block.empty()) return input;
   const auto* plane = std::get_if<io::LoadedMesh>(&input);
-  if (plane == nullptr)
-    throw InputError(arguments.input + ": contains a 3D mesh; --block is for 2D meshes");
+  if (plane == nullptr) throw InputError(arguments.input + ": contains a 3D mesh; --block is for 2D meshes");
   const auto found = std::ranges::find(plane->block_names, arguments.block);
   if (found == plane->block_names.end())
     throw InputError(fmt::format("{}: has no block '{}'; its blocks are {}", arguments.input, arguments.block,

@@ -47,7 +47,8 @@ void write_mesh(OutputSet& outputs, const FileMesh& mesh, const std::string& pat
                 const std::string& format = {});
 
 /// Removes the boundaries between blocks from a plane mesh with several blocks: in 3D they are inside the
-/// mesh. If the format has a zone for each block, they are completed instead. Returns a line for each loss, with the output's name.
+/// mesh. If the format has a zone for each block, they are completed instead. Returns a line for each loss,
+/// with the output's name.
 std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& path);
 
 /// Returns a line that counts the boundaries whose names the format, or else that of the suffix, cannot

@@ -78,10 +78,11 @@ std::vector<std::string> names_beside(const std::vector<std::string>& used,
 
 std::vector<std::string> cgns_boundary_names(const std::vector<std::string>& names) {
   // Sections are siblings of these nodes in the zone, families in the base.
-  return names_beside({"ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4", "PYRA_5", "PENTA_6",
-                       "HEXA_8", "ZoneBC", "ZoneGridConnectivity", "FlowSolution", "CellSolution", "domain",
-                       "DataClass", "DimensionalUnits", strips_descriptor, full_name_descriptor, "Ordinal", "Part"},
-                      names);
+  return names_beside(
+      {"ZoneType", "GridCoordinates", "TRI_3", "QUAD_4", "TETRA_4", "PYRA_5", "PENTA_6", "HEXA_8", "ZoneBC",
+       "ZoneGridConnectivity", "FlowSolution", "CellSolution", "domain", "DataClass", "DimensionalUnits",
+       strips_descriptor, full_name_descriptor, "Ordinal", "Part"},
+      names);
 }
 
 std::vector<std::string> cgns_zone_names(const std::vector<std::string>& blocks,

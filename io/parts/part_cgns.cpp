@@ -15,7 +15,8 @@ void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int
   constexpr const char *data = "UserDefinedData_t", *array = "DataArray_t";
   CgnsNodes nodes(staged);
   {  // HDF5 keeps a file open as long as any object in it is open
-    const CgnsNodes::Node zone = nodes.at(CgnsSink::path_of_zone(CgnsSink::only_zone)), here = nodes.add(zone, "Part", data);
+    const CgnsNodes::Node zone = nodes.at(CgnsSink::path_of_zone(CgnsSink::only_zone)),
+                          here = nodes.add(zone, "Part", data);
     const auto put = [&](const CgnsNodes::Node& parent, const std::string& name, const auto& numbers,
                          const auto& number_of) {
       if (numbers.empty()) return;  // CGNS has no empty arrays

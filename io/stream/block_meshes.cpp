@@ -3,6 +3,8 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "io/model/clean_up.hpp"
@@ -58,7 +60,9 @@ class BlockCutter {
         owners_(comm_, mesh_.first_node),
         ghosts_(comm_, owners_, mesh_.owned_nodes, mesh_.ghosts),
         left_{blocks_of(edge_cells(comm_, mesh_).of_boundary)},
-        right_{blocks_of(cells_right_of_boundaries(comm_, mesh_))} {}
+        right_{blocks_of(cells_right_of_boundaries(comm_, mesh_))} {
+    if (comm_.size() > 1) find_elsewhere();
+  }
 
   std::unique_ptr<BlockMesh> cut(std::int32_t block) const {
     auto cut = std::make_unique<BlockMesh>();
@@ -91,6 +95,51 @@ class BlockCutter {
     auto next = found.begin();
     for (const std::int64_t cell : cells) all.push_back(cell == EdgeCells::none ? -1 : *next++);
     return all;
+  }
+
+  /// An edge without a block on one side, and the rank that stores it.
+  struct OpenEdge {
+    std::int64_t from, to;
+    std::int32_t rank, index;
+  };
+  struct Beside {
+    std::int32_t index, left, right;
+  };
+
+  /// Asks all ranks for the blocks beside an edge: it may be stored on a rank that has neither of its two
+  /// cells, when edge_cells() does not find them.
+  void find_elsewhere() {
+    std::vector<OpenEdge> open;
+    std::int32_t index = 0;
+    for (const BoundaryEdges& boundary : mesh_.boundaries) {
+      for (const auto& [from, to] : boundary.edges) {
+        if (left_[index] < 0 || right_[index] < 0)
+          open.push_back({mesh_.global(from).value(), mesh_.global(to).value(), comm_.rank(), index});
+        ++index;
+      }
+    }
+    const EdgeTable table(mesh_);
+    std::unordered_map<std::int64_t, NodeId> local;
+    for (std::int32_t node = 0; node < size32(mesh_.points); ++node)
+      local.emplace(mesh_.global(NodeId{node}).value(), NodeId{node});
+    Outbox<Beside> answers;
+    for (const OpenEdge& edge : comm_.all_gather_values(std::span<const OpenEdge>(open))) {
+      const auto from = local.find(edge.from), to = local.find(edge.to);
+      if (from == local.end() || to == local.end()) continue;
+      const std::int32_t left = block_of_own(table.cell_left_of(from->second, to->second)),
+                         right = block_of_own(table.cell_left_of(to->second, from->second));
+      if (left >= 0 || right >= 0) answers.add(edge.rank, {edge.index, left, right});
+    }
+    for (const Beside& beside : answers.deliver(comm_)) {
+      if (beside.left >= 0) left_[beside.index] = beside.left;
+      if (beside.right >= 0) right_[beside.index] = beside.right;
+    }
+  }
+
+  std::int32_t block_of_own(std::int32_t cell) const {
+    if (cell < 0) return -1;
+    const auto triangles = size32(blocks_.of_triangles);
+    return cell < triangles ? blocks_.of_triangles[cell] : blocks_.of_quads[cell - triangles];
   }
 
   /// Numbers the block's nodes among all nodes of this rank, -1 for others. Returns the flags of the nodes of
@@ -133,7 +182,8 @@ class BlockCutter {
     }
   }
 
-  /// Takes the owned nodes of the block, and the ghosts that are flagged. Returns the new number of each node.
+  /// Takes the owned nodes of the block, and the ghosts that are flagged. Returns the new number of each
+  /// node.
   IdVector<NodeId, NodeId> take_points(const std::vector<std::int64_t>& numbers, const NodeFlags& used,
                                        Mesh& plane) const {
     IdVector<NodeId, NodeId> local(mesh_.points.size(), NodeId{});
@@ -251,10 +301,9 @@ class HeldBlockCutter {
     return static_cast<std::int32_t>(std::ssize(mesh_.boundaries)) + at;
   }
   std::int32_t interface_of(std::int32_t first, std::int32_t second) const {
-    const auto found = std::ranges::find(boundaries_.begin() + std::ssize(mesh_.boundaries),
-                                         boundaries_.end(),
-                                         interface_name(mesh_.block_names, first, second),
-                                         &FileBoundary::name);
+    const auto found =
+        std::ranges::find(boundaries_.begin() + std::ssize(mesh_.boundaries), boundaries_.end(),
+                          interface_name(mesh_.block_names, first, second), &FileBoundary::name);
     return static_cast<std::int32_t>(found - boundaries_.begin());
   }
 
@@ -364,7 +413,8 @@ void name_interfaces(LoadedMesh& whole) {
     const std::int32_t other = table.cell_left_of(to, from);
     if (other < 0) return;
     const std::int32_t left = block_of_cell(whole, cell), right = block_of_cell(whole, other);
-    if (left >= right || std::ranges::binary_search(named, std::array{std::min(from, to), std::max(from, to)}))
+    if (left >= right ||
+        std::ranges::binary_search(named, std::array{std::min(from, to), std::max(from, to)}))
       return;
     const std::string name = interface_name(blocks, left, right);
     auto boundary = std::ranges::find(mesh.boundaries, name, &BoundaryEdges::name);

@@ -47,8 +47,8 @@ std::vector<std::unique_ptr<BlockMesh>> block_meshes(const MeshStream& stream, c
 /// Returns one block of a mesh, without its strips; a boundary between two blocks has the block on its left.
 LoadedMesh one_block(const LoadedMesh& whole, std::int32_t block);
 
-/// Adds the edges between blocks A and B that belong to no boundary to the boundary "A__B", so that each block
-/// has all its boundaries.
+/// Adds the edges between blocks A and B that belong to no boundary to the boundary "A__B", so that each
+/// block has all its boundaries.
 void name_interfaces(LoadedMesh& whole);
 
 }  // namespace quadloop::io

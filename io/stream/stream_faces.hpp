@@ -219,7 +219,7 @@ class StreamFaces {
   std::set<EdgeKey> between_;                    ///< edges of interfaces at this rank's cells
   std::int64_t own_between_ = 0;                 ///< number of those that this rank stores
   std::set<std::int64_t> interfaces_;            ///< indices of boundaries with such edges, on any rank
-  std::vector<std::int64_t> numbers_;         ///< of this rank's cells; empty: as in the stream
+  std::vector<std::int64_t> numbers_;            ///< of this rank's cells; empty: as in the stream
   std::vector<std::int64_t> across_numbers_;  ///< at each edge of this rank's cells; empty: as in the stream
   std::int64_t internal_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "io/model/clean_up.hpp"
@@ -49,27 +50,31 @@ class Su2Reader {
     return loaded;
   }
 
-  /// Whether two zones have a face at one place on markers of one name, as the zones of one mesh do. Zones of
-  /// other files keep their own nodes, even where they touch.
+  /// Whether there is a marker of two zones with all of its faces at the same places in both, as between the
+  /// zones of one mesh. Zones of other files keep their own nodes, even where they touch.
   bool has_common_faces() const {
     if (first_nodes_.size() < 2) return false;
-    using Place = std::tuple<double, double, double>;
-    for (const FileBoundary& boundary : mesh_.boundaries) {
-      std::map<std::vector<Place>, std::ptrdiff_t> zones;
-      for (const FileBoundary::Face& face : boundary.faces) {
-        std::vector<Place> places;
-        for (const std::int32_t node : face) {
-          if (node == FileBoundary::no_node) continue;
-          const Point3 p = mesh_.points[node];
-          places.emplace_back(p.x, p.y, p.z);
-        }
-        std::ranges::sort(places);
-        const auto zone = std::ranges::upper_bound(first_nodes_, static_cast<std::size_t>(face[0])) -
-                          first_nodes_.begin();
-        if (zones.emplace(std::move(places), zone).first->second != zone) return true;
-      }
+    return std::ranges::any_of(mesh_.boundaries, [&](const FileBoundary& boundary) {
+      std::map<std::vector<Place>, std::set<std::size_t>> zones;
+      for (const FileBoundary::Face& face : boundary.faces) zones[places_of(face)].insert(zone_of(face[0]));
+      return !zones.empty() &&
+             std::ranges::all_of(zones, [](const auto& at) { return at.second.size() == 2; });
+    });
+  }
+
+  using Place = std::tuple<double, double, double>;
+  std::vector<Place> places_of(const FileBoundary::Face& face) const {
+    std::vector<Place> places;
+    for (const std::int32_t node : face) {
+      if (node == FileBoundary::no_node) continue;
+      const Point3 p = mesh_.points[node];
+      places.emplace_back(p.x, p.y, p.z);
     }
-    return false;
+    std::ranges::sort(places);
+    return places;
+  }
+  std::size_t zone_of(std::size_t node) const {
+    return std::ranges::upper_bound(first_nodes_, node) - first_nodes_.begin();
   }
 
   /// Markers of the same name form one boundary.

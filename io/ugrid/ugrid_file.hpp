@@ -14,8 +14,9 @@ namespace quadloop::io {
 
 /// Writes the mesh as UGRID with the byte order `order` (.b8.ugrid: big-endian; .lb8.ugrid: little-endian),
 /// and a .mapbc file with number, condition and name of each patch. Faces are counter-clockwise as seen from
-/// outside. Several blocks are written as volume identifiers, numbers from 1, after the cells. The bytes are the same on any number of ranks. Throws OutputError on all ranks, also if the mesh
-/// is too large for 4-byte integers. *Collective.*
+/// outside. Several blocks are written as volume identifiers, numbers from 1, after the cells. The bytes are
+/// the same on any number of ranks. Throws OutputError on all ranks, also if the mesh is too large for 4-byte
+/// integers. *Collective.*
 template <std::endian order>
 void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
@@ -48,7 +49,8 @@ int mapbc_condition(BoundaryCondition condition, char axis = ' ');
 BoundaryCondition condition_of_mapbc(int number);
 
 /// Reads such a file on the calling rank only; patches without a .mapbc are "patch_1" and so on. Volume
-/// identifiers become blocks (set_blocks()); other data after the mesh are ignored, with a warning. Throws InputError.
+/// identifiers become blocks (set_blocks()); other data after the mesh are ignored, with a warning. Throws
+/// InputError.
 template <std::endian order>
 MeshOfFile read_ugrid(const std::string& path);
 

@@ -25,7 +25,8 @@ TEST(Formats, AreListedByWhatTheyHold) {
                                                  "msh", "msh41", "ugrid", "medit", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh", "qmesh"}));
-  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}), (Names{"qmesh", "fluent.msh", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::blocks, Content::conditions}),
+            (Names{"qmesh", "cgns", "fluent.msh", "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh"}));
   EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
 }
 

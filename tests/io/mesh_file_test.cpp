@@ -224,9 +224,8 @@ TEST(MeshFile, ConditionsBetweenBlocksAreKeptOrReported) {
                 is_stored);
       if (!is_stored) continue;
       const bool is_interior = format == "fluent.msh" && std::string(word) == "none";
-      const std::string wanted = format == "fluent.msh" && std::string(word) == "viscous_wall" ? "wall"
-                                 : is_interior                                                 ? "interface"
-                                                                                               : word;
+      const std::string wanted =
+          is_interior ? "interface" : test::condition_back(format, *BoundaryCondition::named(word)).word();
       EXPECT_EQ(found->condition.word(), wanted);
       EXPECT_EQ(losses.find("('between')") == std::string::npos, wanted == word || is_interior) << losses;
     }

@@ -179,7 +179,8 @@ TEST(CleanUp, NodesAtOnePlaceBecomeTheFirstWithItsValues) {
 
 TEST(CleanUp, LinkedZonesUniteTheirListedNodesAlone) {
   FileMesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1e-9, 0}, {1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh.points = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 1e-9, 0}, {1, 0, 0},
+                 {0, -1, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
   add_cell<CellKind::triangle>(mesh, std::array{0, 1, 2}, mesh.block_named("a"));
   add_cell<CellKind::triangle>(mesh, std::array{3, 5, 4}, mesh.block_named("b"));
   add_cell<CellKind::triangle>(mesh, std::array{6, 7, 8}, mesh.block_named("c"));

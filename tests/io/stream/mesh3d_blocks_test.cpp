@@ -38,7 +38,7 @@ LoadedMesh two_blocks() {
 
 /// Of each cell by the places of its nodes, whatever their order and numbers.
 std::map<std::vector<std::array<double, 3>>, std::string> blocks_by_places(const FileMesh& mesh,
-                                                                          const Names& names) {
+                                                                           const Names& names) {
   std::map<std::vector<std::array<double, 3>>, std::string> blocks;
   const std::vector<std::int32_t> block_of = blocks_of_cells(mesh);
   for_each_cell(mesh, [&](const auto& cell, std::int64_t number) {
@@ -81,7 +81,8 @@ TEST(StreamBlocks, AnExtrudedMeshKeepsThemOnAnyRanks) {
                                           "b8.ugrid", "lb8.ugrid", "polyMesh"}));
   for (const std::string& format : formats_with_blocks()) {
     SCOPED_TRACE(format);
-    ExtrudedMesh mesh = extruded(format_named(format)->has_zones ? named : part, {0, 0.5, 2}, ExtrusionAxis::z);
+    ExtrudedMesh mesh =
+        extruded(format_named(format)->has_zones ? named : part, {0, 0.5, 2}, ExtrusionAxis::z);
     mesh.blocks = &blocks;
     const test::TemporaryFolder folder;
     OutputSet outputs(world());

@@ -185,7 +185,9 @@ TEST(Su2Reader, UnitesZonesWithCommonEdges) {
     if (boundary.name != "floor") continue;
     EXPECT_EQ(boundary.edges, (std::vector<std::array<NodeId, 2>>{{node(0), node(1)}}));
   }
-  EXPECT_EQ(check.of(replaced(both, "MARKER_TAG= floor\nMARKER_ELEMS= 1\n3 2", "MARKER_TAG= roof\nMARKER_ELEMS= 1\n3 2"))
+  EXPECT_EQ(check
+                .of(replaced(both, "MARKER_TAG= floor\nMARKER_ELEMS= 1\n3 2",
+                             "MARKER_TAG= roof\nMARKER_ELEMS= 1\n3 2"))
                 .mesh.points.size(),
             9U);
 }
