@@ -114,7 +114,7 @@ class CornerDecision {
   std::optional<Snap> decide(const CornerCapture& capture) const {
     const Point target = geometry_.point(capture.vertex);
     for (const bool whole_run : {true, false}) {
-      const Runs runs = runs_among(whole_run);
+      const Runs runs = runs_among(whole_run, target);
       const std::optional<Run> run = run_of(capture, runs);
       if (!run || passes_over(*run)) continue;
       Swallowed swallowed = swallowed_by(*run);
@@ -157,8 +157,9 @@ class CornerDecision {
   }
 
   /// The runs among the crossings that claim the grid vertex. With `whole_run` also crossings nearer to it
-  /// than to the far end of their edge: the vertex there is farther and never absorbs them.
-  Runs runs_among(bool whole_run) const {
+  /// than to the far end of their edge: the vertex there is farther and never absorbs them. All pieces through
+  /// a point where boundaries of blocks meet, `junction`, form one run.
+  Runs runs_among(bool whole_run, std::optional<Point> junction = {}) const {
     Runs runs(sights_.size(), memory_);
     for (std::int32_t i = 0; i < size32(sights_); ++i) {
       const bool nearer = 2 * sights_[i].distance < sights_[i].edge;
@@ -169,6 +170,7 @@ class CornerDecision {
       const Sight& s = sights_[order[k]];
       if (on_one_piece(sights_[order[k - 1]], s) && joins_its_ends(s)) runs.join(order[k - 1], order[k]);
     }
+    if (junction && geometry_.has_twins()) join_at(*junction, runs, order);
     std::sort(order.begin(), order.end(),
               [&](std::int32_t a, std::int32_t b) { return crossing_of(a) < crossing_of(b); });
     for (std::size_t k = 1; k < order.size(); ++k) {
@@ -176,6 +178,17 @@ class CornerDecision {
     }
     runs.close();
     return runs;
+  }
+
+  /// Joins the runs of all pieces through a point.
+  void join_at(Point junction, Runs& runs, std::span<const std::int32_t> order) const {
+    std::int32_t first = none;
+    for (const std::int32_t i : order) {
+      const auto is_there = [&](std::int32_t v) { return geometry_.point(v) == junction; };
+      if (std::ranges::none_of(vertices_of(sights_[i]), is_there)) continue;
+      if (first == none) first = i;
+      runs.join(first, i);
+    }
   }
 
   /// The nearest run that claims the grid vertex; none if two are equally near.
