@@ -148,12 +148,22 @@ struct NamedCrossing {
   std::int32_t node = -1;
 };
 
+/// Whether a crossing of a segment between two blocks is at the snapped vertex up to rounding. Where such a
+/// boundary touches a grid line, only the segments of one block cross it there, and the snap was chosen from
+/// those of the other block.
+bool touches(const Geometry& geometry, const Snap& snap, const Crossing& crossing) {
+  constexpr double rounding = 1e-9;
+  return geometry.twin(crossing.segment) >= 0 &&
+         length(crossing.position - snap.position) < rounding * snap.radius;
+}
+
 /// Returns the number of the snap that absorbs the crossing; -1 for none.
-std::int32_t absorbing_snap(std::span<const LeafSnap> snaps, const Crossing& crossing) {
+std::int32_t absorbing_snap(const Geometry& geometry, std::span<const LeafSnap> snaps,
+                            const Crossing& crossing) {
   for (const LeafSnap& s : snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
     const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
-    if (std::ranges::binary_search(s.snap->absorbed, wanted))
+    if (std::ranges::binary_search(s.snap->absorbed, wanted) || touches(geometry, *s.snap, crossing))
       return static_cast<std::int32_t>(&s - snaps.data());
   }
   return -1;
@@ -184,11 +194,12 @@ std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
 
 /// Assigns one node to all stops at the same position, and to a snapped corner with the crossings that it
 /// absorbs. A node is moved by its snap only after all its stops have been found.
-std::pmr::vector<NamedCrossing> name_stops(const Input& input, std::pmr::vector<Stop>& stops, CutLeaf& leaf) {
+std::pmr::vector<NamedCrossing> name_stops(const Geometry& geometry, const Input& input,
+                                           std::pmr::vector<Stop>& stops, CutLeaf& leaf) {
   std::pmr::vector<NamedCrossing> crossings(stops.get_allocator());
   crossings.reserve(input.trace.crossings.size());
   for (const Crossing& crossing : input.trace.crossings)
-    crossings.push_back({absorbing_snap(input.snaps, crossing)});
+    crossings.push_back({absorbing_snap(geometry, input.snaps, crossing)});
   const std::pmr::vector<std::int32_t> snap_nodes = add_side_nodes(input.snaps, crossings, stops, leaf.nodes);
   for (Stop& stop : stops) {
     if (stop.crossing < 0) continue;
@@ -586,7 +597,7 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   leaf_.refined = false;
   ShortLists<4096> lists;
   std::pmr::vector<Stop> stops = stops_round(outline_->geometry(), input, lists.memory());
-  const std::pmr::vector<NamedCrossing> crossings = name_stops(input, stops, leaf_);
+  const std::pmr::vector<NamedCrossing> crossings = name_stops(outline_->geometry(), input, stops, leaf_);
   std::optional<Sides> sides = walk_sides(outline_->geometry(), input, stops, *inside_);
   if (!sides) return false;
   leaf_.inside_halves = sides->halves;

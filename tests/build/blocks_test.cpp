@@ -130,6 +130,14 @@ TEST(Blocks, ADiscInASquareAndAHollowOne) {
   EXPECT_EQ(g.boundaries()[1].name, "ring");
 }
 
+TEST(Blocks, AnInterfaceThatTouchesGridLinesUpToRoundingHasOneNodeThere) {
+  const Blocks disc{{loop("wall", box_points(0, 1, 0, 1)), loop("ring", circle({0.5, 0.5}, 0.25, 64, 0))},
+                    {of_loop("fluid", "wall"), of_loop("solid", "ring")}};
+  expect_meshes(disc, between(0.02, 0.04));
+  const Mesh mesh = build_mesh(world(), disc.geometry(), between(0.02, 0.04)).mesh;
+  EXPECT_GT(summarise_quality(world(), mesh).smallest_degrees, 5);
+}
+
 /// An interface asks for little more leaves than the boundary of a hole, and is no gap.
 void expect_plain_interface(const std::vector<Point>& ring) {
   const Blocks two{{loop("wall", box_points(0, 1, 0, 1)), loop("ring", ring)},
