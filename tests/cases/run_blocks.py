@@ -44,10 +44,11 @@ def judge(prefix, mesh_type):
 
 
 def compare_figures(name, wanted, found, size, layers=1, thickness=1.0):
-    """Blocks of a file, in their order, with those of the .mesh; some formats store numbers for names."""
+    """Blocks of a file with those of the .mesh, in their order; some formats store numbers for names."""
     if name not in UNNAMED and list(found) != list(wanted):
         fail(f"{name}: blocks {list(found)}, not {list(wanted)}")
-    for row, other in zip(wanted.values(), found.values(), strict=True):
+    in_order = [found[block] for block in (sorted(found) if name in UNNAMED else found)]
+    for row, other in zip(wanted.values(), in_order, strict=True):
         if other["cells"] != layers * row["cells"] or abs(other[size] - thickness * row["area"]) > 1e-9:
             fail(f"{name}: a block has {other}, not {row}")
 

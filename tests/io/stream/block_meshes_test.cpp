@@ -136,9 +136,11 @@ std::multiset<std::string> content_of(const LoadedMesh& loaded) {
 TEST(BlockMeshes, FilesWithZonesAreReadAsOneMesh) {
   const LoadedMesh whole = three_blocks(9);
   const Share share(whole);
+  int with_zones = 0;
   for (const std::string& format : formats_for({Content::mesh, Content::blocks})) {
     if (!format_named(format)->has_zones) continue;
     SCOPED_TRACE(format);
+    ++with_zones;
     const test::TemporaryFolder folder;
     const std::string path = folder.file("a." + format);
     OutputSet outputs(world());
@@ -158,6 +160,7 @@ TEST(BlockMeshes, FilesWithZonesAreReadAsOneMesh) {
                 std::multiset<double>(whole.solution->values.begin(), whole.solution->values.end()));
     }
   }
+  EXPECT_EQ(with_zones, 2);
 }
 
 }  // namespace
