@@ -352,14 +352,25 @@ NodeFlags match_pairs(const Communicator& comm, const Geometry& geometry,
 
 void place_images(const Communicator& comm, const std::vector<PeriodicPair>& pairs, Mesh& mesh) {
   if (pairs.empty()) return;
+  constexpr double allowed = 0.2;  // of the shorter edge there: columns of layers may lean otherwise
   Positions positions;
   for (const PeriodicPair& pair : pairs) {
-    const PairedNodes nodes = paired_nodes(comm, mesh, pair);
-    for (std::size_t i = 1; i + 1 < nodes.from.nodes.size(); ++i)
-      positions[nodes.to.nodes[i]] = pair.image(nodes.from.points[i]);
+    const auto from = line_of_boundary(comm, mesh, pair.from);
+    auto to = line_of_boundary(comm, mesh, pair.to);
+    const bool match = from && to && from->nodes.size() == to->nodes.size();
+    for (std::size_t i = 1; match && i + 1 < from->nodes.size(); ++i) {
+      const std::size_t k = to->nodes.size() - 1 - i;
+      const Point p = pair.image(from->points[i]), old = to->points[k];
+      const double edge = std::min(length(to->points[k + 1] - old), length(to->points[k - 1] - old));
+      if (length(p - old) <= allowed * edge) positions[to->nodes[k]] = p;
+    }
   }
   for (const NodeId node : ids_below(NodeId{size32(mesh.points)}))
     mesh.points[node.value()] = position_in(positions, mesh, node);
+  for (const PeriodicPair& pair : pairs) {
+    if (const auto fault = fault_of_pair(comm, mesh, pair))
+      throw InputError(fault->what + "; use smaller cells there, or thinner layers on the walls that end there");
+  }
 }
 
 std::vector<GlobalNodeId> nodes_of_pairs(const Communicator& comm, const std::vector<PeriodicPair>& pairs,

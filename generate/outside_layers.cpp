@@ -59,7 +59,7 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured) {
   require_strips_within(place_lines(geometry, input.lines), input.mesh.limit);
   return layer_front(geometry, input.mesh.size.curvature, input.lines, measured,
-                     input.mesh.mirror.has_value());
+                     input.mesh.mirror.has_value(), input.mesh.pairs);
 }
 
 MeshInput outside(const MeshInput& input, const LayerFront& front) {

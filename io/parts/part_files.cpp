@@ -90,6 +90,7 @@ PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t pa
                   .blocks = blocks,
                   .boundaries = {},
                   .edges = {},
+                  .pairs = mesh.pairs,
                   .strips = mesh.strips,
                   .warnings = {}};
   std::vector<std::int64_t> own;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/suffix.hpp"
@@ -40,6 +41,7 @@ void read_boundary(TextScanner& scan, PartIndex& index) {
 void read_strips(const TextScanner& scan, PartIndex& index) {
   StripsInText found = strips_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes));
   index.strips = std::move(found.strips);
+  index.pairs = pairs_in_comments(scan.passed_over());
   for (const std::string& name : found.damaged)
     index.warnings.push_back(
         fmt::format("{}: the comment '# strip {}' does not list the nodes of a strip; its cells are treated "
@@ -72,6 +74,7 @@ void write_part_index(OutputSet& outputs, const PartIndex& index, const std::str
                         boundary.condition.word(), boundary.name);
   }
   for (const StripLayers& strip : index.strips) text += comments_of(strip);
+  for (const PeriodicPair& pair : index.pairs) text += comment_of(pair);
   OutputFile file(outputs.stage(path));
   file.write(text);
   file.close();

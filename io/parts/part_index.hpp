@@ -17,6 +17,7 @@ struct PartIndex {
   std::vector<std::string> blocks;        ///< names
   std::vector<BoundaryEdges> boundaries;  ///< without edges
   std::vector<std::int64_t> edges;        ///< number of edges of each boundary
+  std::vector<PeriodicPair> pairs;
   std::vector<StripLayers> strips;        ///< with the node numbers of the whole mesh
   std::vector<std::string> warnings;      ///< of the reader
 };

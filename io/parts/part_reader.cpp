@@ -60,6 +60,7 @@ class PartReader {
     whole.block_names = index_.blocks;
     whole.solution = std::move(joined.field);
     whole.mesh.strips = index_.strips;
+    whole.mesh.pairs = index_.pairs;
     whole.warnings = index_.warnings;
     std::ranges::move(warnings_, std::back_inserter(whole.warnings));
     std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& b) { return b.edges.empty(); });

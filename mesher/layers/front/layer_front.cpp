@@ -292,6 +292,26 @@ WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& plac
   return line;
 }
 
+/// The stations at which runs end on the two sides of a pair.
+StationPairs partners_at(const WallLine& line, const std::vector<PeriodicPair>& pairs) {
+  constexpr double rounding = 1e-9;
+  const Box& box = line.geometry().box();
+  const double allowed = rounding * std::max(box.width(), box.height());
+  StationPairs partners;
+  std::vector<std::int32_t> ends;
+  for (std::int32_t i = 0; i < line.size(); ++i) {
+    if (line[i].shape == Station::Shape::end && !line[i].at_wake) ends.push_back(i);
+  }
+  for (const PeriodicPair& pair : pairs) {
+    for (const std::int32_t i : ends) {
+      for (const std::int32_t j : ends) {
+        if (i != j && length(pair.image(line[i].wall) - line[j].wall) <= allowed) partners.emplace_back(i, j);
+      }
+    }
+  }
+  return partners;
+}
+
 /// The root of a wake if the wall's layers have their requested thickness.
 std::optional<WakeRoot> likely_root(const Geometry& g, const PlacedLine& line) {
   if (line.edge == PlacedLine::nowhere) return std::nullopt;
@@ -347,10 +367,11 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 }
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
-                       const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored) {
+                       const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored,
+                       const std::vector<PeriodicPair>& pairs) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);
-  FittingColumns fitting = fit_thickness(line);
+  FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
   OuterOutline(front.line, fitting, placed, curvature, mirrored).build(front);
   require_room_for_strips(front);

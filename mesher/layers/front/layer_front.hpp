@@ -6,6 +6,7 @@
 
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/periodic_pair.hpp"
 #include "mesher/layers/front/columns_on_wall.hpp"
 #include "mesher/layers/front/layer_strip.hpp"
 #include "mesher/layers/front/wall_line.hpp"
@@ -58,11 +59,11 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// wall; both are verified with exact predicates. `curvature`: degrees that the wall may turn along one cell.
 /// With a measured wall first heights follow it (followed_layers()). Depends on its arguments only; mirror
 /// images have mirrored fronts, and if `mirrored`, a geometry that is its own mirror image has a front with
-/// mirrored sizes. Throws InputError with coordinates where no layers fit. `geometry` must
+/// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws InputError with coordinates where no layers fit. `geometry` must
 /// outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {},
-                       bool mirrored = false);
+                       bool mirrored = false, const std::vector<PeriodicPair>& pairs = {});
 
 /// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,

@@ -117,8 +117,13 @@ class FrontTree {
 
 class Fitting {
  public:
-  explicit Fitting(const WallLine& line)
-      : line_{line}, vicinity_{line}, h_(line.size()), meets_(line.size()), columns_on_wall_{line} {
+  Fitting(const WallLine& line, const StationPairs& partners)
+      : line_{line},
+        partners_{partners},
+        vicinity_{line},
+        h_(line.size()),
+        meets_(line.size()),
+        columns_on_wall_{line} {
     for (std::int32_t i = 0; i < line_.size(); ++i) h_[i] = std::min(line_.asked(i), room_at(i));
     gather_walls();
   }
@@ -154,6 +159,8 @@ class Fitting {
   /// Notes the stations whose fronts have moved; only these have to be checked again.
   void renew_columns() {
     columns_ = columns_on_wall_.fit(h_);
+    for (const auto& [i, j] : partners_)
+      columns_.length[i] = columns_.length[j] = std::min(columns_.length[i], columns_.length[j]);
     std::vector<Point> before = std::exchange(front_, {});
     before.resize(line_.size());
     moved_.clear();
@@ -240,8 +247,20 @@ class Fitting {
     h_ = guessed;
   }
 
-  /// h(s) <= h(s') + 0.35 |s - s'|.
+  /// h(s) <= h(s') + 0.35 |s - s'|, and partners are as thick as each other.
   void limit_slopes() {
+    limit_slopes_on_runs();
+    while (equalise_partners()) limit_slopes_on_runs();
+  }
+  bool equalise_partners() {
+    bool changed = false;
+    for (const auto& [i, j] : partners_) {
+      changed = changed || h_[i] != h_[j];
+      h_[i] = h_[j] = std::min(h_[i], h_[j]);
+    }
+    return changed;
+  }
+  void limit_slopes_on_runs() {
     for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
       for (std::int32_t i = 0; i < line_.size(); ++i) {
         if (const std::int32_t j = line_.next(i); j != WallLine::none)
@@ -370,6 +389,7 @@ class Fitting {
   }
 
   const WallLine& line_;
+  const StationPairs& partners_;
   Vicinity vicinity_;
   std::vector<double> h_;
   std::vector<char> meets_, moved_;
@@ -424,6 +444,8 @@ bool Fitting::fronts_meet(std::int32_t i, std::int32_t k) const {
 
 }  // namespace
 
-FittingColumns fit_thickness(const WallLine& line) { return Fitting(line).found(); }
+FittingColumns fit_thickness(const WallLine& line, const StationPairs& partners) {
+  return Fitting(line, partners).found();
+}
 
 }  // namespace quadloop

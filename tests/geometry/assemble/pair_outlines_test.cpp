@@ -52,7 +52,7 @@ TEST(PairOutlines, WhatDoesNotMatchIsRefusedWithItsPlace) {
   EXPECT_EQ(
       said_of(square({{2, 0}, {2, 2}}), west_to_east({1.5, 0})),
       "case.toml:3: [[pair]]: boundary 'east' is not the image of 'west' by translation = [1.5, 0]: they "
-      "are 0.5 apart at (1.5, 2); correct the map, or the outline there");
+      "are 0.5 apart at (1.5, 0); correct the map, or the outline there");
   EXPECT_NE(
       said_of(square({{2, 0}, {2.25, 1}, {2, 2}}), west_to_east({2, 0})).find("0.25 apart at (2.25, 1)"),
       std::string::npos);
