@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include "io/medit/medit_file.hpp"
@@ -27,7 +28,8 @@ class MeditReader {
     }
     if (mesh_.points.empty())
       scan_.refuse_at(scan_.text().size(), "the file ends without Vertices; it is cut short, or no mesh");
-    name_blocks();
+    references_of_[0].insert(references_of_[0].end(), references_of_[1].begin(), references_of_[1].end());
+    set_blocks(mesh_, references_of_[0]);
     drop_unused_nodes(mesh_, scan_.path());
     return plane_mesh(std::move(mesh_), scan_);
   }
@@ -100,7 +102,8 @@ class MeditReader {
     for (std::size_t left = scan_.count(of, width + 1); left > 0; --left) {
       const std::array<std::int32_t, width> nodes = row<width>();
       const std::int64_t reference = scan_.integer("the reference of a cell");
-      add_cell<kind>(mesh_, nodes, mesh_.block_named(fmt::format("block_{}", reference)));
+      cells_of<kind>(mesh_).push_back(nodes);
+      references_of_[kind == CellKind::quad ? 1 : 0].push_back(reference);
     }
   }
 
@@ -126,13 +129,10 @@ class MeditReader {
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
   }
 
-  void name_blocks() {
-    if (mesh_.block_names.size() == 1) mesh_.block_names[0] = "domain";
-  }
-
   TextScanner scan_;
   std::int64_t dimension_ = 0;
   FileMesh mesh_;
+  std::array<std::vector<std::int64_t>, 2> references_of_;  ///< of the triangles and of the quads
 };
 
 }  // namespace

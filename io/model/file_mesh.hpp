@@ -147,4 +147,8 @@ inline std::vector<std::int32_t> blocks_of_cells(const FileMesh& mesh) {
   return all;
 }
 
+/// Assigns the cells, in the order of the kinds, to blocks named after their identifiers, in ascending order:
+/// "block_1", or "domain" if all are equal.
+void set_blocks(FileMesh& mesh, const std::vector<std::int64_t>& identifiers);
+
 }  // namespace quadloop::io

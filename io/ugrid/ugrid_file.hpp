@@ -20,10 +20,6 @@ namespace quadloop::io {
 template <std::endian order>
 void write_ugrid(OutputSet& outputs, const MeshStream& mesh, const std::string& path);
 
-/// Assigns the cells, in the order of the kinds, to blocks named after their identifiers, in ascending order:
-/// "block_1", or "domain" if all are equal.
-void set_blocks(FileMesh& mesh, const std::vector<std::int64_t>& identifiers);
-
 /// Return the patch file of a 3D mesh: "a.mapbc" for "a.b8.ugrid", and of a plane one, which FUN3D does not
 /// read: "a.ugrid.mapbc" for "a.ugrid".
 std::string mapbc_path(const std::string& path);

@@ -29,18 +29,6 @@ constexpr int symmetry_x = 6661;  // followed by y and z: the plane normal to th
 
 }  // namespace
 
-void set_blocks(FileMesh& mesh, const std::vector<std::int64_t>& identifiers) {
-  const std::set<std::int64_t> distinct(identifiers.begin(), identifiers.end());
-  for (const std::int64_t identifier : distinct)
-    mesh.block_named(distinct.size() == 1 ? "domain" : fmt::format("block_{}", identifier));
-  auto next = identifiers.begin();
-  for_each_kind([&]<CellKind kind>() {
-    std::vector<std::int32_t>& blocks = mesh.cell_to_block[static_cast<std::size_t>(kind)];
-    for (std::size_t i = 0; i < cells_of<kind>(mesh).size(); ++i)
-      blocks.push_back(static_cast<std::int32_t>(std::distance(distinct.begin(), distinct.find(*next++))));
-  });
-}
-
 std::string mapbc_path(const std::string& path) {
   std::string stem = path;
   for (const std::string ending : {".ugrid", ".b8", ".lb8"}) {

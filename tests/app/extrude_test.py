@@ -101,12 +101,6 @@ class Extrude(ProgramTest):
         _, said = self.done("extrude", "s.mesh", "-o", "s.su2", *EVEN)
         self.assertIn("cannot store the solution", said)
 
-    def test_blocks_become_one(self):
-        self.write("two.mesh", TWO_BLOCKS)
-        _, said = self.done("extrude", "two.mesh", "-o", "two.su2", *EVEN)
-        self.assertIn("the blocks are written as one", said)
-        self.assertEqual(self.record("check", "two.su2")["prisms"], 6)
-
     def test_blocks_stay_where_the_format_has_a_place(self):
         self.write("two.mesh", TWO_BLOCKS)
         for name in ("two.vtu", "two.pvtu", "two.fluent.msh", "two.msh", "two.msh41", "polyMesh"):

@@ -21,6 +21,12 @@ FOLDER = "polyMesh"
 UNNAMED = ("ugrid", "medit", "b8.ugrid")
 
 
+def delaunay_option(case, mesh_type):
+    """The cells of layers follow the wall and are not Delaunay."""
+    has_layers = any("layers" in boundary for boundary in tomllib.loads(case.read_text()).get("boundary", {}).values())
+    return ["--delaunay"] * (mesh_type == "delaunay" and not has_layers)
+
+
 def check_areas(quadloop, case, prefix, mesh_type):
     """Both judges compare the blocks with the geometry, by name."""
     names = [block["name"] for block in tomllib.loads(case.read_text())["block"]]
@@ -30,17 +36,17 @@ def check_areas(quadloop, case, prefix, mesh_type):
     if report["interface_edges"] == 0 or "unnamed_interface_edges" in report:
         fail(f"{report['interface_edges']} edges between blocks, {report.get('unnamed_interface_edges')} without a name")
     judged = json.loads(run([sys.executable, "-B", JUDGE, f"{prefix}.mesh", "--geometry", f"{prefix}.geom", "--json"]
-                            + ["--delaunay"] * (mesh_type == "delaunay")))
+                            + delaunay_option(case, mesh_type)))
     if list(judged["blocks"]) != names or any(abs(judged["blocks"][name] - row["area"]) > 1e-9 for name, row in report["block_figures"].items()):
         fail(f"areas of blocks: {judged['blocks']}, {report['block_figures']}")
 
 
-def judge(prefix, mesh_type):
+def judge(case, prefix, mesh_type):
     script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
     if script is None:
         print("no other judge at hand")
         return
-    run([sys.executable, script, f"{prefix}.mesh", *(["--delaunay"] if mesh_type == "delaunay" else [])])
+    run([sys.executable, script, f"{prefix}.mesh", *delaunay_option(case, mesh_type)])
 
 
 def compare_figures(name, wanted, found, size, layers=1, thickness=1.0):
@@ -131,7 +137,7 @@ def main():
             check_formats(args.quadloop, prefix, work)
             check_commands(args.quadloop, prefix, work)
             check_areas(args.quadloop, args.case, prefix, mesh_type)
-            judge(prefix, mesh_type)
+            judge(args.case, prefix, mesh_type)
             found = values_of(prefix)
             stem = "expected" if args.case.stem == "case" else f"expected_{args.case.stem}"
             expected = args.case.with_name(f"{stem}{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")

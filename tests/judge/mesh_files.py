@@ -191,7 +191,8 @@ def read_connections(zone, path):
         here, there = (np.ravel(connection[f"{name}/ data"][()]).astype(np.int64) - 1 for name in ("PointList", "PointListDonor"))
         if len(here) != len(there):
             raise Unreadable(f"{path}: {connection.name} connects {len(here)} nodes with {len(there)}")
-        found[text_of(connection)] = (here, there)
+        if text_of(connection) != short_name(zone):  # else the two sides of a periodic pair
+            found[text_of(connection)] = (here, there)
     return found
 
 
