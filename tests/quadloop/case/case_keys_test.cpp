@@ -66,7 +66,7 @@ class Dump {
   void add_one(const Curve& c) { add(c.inner, c.spacing); }
   void add_one(const Shape& s) { add(s.chain.name, s.chain.points, s.chain.curves, s.is_body); }
   void add_one(const BoundaryRule& r) {
-    add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers);
+    add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }
   void add_one(const BlockRule& b) { add(b.name, b.boundaries, b.loop, b.inside); }
   void add_one(const SizeSource& s) {
