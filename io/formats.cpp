@@ -58,7 +58,8 @@ FileFormat msh_row(const std::string& name) {
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
-          .boundary_names = msh_group_names};
+          .boundary_names = msh_group_names,
+          .stores_lines = true};
 }
 
 BoundaryCondition mapbc_condition_in_file(BoundaryCondition condition) {
@@ -103,11 +104,13 @@ std::vector<FileFormat> native_rows() {
            .places = {mesh, solution, constants, blocks, layers},
            .by_default = true,
            .read = read_native_or_medit,
-           .write = write_native},
+           .write = write_native,
+           .stores_lines = true},
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
-           .write = write_binary}};
+           .write = write_binary,
+           .stores_lines = true}};
 }
 
 FileFormat cgns_row() {
@@ -128,7 +131,8 @@ std::vector<FileFormat> vtk_rows() {
            .places = {mesh, solution, blocks, block_names, layers, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
-           .write = write_vtu},
+           .write = write_vtu,
+           .stores_lines = true},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, block_names, layers, mesh3d},

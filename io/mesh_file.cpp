@@ -75,6 +75,7 @@ struct MeshContent {
   std::vector<std::string> boundary_names, block_names = {};
   std::vector<BoundaryCondition> conditions;  ///< of the boundaries
   std::vector<std::string> interfaces = {};   ///< names of boundaries with an edge between two cells
+  std::vector<std::string> lines = {};        ///< names of inner lines
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
   bool has_layers = false;
@@ -191,15 +192,19 @@ void append_block_losses(const FileFormat& format, const MeshContent& content, c
     losses.push_back(
         fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
                     some_names(content.interfaces)));
+  if (!content.lines.empty() && !format.stores_lines)
+    losses.push_back(fmt::format("{}: this format cannot store inner lines, which are omitted: {}", path,
+                                 some_names(content.lines)));
   append_block_names(format, content, path, losses);
 }
 
-/// Sets the blocks of a generated mesh.
+/// Sets the blocks and inner lines of a generated mesh.
 void note_blocks(const Mesh& mesh, MeshContent& content) {
   content.blocks = std::max<std::int64_t>(1, std::ssize(mesh.blocks.names));
   content.block_names = mesh.blocks.names;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     if (boundary.between_blocks) content.interfaces.push_back(boundary.name);
+    if (boundary.inner_line) content.lines.push_back(boundary.name);
   }
 }
 
@@ -269,7 +274,16 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
-  row->write(outputs, MeshStream(outputs.communicator(), whole), path);
+  if (whole.inner_curves.empty() || !row->stores_lines) {
+    row->write(outputs, MeshStream(outputs.communicator(), whole), path);
+    return;
+  }
+  LoadedMesh with_lines = whole;
+  for (const BoundaryEdges& curve : whole.inner_curves) {
+    with_lines.mesh.boundaries.push_back(curve);
+    with_lines.mesh.boundaries.back().inner_line = true;
+  }
+  row->write(outputs, MeshStream(outputs.communicator(), with_lines, EdgeChoice::all), path);
 }
 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
@@ -292,7 +306,8 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   QUADLOOP_REQUIRE(!blocks || solution == nullptr || solution->cells.width() == 0,
                    "cell values are not sorted by block");
   if (format->holds(Content::mesh))
-    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks)), path);
+    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks),
+                              format->stores_lines ? EdgeChoice::all : EdgeChoice::boundaries), path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
@@ -319,6 +334,7 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
   content.blocks = whole.blocks;
   content.block_names = whole.block_names;
   content.interfaces = names_of_interfaces(whole);
+  for (const BoundaryEdges& curve : whole.inner_curves) content.lines.push_back(curve.name);
   return losses_of(content, *row, path);
 }
 

@@ -1,4 +1,5 @@
 #include "io/model/layers_text.hpp"
+#include "io/model/line_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
 #include "io/text/text_output.hpp"
@@ -98,7 +99,22 @@ class NativeWriter {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
+    write_lines();
     for (const StripLayers& strip : mesh_.strips) file_.write(comments_of(strip));
+  }
+
+  /// Inner lines are comments: to a solver they are no boundaries.
+  void write_lines() {
+    const BoundaryStream lines(comm_, mesh_, EdgeChoice::inner_lines);
+    file_.write_boundaries(
+        lines, 3,
+        [&](std::size_t n) { return line_comment(lines.present()[n]->name, lines.edges_of(n)); },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.mark('#');
+          text.mark(' ');
+          text.put(edge[0] + 1, ' ');
+          text.put(edge[1] + 1, '\n');
+        });
   }
 
   static std::string layers_text(const BoundaryEdges& boundary) {

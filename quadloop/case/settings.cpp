@@ -89,6 +89,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
   for (const CaseTable& block : root.tables("block")) settings.outline.blocks.push_back(read_block(block));
+  for (const CaseTable& line : root.tables("line")) settings.outline.lines.push_back(read_line(line));
   for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
@@ -104,28 +105,31 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "output", [&](const CaseTable& table) { read_output_table(table, settings); });
 }
 
-/// Throws InputError for settings that do not work with several blocks yet.
+/// Throws InputError for settings that do not work with several blocks or inner lines yet.
 void require_blocks_alone(const Settings& settings) {
-  if (settings.outline.blocks.empty()) return;
+  const AssembleOptions& outline = settings.outline;
+  if (outline.blocks.empty() && outline.lines.empty()) return;
+  const bool blocks = !outline.blocks.empty();
   const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
   const auto is_written = [&](const char* format) {
     return std::ranges::count(settings.formats, format) > 0;
   };
   const std::pair<bool, const char*> others[] = {
-      {std::ranges::any_of(settings.outline.rules, has_layers), "boundary layers; remove 'layers'"},
+      {std::ranges::any_of(outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
-      {settings.outline.unite_islands, "a union of islands; remove geometry.overlap"},
+      {outline.unite_islands, "a union of islands; remove geometry.overlap"},
       {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
       {settings.adapt.has_value(), "adaptation; remove [adapt]"},
       {settings.partitions > 0, "partitions; remove output.partitions"},
-      {is_written("fluent.msh") || is_written("polyMesh"),
+      {is_written("fluent.msh") || (blocks && is_written("polyMesh")),
        "the formats fluent.msh and polyMesh; write mesh, vtu, msh or su2"}};
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;
-    const BlockRule& block = settings.outline.blocks.front();
-    throw InputError(
-        fmt::format("{}: a mesh of several blocks cannot have {} or [[block]]", block.where, what));
+    throw InputError(fmt::format("{}: a mesh {} cannot have {} or [[{}]]",
+                                 blocks ? outline.blocks.front().where : outline.lines.front().where,
+                                 blocks ? "of several blocks" : "with inner lines", what,
+                                 blocks ? "block" : "line"));
   }
 }
 
