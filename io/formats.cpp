@@ -109,8 +109,7 @@ std::vector<FileFormat> native_rows() {
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
-           .write = write_binary,
-           .stores_lines = true}};
+           .write = write_binary}};
 }
 
 FileFormat cgns_row() {

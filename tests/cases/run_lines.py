@@ -15,7 +15,7 @@ from pathlib import Path
 from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
 from run_case import compare, values_of, write_expected
 
-FORMATS = ("mesh", "qmesh", "vtu", "msh")
+FORMATS = ("mesh", "vtu", "msh")
 
 
 def points_and_lines(path):
