@@ -74,7 +74,8 @@ std::vector<GlobalNodeId> nodes_of_baffles(const Communicator& comm, const Geome
   if (std::ranges::none_of(geometry.boundaries(), &Boundary::baffle)) return own;
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     if (!geometry.boundaries()[b].baffle) continue;
-    for (const auto& [from, to] : mesh.boundaries[b].edges) own.insert(own.end(), {mesh.global(from), mesh.global(to)});
+    for (const auto& [from, to] : mesh.boundaries[b].edges)
+      own.insert(own.end(), {mesh.global(from), mesh.global(to)});
   }
   return comm.all_gather_values(std::span<const GlobalNodeId>(own));
 }

@@ -306,8 +306,10 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   QUADLOOP_REQUIRE(!blocks || solution == nullptr || solution->cells.width() == 0,
                    "cell values are not sorted by block");
   if (format->holds(Content::mesh))
-    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks),
-                              format->stores_lines ? EdgeChoice::all : EdgeChoice::boundaries), path);
+    format->write(outputs,
+                  MeshStream(outputs.communicator(), mesh, solution, std::move(blocks),
+                             format->stores_lines ? EdgeChoice::all : EdgeChoice::boundaries),
+                  path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }

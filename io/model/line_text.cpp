@@ -33,7 +33,8 @@ std::string_view first_line(std::string_view& text) {
 std::optional<std::array<NodeId, 2>> edge_of(std::string_view line, std::int32_t nodes_of_mesh) {
   if (!line.starts_with("# ")) return {};
   line.remove_prefix(2);
-  const auto from = counted_number(next_word(line), nodes_of_mesh), to = counted_number(next_word(line), nodes_of_mesh);
+  const auto from = counted_number(next_word(line), nodes_of_mesh),
+             to = counted_number(next_word(line), nodes_of_mesh);
   if (!from || !to || from == to) return {};
   return std::array{NodeId{*from - 1}, NodeId{*to - 1}};
 }

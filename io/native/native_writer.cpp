@@ -107,8 +107,7 @@ class NativeWriter {
   void write_lines() {
     const BoundaryStream lines(comm_, mesh_, EdgeChoice::inner_lines);
     file_.write_boundaries(
-        lines, 3,
-        [&](std::size_t n) { return line_comment(lines.present()[n]->name, lines.edges_of(n)); },
+        lines, 3, [&](std::size_t n) { return line_comment(lines.present()[n]->name, lines.edges_of(n)); },
         [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
           text.mark('#');
           text.mark(' ');

@@ -27,7 +27,8 @@ class Assembler {
     mesh_.blocks.names = geometry.block_names();
     for (std::int32_t s = 0; geometry.has_twins() && s < geometry.size(); ++s) {
       BoundaryEdges& boundary = mesh_.boundaries[geometry.boundary_of(s).value()];
-      if (geometry.twin(s) >= 0) (geometry.is_inner_line(s) ? boundary.inner_line : boundary.between_blocks) = true;
+      if (geometry.twin(s) >= 0)
+        (geometry.is_inner_line(s) ? boundary.inner_line : boundary.between_blocks) = true;
     }
   }
 

@@ -45,8 +45,8 @@ class CornerCopies {
   /// The copy at the corner of the cell to the left of an edge, at its start or end.
   GlobalNodeId at_start(GlobalNodeId from, GlobalNodeId to) const {
     if (copies_of(from) == 1) return renumbered(from);
-    const auto found = std::ranges::lower_bound(corners_, std::pair(from, to), {},
-                                                [](const CellCorner& c) { return std::pair(c.node, c.next); });
+    const auto found = std::ranges::lower_bound(
+        corners_, std::pair(from, to), {}, [](const CellCorner& c) { return std::pair(c.node, c.next); });
     return GlobalNodeId{renumbered(from).value() + copy_[found - corners_.begin()]};
   }
   GlobalNodeId at_end(GlobalNodeId from, GlobalNodeId to) const {
@@ -169,7 +169,8 @@ std::vector<Edge> edges_of_baffles(const Communicator& comm, const Geometry& geo
   std::vector<std::array<GlobalNodeId, 2>> own;
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     if (!geometry.boundaries()[b].baffle) continue;
-    for (const auto& [from, to] : mesh.boundaries[b].edges) own.push_back({mesh.global(from), mesh.global(to)});
+    for (const auto& [from, to] : mesh.boundaries[b].edges)
+      own.push_back({mesh.global(from), mesh.global(to)});
   }
   std::vector<Edge> edges;
   for (const auto& [from, to] : comm.all_gather_values(std::span<const std::array<GlobalNodeId, 2>>(own)))
@@ -180,7 +181,8 @@ std::vector<Edge> edges_of_baffles(const Communicator& comm, const Geometry& geo
 }
 
 /// The cells' corners at the starts of the edges, on all ranks, ascending. *Collective.*
-std::vector<CellCorner> corners_at(const Communicator& comm, const Mesh& mesh, const std::vector<Edge>& edges) {
+std::vector<CellCorner> corners_at(const Communicator& comm, const Mesh& mesh,
+                                   const std::vector<Edge>& edges) {
   std::vector<CellCorner> own;
   mesh.for_each_cell([&](const auto& nodes) {
     const std::size_t width = nodes.size();
@@ -188,7 +190,8 @@ std::vector<CellCorner> corners_at(const Communicator& comm, const Mesh& mesh, c
       const GlobalNodeId node = mesh.global(nodes[k]);
       const auto at = std::ranges::lower_bound(edges, node, {}, &Edge::first);
       if (at != edges.end() && at->first == node)
-        own.push_back({node, mesh.global(nodes[(k + 1) % width]), mesh.global(nodes[(k + width - 1) % width])});
+        own.push_back(
+            {node, mesh.global(nodes[(k + 1) % width]), mesh.global(nodes[(k + width - 1) % width])});
     }
   });
   std::vector<CellCorner> all = comm.all_gather_values(std::span<const CellCorner>(own));

@@ -541,7 +541,7 @@ void settle_inner_nodes(CutLeaf& leaf, std::pmr::memory_resource* memory) {
 
 /// Whether two opposite chords, or a chord along a side, may have cells on both sides.
 bool is_two_sided(const Geometry& geometry, const CutLeaf& leaf, const CutLeaf::Edge& chord,
-                       const CutLeaf::Edge* opposite) {
+                  const CutLeaf::Edge* opposite) {
   if (geometry.twin(chord.segment) < 0) return opposite == nullptr;
   if (opposite != nullptr)
     return geometry.twin(opposite->segment) >= 0 &&

@@ -45,7 +45,8 @@ void settle_absorbed(const Geometry& geometry, Snap& snap) {
     const std::int32_t twin = geometry.twin(one.segment);
     if (twin < 0) continue;
     snap.absorbed.push_back({twin, one.vertical});
-    if (!geometry.is_tip(twin)) continue;  // where an inner line ends on a grid line, only one twin crosses it
+    if (!geometry.is_tip(twin))
+      continue;  // where an inner line ends on a grid line, only one twin crosses it
     const Point tip = geometry.point(twin);
     if (tip.x == snap.centre.x) snap.absorbed.push_back({twin, true});
     if (tip.y == snap.centre.y) snap.absorbed.push_back({twin, false});

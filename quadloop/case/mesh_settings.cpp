@@ -212,17 +212,18 @@ ValueForm<std::vector<Point>> path_of_line() {
 const KeyTable<LineRule>& line_keys() {
   static const KeyTable<LineRule> keys{
       "line",
-      {key<&LineRule::name>("name", text(),
-                            "Name of the line: `[boundary.NAME]` sets its `spacing` and `corner`. Without it that "
-                            "of `boundary`."),
+      {key<&LineRule::name>(
+           "name", text(),
+           "Name of the line: `[boundary.NAME]` sets its `spacing` and `corner`. Without it that "
+           "of `boundary`."),
        key<&LineRule::path>("path", path_of_line(),
                             "The points of the line, which is closed if it ends where it begins. A line has "
                             "either `path` or `boundary`."),
        key<&LineRule::boundary>("boundary", text(),
                                 "A chain of the geometry that is an inner line, not a part of the outline."),
-       key<&LineRule::baffle>(
-           "kind", choice<bool>({{"line", false}, {"baffle", true}}),
-           "`line`: a named row of edges. `baffle`: a wall of no thickness with nodes of its own on each side.")}};
+       key<&LineRule::baffle>("kind", choice<bool>({{"line", false}, {"baffle", true}}),
+                              "`line`: a named row of edges. `baffle`: a wall of no thickness with nodes of "
+                              "its own on each side.")}};
   return keys;
 }
 

@@ -49,7 +49,8 @@ MeshOptions sizes(double min, double max) {
 double length_of_lines(const Geometry& g) {
   double sum = 0;
   for (std::int32_t s = 0; s < g.size(); ++s) {
-    if (g.is_inner_line(s) && (!g.is_second(s) || g.boundary(g.boundary_of(s)).baffle)) sum += length(g.point(g.next(s)) - g.point(s));
+    if (g.is_inner_line(s) && (!g.is_second(s) || g.boundary(g.boundary_of(s)).baffle))
+      sum += length(g.point(g.next(s)) - g.point(s));
   }
   return sum;
 }
@@ -80,7 +81,8 @@ void expect_edges_on_lines(const Geometry& g, const Mesh& whole, double distance
         double nearest = 1;
         for (std::int32_t s = 0; s < g.size(); ++s) {
           if (g.boundary(g.boundary_of(s)).name == boundary.name)
-            nearest = std::min(nearest, distance_to_segment(whole.point(node), g.point(s), g.point(g.next(s))));
+            nearest =
+                std::min(nearest, distance_to_segment(whole.point(node), g.point(s), g.point(g.next(s))));
         }
         EXPECT_LT(nearest, distance);
       }
@@ -133,7 +135,8 @@ TEST(Lines, FromWallToWall) {
 }
 
 TEST(Lines, AnOpenLineEndsInsideCells) {
-  expect_meshes(square_with(with_lines({{{0.31, 0.41}, {0.53, 0.53}, {0.72, 0.61}}})), sizes(0.02, 0.1), 0.002);
+  expect_meshes(square_with(with_lines({{{0.31, 0.41}, {0.53, 0.53}, {0.72, 0.61}}})), sizes(0.02, 0.1),
+                0.002);
   expect_meshes(square_with(with_lines({{{0.501, 0.502}, {0.513, 0.509}}})), sizes(0.002, 0.1));
 }
 

@@ -99,7 +99,11 @@ TEST(ShiftedOutline, AVertexAtAPeakOnALineIsOnBothSidesOfIt) {
 /// A square of 8 with a line from (2, 4) to the end, as the loop that runs round it.
 Geometry line_in_square(Point end) {
   std::vector<Point> points{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {2, 4}, end};
-  return {{{"outline"}}, std::move(points), {0, 4, 6}, std::vector<BoundaryId>(6, BoundaryId{0}), {},
+  return {{{"outline"}},
+          std::move(points),
+          {0, 4, 6},
+          std::vector<BoundaryId>(6, BoundaryId{0}),
+          {},
           {{}, {}, {0, 0, 0, 0, 0, 1}}};
 }
 

@@ -155,8 +155,9 @@ void set_kinds_of_lines(const std::vector<LineRule>& lines, std::vector<Boundary
     };
     if (boundary.layers) refuse("cannot have layers; remove 'layers' of its boundary");
     if (!line->baffle && boundary.condition != BoundaryCondition{})
-      refuse(fmt::format("has flow on both sides and takes no bc; remove bc = \"{}\", or set kind = \"baffle\"",
-                         boundary.condition.word()));
+      refuse(
+          fmt::format("has flow on both sides and takes no bc; remove bc = \"{}\", or set kind = \"baffle\"",
+                      boundary.condition.word()));
   }
 }
 
@@ -249,9 +250,10 @@ std::vector<Chain> take_lines(std::vector<Chain>& chains, const std::vector<Line
     std::erase_if(chains, [&](Chain& chain) {
       if (chain.name != rule.name && chain.name != rule.boundary) return false;
       if (rule.boundary.empty())
-        throw InputError(fmt::format("{}: line '{}': the geometry has a boundary of this name already; give the "
-                                     "line another name, or set boundary = \"{}\" instead of a path",
-                                     rule.where, rule.name, rule.name));
+        throw InputError(
+            fmt::format("{}: line '{}': the geometry has a boundary of this name already; give the "
+                        "line another name, or set boundary = \"{}\" instead of a path",
+                        rule.where, rule.name, rule.name));
       lines.push_back(std::move(chain));
       return true;
     });
@@ -267,9 +269,10 @@ std::vector<Chain> take_lines(std::vector<Chain>& chains, const std::vector<Line
     }
     for (std::size_t l = before; l < lines.size(); ++l) {
       if (rule.baffle && !lines[l].curves.empty())
-        throw InputError(fmt::format("{}: baffle '{}' near ({}, {}) has curves, which is not possible yet; give it by "
-                                     "straight lines",
-                                     rule.where, rule.name, lines[l].points.front().x, lines[l].points.front().y));
+        throw InputError(
+            fmt::format("{}: baffle '{}' near ({}, {}) has curves, which is not possible yet; give it by "
+                        "straight lines",
+                        rule.where, rule.name, lines[l].points.front().x, lines[l].points.front().y));
       lines[l].name = rule.name;
       lines[l].inner_line = true;
     }
@@ -282,7 +285,9 @@ std::vector<Chain> chains_of(const Outline& outline) {
   std::vector<Chain> chains;
   for (const OutlineLoop& loop : outline.loops) {
     const std::size_t count = loop.points.size();
-    const auto changes = [&](std::size_t i) { return loop.boundary[i] != loop.boundary[(i + count - 1) % count]; };
+    const auto changes = [&](std::size_t i) {
+      return loop.boundary[i] != loop.boundary[(i + count - 1) % count];
+    };
     std::size_t first = 0;
     while (first < count && !changes(first)) ++first;
     const bool closed = first == count;

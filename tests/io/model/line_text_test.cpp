@@ -16,7 +16,8 @@ TEST(LineText, IsReadAsWritten) {
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].name, "a");
   EXPECT_EQ(found[1].name, "section");
-  EXPECT_EQ(found[1].edges, (std::vector{std::array{NodeId{2}, NodeId{3}}, std::array{NodeId{3}, NodeId{6}}}));
+  EXPECT_EQ(found[1].edges,
+            (std::vector{std::array{NodeId{2}, NodeId{3}}, std::array{NodeId{3}, NodeId{6}}}));
 }
 
 TEST(LineText, DamagedLinesAreLeftOut) {
