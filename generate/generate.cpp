@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -69,6 +70,19 @@ NodeFlags owned_among(const std::vector<GlobalNodeId>& nodes, const Mesh& mesh) 
   return flags;
 }
 
+/// The nodes of baffles, which stay so that those of the two sides match. *Collective.*
+std::vector<GlobalNodeId> nodes_of_baffles(const Communicator& comm, const Geometry& geometry,
+                                           const Mesh& mesh) {
+  std::vector<GlobalNodeId> own;
+  if (std::ranges::none_of(geometry.boundaries(), &Boundary::baffle)) return own;
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    if (!geometry.boundaries()[b].baffle) continue;
+    for (const auto& [from, to] : mesh.boundaries[b].edges)
+      own.insert(own.end(), {mesh.global(from), mesh.global(to)});
+  }
+  return comm.all_gather_values(std::span<const GlobalNodeId>(own));
+}
+
 void smooth(const Communicator& comm, const MeshInput& input, const std::vector<GlobalNodeId>& pinned,
             MeshResult& result) {
   if (input.smooth.sweeps == 0) return;
@@ -76,6 +90,8 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   smoother::SmoothOptions options = smooth_options_for(input, finest);
   std::vector<GlobalNodeId> fixed = nodes_of_pairs(comm, input.mesh.pairs, result.mesh);
   fixed.insert(fixed.end(), pinned.begin(), pinned.end());
+  const std::vector<GlobalNodeId> of_baffles = nodes_of_baffles(comm, input.geometry, result.mesh);
+  fixed.insert(fixed.end(), of_baffles.begin(), of_baffles.end());
   std::ranges::sort(fixed);
   if (!fixed.empty()) options.pinned = owned_among(fixed, result.mesh);
   options.triangle_to_block = result.mesh.blocks.of_triangles;

@@ -58,7 +58,8 @@ FileFormat msh_row(const std::string& name) {
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
-          .boundary_names = msh_group_names};
+          .boundary_names = msh_group_names,
+          .stores_lines = true};
 }
 
 BoundaryCondition mapbc_condition_in_file(BoundaryCondition condition) {
@@ -103,7 +104,8 @@ std::vector<FileFormat> native_rows() {
            .places = {mesh, solution, constants, blocks, block_names, layers, pairs},
            .by_default = true,
            .read = read_native_or_medit,
-           .write = write_native},
+           .write = write_native,
+           .stores_lines = true},
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
@@ -130,7 +132,8 @@ std::vector<FileFormat> vtk_rows() {
            .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
-           .write = write_vtu},
+           .write = write_vtu,
+           .stores_lines = true},
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},

@@ -58,6 +58,7 @@ struct FileFormat {
                          double gamma) = nullptr;
 
   bool stores_interfaces = true;  ///< whether boundaries between two blocks can be stored
+  bool stores_lines = false;      ///< whether inner lines can be stored, beside the boundaries
   bool single_block_name = true;  ///< whether the name of a single block can be stored
   bool has_zones = false;         ///< whether each block has its own nodes, and both the faces between them
   bool is_folder = false;

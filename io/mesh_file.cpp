@@ -81,6 +81,7 @@ struct MeshContent {
   std::vector<std::string> boundary_names, block_names = {};
   std::vector<BoundaryCondition> conditions;  ///< of the boundaries
   std::vector<std::string> interfaces = {};   ///< names of boundaries with an edge between two cells
+  std::vector<std::string> lines = {};        ///< names of inner lines
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
   bool has_layers = false, has_pairs = false;
@@ -199,15 +200,19 @@ void append_block_losses(const FileFormat& format, const MeshContent& content, c
     losses.push_back(
         fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
                     some_names(content.interfaces)));
+  if (!content.lines.empty() && !format.stores_lines)
+    losses.push_back(fmt::format("{}: this format cannot store inner lines, which are omitted: {}", path,
+                                 some_names(content.lines)));
   append_block_names(format, content, path, losses);
 }
 
-/// Sets the blocks of a generated mesh.
+/// Sets the blocks and inner lines of a generated mesh.
 void note_blocks(const Mesh& mesh, MeshContent& content) {
   content.blocks = std::max<std::int64_t>(1, std::ssize(mesh.blocks.names));
   content.block_names = mesh.blocks.names;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     if (boundary.between_blocks) content.interfaces.push_back(boundary.name);
+    if (boundary.inner_line) content.lines.push_back(boundary.name);
   }
 }
 
@@ -279,11 +284,20 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
                 const std::string& format) {
   const FileFormat* row = mesh_format(path, format);
   QUADLOOP_REQUIRE(row != nullptr, "a mesh is written in a format that holds none");
-  if (!row->has_zones || whole.blocks < 2)
-    return row->write(outputs, MeshStream(outputs.communicator(), whole), path);
-  LoadedMesh named = whole;
-  name_interfaces(named);
-  row->write(outputs, MeshStream(outputs.communicator(), named), path);
+  const bool has_zones = row->has_zones && whole.blocks > 1,
+             has_lines = row->stores_lines && !whole.inner_curves.empty();
+  if (!has_zones && !has_lines) return row->write(outputs, MeshStream(outputs.communicator(), whole), path);
+  LoadedMesh written = whole;
+  if (has_zones) name_interfaces(written);
+  for (const BoundaryEdges& curve : whole.inner_curves) {
+    if (!has_lines) break;
+    written.mesh.boundaries.push_back(curve);
+    written.mesh.boundaries.back().inner_line = true;
+  }
+  row->write(
+      outputs,
+      MeshStream(outputs.communicator(), written, has_lines ? EdgeChoice::all : EdgeChoice::boundaries),
+      path);
 }
 
 void write_mesh_of_root(const Communicator& comm, const LoadedMesh& whole, const std::string& path,
@@ -304,7 +318,10 @@ void write_mesh(OutputSet& outputs, const Mesh& mesh, const std::string& path, c
   std::optional<PlaneBlocks> blocks;
   if (!mesh.blocks.names.empty()) blocks = mesh.blocks;
   if (format->holds(Content::mesh))
-    format->write(outputs, MeshStream(outputs.communicator(), mesh, solution, std::move(blocks)), path);
+    format->write(outputs,
+                  MeshStream(outputs.communicator(), mesh, solution, std::move(blocks),
+                             format->stores_lines ? EdgeChoice::all : EdgeChoice::boundaries),
+                  path);
   if (format->write_solution != nullptr && solution != nullptr)
     format->write_solution(outputs, mesh, path, *solution, gamma);
 }
@@ -331,6 +348,7 @@ std::vector<std::string> losses_in(const LoadedMesh& whole, const std::string& p
   content.blocks = whole.blocks;
   content.block_names = whole.block_names;
   content.interfaces = names_of_interfaces(whole);
+  for (const BoundaryEdges& curve : whole.inner_curves) content.lines.push_back(curve.name);
   return losses_of(content, *row, path);
 }
 

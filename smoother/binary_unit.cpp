@@ -25,11 +25,11 @@ Geometry BinaryUnit::into(const Geometry& geometry) const {
       Curve curve = geometry.curve(v);
       for (Point& p : curve.inner) p = into(p);
       curve.spacing = std::ldexp(curve.spacing, -exponent_);
-      builder.add(into(geometry.point(v)), geometry.boundary_of(v), curve);
+      builder.add(into(geometry.point(v)), geometry.boundary_of(v), curve, geometry.returns(v));
     }
-    builder.end_loop();
+    builder.end_loop(geometry.block_of(geometry.loop_start(loop)));
   }
-  return std::move(builder).geometry(std::move(boundaries));
+  return std::move(builder).geometry(std::move(boundaries), geometry.block_names());
 }
 
 }  // namespace quadloop::smoother

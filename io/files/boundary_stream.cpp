@@ -15,11 +15,16 @@ constexpr std::int64_t edges_per_piece = std::int64_t{1}
 
 }  // namespace
 
-BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh) : comm_{comm}, mesh_{mesh} {
+BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeChoice choice)
+    : comm_{comm}, mesh_{mesh} {
+  const auto is_chosen = [&](const BoundaryEdges& boundary) {
+    return choice == EdgeChoice::all || boundary.inner_line == (choice == EdgeChoice::inner_lines);
+  };
   std::vector<Share> own;
   own_before_.push_back(0);
   for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
-    const std::int64_t count = std::ssize(mesh.boundaries[b].edges);
+    const BoundaryEdges& boundary = mesh.boundaries[b];
+    const std::int64_t count = is_chosen(boundary) ? std::ssize(boundary.edges) : 0;
     own_before_.push_back(own_before_.back() + count);
     if (count > 0) own.push_back({b, comm.rank(), count});
   }

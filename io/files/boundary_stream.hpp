@@ -12,6 +12,9 @@
 
 namespace quadloop::io {
 
+/// Which of Mesh::boundaries: those with cells on one side and interfaces, inner lines, or all.
+enum class EdgeChoice { boundaries, inner_lines, all };
+
 /// Streams the edges of all boundaries through rank 0: boundary after boundary, in each first those of rank
 /// 0, then of rank 1, and so on. The communication does not grow with the number of boundaries: counts are
 /// exchanged once, and pieces of edges may span boundaries.
@@ -20,7 +23,7 @@ class BoundaryStream {
   using Edge = std::array<std::int64_t, 2>;  ///< global node numbers, from 0
 
   /// The mesh must outlive the object. *Collective.*
-  BoundaryStream(const Communicator& comm, const Mesh& mesh);
+  BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeChoice choice = EdgeChoice::boundaries);
   /// Streams two other numbers for each edge instead of its nodes: those of this rank's edges, boundary after
   /// boundary.
   BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <utility>
 
 #include "io/model/layers_text.hpp"
+#include "io/model/line_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
@@ -115,10 +117,12 @@ class NativeReader {
     return comment.starts_with(head) ? layers_of_text(comment.substr(head.size())) : WallLayers{};
   }
 
-  /// Reads strips from comments after the boundaries.
+  /// Reads strips and inner lines from comments after the boundaries.
   void read_strips() {
     scan_.forget_comments();
     scan_.at_end();
+    for (BoundaryEdges& line : lines_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes))
+      loaded_.inner_curves.push_back(std::move(line));
     const StripsInText found = strips_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
     loaded_.mesh.pairs = pairs_in_comments(scan_.passed_over());

@@ -1,4 +1,5 @@
 #include "io/model/layers_text.hpp"
+#include "io/model/line_text.hpp"
 #include "io/model/loaded_mesh.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/native/native_file.hpp"
@@ -111,6 +112,7 @@ class NativeWriter {
           text.put(edge[0] + 1, ' ');
           text.put(edge[1] + 1, '\n');
         });
+    write_lines();
     file_.write(comments_of(mesh_));
   }
 
@@ -118,6 +120,19 @@ class NativeWriter {
   static std::string block_text(const std::vector<std::string>& names, std::int32_t block) {
     const std::string& name = names[block];
     return name == usual_block_name(size32(names), block) ? "" : "# block " + name + "\n";
+  }
+
+  /// Inner lines are comments: to a solver they are no boundaries.
+  void write_lines() {
+    const BoundaryStream lines(comm_, mesh_, EdgeChoice::inner_lines);
+    file_.write_boundaries(
+        lines, 3, [&](std::size_t n) { return line_comment(lines.present()[n]->name, lines.edges_of(n)); },
+        [](TextRows& text, std::size_t, const BoundaryStream::Edge& edge) {
+          text.mark('#');
+          text.mark(' ');
+          text.put(edge[0] + 1, ' ');
+          text.put(edge[1] + 1, '\n');
+        });
   }
 
   static std::string layers_text(const BoundaryEdges& boundary) {

@@ -33,30 +33,30 @@ MeshStream::MeshStream(const Communicator& comm, const ExtrudedMesh& mesh) : com
 }
 
 MeshStream::MeshStream(const Communicator& comm, const Mesh& plane, const Field* solution,
-                       std::optional<PlaneBlocks> blocks)
+                       std::optional<PlaneBlocks> blocks, EdgeChoice choice)
     : comm_{comm}, own_blocks_{std::move(blocks)} {
   own_plane_.emplace(ExtrudedMesh{plane, {0.0}});
   own_plane_->solution = solution;
   if (own_blocks_) own_plane_->blocks = &*own_blocks_;
-  take_extruded(*own_plane_);
+  take_extruded(*own_plane_, choice);
   if (solution == nullptr) return;
   variables_ = solution->names;
   columns_.resize(variables_.size());
   std::iota(columns_.begin(), columns_.end(), std::int64_t{0});
 }
 
-MeshStream::MeshStream(const Communicator& comm, const LoadedMesh& whole)
+MeshStream::MeshStream(const Communicator& comm, const LoadedMesh& whole, EdgeChoice choice)
     : MeshStream(comm, whole.mesh, whole.solution ? &*whole.solution : nullptr,
-                 has_named_blocks(whole) ? std::optional(plane_blocks(whole)) : std::nullopt) {}
+                 has_named_blocks(whole) ? std::optional(plane_blocks(whole)) : std::nullopt, choice) {}
 
 /// Sets the counts, and the boundaries of the plane.
-void MeshStream::take_extruded(const ExtrudedMesh& mesh) {
+void MeshStream::take_extruded(const ExtrudedMesh& mesh, EdgeChoice choice) {
   extruded_ = &mesh;
   counts_.nodes = comm_.sum(mesh.point_rows());
   for_each_kind([&]<CellKind kind>() {
     counts_.of_kind[static_cast<std::size_t>(kind)] = comm_.sum(cell_rows<kind>());
   });
-  boundaries_.emplace(comm_, mesh.plane);
+  boundaries_.emplace(comm_, mesh.plane, choice);
   for (std::size_t n = 0; n < boundaries_->present().size(); ++n) {
     const BoundaryEdges& boundary = *boundaries_->present()[n];
     const std::int64_t edges = boundaries_->edges_of(n);

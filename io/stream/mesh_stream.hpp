@@ -46,10 +46,11 @@ class MeshStream {
   /// The mesh and its data must outlive the object. *Collective.*
   MeshStream(const Communicator& comm, const ExtrudedMesh& mesh);
   /// A plane mesh, with its solution unless that is null, and its blocks if they have names.
+  /// `choice`: whether the boundaries include inner lines.
   MeshStream(const Communicator& comm, const Mesh& plane, const Field* solution = nullptr,
-             std::optional<PlaneBlocks> blocks = {});
+             std::optional<PlaneBlocks> blocks = {}, EdgeChoice choice = EdgeChoice::boundaries);
   /// The same for a mesh that is whole on the only rank.
-  MeshStream(const Communicator& comm, const LoadedMesh& whole);
+  MeshStream(const Communicator& comm, const LoadedMesh& whole, EdgeChoice choice = EdgeChoice::boundaries);
   /// A 3D mesh; `comm` must have one rank.
   MeshStream(const Communicator& comm, const FileMesh& mesh);
   MeshStream(const MeshStream&) = delete;
@@ -182,7 +183,7 @@ class MeshStream {
   }
 
  private:
-  void take_extruded(const ExtrudedMesh& mesh);
+  void take_extruded(const ExtrudedMesh& mesh, EdgeChoice choice = EdgeChoice::boundaries);
 
   template <std::size_t width>
   static std::array<NodeNumber, width> widened(const std::array<std::int32_t, width>& nodes) {

@@ -26,7 +26,9 @@ class Assembler {
     for (const Boundary& b : geometry.boundaries()) mesh_.boundaries.push_back({b.name, b.condition, {}});
     mesh_.blocks.names = geometry.block_names();
     for (std::int32_t s = 0; geometry.has_twins() && s < geometry.size(); ++s) {
-      if (geometry.twin(s) >= 0) mesh_.boundaries[geometry.boundary_of(s).value()].between_blocks = true;
+      BoundaryEdges& boundary = mesh_.boundaries[geometry.boundary_of(s).value()];
+      if (geometry.twin(s) >= 0)
+        (geometry.is_inner_line(s) ? boundary.inner_line : boundary.between_blocks) = true;
     }
   }
 
@@ -84,8 +86,8 @@ class Assembler {
       if (geometry_.has_blocks()) put_in_block(cut_.quad_blocks[i]);
     }
     for (const auto& e : CutForest::part(cut_.outline, begin.outline, end.outline)) {
-      if (geometry_.is_second(e.segment)) continue;
       const BoundaryId boundary = geometry_.boundary_of(e.segment);
+      if (geometry_.is_second(e.segment) && !geometry_.boundary(boundary).baffle) continue;
       mesh_.boundaries[boundary.value()].edges.push_back({node(e.from), node(e.to)});
       edge_leaves_[boundary.value()].push_back(graph_.local_index(leaf));
     }

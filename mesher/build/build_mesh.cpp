@@ -12,6 +12,7 @@
 #include "mesher/build/make_delaunay.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/build/split_baffles.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/grid_rank.hpp"
 #include "mesher/forest/refine_forest.hpp"
@@ -122,6 +123,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {
     split_skew_quads(result.mesh, result.tree.leaves, rank_of);
   }
+  split_baffles(comm, geometry, result.mesh);
   times.end();
 
   report_tree(comm, graph, cut, result.report);

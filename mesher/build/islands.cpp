@@ -18,6 +18,13 @@ Box box_of_loop(const Geometry& g, std::int32_t loop) {
   return box;
 }
 
+/// Whether a segment has its twin in another loop, where it would remain.
+bool is_part_of_line(const Geometry& g, std::int32_t loop) {
+  std::int32_t s = g.loop_start(loop);
+  while (s < g.loop_start(loop + 1) && (g.twin(s) < 0 || g.loop_of(g.twin(s)) == loop)) ++s;
+  return s < g.loop_start(loop + 1);
+}
+
 Geometry with_loops(const Geometry& g, const std::vector<char>& keep) {
   GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
@@ -49,7 +56,7 @@ std::optional<Geometry> small_islands_dropped(const Geometry& g, double min, Mes
   std::vector<char> keep(g.loop_count(), 1);
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     const Box box = box_of_loop(g, loop);
-    if (box.width() >= min || box.height() >= min) continue;
+    if (box.width() >= min || box.height() >= min || is_part_of_line(g, loop)) continue;
     keep[loop] = 0;  // loops nested in it are smaller still and dropped by the same rule
     ++report.islands_dropped;
     report.area_dropped += area_of_loop(g, loop);

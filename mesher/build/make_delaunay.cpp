@@ -59,6 +59,19 @@ std::size_t count_triangles(const std::vector<IrregularLeaf>& irregular, bool cu
   return count;
 }
 
+/// This rank's edges of inner lines, as Flipper::keep() takes them. An edge of another rank is the side of a
+/// leaf of that rank, so that only one of its triangles is here.
+std::vector<Flipper::Ends> edges_of_lines(const Mesh& mesh) {
+  std::vector<Flipper::Ends> edges;
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (!boundary.inner_line) continue;
+    for (const auto& [from, to] : boundary.edges)
+      edges.push_back({std::min(from, to).value(), std::max(from, to).value()});
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
 /// Flips the edges between this rank's triangles in irregular leaves until they are Delaunay. Edges of uncut
 /// leaves are already Delaunay, except for those to cut leaves. Returns the nodes at edges to other ranks'
 /// triangles; each is a ghost on one of the two ranks.
@@ -85,7 +98,9 @@ std::vector<GlobalNodeId> flip_own_triangles(const std::function<TieRank(Point)>
       if (!mesh.owns(node)) shared.push_back(mesh.global(node));
     }
   });
-  Flipper().flip_first(
+  Flipper flipper;
+  flipper.keep(edges_of_lines(mesh));
+  flipper.flip_first(
       mesh.points, [&](std::int32_t node) { return rank_of(mesh.points[node]); }, triangles, of_cut, blocks);
   for_each_triangle([](std::array<NodeId, 3>& nodes, const Flipper::Triangle& flipped) {
     const auto& [a, b, c] = flipped;

@@ -103,7 +103,7 @@ std::vector<std::vector<double>> shares_of_area(const Mesh& mesh, Point centre) 
   std::vector<std::vector<double>> shares;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     auto& list = shares.emplace_back();
-    if (boundary.between_blocks) continue;
+    if (boundary.two_sided()) continue;
     for (const auto& edge : boundary.edges)
       list.push_back(cross(mesh.point(edge[0]) - centre, mesh.point(edge[1]) - centre));
   }
@@ -187,6 +187,13 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
                   cause, name));
 }
 
+/// Whether all of the loop is of inner lines.
+bool is_inner(const Geometry& geometry, std::int32_t loop) {
+  std::int32_t s = geometry.loop_start(loop);
+  while (s < geometry.loop_start(loop + 1) && geometry.is_inner_line(s)) ++s;
+  return s == geometry.loop_start(loop + 1);
+}
+
 }  // namespace
 
 void refuse_vanished(const Geometry& geometry, const std::vector<std::string>& vanished,
@@ -225,7 +232,7 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
 std::int64_t regions_of(const Geometry& geometry) {
   std::int64_t regions = 0;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop)
-    regions += area_of_loop(geometry, loop) > 0;
+    regions += !is_inner(geometry, loop) && area_of_loop(geometry, loop) > 0;
   return regions;
 }
 

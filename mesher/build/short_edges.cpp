@@ -67,6 +67,12 @@ bool is_small(const Geometry& g, std::int32_t loop, double min) {
   return box.width() < min && box.height() < min;
 }
 
+bool has_twins(const Geometry& g, std::int32_t loop) {
+  std::int32_t s = g.loop_start(loop);
+  while (s < g.loop_start(loop + 1) && g.twin(s) < 0) ++s;
+  return s < g.loop_start(loop + 1);
+}
+
 /// Returns the parts of a loop between consecutive feature points less than four `min` apart, in order from
 /// the first one after a gap. Empty without a gap.
 std::vector<ShortEdge> near_points_of(const Geometry& g, std::int32_t loop, double min) {
@@ -114,7 +120,8 @@ class Bases {
     for (std::int32_t s = 0; s < g_.size(); ++s) ++segments_of_[g_.boundary_of(s)];
     edges_.resize(g_.loop_count());
     for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) {
-      if (is_small(g_, loop, min)) continue;  // the mesh drops it
+      // The mesh drops small loops; the twins of other loops would not move with a loop's vertices.
+      if (is_small(g_, loop, min) || has_twins(g_, loop)) continue;
       edges_[loop] = short_edges_of(g_, loop, min);
       add_bases(edges_[loop], min);
     }
@@ -264,7 +271,7 @@ Geometry with_merged(const Geometry& g, std::span<const ShortBase> bases) {
   GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < g.loop_count(); ++loop) {
     for (std::int32_t v = g.loop_start(loop); v < g.loop_start(loop + 1); ++v) {
-      if (is_dropped[v] == 0) builder.add(moved[v], g.boundary_of(v), g.curve(v));
+      if (is_dropped[v] == 0) builder.add(moved[v], g.boundary_of(v), g.curve(v), g.returns(v));
     }
     builder.end_loop(g.block_of(g.loop_start(loop)));
   }

@@ -29,9 +29,11 @@ struct CutLeaf {
   /// First along the sides, counter-clockwise from the lower left corner; then those inside, by position.
   std::vector<Node> nodes;
   /// The chords that represent the boundary, including those that only bound a neighbour's cells. Between two
-  /// blocks there are two in opposite directions; those along a side may be in two leaves.
+  /// blocks, and along inner lines, there are two in opposite directions; those along a side may be in two
+  /// leaves.
   std::vector<Edge> outline;
-  std::vector<std::int32_t> loop_nodes;   ///< concatenated loops
+  /// Concatenated loops; those of two nodes are parts of inner lines with the same region on both sides.
+  std::vector<std::int32_t> loop_nodes;
   std::vector<std::int32_t> loop_starts;  ///< one more entry than there are loops
   std::vector<std::int32_t> loop_blocks;  ///< of each loop
   std::int32_t side_nodes = 0;            ///< number of nodes on the sides

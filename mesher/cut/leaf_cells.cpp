@@ -111,7 +111,7 @@ bool LeafCellMaker::make_block(std::int32_t block, LeafCells& cells) {
     if (leaf.loop_blocks[i] == block) loops_.push_back(leaf.loop(i));
   }
   const bool holes = loops_.size() > 1 && std::any_of(loops_.begin(), loops_.end(), [&](const auto& loop) {
-                       return winding_of(leaf, loop) < 0;
+                       return loop.size() < 3 || winding_of(leaf, loop) < 0;
                      });
   if (holes) return triangulate(loops_, cells);
   for (const auto& loop : loops_) {

@@ -348,12 +348,13 @@ class ChordMaker {
         memory_{memory} {}
 
   /// Adds the chords of one piece: from its entry via the chosen points to its exit, for one boundary. A
-  /// piece absorbed by a snapped corner has none.
+  /// piece absorbed by a snapped corner has none, unless it is the way along an inner line and back.
   void add(const Piece& piece) {
     const bool closed = piece.entry < 0;
     if (!closed) {
       const LeafSnap *entry = snap_of(piece.entry), *exit = snap_of(piece.exit);
-      if (entry != nullptr && exit != nullptr && entry->snap == exit->snap) return;
+      const bool to_tip = is_way_to_tip(piece);
+      if (entry != nullptr && exit != nullptr && entry->snap == exit->snap && !to_tip) return;
     }
     std::pmr::vector<RunPoint> run = points_of(piece);
     choose_points(closed, run);
@@ -372,6 +373,12 @@ class ChordMaker {
   }
 
  private:
+  /// Whether a piece leaves the leaf where it came in, along the twin.
+  bool is_way_to_tip(const Piece& piece) const {
+    const auto segment = [&](std::int32_t c) { return input_.trace.crossing(c).segment; };
+    return geometry_.has_inner_lines() && geometry_.twin(segment(piece.entry)) == segment(piece.exit);
+  }
+
   /// Returns the snap that absorbs the crossing; null if there is none.
   const LeafSnap* snap_of(std::int32_t crossing) const {
     const std::int32_t snap = crossings_[crossing].snap;
@@ -543,18 +550,19 @@ void settle_inner_nodes(CutLeaf& leaf, std::pmr::memory_resource* memory) {
   std::erase_if(leaf.outline, [](const CutLeaf::Edge& e) { return e.from == e.to; });
 }
 
-/// Whether two opposite chords, or a chord along a side, may bound two blocks.
-bool is_between_blocks(const Geometry& geometry, const CutLeaf& leaf, const CutLeaf::Edge& chord,
-                       const CutLeaf::Edge* opposite) {
+/// Whether two opposite chords, or a chord along a side, may have cells on both sides.
+bool is_two_sided(const Geometry& geometry, const CutLeaf& leaf, const CutLeaf::Edge& chord,
+                  const CutLeaf::Edge* opposite) {
   if (geometry.twin(chord.segment) < 0) return opposite == nullptr;
   if (opposite != nullptr)
-    return geometry.twin(opposite->segment) >= 0 && opposite->block != chord.block &&
-           geometry.boundary_of(opposite->segment) == geometry.boundary_of(chord.segment);
+    return geometry.twin(opposite->segment) >= 0 &&
+           geometry.boundary_of(geometry.twin(opposite->segment)) == geometry.boundary_of(chord.segment) &&
+           geometry.is_second(opposite->segment) != geometry.is_second(chord.segment);
   return !(sides_of(leaf.nodes[chord.from].site) & sides_of(leaf.nodes[chord.to].site)).empty();
 }
 
 /// Cancels a chord along a side of the leaf against that side: neither bounds a cell here. Returns false for
-/// two opposite chords, which would lose what lies between them, unless they lie between two blocks.
+/// two opposite chords, which would lose what lies between them, unless they are those of two-sided segments.
 bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf, std::pmr::vector<CutLeaf::Edge>& edges) {
   const std::span<const CutLeaf::Edge> outline = leaf.outline;
   edges.reserve(edges.size() + outline.size());  // avoids reallocation of the side edges
@@ -564,11 +572,12 @@ bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf, std::pmr::v
   };
   for (const CutLeaf::Edge& chord : outline) {
     const std::size_t opposite = chords.first(chord.to, chord.from);
-    if (!is_between_blocks(geometry, leaf, chord, opposite < chords.count() ? &outline[opposite] : nullptr))
+    const bool is_way_back = opposite < chords.count() && outline[opposite].block == chord.block;
+    if (!is_two_sided(geometry, leaf, chord, opposite < chords.count() ? &outline[opposite] : nullptr))
       return false;
     const std::size_t along = of_block(sides.first(chord.from, chord.to), chord),
                       against = of_block(sides.first(chord.to, chord.from), chord);
-    if (along < against) return false;
+    if (along < against && !is_way_back) return false;  // the way back cancels the side
     if (against == sides.count()) {
       edges.push_back(chord);
     } else {

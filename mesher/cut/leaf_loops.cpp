@@ -102,7 +102,8 @@ bool edges_conflict(const CutLeaf& leaf, const CutLeaf::Edge& e, const CutLeaf::
   const auto folds = [](Point hub, Point p, Point q) {
     return dot(p - hub, q - hub) > 0 && orientation(hub, p, q) == 0;
   };
-  if (e.to == f.from && e.from == f.to) return e.block == f.block;
+  if (e.to == f.from && e.from == f.to)  // two chords of an inner line, or of two blocks
+    return e.block == f.block && (e.segment < 0 || f.segment < 0);
   if (e.to == f.from) return folds(b, a, d);
   if (e.from == f.to) return folds(a, b, c);
   if (e.from == f.from) return folds(a, b, d);
@@ -261,7 +262,7 @@ int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
 bool loops_are_sound(Edges edges, const CutLeaf& leaf) {
   if (any_conflict(leaf, edges)) return false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
-    if (leaf.loop(i).size() < 3) return false;
+    if (leaf.loop(i).size() < 2) return false;
   }
   return nesting_is_sound(leaf);
 }

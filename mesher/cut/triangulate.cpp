@@ -11,6 +11,24 @@ namespace {
 /// Maximum number of nodes for ear clipping, which takes quadratic time.
 constexpr std::size_t most_ears = 24;
 
+/// The edges that loops pass in both directions.
+std::vector<Flipper::Ends> twofold_edges(std::span<const std::span<const std::int32_t>> loops) {
+  std::vector<Flipper::Ends> edges;
+  if (loops.size() == 1) return edges;
+  for (const auto loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto [low, high] = std::minmax({loop[i], loop[(i + 1) % loop.size()]});
+      edges.push_back({low, high});
+    }
+  }
+  std::ranges::sort(edges);
+  std::vector<Flipper::Ends> twofold;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i] == edges[i - 1]) twofold.push_back(edges[i]);
+  }
+  return twofold;
+}
+
 }  // namespace
 
 bool Triangulator::triangulate(std::span<const Point> points, const Flipper::RankOf& rank_of,
@@ -23,6 +41,7 @@ bool Triangulator::triangulate(std::span<const Point> points, const Flipper::Ran
     triangles_.clear();
     triangulate_region(points, loops, triangles_);
   }
+  flipper_.keep(twofold_edges(loops));
   if (triangles_.size() > 1) flipper_.flip_to_delaunay(points, rank_of, triangles_);
   for (LocalTriangle& t : triangles_) {
     if (!is_positive(at(t[0]), at(t[1]), at(t[2]))) return false;

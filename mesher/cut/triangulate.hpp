@@ -11,7 +11,8 @@ namespace quadloop {
 using LocalTriangle = Flipper::Triangle;
 
 /// Constrained Delaunay triangulation of the region between loops: outer loops counter-clockwise, holes
-/// clockwise, which meet only at nodes. `loops` are indices into `points`; no node is added. Ties are broken
+/// clockwise, which meet only at nodes or pass an edge in both directions; such an edge is kept, with the
+/// region on both sides. `loops` are indices into `points`; no node is added. Ties are broken
 /// by `rank_of`. Appends counter-clockwise triangles to `triangles`. Returns false if rounding would give a
 /// triangle without positive area in double precision.
 class Triangulator {

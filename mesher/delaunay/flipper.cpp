@@ -62,7 +62,8 @@ void Flipper::join(std::span<const std::int32_t> blocks) {
       across_[e] = std::exchange(last_low_[low(e)], e);
     } else {
       *link = std::exchange(across_[other], border);
-      if (blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(other)]) set_across(e, other);
+      const bool one_block = blocks.empty() || blocks[triangle_of(e)] == blocks[triangle_of(other)];
+      if (one_block && !is_kept(e)) set_across(e, other);
     }
   }
 }

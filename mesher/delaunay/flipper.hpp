@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/delaunay/tie_order.hpp"
@@ -42,16 +43,20 @@ class Flipper {
   /// The rank of a node for the choice between diagonals.
   using RankOf = std::function<TieRank(std::int32_t)>;
 
+  /// An edge by its nodes, the lower one first.
+  using Ends = std::array<std::int32_t, 2>;
+  /// Edges that the next calls do not flip, whatever triangles they belong to; ascending.
+  void keep(std::vector<Ends> edges) { kept_ = std::move(edges); }
+
   /// Flips edges of counter-clockwise `triangles` over the `points`; edges with the same ends are joined.
-  /// Edges with one triangle are kept, and edges between triangles of two `blocks` (one entry per triangle;
-  /// empty: one block). If the order of ranks is strict, the result depends only on points, ranks and kept
-  /// edges, not on the initial triangles. Triangles keep their blocks. Where `open` (a flag per triangle, or
-  /// empty) is set, an edge with one triangle becomes an open border.
-  /// `moved` (a flag per point, or empty): the triangles were constrained Delaunay before these points moved.
-  /// Then an edge of two triangles without a moved node is not replaced by the other diagonal of four nodes
-  /// on one circle, whatever their ranks, and the result also depends on such edges. It is still unique: an
-  /// edge that flips without being a tie belongs to no Delaunay triangulation, and between the kept edges the
-  /// ranks decide.
+  /// Edges with one triangle are kept, those of keep(), and edges between triangles of two `blocks` (one
+  /// entry per triangle; empty: one block). If the order of ranks is strict, the result depends only on
+  /// points, ranks and kept edges, not on the initial triangles. Triangles keep their blocks. Where `open` (a
+  /// flag per triangle, or empty) is set, an edge with one triangle becomes an open border. `moved` (a flag
+  /// per point, or empty): the triangles were constrained Delaunay before these points moved. Then an edge of
+  /// two triangles without a moved node is not replaced by the other diagonal of four nodes on one circle,
+  /// whatever their ranks, and the result also depends on such edges. It is still unique: an edge that flips
+  /// without being a tie belongs to no Delaunay triangulation, and between the kept edges the ranks decide.
   void flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
                         std::span<const char> open = {}, std::span<const std::int32_t> blocks = {},
                         std::span<const char> moved = {});
@@ -71,6 +76,9 @@ class Flipper {
   std::int32_t low(Edge e) const { return std::min(node(e, 1), node(e, 2)); }
   std::int32_t high(Edge e) const { return std::max(node(e, 1), node(e, 2)); }
   void join(std::span<const std::int32_t> blocks);
+  bool is_kept(Edge e) const {
+    return !kept_.empty() && std::ranges::binary_search(kept_, Ends{low(e), high(e)});
+  }
   void close(std::span<const char> open);
   void list_firm(std::span<const char> moved);
   void list_blunt();
@@ -93,6 +101,7 @@ class Flipper {
   /// For each node the last edge that has it as lower end and only one triangle.
   std::vector<Edge> last_low_;
   std::vector<Edge> waiting_;
+  std::vector<Ends> kept_;
 };
 
 }  // namespace quadloop

@@ -155,8 +155,9 @@ Geometry::Geometry(std::vector<Boundary> boundaries, std::vector<Point> points,
   shorten_spacing_between_corners();
 }
 
+/// Without blocks and inner lines there are none.
 void Geometry::find_twins() {
-  if (!has_blocks()) return;
+  if (!has_blocks() && blocks_.returns.empty()) return;
   std::map<std::pair<Point, Point>, std::int32_t> by_ends;
   for (std::int32_t s = 0; s < size(); ++s) by_ends.emplace(std::pair(point(s), point(next(s))), s);
   std::vector<std::int32_t> twins(points_.size(), -1);
@@ -174,6 +175,9 @@ bool Geometry::is_between_twins(std::int32_t v) const {
 }
 
 void Geometry::keep_touching_points() {
+  for (std::int32_t v = 0; has_twins() && v < size(); ++v) {
+    if (is_tip(v)) kept_[v] = 1;
+  }
   const PointTable table(points_);
   if (!table.any_twice()) return;
   for (std::int32_t v = 0; v < size(); ++v) {
@@ -260,6 +264,7 @@ std::uint64_t Geometry::digest() const {
       digest.add(b.corner_spacing);  // added only if set, so that hashes of older trees remain valid
     if (b.layers) digest_layers(*b.layers, digest);
     if (!b.layers_in.empty()) digest.add(b.layers_in);
+    if (b.baffle) digest.add(std::uint64_t{b.baffle});
   }
   for (const Point p : points_) {
     digest.add(p.x);
@@ -270,10 +275,15 @@ std::uint64_t Geometry::digest() const {
   for (const BoundaryId b : segment_boundary_) digest.add(static_cast<std::uint64_t>(b.value()));
   for (const std::string& name : blocks_.names) digest.add(name);
   for (const std::uint64_t block : blocks_.of_loop) digest.add(block);
+  for (const std::uint64_t returns : blocks_.returns) digest.add(returns);
   return digest.value();
 }
 
-void GeometryBuilder::add(Point vertex, BoundaryId boundary, const Curve& curve) {
+void GeometryBuilder::add(Point vertex, BoundaryId boundary, const Curve& curve, bool returns) {
+  if (returns) {
+    returns_.resize(points_.size());
+    returns_.push_back(1);
+  }
   if (!curve.straight()) curves_.resize(points_.size());
   if (!curve.straight() || !curves_.empty()) curves_.push_back(curve);
   points_.push_back(vertex);
@@ -295,6 +305,8 @@ void GeometryBuilder::add_loop(const Geometry& geometry, std::int32_t loop) {
 Geometry GeometryBuilder::geometry(std::vector<Boundary> boundaries, std::vector<std::string> blocks) && {
   LoopBlocks of_loops;
   if (!blocks.empty()) of_loops = {std::move(blocks), std::move(block_of_loop_)};
+  if (!returns_.empty()) returns_.resize(points_.size());
+  of_loops.returns = std::move(returns_);
   return Geometry(std::move(boundaries), std::move(points_), std::move(loop_starts_),
                   std::move(segment_boundary_), std::move(curves_), std::move(of_loops));
 }

@@ -25,6 +25,7 @@ struct Chain {
   bool directed = true;  ///< whether the file defines the direction; drawings, maps and airfoil files do not
   /// The shapes of the segments, the closing one of a closed chain included; empty: all are straight.
   std::vector<Curve> curves = {};
+  bool inner_line = false;  ///< the mesh follows it, but it bounds nothing
 };
 
 /// A boundary: its mesh settings, and its boundary condition for solvers.
@@ -37,6 +38,7 @@ struct Boundary {
   double corner_spacing = 0;
   std::optional<LayerSpec> layers = {};
   std::string layers_in = {};  ///< the block in which it has layers; empty: all blocks beside it
+  bool baffle = false;         ///< an inner line of which each side has nodes of its own
 };
 
 /// Requirements of single places, which override those of their boundary.
@@ -50,11 +52,14 @@ struct LocalDemands {
 struct LoopBlocks {
   std::vector<std::string> names;
   std::vector<std::int32_t> of_loop;  ///< index into the names
+  /// Flags the segments that run against the direction of an inner line; empty: there is no inner line.
+  std::vector<char> returns = {};
 };
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
 /// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment
-/// with domain on both sides, between two blocks, is stored twice, once in each direction: the two are twins.
+/// with domain on both sides, between two blocks or of an inner line, is stored twice, once in each
+/// direction: the two are twins. So a loop runs along an inner line and back.
 class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
@@ -99,13 +104,26 @@ class Geometry {
   /// Whether its boundary requests layers in the block to the left of the segment.
   bool asks_for_layers(std::int32_t segment) const {
     const Boundary& b = boundary(boundary_of(segment));
-    return b.layers && (b.layers_in.empty() ||
-                        (has_blocks() && b.layers_in == block_names()[block_of(segment)]));
+    return b.layers &&
+           (b.layers_in.empty() || (has_blocks() && b.layers_in == block_names()[block_of(segment)]));
   }
-  /// Whether it is the twin of the higher block: decisions for both are made from the other one.
+  /// Whether it is the twin of the higher block, or against the direction of an inner line: decisions for
+  /// both are made from the other one.
   bool is_second(std::int32_t segment) const {
+    if (returns(segment)) return true;
     return twin(segment) >= 0 && block_of(segment) > block_of(twin(segment));
   }
+  bool has_inner_lines() const { return !blocks_.returns.empty(); }
+  /// Whether it runs against the direction of its inner line.
+  bool returns(std::int32_t segment) const {
+    return !blocks_.returns.empty() && blocks_.returns[segment] != 0;
+  }
+  /// Whether the segment has one block on both sides.
+  bool is_inner_line(std::int32_t segment) const {
+    return twin(segment) >= 0 && block_of(segment) == block_of(twin(segment));
+  }
+  /// Whether an inner line ends at the vertex: the loop turns back there.
+  bool is_tip(std::int32_t v) const { return has_twins() && twin(v) == previous(v); }
 
   /// Whether any segment is a curve. Cells are refined and cut by the chords of the curves; then the boundary
   /// nodes move onto the curves.
@@ -195,11 +213,12 @@ class Geometry {
 /// Collects the vertices of a geometry, loop after loop.
 class GeometryBuilder {
  public:
-  /// Adds a vertex, with boundary and shape of the segment that begins there.
-  void add(Point vertex, BoundaryId boundary, const Curve& curve = {});
+  /// Adds a vertex, with boundary and shape of the segment that begins there, and whether this runs against
+  /// the direction of an inner line.
+  void add(Point vertex, BoundaryId boundary, const Curve& curve = {}, bool returns = false);
   /// Adds vertex v of a geometry, with its segment.
   void add(const Geometry& geometry, std::int32_t v) {
-    add(geometry.point(v), geometry.boundary_of(v), geometry.curve(v));
+    add(geometry.point(v), geometry.boundary_of(v), geometry.curve(v), geometry.returns(v));
   }
   /// Ends a loop, if it has vertices.
   void end_loop(std::int32_t block = 0);
@@ -218,6 +237,7 @@ class GeometryBuilder {
   std::vector<BoundaryId> segment_boundary_;
   std::vector<Curve> curves_;
   std::vector<std::int32_t> block_of_loop_;
+  std::vector<char> returns_;  ///< up to the last segment with the flag
 };
 
 /// The geometry as polylines, loop after loop: a closed chain if one boundary forms the whole loop, else one

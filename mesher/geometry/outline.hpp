@@ -17,6 +17,7 @@ struct OutlineLoop {
   std::string source;              ///< source of its first chain, for messages
   bool directed = true;            ///< whether its chains are
   std::vector<Curve> curves = {};  ///< the shape of each segment; empty: all are straight
+  std::vector<char> returns = {};  ///< flags segments against the direction of an inner line; may be empty
 };
 
 struct Outline {

@@ -41,6 +41,12 @@ ShiftedOutline::Shift ShiftedOutline::shift_of(std::int32_t vertex) const {
   return {mitre_sign(in_x, in_y, out_x, out_y, turn, -1), mitre_sign(in_y, in_x, out_y, out_x, turn, +1)};
 }
 
+bool ShiftedOutline::is_ahead_of_start(std::int32_t segment, Point p) const {
+  const Point start = geometry_->point(segment), end = geometry_->point(geometry_->next(segment));
+  return start.x != end.x ? p.x != start.x && (p.x < start.x) == (start.x < end.x)
+                          : p.y != start.y && (p.y < start.y) == (start.y < end.y);
+}
+
 int ShiftedOutline::winding_at(std::int32_t segment, Point p) const {
   const bool up = beyond_y(geometry_->next(segment), p.y);
   if (up == beyond_y(segment, p.y) || has_left(segment, p) == up) return 0;

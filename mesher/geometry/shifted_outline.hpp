@@ -47,9 +47,11 @@ class ShiftedOutline {
   }
 
   /// Whether p lies to the left of the (infinite) line through the segment; a point on the line is to the
-  /// right of the shifted one.
+  /// right of the shifted one, except ahead of an inner line that ends where the segment begins: the shifted
+  /// segment begins beyond that end, on the other side of the line.
   bool has_left(std::int32_t segment, Point p) const {
-    return orientation(geometry_->point(segment), geometry_->point(geometry_->next(segment)), p) > 0;
+    const int side = orientation(geometry_->point(segment), geometry_->point(geometry_->next(segment)), p);
+    return side != 0 ? side > 0 : geometry_->is_tip(segment) && is_ahead_of_start(segment, p);
   }
 
   /// The segment's contribution to the winding number at p, by the ray to its left: 1 for a downward
@@ -70,6 +72,8 @@ class ShiftedOutline {
   static std::int8_t mitre_sign(int in_along, int in_other, int out_along, int out_other, int turn,
                                 int handed);
   Shift shift_of(std::int32_t vertex) const;
+  /// Whether a point on the line through the segment lies before its start.
+  bool is_ahead_of_start(std::int32_t segment, Point p) const;
 
   const Geometry* geometry_;
   std::vector<Shift> shift_;

@@ -30,6 +30,12 @@ struct BoundaryEdges {
   WallLayers layers = {};
   /// Whether its edges lie between two blocks: each is listed once, with the first of the blocks to its left.
   bool between_blocks = false;
+  /// Whether it is an inner line: its edges lie inside blocks, and each is listed once, in the direction of
+  /// the line.
+  bool inner_line = false;
+
+  /// Whether its edges have cells on both sides.
+  bool two_sided() const { return between_blocks || inner_line; }
 };
 
 /// Layers on both sides of an interior line, e.g. a wake, stored as columns of nodes across the line. The

@@ -398,7 +398,8 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
   whole.quads = whole_cells(gather_cells(comm, part, part.quads));
   for (const BoundaryEdges& boundary : part.boundaries) {
     const auto edges = gather_cells(comm, part, boundary.edges);
-    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges), boundary.layers});
+    whole.boundaries.push_back({boundary.name, boundary.condition, whole_cells(edges), boundary.layers,
+                                boundary.between_blocks, boundary.inner_line});
   }
   whole.strips = part.strips;
   whole.blocks = {part.blocks.names, gather_at_root(comm, part.blocks.of_triangles),

@@ -42,7 +42,14 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 void settle_absorbed(const Geometry& geometry, Snap& snap) {
   for (std::size_t i = 0, count = snap.absorbed.size(); i < count; ++i) {
     const Snap::Absorbed one = snap.absorbed[i];
-    if (geometry.twin(one.segment) >= 0) snap.absorbed.push_back({geometry.twin(one.segment), one.vertical});
+    const std::int32_t twin = geometry.twin(one.segment);
+    if (twin < 0) continue;
+    snap.absorbed.push_back({twin, one.vertical});
+    if (!geometry.is_tip(twin))
+      continue;  // where an inner line ends on a grid line, only one twin crosses it
+    const Point tip = geometry.point(twin);
+    if (tip.x == snap.centre.x) snap.absorbed.push_back({twin, true});
+    if (tip.y == snap.centre.y) snap.absorbed.push_back({twin, false});
   }
   std::sort(snap.absorbed.begin(), snap.absorbed.end());
   snap.absorbed.erase(std::unique(snap.absorbed.begin(), snap.absorbed.end()), snap.absorbed.end());

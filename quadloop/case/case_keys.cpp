@@ -109,8 +109,9 @@ const std::vector<TableText>& case_tables() {
       title_keys().text(), geometry_keys().text(),   far_field_keys().text(), shape_keys().text(),
       pair_keys().text(),  spacing_keys().text(),    boundary_keys().text(),  layer_keys().text(),
       wake_keys().text(),  layer_line_keys().text(), flow_keys().text(),      source_keys().text(),
-      block_keys().text(), mesh_keys().text(),       smooth_keys().text(),    adapt_keys().text(),
-      until_keys().text(), design_keys().text(),     solver_keys().text(),    output_keys().text()};
+      block_keys().text(), line_keys().text(),       mesh_keys().text(),      smooth_keys().text(),
+      adapt_keys().text(), until_keys().text(),      design_keys().text(),    solver_keys().text(),
+      output_keys().text()};
   return tables;
 }
 

@@ -230,6 +230,31 @@ const KeyTable<BlockRule>& block_keys() {
   return keys;
 }
 
+ValueForm<std::vector<Point>> path_of_line() {
+  ValueForm<std::vector<Point>> form = points();
+  form.text = "`[[x, y], ...]`";
+  form.example = "[[0, 0], [1, 2]]";
+  return form;
+}
+
+const KeyTable<LineRule>& line_keys() {
+  static const KeyTable<LineRule> keys{
+      "line",
+      {key<&LineRule::name>(
+           "name", text(),
+           "Name of the line: `[boundary.NAME]` sets its `spacing` and `corner`. Without it that "
+           "of `boundary`."),
+       key<&LineRule::path>("path", path_of_line(),
+                            "The points of the line, which is closed if it ends where it begins. A line has "
+                            "either `path` or `boundary`."),
+       key<&LineRule::boundary>("boundary", text(),
+                                "A chain of the geometry that is an inner line, not a part of the outline."),
+       key<&LineRule::baffle>("kind", choice<bool>({{"line", false}, {"baffle", true}}),
+                              "`line`: a named row of edges. `baffle`: a wall of no thickness with nodes of "
+                              "its own on each side.")}};
+  return keys;
+}
+
 const KeyTable<Settings>& mesh_keys() {
   static const KeyTable<Settings> keys{
       "mesh",
@@ -343,6 +368,20 @@ BlockRule read_block(const io::CaseTable& table) {
     if (boundary.starts_with('-')) boundary.erase(0, 1);
   }
   rule.where = table.place();
+  return rule;
+}
+
+LineRule read_line(const io::CaseTable& table) {
+  LineRule rule;
+  line_keys().read(table, rule);
+  rule.where = table.place();
+  if (rule.path.empty() == rule.boundary.empty())
+    throw InputError(rule.where + ": a [[line]] needs either path = [[0, 0], [1, 0]] or boundary = \"A\"");
+  if (rule.name.empty()) rule.name = rule.boundary;
+  if (rule.name.empty()) table.refuse("name", "is missing; give the line one, as in name = \"screen\"");
+  if (table.has("name")) rule.name = boundary_name().read(table, "name");
+  if (rule.path.size() == 1)
+    table.refuse("path", "has one point; a single node is not possible yet, so give the line two points");
   return rule;
 }
 

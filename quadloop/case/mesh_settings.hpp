@@ -14,12 +14,13 @@ struct SourceKeys {
   double spacing = 0;
 };
 
-/// The tables [geometry], geometry.far_field, [spacing], [[source]], [[block]] and [mesh].
+/// The tables [geometry], geometry.far_field, [spacing], [[source]], [[block]], [[line]] and [mesh].
 const KeyTable<Settings>& geometry_keys();
 const KeyTable<FarField>& far_field_keys();
 const KeyTable<Settings>& spacing_keys();
 const KeyTable<SourceKeys>& source_keys();
 const KeyTable<BlockRule>& block_keys();
+const KeyTable<LineRule>& line_keys();
 const KeyTable<Settings>& mesh_keys();
 
 /// Read them. All throw InputError that names key and line.
@@ -27,6 +28,7 @@ void read_geometry_table(const io::CaseTable& table, const std::string& case_pat
 void read_spacing_table(const io::CaseTable& table, Settings& settings);
 SizeSource read_source(const io::CaseTable& table);
 BlockRule read_block(const io::CaseTable& table);
+LineRule read_line(const io::CaseTable& table);
 void read_mesh_table(const io::CaseTable& table, Settings& settings);
 
 }  // namespace quadloop

@@ -62,6 +62,7 @@ void require_plain_pairs(const Settings& settings) {
   refuse_with(settings.partitions > 0, "output.partitions");
   refuse_with(settings.outline.unite_islands, "geometry.overlap = \"union\"");
   refuse_with(!settings.outline.blocks.empty(), "[[block]]");
+  refuse_with(!settings.outline.lines.empty(), "[[line]]");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       for (const std::string& name : {pairs[i].pair.from, pairs[i].pair.to}) {

@@ -96,6 +96,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
   for (const CaseTable& block : root.tables("block")) settings.outline.blocks.push_back(read_block(block));
+  for (const CaseTable& line : root.tables("line")) settings.outline.lines.push_back(read_line(line));
   for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
@@ -111,13 +112,20 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "output", [&](const CaseTable& table) { read_output_table(table, settings); });
 }
 
-/// Throws InputError for settings that do not work with several blocks yet.
+/// Throws InputError for settings that do not work with several blocks or inner lines yet.
 void require_blocks_alone(const Settings& settings) {
-  if (settings.outline.blocks.empty()) return;
+  const AssembleOptions& outline = settings.outline;
+  if (outline.blocks.empty() && outline.lines.empty()) return;
+  const bool lines = !outline.lines.empty();
+  const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
   const std::pair<bool, const char*> others[] = {
+      {lines && std::ranges::any_of(outline.rules, has_layers), "boundary layers; remove 'layers'"},
+      {lines && settings.adapt, "adaptation; remove [adapt]"},
+      {lines && std::ranges::count(settings.formats, "fluent.msh") > 0,
+       "the format fluent.msh; write mesh, vtu, msh or su2"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
-      {settings.outline.unite_islands, "a union of islands; remove geometry.overlap"},
+      {outline.unite_islands, "a union of islands; remove geometry.overlap"},
       {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
       {settings.mesh.type == MeshType::metric, "anisotropic adaptation; set mesh.type to delaunay"},
       {settings.adapt && settings.solver.kind != SolverSettings::Kind::command,
@@ -125,9 +133,10 @@ void require_blocks_alone(const Settings& settings) {
       {settings.partitions > 0, "partitions; remove output.partitions"}};
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;
-    const BlockRule& block = settings.outline.blocks.front();
-    throw InputError(
-        fmt::format("{}: a mesh of several blocks cannot have {} or [[block]]", block.where, what));
+    throw InputError(fmt::format("{}: a mesh {} cannot have {} or [[{}]]",
+                                 lines ? outline.lines.front().where : outline.blocks.front().where,
+                                 lines ? "with inner lines" : "of several blocks", what,
+                                 lines ? "line" : "block"));
   }
 }
 

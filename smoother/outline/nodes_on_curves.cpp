@@ -9,7 +9,7 @@ Geometry chords_of(const Geometry& geometry) {
   GeometryBuilder builder;
   for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop) {
     for (std::int32_t v = geometry.loop_start(loop); v < geometry.loop_start(loop + 1); ++v)
-      builder.add(geometry.point(v), geometry.boundary_of(v));
+      builder.add(geometry.point(v), geometry.boundary_of(v), {}, geometry.returns(v));
     builder.end_loop();
   }
   return std::move(builder).geometry(geometry.boundaries());

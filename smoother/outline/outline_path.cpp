@@ -82,7 +82,7 @@ OutlinePath::Nearest OutlinePath::nearest(Point p, const std::string& boundary, 
   Nearest found{-1, within};
   const Box reach = widened({p, p}, within + height_);
   for (const std::int32_t s : near) {
-    if (!box_of_segment(s).meets(reach) || !is_of(s, boundary)) continue;
+    if (!box_of_segment(s).meets(reach) || !is_of(s, boundary) || returns(s)) continue;
     const double distance = distance_to(s, p);
     if (distance > found.distance || (distance == found.distance && found.segment >= 0 && s > found.segment))
       continue;
@@ -144,6 +144,7 @@ OutlinePath::Part OutlinePath::part_of(const Chord& chord) const {
 /// Whether a segment belongs to the part that the chord represents, or touches the chord's ends there. Fast
 /// path: most queried segments contain an end.
 bool OutlinePath::belongs(std::int32_t segment, const Chord& chord) const {
+  if (returns(segment)) segment = geometry_.twin(segment);
   if (segment == chord.from.segment || segment == chord.to.segment) return true;
   const Part part = part_of(chord);
   if (segment == part.before || segment == part.after) return true;
@@ -151,12 +152,26 @@ bool OutlinePath::belongs(std::int32_t segment, const Chord& chord) const {
   return geometry_.loop_of(segment) == loop && within(loop, arc_[segment] - chord.from.arc) <= part.way;
 }
 
+/// Whether a segment of the outline or of an inner line begins or ends at an end of the chord, where lines
+/// branch, and leads away from the chord.
+bool OutlinePath::branches_off(std::int32_t segment, const Chord& chord) const {
+  if (!geometry_.has_inner_lines()) return false;
+  const Point p = geometry_.point(segment), q = geometry_.point(geometry_.next(segment));
+  const auto leads_away = [](Point hub, Point a, Point b) {
+    return orientation(hub, a, b) != 0 || dot(a - hub, b - hub) < 0;
+  };
+  if (p == chord.a) return leads_away(p, q, chord.b);
+  if (p == chord.b) return leads_away(p, q, chord.a);
+  if (q == chord.a) return leads_away(q, p, chord.b);
+  return q == chord.b && leads_away(q, p, chord.a);
+}
+
 OutlinePath::Segments OutlinePath::met_elsewhere(const Chord& chord,
                                                  std::span<const std::int32_t> near) const {
   Segments met;
   const Box around = box_of(chord.a, chord.b);
   for (const std::int32_t s : near) {
-    if (box_of_segment(s).meets(around) && !belongs(s, chord) &&
+    if (box_of_segment(s).meets(around) && !belongs(s, chord) && !branches_off(s, chord) &&
         segments_meet(chord.a, chord.b, geometry_.point(s), geometry_.point(geometry_.next(s))))
       met.push_back(s);
   }

@@ -151,6 +151,12 @@ class OutlinePath {
   };
   Part part_of(const Chord& chord) const;
   bool belongs(std::int32_t segment, const Chord& chord) const;
+  bool branches_off(std::int32_t segment, const Chord& chord) const;
+  /// Whether it is the way back along an inner line, which has the places of its twin.
+  bool returns(std::int32_t segment) const {
+    return geometry_.returns(segment) &&
+           geometry_.boundary_of(segment) == geometry_.boundary_of(geometry_.twin(segment));
+  }
   bool is_of(std::int32_t segment, const std::string& boundary) const {
     return geometry_.boundary(geometry_.boundary_of(segment)).name == boundary;
   }

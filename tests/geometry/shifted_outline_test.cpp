@@ -96,6 +96,36 @@ TEST(ShiftedOutline, AVertexAtAPeakOnALineIsOnBothSidesOfIt) {
   EXPECT_FALSE(corners.is_in(box_at(-2, -1, 1), 0) || corners.is_in(box_at(-1, -2, 1), 0));
 }
 
+/// A square of 8 with a line from (2, 4) to the end, as the loop that runs round it.
+Geometry line_in_square(Point end) {
+  std::vector<Point> points{{0, 0}, {8, 0}, {8, 8}, {0, 8}, {2, 4}, end};
+  return {{{"outline"}},
+          std::move(points),
+          {0, 4, 6},
+          std::vector<BoundaryId>(6, BoundaryId{0}),
+          {},
+          {{}, {}, {0, 0, 0, 0, 0, 1}}};
+}
+
+TEST(ShiftedOutline, IsClosedRoundAnInnerLine) {
+  for (const Point end : {Point{5, 4}, Point{2, 7}, Point{5, 7}, Point{1, 3}, Point{0.5, 6}}) {
+    const Geometry geometry = line_in_square(end);
+    ASSERT_TRUE(geometry.is_tip(4) && geometry.is_tip(5));
+    const ShiftedOutline outline(geometry);
+    const Point start{2, 4}, along = end - start;
+    for (int i = 0; i <= 16; ++i) {
+      for (int j = 0; j <= 16; ++j) {
+        const Point p{0.5 * i, 0.5 * j};
+        if (i == 0 || j == 0 || i == 16 || j == 16) continue;
+        int winding = 0;
+        for (std::int32_t s = 0; s < geometry.size(); ++s) winding += outline.winding_at(s, p);
+        const bool on_line = cross(along, p - start) == 0 && dot(p - start, p - end) <= 0;
+        EXPECT_EQ(winding, on_line ? 0 : 1) << p.x << " " << p.y << " line to " << end.x << " " << end.y;
+      }
+    }
+  }
+}
+
 TEST(ShiftedOutline, TurnsAndMirrorsWithTheOutline) {
   const auto mirrored = [](Point p) { return Point{-p.x, p.y}; };
   const auto turned = [](Point p) { return Point{-p.y, p.x}; };

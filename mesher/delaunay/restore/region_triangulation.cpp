@@ -88,7 +88,8 @@ RegionTriangulation::Changes RegionTriangulation::flip(const StarHalo& halo,
   for (std::size_t i = 0; i < halo.triangles().size() && !halo.complete(); ++i)
     open.push_back(halo.at_rim(i) ? 1 : 0);
   const auto rank_of_node = [&](std::int32_t node) { return rank_of(halo.points()[node]); };
-  const DelaunayPatch patch(halo.points(), rank_of_node, halo.triangles(), open, halo.blocks(), halo.moved());
+  const DelaunayPatch patch(halo.points(), rank_of_node, halo.triangles(), open, halo.blocks(), halo.moved(),
+                            halo.kept_edges());
   uncertain_ = !halo.complete() && is_uncertain(halo, patch);
   return uncertain_ ? Changes{} : find_changes(halo, patch);
 }

@@ -19,6 +19,19 @@ constexpr int first_rings = 2;
 
 using Known = StarHalo::Known;
 
+/// The edges of inner lines on all ranks. *Collective.*
+std::vector<StarHalo::GlobalEdge> edges_of_lines(const Communicator& comm, const Mesh& mesh) {
+  std::vector<StarHalo::GlobalEdge> own;
+  bool any = false;  // the same on all ranks
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (!boundary.inner_line) continue;
+    any = true;
+    for (const auto& [from, to] : boundary.edges) own.push_back({mesh.global(from), mesh.global(to)});
+  }
+  if (!any) return own;
+  return comm.all_gather_values(std::span<const StarHalo::GlobalEdge>(own));
+}
+
 /// The triangles around core nodes. Their edges are not on the border of the region, except for boundary
 /// edges of the mesh.
 class Region {
@@ -27,6 +40,7 @@ class Region {
       : comm_{comm},
         mesh_{mesh},
         known_{known},
+        of_lines_{edges_of_lines(comm, mesh)},
         owners_(comm, mesh.first_node),
         exchange_(comm, owners_, mesh.owned_nodes, mesh.ghosts),
         core_(mesh.points.size(), 0) {}
@@ -57,7 +71,7 @@ class Region {
 
   /// *Collective.*
   RegionTriangulation triangulate(const std::function<TieRank(Point)>& rank_of) const {
-    StarHalo halo(comm_, owners_, mesh_, core_, known_);
+    StarHalo halo(comm_, owners_, mesh_, core_, known_, of_lines_);
     for (int ring = 0; ring < first_rings; ++ring) halo.grow(true);
     std::optional<RegionTriangulation> triangulation(std::in_place, halo, rank_of);
     while (comm_.any(triangulation->uncertain())) {
@@ -89,6 +103,7 @@ class Region {
   const Communicator& comm_;
   const Mesh& mesh_;
   Known known_;
+  std::vector<StarHalo::GlobalEdge> of_lines_;
   NodeOwners owners_;
   NodeExchange exchange_;
   NodeFlags core_;

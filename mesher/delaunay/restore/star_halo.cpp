@@ -11,11 +11,12 @@ constexpr std::int32_t unnumbered = -1;
 }  // namespace
 
 StarHalo::StarHalo(const Communicator& comm, const NodeOwners& owners, const Mesh& mesh,
-                   const NodeFlags& core, const Known& known)
+                   const NodeFlags& core, const Known& known, const std::vector<GlobalEdge>& of_lines)
     : comm_{comm},
       owners_{owners},
       mesh_{mesh},
       known_{known},
+      of_lines_{of_lines},
       number_of_owned_(mesh.owned_nodes, unnumbered) {
   gather_stars(core);
 }
@@ -138,6 +139,21 @@ void StarHalo::grow(bool wanted) {
     });
     if (!is_around_own && fetched_.insert(t.number).second) add(t);
   }
+}
+
+std::vector<Flipper::Ends> StarHalo::kept_edges() const {
+  const auto number_of = [&](GlobalNodeId node) {
+    if (owns(node)) return number_of_owned_[node.value() - mesh_.first_node];
+    const auto found = number_of_other_.find(node);
+    return found == number_of_other_.end() ? unnumbered : found->second;
+  };
+  std::vector<Flipper::Ends> edges;
+  for (const auto& [from, to] : of_lines_) {
+    const std::int32_t a = number_of(from), b = number_of(to);
+    if (a != unnumbered && b != unnumbered) edges.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::ranges::sort(edges);
+  return edges;
 }
 
 bool StarHalo::at_rim(std::size_t triangle) const {

@@ -26,10 +26,13 @@ class StarHalo {
     const std::vector<std::int32_t>& triangle_to_block;
     const NodeFlags& moved;  ///< moved since the mesh was Delaunay; owned nodes and ghost copies
   };
+  /// An edge by its nodes.
+  using GlobalEdge = std::array<GlobalNodeId, 2>;
   /// The region is the triangles around the nodes flagged in `core` (owned nodes and ghost copies). Mesh,
-  /// owners and `known` must outlive the halo. *Collective.*
+  /// owners and `known` must outlive the halo. `of_lines`: the edges of inner lines on all ranks.
+  /// *Collective.*
   StarHalo(const Communicator& comm, const NodeOwners& owners, const Mesh& mesh, const NodeFlags& core,
-           const Known& known);
+           const Known& known, const std::vector<GlobalEdge>& of_lines);
   StarHalo(const StarHalo&) = delete;
   StarHalo& operator=(const StarHalo&) = delete;
 
@@ -54,6 +57,8 @@ class StarHalo {
   bool is_core(std::int32_t node) const { return core_[node] != 0; }
   /// A flag for each node; empty if all may have moved.
   std::span<const char> moved() const { return moved_; }
+  /// The edges of inner lines between nodes of the region, which are not flipped; as in Flipper.
+  std::vector<Flipper::Ends> kept_edges() const;
 
  private:
   /// A triangle in a message, with the data of its nodes.
@@ -90,6 +95,7 @@ class StarHalo {
   const NodeOwners& owners_;
   const Mesh& mesh_;
   const Known known_;
+  const std::vector<GlobalEdge>& of_lines_;
   std::vector<std::int32_t> number_of_owned_;  ///< for each owned node its number here, if present
   std::unordered_map<GlobalNodeId, std::int32_t> number_of_other_;
   std::vector<GlobalNodeId> nodes_;  ///< nodes present

@@ -119,14 +119,60 @@ std::vector<Boundary> boundaries_of(Outline& outline, const AssembleOptions& opt
   return left;
 }
 
-Geometry to_geometry(BlockOutline blocks, const AssembleOptions& options) {
+std::string right_side_of(const LineRule& baffle) { return baffle.name + "__right"; }
+
+/// The right side of a baffle is a boundary of its own, for which the rules of the left one hold first.
+void name_right_sides(Outline& outline, AssembleOptions& options) {
+  for (const LineRule& line : options.lines) {
+    const auto left = std::ranges::find(outline.names, line.name);
+    if (!line.baffle || left == outline.names.end()) continue;
+    const BoundaryId of_left{static_cast<std::int32_t>(left - outline.names.begin())};
+    const BoundaryId of_right{size32(outline.names)};
+    outline.names.push_back(right_side_of(line));
+    for (OutlineLoop& loop : outline.loops) {
+      for (std::size_t i = 0; i < loop.returns.size(); ++i) {
+        if (loop.returns[i] != 0 && loop.boundary[i] == of_left) loop.boundary[i] = of_right;
+      }
+    }
+    const std::vector<BoundaryRule> rules = options.rules;
+    for (BoundaryRule rule : rules) {
+      if (rule.pattern != line.name) continue;
+      rule.pattern = right_side_of(line);
+      rule.must_match = false;
+      options.rules.insert(options.rules.begin(), rule);
+    }
+  }
+}
+
+void set_kinds_of_lines(const std::vector<LineRule>& lines, std::vector<Boundary>& boundaries) {
+  for (Boundary& boundary : boundaries) {
+    const auto line = std::ranges::find_if(lines, [&](const LineRule& rule) {
+      return boundary.name == rule.name || (rule.baffle && boundary.name == right_side_of(rule));
+    });
+    if (line == lines.end()) continue;
+    boundary.baffle = line->baffle;
+    const auto refuse = [&](const std::string& what) {
+      throw InputError(fmt::format("{}: inner line '{}' {}", line->where, line->name, what));
+    };
+    if (boundary.layers) refuse("cannot have layers; remove 'layers' of its boundary");
+    if (!line->baffle && boundary.condition != BoundaryCondition{})
+      refuse(
+          fmt::format("has flow on both sides and takes no bc; remove bc = \"{}\", or set kind = \"baffle\"",
+                      boundary.condition.word()));
+  }
+}
+
+Geometry to_geometry(BlockOutline blocks, AssembleOptions options) {
   Outline& outline = blocks.outline;
+  name_right_sides(outline, options);
   std::vector<Boundary> boundaries = boundaries_of(outline, options);
+  set_kinds_of_lines(options.lines, boundaries);
   GeometryBuilder builder;
   for (std::size_t l = 0; l < outline.loops.size(); ++l) {
     OutlineLoop& loop = outline.loops[l];
     for (std::size_t i = 0; i < loop.points.size(); ++i)
-      builder.add(loop.points[i], loop.boundary[i], loop.curves.empty() ? Curve{} : loop.curves[i]);
+      builder.add(loop.points[i], loop.boundary[i], loop.curves.empty() ? Curve{} : loop.curves[i],
+                  !loop.returns.empty() && loop.returns[i] != 0);
     builder.end_loop(blocks.names.empty() ? 0 : blocks.block_of_loop[l]);
     loop = {};  // frees a long loop at once
   }
@@ -163,23 +209,29 @@ AssembleOptions without_required_rules(AssembleOptions options) {
   return options;
 }
 
-Geometry assemble_blocks(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+/// The loops of blocks and inner lines, which are chains of their own.
+BlockOutline loops_with_lines(const std::vector<Chain>& chains, const std::vector<BlockRule>& blocks,
+                              const AssembleOptions& options, Warnings& warnings) {
+  require_countable(chains);
+  const Box box = box_of(chains);
+  return block_loops(chains, blocks, options.join * std::max(box.width(), box.height()), warnings);
+}
+
+BlockOutline outline_of_blocks(std::vector<Chain> chains, std::vector<Chain> lines,
+                               const AssembleOptions& options, Warnings& warnings) {
   Warnings of_twins;  // a line between two blocks may be given for each of them
   join_rounded_ends(chains, options.join, of_twins);
   split_curves_at_crossings(chains);
   subdivide_curves(chains, without_required_rules(options), warnings);
-  require_countable(chains);
-  const Box box = box_of(chains);
-  return to_geometry(
-      block_loops(chains, options.blocks, options.join * std::max(box.width(), box.height()), warnings),
-      options);
+  std::ranges::move(lines, std::back_inserter(chains));
+  return loops_with_lines(chains, options.blocks, options, warnings);
 }
 
-Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+Outline outline_of_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
   join_rounded_ends(chains, options.join, warnings);
   leave_out_strays(chains, options.far_field, warnings);
   if (options.unite_islands) split_curves_at_crossings(chains);
-  subdivide_curves(chains, options, warnings);
+  subdivide_curves(chains, options.lines.empty() ? options : without_required_rules(options), warnings);
   require_countable(chains);
   Outline outline = join_chains(std::move(chains));
   if (options.unite_islands) outline = united_islands(outline, options.join, warnings);
@@ -191,15 +243,97 @@ Geometry assemble_domain(std::vector<Chain> chains, const AssembleOptions& optio
   orient(outline, nestings, of_domain);
   warn_of_regions(outline, nestings, of_domain);
   if (!options.domain_is_known) warnings.insert(warnings.end(), of_domain.begin(), of_domain.end());
-  return to_geometry({std::move(outline), {}, {}}, options);
+  return outline;
+}
+
+/// Moves the chains of inner lines out of `chains`, and adds those of paths.
+std::vector<Chain> take_lines(std::vector<Chain>& chains, const std::vector<LineRule>& rules) {
+  std::vector<Chain> lines;
+  for (const LineRule& rule : rules) {
+    const std::size_t before = lines.size();
+    std::erase_if(chains, [&](Chain& chain) {
+      if (chain.name != rule.name && chain.name != rule.boundary) return false;
+      if (rule.boundary.empty())
+        throw InputError(
+            fmt::format("{}: line '{}': the geometry has a boundary of this name already; give the "
+                        "line another name, or set boundary = \"{}\" instead of a path",
+                        rule.where, rule.name, rule.name));
+      lines.push_back(std::move(chain));
+      return true;
+    });
+    if (!rule.boundary.empty() && lines.size() == before)
+      throw InputError(fmt::format("{}: line '{}': the geometry has no boundary '{}'", rule.where, rule.name,
+                                   rule.boundary));
+    if (rule.boundary.empty()) {
+      lines.push_back({rule.name, true, rule.path, rule.where});
+      if (rule.path.size() > 1 && rule.path.front() == rule.path.back()) {
+        lines.back().open = false;
+        lines.back().points.pop_back();
+      }
+    }
+    for (std::size_t l = before; l < lines.size(); ++l) {
+      if (rule.baffle && !lines[l].curves.empty())
+        throw InputError(
+            fmt::format("{}: baffle '{}' near ({}, {}) has curves, which is not possible yet; give it by "
+                        "straight lines",
+                        rule.where, rule.name, lines[l].points.front().x, lines[l].points.front().y));
+      lines[l].name = rule.name;
+      lines[l].inner_line = true;
+    }
+  }
+  return lines;
+}
+
+/// The parts of the loops on one boundary each, as chains.
+std::vector<Chain> chains_of(const Outline& outline) {
+  std::vector<Chain> chains;
+  for (const OutlineLoop& loop : outline.loops) {
+    const std::size_t count = loop.points.size();
+    const auto changes = [&](std::size_t i) {
+      return loop.boundary[i] != loop.boundary[(i + count - 1) % count];
+    };
+    std::size_t first = 0;
+    while (first < count && !changes(first)) ++first;
+    const bool closed = first == count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = (first + k) % count;
+      if (k == 0 || changes(i)) {
+        if (k > 0) chains.back().points.push_back(loop.points[i]);
+        chains.push_back({outline.names[loop.boundary[i].value()], !closed, {}, loop.source, loop.directed});
+      }
+      chains.back().points.push_back(loop.points[i]);
+      if (!loop.curves.empty()) chains.back().curves.push_back(loop.curves[i]);
+    }
+    if (!closed) chains.back().points.push_back(loop.points[first]);
+  }
+  return chains;
+}
+
+BlockOutline with_lines(const Outline& outline, std::vector<Chain> lines, const AssembleOptions& options,
+                        Warnings& warnings) {
+  BlockRule domain{"domain", outline.names, {}, {}, {}};
+  std::vector<Chain> chains = chains_of(outline);
+  std::move(lines.begin(), lines.end(), std::back_inserter(chains));
+  BlockOutline result = loops_with_lines(chains, {domain}, options, warnings);
+  result.names.clear();
+  return result;
 }
 
 }  // namespace
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+  std::vector<Chain> lines = take_lines(chains, options.lines);
   clean_chains(chains, warnings);
-  Geometry geometry = options.blocks.empty() ? assemble_domain(std::move(chains), options, warnings)
-                                             : assemble_blocks(std::move(chains), options, warnings);
+  clean_chains(lines, warnings);
+  subdivide_curves(lines, without_required_rules(options), warnings);
+  BlockOutline outline;
+  if (!options.blocks.empty()) {
+    outline = outline_of_blocks(std::move(chains), std::move(lines), options, warnings);
+  } else {
+    outline.outline = outline_of_domain(std::move(chains), options, warnings);
+    if (!lines.empty()) outline = with_lines(outline.outline, std::move(lines), options, warnings);
+  }
+  Geometry geometry = to_geometry(std::move(outline), options);
   require_extent(geometry);
   return geometry;
 }

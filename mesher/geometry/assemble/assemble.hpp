@@ -14,6 +14,15 @@ namespace quadloop {
 /// Warnings for the user, one line each.
 using Warnings = std::vector<std::string>;
 
+/// A line inside the domain that the mesh follows.
+struct LineRule {
+  std::string name;
+  std::string boundary;     ///< a chain of the geometry; empty: the path
+  std::vector<Point> path;  ///< closed if it ends where it begins
+  bool baffle = false;      ///< each side has nodes of its own
+  std::string where;        ///< where the rule stands, for messages
+};
+
 struct AssembleOptions {
   std::vector<BoundaryRule> rules;
   double default_corner_degrees = 30;  ///< for boundaries without a rule of their own
@@ -29,6 +38,7 @@ struct AssembleOptions {
   std::string far_field;
   /// The blocks of the domain; empty: the domain is one block.
   std::vector<BlockRule> blocks;
+  std::vector<LineRule> lines;
   /// Boundaries of bodies, such as airfoils; each needs an outer boundary, as the flow is around them.
   std::vector<std::string> bodies;
   std::vector<WantedPair> pairs = {};  ///< made exact: match_outlines()
@@ -38,7 +48,8 @@ struct AssembleOptions {
 /// bit-identical after join_rounded_ends; either direction), or finds the loops of blocks (block_loops()).
 /// Chains of one name form one boundary. Drops consecutive points that coincide. Reverses loops so that the
 /// domain is to their left; the domain is inside loops of even nesting depth and outside loops of odd depth.
-/// Boundaries and loops keep the order of the input. Throws InputError with boundary and coordinates if the
+/// Boundaries and loops keep the order of the input. Inner lines become parts of the loops (block_loops()).
+/// Throws InputError with boundary and coordinates if the
 /// chains do not bound a domain.
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings);
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -27,7 +28,8 @@ std::string coordinates(Point p) { return fmt::format("({}, {})", p.x, p.y); }
 /// What stands on an edge of the graph: the chains on it, the first of which gives name and shape.
 struct EdgeLines {
   std::vector<std::int32_t> chains;
-  Curve along;  ///< the shape of the even half-edge
+  Curve along;           ///< the shape of the even half-edge
+  bool against = false;  ///< the first chain runs against the even half-edge
 };
 
 /// The chains as a planar graph.
@@ -46,9 +48,22 @@ class LineGraph {
     if (h % 2 == 0) return lines(h).along;
     return reversed(std::vector<Curve>{lines(h).along}).front();
   }
+  /// Whether nothing but inner lines is on the edge.
+  bool is_inner_line(std::int32_t h) const { return chain(h).inner_line; }
+  /// Whether the first of its chains runs along the other half-edge.
+  bool runs_against(std::int32_t h) const { return lines(h).against == (h % 2 == 0); }
   bool is_on(std::int32_t h, const std::vector<std::string>& names) const {
     return std::ranges::any_of(
         lines(h).chains, [&](std::int32_t c) { return std::ranges::count(names, chains_[c].name) > 0; });
+  }
+  const std::vector<Chain>& chains() const { return chains_; }
+  /// The inner lines on the edge that do not name it.
+  std::vector<const Chain*> covered_lines(std::int32_t h) const {
+    std::vector<const Chain*> found;
+    for (const std::int32_t c : std::span(lines(h).chains).subspan(1)) {
+      if (chains_[c].inner_line) found.push_back(&chains_[c]);
+    }
+    return found;
   }
   Point start(std::int32_t h) const { return graph_.point(graph_.tail(h)); }
   Point end(std::int32_t h) const { return graph_.point(graph_.head(h)); }
@@ -64,6 +79,7 @@ class LineGraph {
       EdgeLines& edge = lines_[h / 2];
       const bool is_new = edge.chains.empty();
       if (is_new || edge.chains.back() != c) edge.chains.push_back(c);
+      if (is_new) edge.against = h % 2 != 0;
       if (!is_new || chain.curves.empty() || chain.curves[segment].straight()) continue;
       const bool whole = std::ranges::count(line.segment, segment) == 1;
       if (!whole) refuse_split_curve(chain, from);
@@ -151,8 +167,10 @@ class FaceBlocks {
 
   const std::vector<std::string>& names() const { return names_; }
   std::int32_t left_of(std::int32_t h) const { return block_[faces_.left_of(h)]; }
-  /// Whether the half-edge bounds the block to its left.
-  bool bounds(std::int32_t h) const { return left_of(h) != no_block && left_of(h) != left_of(h ^ 1); }
+  /// Whether the half-edge has a block to its left, and bounds it or belongs to an inner line.
+  bool bounds(std::int32_t h) const {
+    return left_of(h) != no_block && (left_of(h) != left_of(h ^ 1) || lines_.is_inner_line(h));
+  }
 
  private:
   void apply(const BlockRule& rule) {
@@ -251,7 +269,7 @@ class LoopMaker {
   LoopMaker(const LineGraph& lines, const FaceBlocks& blocks)
       : lines_{lines}, graph_{lines.graph()}, blocks_{blocks} {
     for (std::int32_t h = 0; h < graph_.size(); ++h) {
-      if (blocks.bounds(h)) sides_of_[lines.chain(h).name].insert(sides(h));
+      if (blocks.bounds(h) && !is_inner(h)) sides_of_[lines.chain(h).name].insert(sides(h));
     }
   }
 
@@ -262,20 +280,36 @@ class LoopMaker {
     return result;
   }
 
-  /// Warns about chains, or parts of them, that bound no block.
+  /// Warns about chains, or parts of them, that bound no block, and about those of inner lines that lie on
+  /// other chains. Throws InputError for an inner line of which nothing is left.
   void warn_of_dropped(std::vector<std::string>& warnings) const {
-    std::map<std::string, std::pair<std::int64_t, Point>> dropped;
+    std::map<std::string, std::pair<std::int64_t, Point>> bare, covered;
+    std::map<std::string, std::int32_t> standing;
+    const auto note = [&](auto& dropped, const std::string& name, std::int32_t e) {
+      ++dropped.try_emplace(name, 0, lines_.start(e)).first->second.first;
+    };
     for (std::int32_t e = 0; e < graph_.size(); e += 2) {
-      if (blocks_.bounds(e) || blocks_.bounds(e + 1)) continue;
-      auto& [count, place] = dropped.try_emplace(lines_.chain(e).name, 0, lines_.start(e)).first->second;
-      ++count;
+      const std::string& name = lines_.chain(e).name;
+      if (blocks_.bounds(e) || blocks_.bounds(e + 1))
+        ++standing[name];
+      else
+        note(bare, name, e);
+      for (const Chain* chain : lines_.covered_lines(e)) note(covered, chain->name, e);
     }
-    for (const auto& [name, found] : dropped)
-      warnings.push_back(fmt::format(
-          "boundary '{}': {} segment{} with the same block, or none, on both sides {} left out, the first at "
-          "{}",
-          name, found.first, found.first == 1 ? "" : "s", found.first == 1 ? "was" : "were",
-          coordinates(found.second)));
+    for (const Chain& chain : lines_.chains()) {
+      if (chain.inner_line && !standing.contains(chain.name))
+        throw InputError(fmt::format(
+            "{}: inner line '{}' near {} lies outside the domain or on its boundary; move it, or remove it",
+            chain.source, chain.name, coordinates(chain.points.front())));
+    }
+    const auto warn = [&](const auto& dropped, const char* what) {
+      for (const auto& [name, found] : dropped)
+        warnings.push_back(fmt::format("boundary '{}': {} segment{} {} {} left out, the first at {}", name,
+                                       found.first, found.first == 1 ? "" : "s", what,
+                                       found.first == 1 ? "was" : "were", coordinates(found.second)));
+    };
+    warn(bare, "with the same block, or none, on both sides");
+    warn(covered, "of the inner line that lie on another boundary or line");
   }
 
  private:
@@ -290,6 +324,7 @@ class LoopMaker {
         loop.points.push_back(lines_.start(along));
         loop.boundary.push_back(number_of(name_of(along), result.outline.names));
         loop.curves.push_back(lines_.curve(along));
+        loop.returns.push_back(is_inner(along) && lines_.runs_against(along) ? 1 : 0);
       }
       if (std::ranges::all_of(loop.curves, &Curve::straight)) loop.curves.clear();
       result.outline.loops.push_back(std::move(loop));
@@ -297,12 +332,15 @@ class LoopMaker {
     }
   }
 
+  bool is_inner(std::int32_t h) const { return blocks_.left_of(h) == blocks_.left_of(h ^ 1); }
+
   std::pair<std::int32_t, std::int32_t> sides(std::int32_t h) const {
     return std::minmax({blocks_.left_of(h), blocks_.left_of(h ^ 1)});
   }
 
   std::string name_of(std::int32_t h) const {
     const auto [low, high] = sides(h);
+    if (low == high) return lines_.chain(h).name;
     const std::string& name = lines_.chain(h).name;
     if (low == no_block || sides_of_.at(name).size() == 1) return name;
     return blocks_.names()[low] + "__" + blocks_.names()[high];

@@ -91,11 +91,11 @@ class ChainEnds {
       nearest = fmt::format("; the nearest other loose end is {} of boundary '{}', {} away", text(p),
                             chains_[ends[0] / 2].name, d);
     }
-    throw InputError(
-        fmt::format("{}: boundary '{}' is not watertight: its {} point {} joins no other chain{}; make the "
-                    "end points of the chains "
-                    "identical, or give the chain as a closed loop",
-                    chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
+    throw InputError(fmt::format(
+        "{0}: boundary '{1}' is not watertight: its {2} point {3} joins no other chain{4}; make the "
+        "end points of the chains identical, give the chain as a closed loop, or, if it is a line "
+        "inside the domain, declare it: [[line]] with boundary = \"{1}\"",
+        chain.source, chain.name, end % 2 == 0 ? "first" : "last", text(point(end)), nearest));
   }
 
   [[noreturn]] void refuse_fork(std::size_t end, const std::vector<std::size_t>& ends) const {

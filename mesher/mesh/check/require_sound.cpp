@@ -114,7 +114,7 @@ class Tally {
 
   void add_boundaries() {
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
-      if (boundary.between_blocks) continue;  // the cells on the two sides cancel
+      if (boundary.two_sided()) continue;  // the cells on the two sides cancel
       for (const auto& [from, to] : boundary.edges) {
         twice_areas_.add(1, cross(mesh_.point(from) - centre_, mesh_.point(to) - centre_));
         random_area_ -= cross(places_[from.value()], places_[to.value()]);
@@ -152,7 +152,7 @@ struct UnmatchedEdge {
     add(mesh.global(from), mesh.global(to), 1, mesh.point(from));
   });
   for (const BoundaryEdges& boundary : mesh.boundaries) {
-    for (const auto& [from, to] : boundary.between_blocks ? decltype(boundary.edges){} : boundary.edges)
+    for (const auto& [from, to] : boundary.two_sided() ? decltype(boundary.edges){} : boundary.edges)
       add(mesh.global(from), mesh.global(to), -1, mesh.point(from));
   }
   std::vector<UnmatchedEdge> own;

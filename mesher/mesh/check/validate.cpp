@@ -83,7 +83,7 @@ std::vector<BoundaryEdge> check_boundary_edges(const Mesh& mesh, const CellBlock
     const std::int32_t left = table.cell_left_of(edge[0], edge[1]),
                        right = table.cell_left_of(edge[1], edge[0]);
     if (left < 0) faults.add("an edge of boundary " + boundary.name + " has no cell to its left", edge[0]);
-    if (left < 0 || right < 0) return;
+    if (left < 0 || right < 0 || boundary.inner_line) return;
     if (blocks.of(left) == blocks.of(right))
       faults.add("an edge of boundary " + boundary.name + " has cells of one block on both sides", edge[0]);
   });

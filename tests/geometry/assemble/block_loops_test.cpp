@@ -144,6 +144,40 @@ TEST(BlockLoops, CrossingsBecomePointsAndWhatBoundsNothingIsLeftOut) {
   EXPECT_NE(warnings[1].find("'wall'"), std::string::npos) << warnings[1];
 }
 
+TEST(BlockLoops, RunAlongInnerLinesAndBack) {
+  std::vector<Chain> chains{box_chain("wall", 0, 4)};
+  const auto add = [&](const std::string& name, std::vector<Point> points) {
+    chains.push_back({name, true, std::move(points), {}});
+    chains.back().inner_line = true;
+  };
+  add("from_wall", {{2, 0}, {2, 3}});
+  add("crossing", {{3, 1}, {1, 1}, {1, 3}});
+  add("apart", {{3, 2}, {3, 3}});
+  add("partly", {{3.5, 3}, {3.5, 5}});
+  add("along", {{0, 2}, {0, 3}, {0.5, 3}});
+  Warnings warnings;
+  const BlockOutline blocks = block_loops(chains, {within("all", "wall")}, 1e-9, warnings);
+  ASSERT_EQ(blocks.outline.loops.size(), 2U) << "all that hangs together, and the line apart";
+  EXPECT_DOUBLE_EQ(area_of(blocks, "all"), 16);
+  std::map<std::string, std::pair<int, int>> there_and_back;
+  for (const OutlineLoop& loop : blocks.outline.loops) {
+    for (std::size_t i = 0; i < loop.points.size(); ++i) {
+      auto& [there, back] = there_and_back[blocks.outline.names[loop.boundary[i].value()]];
+      ++(loop.returns[i] != 0 ? back : there);
+    }
+  }
+  const std::pair one(1, 1), three(3, 3);
+  EXPECT_EQ(there_and_back["from_wall"], std::pair(2, 2)) << "divided at the crossing";
+  EXPECT_EQ(there_and_back["crossing"], three);
+  EXPECT_EQ(there_and_back["apart"], one);
+  EXPECT_EQ(there_and_back["partly"], one);
+  EXPECT_EQ(there_and_back["along"], one);
+  EXPECT_EQ(there_and_back["wall"].second, 0);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("'partly': 1 segment"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("'along': 1 segment of the inner line"), std::string::npos) << warnings[1];
+}
+
 TEST(BlockLoops, RefusesWithThePlace) {
   expect_refusal(nested(), {inside("fluid", {9, 9})}, "(9, 9)");
   expect_refusal(nested(), {inside("fluid", {5, 2})}, "lies on boundary 'wall'");

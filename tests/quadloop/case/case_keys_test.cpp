@@ -68,6 +68,7 @@ class Dump {
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }
+  void add_one(const LineRule& l) { add(l.name, l.boundary, l.path, l.baffle); }
   void add_one(const BlockRule& b) { add(b.name, b.boundaries, b.loop, b.inside); }
   void add_one(const SizeSource& s) {
     std::visit([&](const auto& shape) { add_one(shape); }, s.shape);
@@ -94,7 +95,7 @@ std::string text_of(const Settings& s) {
            s.morph_to);
   dump.add(s.far_field, s.output_prefix, s.formats, s.fields, s.partitions);
   dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands,
-           s.outline.blocks);
+           s.outline.blocks, s.outline.lines);
   dump.add(s.mesh.type, s.mesh.quads, s.mesh.snap, s.mesh.may_vanish, s.mesh.mirror, s.mesh.pairs,
            size.gradation, size.curvature, size.gap, size.sources, size.root);
   dump.add(s.smooth.sweeps, s.smooth.objective, s.smooth.method, s.solver.kind, s.solver.case_template);
@@ -116,6 +117,7 @@ std::string place_of(const std::string& table) {
                                                   {"shape", "shape.0"},
                                                   {"source", "source.0"},
                                                   {"block", "block.0"},
+                                                  {"line", "line.0"},
                                                   {"wake", "wake.0"},
                                                   {"layer_line", "layer_line.0"}};
   const auto found = places.find(table);
@@ -197,10 +199,12 @@ class CaseKeys : public ::testing::Test {
       accepted.set(table.text(), "code");
     if (name == "source.spacing") accepted.set(table.text(), "box");
     if (name == "block.name") accepted.set(table.text(), "inside");
+    if (name == "line.name" || name == "line.kind") accepted.set(table.text(), "boundary");
+    if (name == "line.kind" || name == "line.path") accepted.set(table.text(), "name");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
     std::string tables;
-    for (const char* const list : {"pair", "shape", "source", "block", "wake", "layer_line"})
+    for (const char* const list : {"pair", "shape", "source", "block", "line", "wake", "layer_line"})
       if (table.text().name == list) tables += "[[" + std::string(list) + "]]\n";
     const std::string path = folder_.write("case.toml", tables);
     const Settings settings = read_settings(path, accepted.assignments());
@@ -259,6 +263,7 @@ TEST_F(CaseKeys, EachIsAcceptedAndChangesWhatItSets) {
   expect_effects(flow_keys());
   expect_effects(source_keys());
   expect_effects(block_keys());
+  expect_effects(line_keys());
   expect_effects(mesh_keys());
   expect_effects(smooth_keys());
   expect_effects(adapt_keys());

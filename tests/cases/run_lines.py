@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""A case with inner lines, both types of mesh: valid for `quadloop check`, the same bytes on 1, 2, 3 and 5 ranks in every format that holds
+lines, each line of the case followed from its first point to its last, also after conversion; as expected (expected.toml). Without baffles,
+whose nodes coincide, the mesh is also valid for the other judge.
+
+    run_lines.py --quadloop PROGRAM --case CASE.toml [--write-expected]
+"""
+import argparse
+import math
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
+from run_case import compare, values_of, write_expected
+
+FORMATS = ("mesh", "vtu", "msh")
+
+
+def points_and_lines(path):
+    """The points of a .mesh file, and its inner lines as lists of edges."""
+    text = Path(path).read_text().splitlines()
+    count = int(text[1])
+    points = [tuple(map(float, row.split())) for row in text[2:2 + count]]
+    lines, at = {}, 0
+    while at < len(text):
+        words = text[at].split()
+        at += 1
+        if words[:3] != ["#", "inner", "line"]:
+            continue
+        rows = text[at:at + int(words[4])]
+        lines[words[3]] = [tuple(int(word) - 1 for word in row.split()[1:]) for row in rows]
+        at += len(rows)
+    return points, lines
+
+
+def distance(p, a, b):
+    ab, ap = (b[0] - a[0], b[1] - a[1]), (p[0] - a[0], p[1] - a[1])
+    t = max(0, min(1, (ab[0] * ap[0] + ab[1] * ap[1]) / (ab[0] ** 2 + ab[1] ** 2)))
+    return math.dist(p, (a[0] + t * ab[0], a[1] + t * ab[1]))
+
+
+def check_line(name, path, points, edges):
+    follows = {start: end for start, end in edges}
+    starts = set(follows) - set(follows.values())
+    if len(follows) != len(edges) or len(starts) != 1:
+        fail(f"line {name} is not one row of edges in its direction")
+    node = starts.pop()
+    if math.dist(points[node], path[0]) > 1e-9:
+        fail(f"line {name} begins at {points[node]}, not at {path[0]}")
+    while node in follows:
+        off = min(distance(points[node], a, b) for a, b in zip(path, path[1:]))
+        if off > 1e-9:
+            fail(f"a node of line {name} at {points[node]} is {off} off")
+        node = follows[node]
+    if math.dist(points[node], path[-1]) > 1e-9:
+        fail(f"line {name} ends at {points[node]}, not at {path[-1]}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quadloop", required=True)
+    parser.add_argument("--case", required=True, type=Path)
+    parser.add_argument("--write-expected", action="store_true")
+    args = parser.parse_args()
+    tables = tomllib.loads(args.case.read_text())["line"]
+    options = ["--set", "output.formats=[" + ",".join(f'"{name}"' for name in FORMATS) + "]"]
+    with tempfile.TemporaryDirectory(prefix="quadloop_lines_") as folder:
+        work = Path(folder)
+        for mesh_type in ("hybrid", "delaunay"):
+            prefix = work / mesh_type
+            for ranks in (1, 2, 3, 5):
+                other = prefix if ranks == 1 else work / "other"
+                mesh_case(args.quadloop, args.case, other, ranks, [*options, "--type", mesh_type])
+                for name in (*FORMATS, "tree.h5"):
+                    if digest(f"{other}.{name}") != digest(f"{prefix}.{name}"):
+                        fail(f"{name} differs on {ranks} ranks")
+            for name in FORMATS:
+                run([args.quadloop, "check", f"{prefix}.{name}"])
+                again = work / f"again_{name}.mesh"
+                run([args.quadloop, "convert", f"{prefix}.{name}", str(again)])
+                points, lines = points_and_lines(again)
+                wanted = {t["name"]: t["path"] for t in tables if t.get("kind", "line") == "line"}
+                if set(lines) != set(wanted):
+                    fail(f"{name} has the lines {sorted(lines)}")
+                for line, path in wanted.items():
+                    check_line(line, path, points, lines[line])
+            script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
+            if script is not None and len(wanted) == len(tables):
+                run([sys.executable, script, f"{prefix}.mesh"])
+            found = values_of(prefix)
+            expected = args.case.with_name(f"expected{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")
+            if args.write_expected:
+                write_expected(expected, found)
+            else:
+                compare(found, tomllib.loads(expected.read_text()))
+    print("good")
+
+
+if __name__ == "__main__":
+    main()
