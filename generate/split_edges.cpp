@@ -22,19 +22,22 @@ double smallest_sine_of(Point a, Point b, Point c) {
   return area / std::max({ab * bc, bc * ca, ca * ab});
 }
 
-/// The triangles of a polygon some of whose nodes are on its sides: the best ear is cut off first. Empty if
-/// no ear is left.
+/// The sine from which a triangle is more than a line with rounding errors.
+constexpr double least_sine = 1e-6;
+
+/// The triangles of a polygon some of whose nodes are on its sides, up to rounding: the best ear is cut off
+/// first. Empty if no ear is left.
 std::vector<std::array<GrownNode, 3>> triangles_in(std::vector<GrownNode> polygon) {
   std::vector<std::array<GrownNode, 3>> triangles;
   while (polygon.size() >= 3) {
     const std::size_t size = polygon.size();
-    double best = 0;
+    double best = least_sine;
     std::size_t ear = size;
     for (std::size_t i = 0; i < size; ++i) {
       const Point before = polygon[(i + size - 1) % size].point, after = polygon[(i + 1) % size].point;
       bool is_free = true;
       for (std::size_t k = 2; k + 1 < size && is_free; ++k)
-        is_free = orientation(before, after, polygon[(i + k) % size].point) > 0;
+        is_free = smallest_sine_of(before, after, polygon[(i + k) % size].point) > least_sine;
       const double sine = is_free ? smallest_sine_of(before, polygon[i].point, after) : 0;
       if (sine > best) best = sine, ear = i;
     }
