@@ -415,13 +415,8 @@ std::vector<std::string> drop_interfaces(LoadedMesh& whole, const std::string& p
     dropped += std::erase_if(boundary.edges, [&](const auto& edge) { return is_between_cells(table, edge); });
   }
   std::erase_if(whole.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  const bool holds_blocks = format != nullptr && format->holds(Content::blocks);
-  std::string loss = holds_blocks ? "" : "the blocks are written as one";
-  if (dropped > 0)
-    loss += fmt::format("{}the {} edges between {} are no patch", holds_blocks ? "" : "; ", dropped,
-                        holds_blocks ? "two blocks" : "them");
-  if (loss.empty()) return {};
-  return {path + ": " + loss};
+  if (dropped == 0) return {};
+  return {fmt::format("{}: the {} edges between two blocks are no patch", path, dropped)};
 }
 
 }  // namespace quadloop::io

@@ -133,13 +133,27 @@ class Convert(ProgramTest):
     def test_delaunay_meshes(self):
         self.chains("delaunay")
 
+    def check_record(self, name):
+        return json.loads(self.done("check", name, "--json")[0])
+
     def test_blocks(self):
         self.write("a.mesh", TWO_BLOCKS)
         for name in ("vtu", "msh"):
             self.assertEqual(self.converted("a.mesh", f"b.{name}"), "")
             self.converted(f"b.{name}", "back.mesh")
             self.assertEqual(self.bytes_of("back.mesh"), TWO_BLOCKS.encode())
-        self.assertEqual(self.converted("a.mesh", "b.cgns"), "")
+        for name in ("cgns", "su2", "ugrid"):
+            self.assertNotIn("blocks", self.converted("a.mesh", f"b.{name}"))
+            self.assertEqual(self.check_record(f"b.{name}")["block_figures"].keys(), {"block_1", "block_2"})
+
+    def test_one_block(self):
+        self.write("a.mesh", TWO_BLOCKS.replace("#Number of blocks\n2\n", "#Number of blocks\n2\n# block solid\n"))
+        self.done("convert", "a.mesh", "solid.mesh", "--block", "solid")
+        self.assertIn("# block solid\n", (self.folder / "solid.mesh").read_text())
+        figures = self.check_record("a.mesh")["block_figures"]
+        found = self.check_record("solid.mesh")
+        self.assertEqual((found["blocks"], found["triangles"] + found["quads"], found["area"]), (1, figures["solid"]["cells"], figures["solid"]["area"]))
+        self.refused(1, ["a.mesh: has no block 'gas'; its blocks are 'solid' and 'block_2'"], "convert", "a.mesh", "b.su2", "--block", "gas")
 
     def test_constants_are_lost_with_a_warning(self):
         self.write("a.mesh", TWO_BLOCKS + "#Number of constants\n1\n7\n#Number of variables\n0\n")

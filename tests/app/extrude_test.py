@@ -101,9 +101,16 @@ class Extrude(ProgramTest):
         _, said = self.done("extrude", "s.mesh", "-o", "s.su2", *EVEN)
         self.assertIn("cannot store the solution", said)
 
-    def test_blocks_stay_where_the_format_has_a_place(self):
+    def test_blocks_are_zones_of_cgns(self):
         self.write("two.mesh", TWO_BLOCKS)
-        for name in ("two.vtu", "two.pvtu", "two.fluent.msh", "two.msh", "two.msh41", "polyMesh"):
+        for ranks in (1, 2, 3, 5):
+            self.done("extrude", "two.mesh", "-o", "two.cgns", *EVEN, ranks=ranks)
+            found = self.record("check", "two.cgns")
+            self.assertEqual((found["blocks"], found["prisms"], found["valid"]), (2, 6, True))
+
+    def test_blocks_stay(self):
+        self.write("two.mesh", TWO_BLOCKS)
+        for name in ("two.su2", "two.b8.ugrid", "two.lb8.ugrid", "two.vtu", "two.pvtu", "two.fluent.msh", "two.msh", "two.msh41", "polyMesh"):
             with self.subTest(name=name):
                 _, said = self.done("extrude", "two.mesh", "-o", name, *EVEN)
                 self.assertNotIn("blocks", said)
