@@ -124,9 +124,9 @@ class PairMatch {
     bool changed = false;
     std::vector<Place> kept;
     for (Place place : places_) {
-      const bool is_vetoed = place.joins() && !is_end(place) &&
-                             (vetoed.contains(sides_.from.nodes[place.from]) ||
-                              vetoed.contains(sides_.to.nodes[place.to]));
+      const bool is_vetoed =
+          place.joins() && !is_end(place) &&
+          (vetoed.contains(sides_.from.nodes[place.from]) || vetoed.contains(sides_.to.nodes[place.to]));
       if (is_vetoed && sides_.from_arcs[place.from] != sides_.to_arcs[place.to]) {
         changed = true;
         place.choice = static_cast<Place::Choice>(static_cast<int>(place.choice) + 1);
@@ -154,7 +154,9 @@ class PairMatch {
   std::size_t places() const { return places_.size(); }
 
  private:
-  bool is_end(const Place& place) const { return place.from == 0 || place.from + 1 == size32(sides_.from.nodes); }
+  bool is_end(const Place& place) const {
+    return place.from == 0 || place.from + 1 == size32(sides_.from.nodes);
+  }
   bool is_kept_from(std::int32_t i) const { return outline_.kept_at(sides_.from_arcs[i]); }
   bool is_kept_to(std::int32_t i) const { return outline_.kept_at(sides_.to_arcs[i]); }
 
@@ -193,9 +195,7 @@ class PairMatch {
     sort_places();
   }
 
-  void sort_places() {
-    std::ranges::stable_sort(places_, {}, &Place::arc);
-  }
+  void sort_places() { std::ranges::stable_sort(places_, {}, &Place::arc); }
 
   void append_splits_of(std::int32_t Place::*node, const std::vector<GlobalNodeId>& nodes, bool is_to,
                         std::vector<EdgeSplit>& splits) const {
@@ -307,7 +307,8 @@ class PairMatcher {
   void report() const {
     std::size_t joined = 0, all = 0;
     for (const PairMatch& match : matches_) joined += match.joined(), all += match.places();
-    log::detail(fmt::format("periodic pairs: {} nodes on each side, {} of them added on one side", all, all - joined));
+    log::detail(fmt::format("periodic pairs: {} nodes on each side, {} of them added on one side", all,
+                            all - joined));
   }
 
   const Communicator& comm_;
@@ -336,8 +337,9 @@ bool demand_sizes_of_partners(const Communicator& comm, const Geometry& geometry
     append_splits(to, from, demands);
   }
   if (demands.empty()) return false;
-  log::detail(fmt::format("{} cells at periodic boundaries are larger than opposite ones; the mesh is made again",
-                          demands.size()));
+  log::detail(
+      fmt::format("{} cells at periodic boundaries are larger than opposite ones; the mesh is made again",
+                  demands.size()));
   if (!comm.is_root()) demands.clear();  // all ranks have the same
   splits = DemandedSplits(comm, demands, splits);
   return true;
@@ -367,7 +369,8 @@ void place_images(const Communicator& comm, const std::vector<PeriodicPair>& pai
     mesh.points[node.value()] = position_in(positions, mesh, node);
   for (const PeriodicPair& pair : pairs) {
     if (const auto fault = fault_of_pair(comm, mesh, pair))
-      throw InputError(fault->what + "; use smaller cells there, or thinner layers on the walls that end there");
+      throw InputError(fault->what +
+                       "; use smaller cells there, or thinner layers on the walls that end there");
   }
 }
 

@@ -13,7 +13,9 @@ namespace {
 
 /// The vertices of a boundary that is one open line, in order.
 std::vector<std::int32_t> vertices_of(const Geometry& geometry, const std::string& boundary) {
-  const auto is_of = [&](std::int32_t s) { return geometry.boundary(geometry.boundary_of(s)).name == boundary; };
+  const auto is_of = [&](std::int32_t s) {
+    return geometry.boundary(geometry.boundary_of(s)).name == boundary;
+  };
   for (std::int32_t v = 0; v < geometry.size(); ++v) {
     if (!is_of(v) || is_of(geometry.previous(v))) continue;
     std::vector<std::int32_t> vertices{v};
@@ -33,17 +35,18 @@ PairOutline::PairOutline(const Geometry& geometry, const PeriodicPair& pair)
   std::ranges::reverse(to_.vertices);
   for (const std::int32_t v : from_.vertices) {
     const double before = arcs_.empty() ? 0 : arcs_.back();
-    arcs_.push_back(arcs_.empty() ? 0
-                                  : before + quadloop::length(geometry.point(v) -
-                                                              geometry.point(geometry.previous(v))));
+    arcs_.push_back(
+        arcs_.empty() ? 0
+                      : before + quadloop::length(geometry.point(v) - geometry.point(geometry.previous(v))));
   }
   for (std::size_t i = 0; i < std::min(from_.vertices.size(), to_.vertices.size()); ++i) {
     const Point p = geometry.point(from_.vertices[i]), q = geometry.point(to_.vertices[i]);
     const bool is_last = i + 1 == from_.vertices.size(), of_other = i + 1 == to_.vertices.size();
     if (quadloop::length(pair.image(p) - q) <= rounding * length() && is_last == of_other) continue;
-    throw InputError(fmt::format("boundary '{}' of a [[pair]] has a point at ({:.6g}, {:.6g}) whose image is "
-                                 "not on '{}'; reduce spacing.min, or move the points nearby apart",
-                                 pair.from, p.x, p.y, pair.to));
+    throw InputError(
+        fmt::format("boundary '{}' of a [[pair]] has a point at ({:.6g}, {:.6g}) whose image is "
+                    "not on '{}'; reduce spacing.min, or move the points nearby apart",
+                    pair.from, p.x, p.y, pair.to));
   }
 }
 
@@ -55,12 +58,12 @@ std::vector<double> PairOutline::arcs_on(const Side& side, bool reverse, const s
   for (const Point p : nodes) {
     const std::int32_t segment = path.locate(p, side.name).segment;
     if (segment < 0)
-      throw InputError(fmt::format("boundary '{}' of a [[pair]]: the node at ({:.6g}, {:.6g}) is not on it; "
-                                   "use a smaller spacing there",
-                                   side.name, p.x, p.y));
+      throw InputError(
+          fmt::format("boundary '{}' of a [[pair]]: the node at ({:.6g}, {:.6g}) is not on it; "
+                      "use a smaller spacing there",
+                      side.name, p.x, p.y));
     // The chord from vertex i to i + 1; a node at the end of the line may be located on the next segment.
-    const std::int32_t i =
-        std::clamp(index_of[segment] - (reverse ? 1 : 0), 0, size32(side.vertices) - 2);
+    const std::int32_t i = std::clamp(index_of[segment] - (reverse ? 1 : 0), 0, size32(side.vertices) - 2);
     const Point a = geometry_.point(side.vertices[i]), b = geometry_.point(side.vertices[i + 1]);
     const double share = place_on_segment(p, a, b).parameter;
     arcs.push_back(p == b ? arcs_[i + 1] : p == a ? arcs_[i] : arcs_[i] + share * (arcs_[i + 1] - arcs_[i]));
@@ -100,9 +103,10 @@ PairSides pair_sides(const Communicator& comm, const smoother::OutlinePath& path
   for (const auto& [name, line] : {std::pair(&pair.from, &sides.from), std::pair(&pair.to, &sides.to)}) {
     std::optional<BoundaryLine> found = line_of_boundary(comm, mesh, *name);
     if (!found)
-      throw InputError(fmt::format("boundary '{}' of a [[pair]] is not one open line of the mesh; reduce "
-                                   "spacing.min",
-                                   *name));
+      throw InputError(
+          fmt::format("boundary '{}' of a [[pair]] is not one open line of the mesh; reduce "
+                      "spacing.min",
+                      *name));
     *line = std::move(*found);
   }
   std::ranges::reverse(sides.to.nodes);
@@ -110,14 +114,14 @@ PairSides pair_sides(const Communicator& comm, const smoother::OutlinePath& path
   std::ranges::reverse(sides.to.edges);
   sides.from_arcs = outline.arcs_on_from(path, sides.from.points);
   sides.to_arcs = outline.arcs_on_to(path, sides.to.points);
-  for (const auto& [arcs, points] : {std::pair(&sides.from_arcs, &sides.from.points),
-                                     std::pair(&sides.to_arcs, &sides.to.points)}) {
+  for (const auto& [arcs, points] :
+       {std::pair(&sides.from_arcs, &sides.from.points), std::pair(&sides.to_arcs, &sides.to.points)}) {
     if (arcs->front() != 0 || arcs->back() != outline.length())
-      throw InputError(fmt::format("boundaries '{}' and '{}' of a [[pair]]: an end is no node of the mesh, "
-                                   "the nearest is at ({:.6g}, {:.6g}); reduce spacing.min",
-                                   pair.from, pair.to,
-                                   arcs->front() != 0 ? points->front().x : points->back().x,
-                                   arcs->front() != 0 ? points->front().y : points->back().y));
+      throw InputError(
+          fmt::format("boundaries '{}' and '{}' of a [[pair]]: an end is no node of the mesh, "
+                      "the nearest is at ({:.6g}, {:.6g}); reduce spacing.min",
+                      pair.from, pair.to, arcs->front() != 0 ? points->front().x : points->back().x,
+                      arcs->front() != 0 ? points->front().y : points->back().y));
   }
   return sides;
 }

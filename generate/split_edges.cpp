@@ -118,9 +118,10 @@ class EdgeSplitter {
     const Point place = polygon[1].point;
     const auto triangles = triangles_in(std::move(polygon));
     if (triangles.empty())
-      throw InputError(fmt::format("near ({:.6g}, {:.6g}): a cell at a boundary of a [[pair]] cannot be "
-                                   "divided; use a smaller spacing there",
-                                   place.x, place.y));
+      throw InputError(
+          fmt::format("near ({:.6g}, {:.6g}): a cell at a boundary of a [[pair]] cannot be "
+                      "divided; use a smaller spacing there",
+                      place.x, place.y));
     for (const auto& triangle : triangles) grown_->add_cell(leaf, triangle);
     return true;
   }

@@ -8,8 +8,8 @@
 
 namespace quadloop::io {
 
-/// Returns a pair as a comment of a .mesh file: `# pair FROM TO translation DX DY`, or `# pair FROM TO rotation
-/// DEGREES X Y` with the centre, as the shortest numbers that read back to the same doubles.
+/// Returns a pair as a comment of a .mesh file: `# pair FROM TO translation DX DY`, or `# pair FROM TO
+/// rotation DEGREES X Y` with the centre, as the shortest numbers that read back to the same doubles.
 std::string comment_of(const PeriodicPair& pair);
 
 /// Reads the pairs from a text that consists of comments; lines that are no pair are passed over.

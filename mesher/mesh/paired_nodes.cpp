@@ -78,7 +78,8 @@ struct Partners {
 Partners partners_of(const Communicator& comm, const Mesh& mesh, const PeriodicPair& pair) {
   constexpr double tolerance = 1e-11;
   Partners found;
-  for (const auto& [name, side] : {std::pair(&pair.from, &found.nodes.from), std::pair(&pair.to, &found.nodes.to)}) {
+  for (const auto& [name, side] :
+       {std::pair(&pair.from, &found.nodes.from), std::pair(&pair.to, &found.nodes.to)}) {
     std::optional<BoundaryLine> line = line_of_boundary(comm, mesh, *name);
     if (!line) {
       found.fault = fault_between(pair, {}, fmt::format("'{}' is not one open line", *name));
@@ -92,10 +93,11 @@ Partners partners_of(const Communicator& comm, const Mesh& mesh, const PeriodicP
   for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
     const double distance = length(pair.image(from[i]) - to[i]);
     if (distance <= allowed) continue;
-    found.fault = fault_between(pair, from[i],
-                                fmt::format("the image of the node at ({:.6g}, {:.6g}) is {:.3g} from the node "
-                                            "at ({:.6g}, {:.6g})",
-                                            from[i].x, from[i].y, distance, to[i].x, to[i].y));
+    found.fault =
+        fault_between(pair, from[i],
+                      fmt::format("the image of the node at ({:.6g}, {:.6g}) is {:.3g} from the node "
+                                  "at ({:.6g}, {:.6g})",
+                                  from[i].x, from[i].y, distance, to[i].x, to[i].y));
     return found;
   }
   if (from.size() != to.size())

@@ -12,8 +12,9 @@ namespace quadloop {
 const KeyTable<PairKeys>& pair_keys() {
   static const KeyTable<PairKeys> keys{
       "pair",
-      {key<&PairKeys::pair, &PeriodicPair::from>("from", boundary_name(), "The one boundary.",
-                                                 {.example = "\"inlet\"", .required = {{"the boundary that is mapped"}}}),
+      {key<&PairKeys::pair, &PeriodicPair::from>(
+           "from", boundary_name(), "The one boundary.",
+           {.example = "\"inlet\"", .required = {{"the boundary that is mapped"}}}),
        key<&PairKeys::pair, &PeriodicPair::to>(
            "to", boundary_name(), "The other boundary, which is the image of `from`.",
            {.example = "\"outlet\"", .required = {{"the boundary that `from` is mapped to"}}}),

@@ -66,8 +66,8 @@ MeshInput passage() {
   Chain from{"lower", true, lower, "a"}, to{"upper", true, {upper.rbegin(), upper.rend()}, "b"};
   Chain inlet{"inlet", true, {upper.front(), lower.front()}, "c"},
       outlet{"outlet", true, {lower.back(), upper.back()}, "d"};
-  return input_of({from, outlet, to, inlet, circle("disc", {0.5, 0.47}, 0.06, "e")}, {"lower", "upper", pitch},
-                  0.11, {rule("disc", 0.02)});
+  return input_of({from, outlet, to, inlet, circle("disc", {0.5, 0.47}, 0.06, "e")},
+                  {"lower", "upper", pitch}, 0.11, {rule("disc", 0.02)});
 }
 
 /// A sector of a ring, whose sides a rotation by 50 degrees maps onto each other.
@@ -115,9 +115,8 @@ void expect_paired(const MeshInput& input, const char* what) {
     std::int64_t of_leaves = 0;
     for (const LeafRecord& leaf : made.tree.leaves) of_leaves += leaf.triangles;
     EXPECT_EQ(of_leaves, std::ssize(made.mesh.triangles)) << what;
-    const bool has_layers = std::ranges::any_of(input.geometry.boundaries(), [](const Boundary& b) {
-      return b.layers.has_value();
-    });
+    const bool has_layers = std::ranges::any_of(input.geometry.boundaries(),
+                                                [](const Boundary& b) { return b.layers.has_value(); });
     EXPECT_GT(summarise_quality(world(), made.mesh).smallest_degrees, has_layers ? 5 : 12) << what;
     const Mesh whole = gather_whole(world(), made.mesh);
     if (!world().is_root()) continue;

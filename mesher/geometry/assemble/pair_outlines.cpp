@@ -147,9 +147,10 @@ Difference largest_of(const PairSide& image, const PairSide& given) {
 }
 
 std::string map_text(const PeriodicPair& pair) {
-  return pair.rotates() ? fmt::format("rotation = {:g}, centre = [{:.6g}, {:.6g}]", pair.degrees,
-                                      pair.centre.x, pair.centre.y)
-                        : fmt::format("translation = [{:.6g}, {:.6g}]", pair.translation.x, pair.translation.y);
+  return pair.rotates()
+             ? fmt::format("rotation = {:g}, centre = [{:.6g}, {:.6g}]", pair.degrees, pair.centre.x,
+                           pair.centre.y)
+             : fmt::format("translation = [{:.6g}, {:.6g}]", pair.translation.x, pair.translation.y);
 }
 
 /// Puts another line in the place of a side.
@@ -188,10 +189,10 @@ void match_sides(Outline& outline, const WantedPair& wanted, std::vector<std::st
                                     pair.to, pair.from, map_text(pair), difference.distance,
                                     difference.place.x, difference.place.y));
   if (difference.distance > rounding * extent)
-    warnings.push_back(fmt::format("boundary '{}' moved by up to {:.2g}, near ({:.6g}, {:.6g}), to be the "
-                                   "image of '{}' exactly",
-                                   pair.to, difference.distance, difference.place.x, difference.place.y,
-                                   pair.from));
+    warnings.push_back(
+        fmt::format("boundary '{}' moved by up to {:.2g}, near ({:.6g}, {:.6g}), to be the "
+                    "image of '{}' exactly",
+                    pair.to, difference.distance, difference.place.x, difference.place.y, pair.from));
   replace_side(given, image, outline.loops[given.loop]);
 }
 

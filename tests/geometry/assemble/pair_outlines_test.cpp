@@ -40,18 +40,22 @@ TEST(PairOutlines, TheImageTakesThePlaceOfTheSecondSide) {
   match_outlines(outline, west_to_east({2, 0}), warnings);
   std::vector<Point> points = outline.loops[0].points;
   std::ranges::sort(points);
-  EXPECT_EQ(points, (std::vector<Point>{{0, 0}, {0, 2}, {2, 0}, {2, 2}})) << "the point between is no vertex of west";
+  EXPECT_EQ(points, (std::vector<Point>{{0, 0}, {0, 2}, {2, 0}, {2, 2}}))
+      << "the point between is no vertex of west";
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings[0], "boundary 'east' moved by up to 3e-06, near (2, 2), to be the image of 'west' exactly");
+  EXPECT_EQ(warnings[0],
+            "boundary 'east' moved by up to 3e-06, near (2, 2), to be the image of 'west' exactly");
 }
 
 TEST(PairOutlines, WhatDoesNotMatchIsRefusedWithItsPlace) {
   EXPECT_EQ(said_of(square({{2, 0}, {2, 2}}), west_to_east({2, 0})), "");
-  EXPECT_EQ(said_of(square({{2, 0}, {2, 2}}), west_to_east({1.5, 0})),
-            "case.toml:3: [[pair]]: boundary 'east' is not the image of 'west' by translation = [1.5, 0]: they "
-            "are 0.5 apart at (1.5, 0); correct the map, or the outline there");
-  EXPECT_NE(said_of(square({{2, 0}, {2.25, 1}, {2, 2}}), west_to_east({2, 0})).find("0.25 apart at (2.25, 1)"),
-            std::string::npos);
+  EXPECT_EQ(
+      said_of(square({{2, 0}, {2, 2}}), west_to_east({1.5, 0})),
+      "case.toml:3: [[pair]]: boundary 'east' is not the image of 'west' by translation = [1.5, 0]: they "
+      "are 0.5 apart at (1.5, 0); correct the map, or the outline there");
+  EXPECT_NE(
+      said_of(square({{2, 0}, {2.25, 1}, {2, 2}}), west_to_east({2, 0})).find("0.25 apart at (2.25, 1)"),
+      std::string::npos);
 }
 
 TEST(PairOutlines, ASideIsOneOpenLine) {
@@ -62,7 +66,8 @@ TEST(PairOutlines, ASideIsOneOpenLine) {
   closed.loops[0].boundary.assign(4, BoundaryId{3});
   closed.loops.push_back(square({{2, 0}, {2, 2}}).loops[0]);
   EXPECT_NE(said_of(closed, west_to_east({2, 0})).find("closed loop"), std::string::npos);
-  EXPECT_NE(said_of(square({{2, 0}, {2, 2}}), {{{"west", "eats", {2, 0}}, "c"}}).find("'east'"), std::string::npos);
+  EXPECT_NE(said_of(square({{2, 0}, {2, 2}}), {{{"west", "eats", {2, 0}}, "c"}}).find("'east'"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -6,8 +6,7 @@ namespace quadloop::io {
 namespace {
 
 TEST(PairText, APairComesBackAsItWas) {
-  const std::vector<PeriodicPair> pairs{{"lower", "upper", {0.1, 1.0 / 3}},
-                                        {"a", "b", {}, 22.5, {-1e-3, 2}}};
+  const std::vector<PeriodicPair> pairs{{"lower", "upper", {0.1, 1.0 / 3}}, {"a", "b", {}, 22.5, {-1e-3, 2}}};
   Mesh mesh;
   mesh.pairs = pairs;
   EXPECT_EQ(comments_of(mesh),
@@ -16,15 +15,17 @@ TEST(PairText, APairComesBackAsItWas) {
 }
 
 TEST(PairText, WhatIsNoPairIsPassedOver) {
-  for (const char* text : {"# pair a b translation 1", "# pair a b shift 1 2", "# pair a a translation 1 2",
-                           "# pair a b translation 1 x", "# pair a b translation 1 2 3", "# pair a b rotation 1"})
+  for (const char* text :
+       {"# pair a b translation 1", "# pair a b shift 1 2", "# pair a a translation 1 2",
+        "# pair a b translation 1 x", "# pair a b translation 1 2 3", "# pair a b rotation 1"})
     EXPECT_TRUE(pairs_in_comments(text).empty()) << text;
 }
 
 TEST(PairText, NodesOfBothSidesAreListedOnce) {
   Mesh mesh;
   const auto node = [](std::int32_t n) { return NodeId{n}; };
-  mesh.boundaries = {{"a", {}, {{node(4), node(2)}, {node(2), node(3)}}}, {"b", {}, {{node(0), node(1)}}},
+  mesh.boundaries = {{"a", {}, {{node(4), node(2)}, {node(2), node(3)}}},
+                     {"b", {}, {{node(0), node(1)}}},
                      {"c", {}, {{node(7), node(8)}}}};
   mesh.pairs = {{"a", "b", {1, 0}}};
   EXPECT_EQ(nodes_of_pairs(mesh), (std::vector<NodeId>{node(0), node(1), node(2), node(3), node(4)}));
