@@ -369,7 +369,8 @@ void place_images(const Communicator& comm, const std::vector<PeriodicPair>& pai
     mesh.points[node.value()] = position_in(positions, mesh, node);
   for (const PeriodicPair& pair : pairs) {
     if (const auto fault = fault_of_pair(comm, mesh, pair))
-      throw InputError(fault->what + "; use smaller cells there, or thinner layers on the walls that end there");
+      throw InputError(fault->what +
+                       "; use smaller cells there, or thinner layers on the walls that end there");
   }
 }
 

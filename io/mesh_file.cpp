@@ -374,6 +374,8 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
   MeshContent content = content_of(mesh.plane.boundaries);
   content.solution = mesh.solution;
   std::ranges::move(losses_of(content, *row, path), std::back_inserter(losses));
+  if (!mesh.plane.pairs.empty() && !row->is_folder)
+    losses.push_back(path + ": periodic pairs are written to a polyMesh only, and are omitted");
   return losses;
 }
 

@@ -148,9 +148,10 @@ double possible_way(const Morph& morph, Mesh& mesh) {
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
                        const NodeFlags& interfaces) {
   if (!mesh.pairs.empty())
-    throw InputError(fmt::format("boundaries '{}' and '{}' are a periodic pair, whose nodes would no longer "
-                                 "match; generate a new mesh",
-                                 mesh.pairs.front().from, mesh.pairs.front().to));
+    throw InputError(
+        fmt::format("boundaries '{}' and '{}' are a periodic pair, whose nodes would no longer "
+                    "match; generate a new mesh",
+                    mesh.pairs.front().from, mesh.pairs.front().to));
   MorphReport report;
   const Morph morph(comm, mesh, change);
   report.worst_before = report.worst_after = morph.worst_quality(mesh);

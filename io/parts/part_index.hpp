@@ -18,8 +18,8 @@ struct PartIndex {
   std::vector<BoundaryEdges> boundaries;  ///< without edges
   std::vector<std::int64_t> edges;        ///< number of edges of each boundary
   std::vector<PeriodicPair> pairs;
-  std::vector<StripLayers> strips;        ///< with the node numbers of the whole mesh
-  std::vector<std::string> warnings;      ///< of the reader
+  std::vector<StripLayers> strips;    ///< with the node numbers of the whole mesh
+  std::vector<std::string> warnings;  ///< of the reader
 };
 
 /// The suffix of an index, and whether a path has it.

@@ -115,9 +115,8 @@ void expect_paired(const MeshInput& input, const char* what) {
     std::int64_t of_leaves = 0;
     for (const LeafRecord& leaf : made.tree.leaves) of_leaves += leaf.triangles;
     EXPECT_EQ(of_leaves, std::ssize(made.mesh.triangles)) << what;
-    const bool has_layers = std::ranges::any_of(input.geometry.boundaries(), [](const Boundary& b) {
-      return b.layers.has_value();
-    });
+    const bool has_layers = std::ranges::any_of(input.geometry.boundaries(),
+                                                [](const Boundary& b) { return b.layers.has_value(); });
     EXPECT_GT(summarise_quality(world(), made.mesh).smallest_degrees, has_layers ? 5 : 12) << what;
     const Mesh whole = gather_whole(world(), made.mesh);
     if (!world().is_root()) continue;

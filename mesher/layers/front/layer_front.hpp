@@ -59,8 +59,8 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// wall; both are verified with exact predicates. `curvature`: degrees that the wall may turn along one cell.
 /// With a measured wall first heights follow it (followed_layers()). Depends on its arguments only; mirror
 /// images have mirrored fronts, and if `mirrored`, a geometry that is its own mirror image has a front with
-/// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws InputError with coordinates where no layers fit. `geometry` must
-/// outlive the result.
+/// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws
+/// InputError with coordinates where no layers fit. `geometry` must outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {},
                        bool mirrored = false, const std::vector<PeriodicPair>& pairs = {});
