@@ -39,9 +39,11 @@ class WordDigest {
     } else if (const auto* disc = std::get_if<SizeSource::Disc>(&shape)) {
       add(disc->centre);
       add(disc->radius);
+    } else if (const auto* line = std::get_if<SizeSource::Line>(&shape)) {
+      add(line->from);
+      add(line->to);
     } else {
-      add(std::get<SizeSource::Line>(shape).from);
-      add(std::get<SizeSource::Line>(shape).to);
+      for (const unsigned char byte : std::get<SizeSource::Block>(shape).name) add(std::uint64_t{byte});
     }
   }
   void add(const LayerLine& line) {

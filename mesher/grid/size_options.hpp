@@ -1,10 +1,12 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "mesher/geometry/outline_region.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -22,13 +24,22 @@ struct SizeSource {
 
     friend bool operator==(const Line&, const Line&) = default;
   };
-  std::variant<Box, Disc, Line> shape;
+  /// A block of the geometry.
+  struct Block {
+    std::string name;
+    std::shared_ptr<const OutlineRegion> region;
+
+    friend bool operator==(const Block& a, const Block& b) { return a.name == b.name; }
+  };
+  std::variant<Box, Disc, Line, Block> shape;
   double spacing = 0;
   std::string where = {};  ///< for messages
 };
 
 /// Whether the closed shape and the closed box have a point in common.
 bool meets(const SizeSource& source, const Box& box);
+/// The bounding box of the shape.
+Box box_of(const SizeSource& source);
 
 /// A root specified by the user: trees_x by trees_y square trees, with the lower left corner at `corner`.
 struct RootOptions {

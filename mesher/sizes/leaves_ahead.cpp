@@ -15,17 +15,10 @@ double graded_leaves(double size, double gap, double h, double slope) {
   return size / slope * (1 / near - 1 / far);
 }
 
-/// Returns the fraction of the square covered by the source's bounding box.
+/// Returns the fraction of the square covered by the source's bounding box; 0 for a line.
 double covered_share(const SizeSource& source, const Box& square) {
-  Box box;
-  if (const auto* area = std::get_if<Box>(&source.shape)) {
-    box = *area;
-  } else if (const auto* disc = std::get_if<SizeSource::Disc>(&source.shape)) {
-    box = {disc->centre - Point{disc->radius, disc->radius},
-           disc->centre + Point{disc->radius, disc->radius}};
-  } else {
-    return 0;
-  }
+  if (std::holds_alternative<SizeSource::Line>(source.shape)) return 0;
+  const Box box = box_of(source);
   const double width = std::min(box.high.x, square.high.x) - std::max(box.low.x, square.low.x);
   const double height = std::min(box.high.y, square.high.y) - std::max(box.low.y, square.low.y);
   return std::max(0.0, width) * std::max(0.0, height) / (square.width() * square.height());

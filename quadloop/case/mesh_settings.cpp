@@ -226,7 +226,9 @@ const KeyTable<BlockRule>& block_keys() {
        key<&BlockRule::loop>("loop", text(), "The closed boundary that encloses the block."),
        key<&BlockRule::inside>(
            "inside", point(),
-           "A point of the block, which reaches from there to the boundaries around it.")}};
+           "A point of the block, which reaches from there to the boundaries around it."),
+       key<&BlockRule::spacing>("spacing", number(io::Range::positive()), "Largest cell size in the block.",
+                                {.unit = "length", .fallback = "`spacing.max`"})}};
   return keys;
 }
 

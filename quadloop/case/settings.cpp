@@ -260,10 +260,22 @@ double size_to_meet(const Settings& settings, const Geometry& geometry, double s
   return std::isfinite(finest) ? finest : settings.max.value_or(smallest);
 }
 
+/// Adds the cell sizes of blocks to the sources.
+void add_block_sizes(const Settings& settings, const Geometry& geometry, MeshOptions& options) {
+  const std::vector<std::string>& names = geometry.block_names();
+  for (const BlockRule& rule : settings.outline.blocks) {
+    if (!rule.spacing) continue;
+    const auto block = static_cast<std::int32_t>(std::ranges::find(names, rule.name) - names.begin());
+    options.size.sources.push_back({SizeSource::Block{rule.name, std::make_shared<OutlineRegion>(geometry, block)},
+                                    *rule.spacing, rule.where});
+  }
+}
+
 }  // namespace
 
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   MeshOptions options = settings.mesh;
+  add_block_sizes(settings, geometry, options);
   const double side = std::max(geometry.box().width(), geometry.box().height());
   double smallest = side;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
@@ -271,7 +283,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
     if (const double at_corner = geometry.corner_spacing_of(s); at_corner > 0)
       smallest = std::min(smallest, at_corner);
   }
-  for (const SizeSource& source : settings.mesh.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const SizeSource& source : options.size.sources) smallest = std::min(smallest, source.spacing);
   const double aim = size_to_meet(settings, geometry, smallest);
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));

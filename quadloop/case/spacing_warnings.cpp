@@ -151,15 +151,16 @@ void warn_of_facets(const MeshOptions& options, const Geometry& geometry, Warnin
 }
 
 Point centre_of(const SizeSource& source) {
-  if (const Box* const box = std::get_if<Box>(&source.shape)) return box->centre();
   if (const auto* const disc = std::get_if<SizeSource::Disc>(&source.shape)) return disc->centre;
-  const auto& line = std::get<SizeSource::Line>(source.shape);
-  return 0.5 * (line.from + line.to);
+  if (const auto* const line = std::get_if<SizeSource::Line>(&source.shape))
+    return 0.5 * (line->from + line->to);
+  return box_of(source).centre();
 }
 
 void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warnings) {
   for (const SizeSource& source : options.size.sources) {
-    warn_if_limited(source.where + ": this [[source]] requests a spacing", source.spacing, centre_of(source),
+    const bool is_block = std::holds_alternative<SizeSource::Block>(source.shape);
+    warn_if_limited(source.where + ": this " + (is_block ? "[[block]]" : "[[source]]") + " requests a spacing", source.spacing, centre_of(source),
                     options.size.min, warnings);
     if (meets(source, root)) continue;
     warnings.push_back(

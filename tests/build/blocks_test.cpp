@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -258,6 +259,46 @@ TEST(Blocks, RandomArrangementsAreValidOrRefusedWithAPlace) {
     }
   }
   EXPECT_GT(made, 75) << refused;
+}
+
+/// The longest edge of the quadrilaterals of a block.
+double longest_of_quads(const Mesh& whole, std::int32_t block) {
+  double longest = 0;
+  for (std::size_t i = 0; i < whole.quads.size(); ++i) {
+    if (whole.blocks.of_quads[i] != block) continue;
+    const auto p = corners_of(whole, whole.quads[i]);
+    for (std::size_t k = 0; k < 4; ++k) longest = std::max(longest, length(p[(k + 1) % 4] - p[k]));
+  }
+  return longest;
+}
+
+TEST(Blocks, HaveSizesOfTheirOwn) {
+  const Blocks blocks{{loop("wall", box_points(0, 2, 0, 1)), line("cut", {{0.9, -0.1}, {1.1, 1.1}})},
+                      {at("coarse", {0.2, 0.5}), at("fine", {1.8, 0.5})}};
+  const Geometry geometry = blocks.geometry();
+  MeshOptions options = between(0.01, 0.13);
+  options.size.sources.push_back({SizeSource::Block{"fine", std::make_shared<OutlineRegion>(geometry, 1)}, 0.032});
+  expect_meshes(blocks, options, 1e-9);
+  const Mesh whole = gather_whole(world(), build_mesh(world(), geometry, options).mesh);
+  if (!world().is_root()) return;
+  EXPECT_LT(longest_of_quads(whole, 1), 0.05);
+  EXPECT_GT(longest_of_quads(whole, 0), 0.1);
+}
+
+TEST(Blocks, AMeetingOfThreeMovesAGridVertexWithAllItsLines) {
+  const Point meeting{1.4996, 0.8692}, foot{1.867, 0}, left{0, 0.4584}, right{3, 0.6416};
+  const Blocks blocks{{loop("l", {{0, 0}, foot, meeting, left}), loop("r", {foot, {3, 0}, right, meeting}),
+                       loop("t", {left, meeting, right, {3, 2}, {0, 2}})},
+                      {of_loop("a", "l"), of_loop("b", "r"), of_loop("c", "t")}};
+  const Geometry geometry = blocks.geometry();
+  const Mesh whole = gather_whole(world(), build_mesh(world(), geometry, between(0.03, 0.1)).mesh);
+  if (!world().is_root()) return;
+  double nearest = 1;
+  for (const Point p : whole.points) {
+    if (p != meeting) nearest = std::min(nearest, length(p - meeting));
+  }
+  EXPECT_GT(nearest, 0.03);
+  EXPECT_EQ(std::ranges::count(whole.points, meeting), 1);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct BlockRule {
   std::string loop;
   std::optional<Point> inside;
   std::string where;  ///< where the rule stands, for messages
+  std::optional<double> spacing = {};  ///< largest cell size in the block
 };
 
 /// The loops of blocks, each with its block on the left. A segment between two blocks is in loops of both.
