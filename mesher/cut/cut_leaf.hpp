@@ -29,7 +29,8 @@ struct CutLeaf {
   /// First along the sides, counter-clockwise from the lower left corner; then those inside, by position.
   std::vector<Node> nodes;
   /// The chords that represent the boundary, including those that only bound a neighbour's cells. Between two
-  /// blocks, and along inner lines, there are two in opposite directions; those along a side may be in two leaves.
+  /// blocks, and along inner lines, there are two in opposite directions; those along a side may be in two
+  /// leaves.
   std::vector<Edge> outline;
   /// Concatenated loops; those of two nodes are parts of inner lines with the same region on both sides.
   std::vector<std::int32_t> loop_nodes;

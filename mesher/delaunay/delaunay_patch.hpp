@@ -10,8 +10,8 @@ class DelaunayPatch {
   using Triangle = Flipper::Triangle;
 
   /// Starts from any counter-clockwise triangles over the nodes. Where `open` is set for a triangle, the
-  /// domain may continue across its edges that have no other triangle. `rank_of`, `moved` and `kept` as in Flipper.
-  /// The points must outlive the patch.
+  /// domain may continue across its edges that have no other triangle. `rank_of`, `moved` and `kept` as in
+  /// Flipper. The points must outlive the patch.
   DelaunayPatch(std::span<const Point> points, const Flipper::RankOf& rank_of,
                 std::vector<Triangle> triangles, const std::vector<char>& open,
                 const std::vector<std::int32_t>& blocks = {}, std::span<const char> moved = {},

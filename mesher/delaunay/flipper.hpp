@@ -49,15 +49,14 @@ class Flipper {
   void keep(std::vector<Ends> edges) { kept_ = std::move(edges); }
 
   /// Flips edges of counter-clockwise `triangles` over the `points`; edges with the same ends are joined.
-  /// Edges with one triangle are kept, those of keep(), and edges between triangles of two `blocks` (one entry
-  /// per triangle; empty: one block). If the order of ranks is strict, the result depends only on points, ranks and kept
-  /// edges, not on the initial triangles. Triangles keep their blocks. Where `open` (a flag per triangle, or
-  /// empty) is set, an edge with one triangle becomes an open border.
-  /// `moved` (a flag per point, or empty): the triangles were constrained Delaunay before these points moved.
-  /// Then an edge of two triangles without a moved node is not replaced by the other diagonal of four nodes
-  /// on one circle, whatever their ranks, and the result also depends on such edges. It is still unique: an
-  /// edge that flips without being a tie belongs to no Delaunay triangulation, and between the kept edges the
-  /// ranks decide.
+  /// Edges with one triangle are kept, those of keep(), and edges between triangles of two `blocks` (one
+  /// entry per triangle; empty: one block). If the order of ranks is strict, the result depends only on
+  /// points, ranks and kept edges, not on the initial triangles. Triangles keep their blocks. Where `open` (a
+  /// flag per triangle, or empty) is set, an edge with one triangle becomes an open border. `moved` (a flag
+  /// per point, or empty): the triangles were constrained Delaunay before these points moved. Then an edge of
+  /// two triangles without a moved node is not replaced by the other diagonal of four nodes on one circle,
+  /// whatever their ranks, and the result also depends on such edges. It is still unique: an edge that flips
+  /// without being a tie belongs to no Delaunay triangulation, and between the kept edges the ranks decide.
   void flip_to_delaunay(std::span<const Point> points, const RankOf& rank_of, std::span<Triangle> triangles,
                         std::span<const char> open = {}, std::span<const std::int32_t> blocks = {},
                         std::span<const char> moved = {});

@@ -57,8 +57,8 @@ struct LoopBlocks {
 
 /// The geometry of the domain: simple closed loops of named boundaries that do not cross, each with the
 /// domain to its left. Replicated on all ranks. Segment v runs from vertex v to vertex next(v). A segment
-/// with domain on both sides, between two blocks or of an inner line, is stored twice, once in each direction:
-/// the two are twins. So a loop runs along an inner line and back.
+/// with domain on both sides, between two blocks or of an inner line, is stored twice, once in each
+/// direction: the two are twins. So a loop runs along an inner line and back.
 class Geometry {
  public:
   /// `loop_starts` has one more entry than there are loops; loop l has the vertices loop_starts[l] ..
