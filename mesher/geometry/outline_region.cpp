@@ -12,7 +12,8 @@ namespace {
 std::vector<std::pair<Point, Point>> edges_of_block(const Geometry& geometry, std::int32_t block) {
   std::vector<std::pair<Point, Point>> edges;
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
-    if (geometry.block_of(s) == block) edges.emplace_back(geometry.point(s), geometry.point(geometry.next(s)));
+    if (geometry.block_of(s) == block)
+      edges.emplace_back(geometry.point(s), geometry.point(geometry.next(s)));
   }
   return edges;
 }
@@ -27,9 +28,8 @@ bool edge_meets(const std::pair<Point, Point>& edge, const Box& box) {
 }  // namespace
 
 OutlineRegion::OutlineRegion(std::vector<std::pair<Point, Point>> edges)
-    : edges_{std::move(edges)}, tree_(size32(edges_), [&](std::int32_t e) {
-        return box_of(edges_[e].first, edges_[e].second);
-      }) {
+    : edges_{std::move(edges)},
+      tree_(size32(edges_), [&](std::int32_t e) { return box_of(edges_[e].first, edges_[e].second); }) {
   for (const auto& [from, to] : edges_) {
     box_.include(from);
     box_.include(to);

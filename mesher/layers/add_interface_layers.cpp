@@ -174,8 +174,7 @@ std::vector<std::int32_t> InterfaceBuilder::nodes_behind() {
       if (column.is_walls) continue;
       const GlobalNodeId foot = filled_[f].feet()[column.foot].node;
       behind_.emplace(foot, ColumnNumber{f, c});
-      if (owners_.rank_of(foot) == comm_.rank())
-        added[owners_.local(foot).value()] += size32(column.points);
+      if (owners_.rank_of(foot) == comm_.rank()) added[owners_.local(foot).value()] += size32(column.points);
     }
   }
   return added;

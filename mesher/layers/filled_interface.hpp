@@ -50,7 +50,7 @@ class FilledInterface {
     std::int32_t top = 0;   ///< index of its front node, if it is a ray of a fan or not its own
     /// Whether its nodes are those of an ordinary column, numbered after its front node.
     bool is_walls = false;
-    int lowest = 1;  ///< ring of its first node
+    int lowest = 1;             ///< ring of its first node
     std::vector<Point> points;  ///< from ring `lowest` to the ring before the front
   };
   /// A node: of a column, by ring (0 is the foot), or of the front.

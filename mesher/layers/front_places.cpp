@@ -31,8 +31,7 @@ FrontPlaces::FrontPlaces(const LayerFront& front, bool on_interfaces, bool on_wa
 FrontPlace FrontPlaces::locate(Point node, BoundaryId boundary) const {
   const auto& [stations, tree] = of_boundary_[boundary];
   const auto distance = [&](std::int32_t k) {
-    return place_on_segment(node, point(stations[k]), point(front_->line.next(stations[k])))
-        .squared_distance;
+    return place_on_segment(node, point(stations[k]), point(front_->line.next(stations[k]))).squared_distance;
   };
   const std::int32_t nearest = tree.nearest(node, distance);
   if (nearest == BoxTree::none) return {};

@@ -157,8 +157,8 @@ class CornerDecision {
   }
 
   /// The runs among the crossings that claim the grid vertex. With `whole_run` also crossings nearer to it
-  /// than to the far end of their edge: the vertex there is farther and never absorbs them. All pieces through
-  /// a point where boundaries of blocks meet, `junction`, form one run.
+  /// than to the far end of their edge: the vertex there is farther and never absorbs them. All pieces
+  /// through a point where boundaries of blocks meet, `junction`, form one run.
   Runs runs_among(bool whole_run, std::optional<Point> junction = {}) const {
     Runs runs(sights_.size(), memory_);
     for (std::int32_t i = 0; i < size32(sights_); ++i) {

@@ -224,9 +224,8 @@ const KeyTable<BlockRule>& block_keys() {
            "direction) has no effect, as the sides follow from the closed lines. A block has one of "
            "`boundaries`, `loop` and `inside`."),
        key<&BlockRule::loop>("loop", text(), "The closed boundary that encloses the block."),
-       key<&BlockRule::inside>(
-           "inside", point(),
-           "A point of the block, which reaches from there to the boundaries around it."),
+       key<&BlockRule::inside>("inside", point(),
+                               "A point of the block, which reaches from there to the boundaries around it."),
        key<&BlockRule::spacing>("spacing", number(io::Range::positive()), "Largest cell size in the block.",
                                 {.unit = "length", .fallback = "`spacing.max`"})}};
   return keys;

@@ -266,8 +266,9 @@ void add_block_sizes(const Settings& settings, const Geometry& geometry, MeshOpt
   for (const BlockRule& rule : settings.outline.blocks) {
     if (!rule.spacing) continue;
     const auto block = static_cast<std::int32_t>(std::ranges::find(names, rule.name) - names.begin());
-    options.size.sources.push_back({SizeSource::Block{rule.name, std::make_shared<OutlineRegion>(geometry, block)},
-                                    *rule.spacing, rule.where});
+    options.size.sources.push_back(
+        {SizeSource::Block{rule.name, std::make_shared<OutlineRegion>(geometry, block)}, *rule.spacing,
+         rule.where});
   }
 }
 

@@ -160,8 +160,9 @@ Point centre_of(const SizeSource& source) {
 void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warnings) {
   for (const SizeSource& source : options.size.sources) {
     const bool is_block = std::holds_alternative<SizeSource::Block>(source.shape);
-    warn_if_limited(source.where + ": this " + (is_block ? "[[block]]" : "[[source]]") + " requests a spacing", source.spacing, centre_of(source),
-                    options.size.min, warnings);
+    warn_if_limited(
+        source.where + ": this " + (is_block ? "[[block]]" : "[[source]]") + " requests a spacing",
+        source.spacing, centre_of(source), options.size.min, warnings);
     if (meets(source, root)) continue;
     warnings.push_back(
         fmt::format("{}: this [[source]] lies outside the root, which reaches from ({}, {}) to ({}, {}), "

@@ -277,7 +277,8 @@ TEST(Blocks, HaveSizesOfTheirOwn) {
                       {at("coarse", {0.2, 0.5}), at("fine", {1.8, 0.5})}};
   const Geometry geometry = blocks.geometry();
   MeshOptions options = between(0.01, 0.13);
-  options.size.sources.push_back({SizeSource::Block{"fine", std::make_shared<OutlineRegion>(geometry, 1)}, 0.032});
+  options.size.sources.push_back(
+      {SizeSource::Block{"fine", std::make_shared<OutlineRegion>(geometry, 1)}, 0.032});
   expect_meshes(blocks, options, 1e-9);
   const Mesh whole = gather_whole(world(), build_mesh(world(), geometry, options).mesh);
   if (!world().is_root()) return;

@@ -1,4 +1,5 @@
-// Layers in meshes of several blocks: their columns stand on the nodes of the block on the other side of an interface.
+// Layers in meshes of several blocks: their columns stand on the nodes of the block on the other side of an
+// interface.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,20 +102,20 @@ bool has_edge(const Mesh& whole, std::int32_t block, const std::array<NodeId, 2>
   return in(whole.triangles, whole.blocks.of_triangles) || in(whole.quads, whole.blocks.of_quads);
 }
 
-/// Quadrilaterals of a block, or pairs of triangles, that are as high as the first layer and stand on the interface, counted
-/// by their nodes: those at the height of the first layer above a node of it, in the block.
+/// Quadrilaterals of a block, or pairs of triangles, that are as high as the first layer and stand on the
+/// interface, counted by their nodes: those at the height of the first layer above a node of it, in the
+/// block.
 std::int64_t columns_on(const Mesh& whole, std::size_t boundary, double first) {
   std::vector<Point> feet;
   for (const auto& edge : whole.boundaries[boundary].edges) feet.push_back(whole.point(edge[0]));
   return std::ranges::count_if(feet, [&](Point foot) {
-    return std::ranges::any_of(whole.points, [&](Point p) {
-      return std::abs(length(p - foot) - first) < 0.02 * first;
-    });
+    return std::ranges::any_of(whole.points,
+                               [&](Point p) { return std::abs(length(p - foot) - first) < 0.02 * first; });
   });
 }
 
-/// Both types of mesh are valid and fill each block; edges between two blocks have the first block to their left, and a
-/// share of the nodes on `boundary` has columns.
+/// Both types of mesh are valid and fill each block; edges between two blocks have the first block to their
+/// left, and a share of the nodes on `boundary` has columns.
 void expect_layers(const Layout& layout, const std::string& boundary, double share, double tolerance = 1e-9) {
   for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
     const MeshInput input = layout.input(type);

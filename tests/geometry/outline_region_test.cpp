@@ -9,7 +9,10 @@ namespace {
 using Edges = std::vector<std::pair<Point, Point>>;
 
 Edges square_edges(double low, double high) {
-  return {{{low, low}, {high, low}}, {{high, low}, {high, high}}, {{high, high}, {low, high}}, {{low, high}, {low, low}}};
+  return {{{low, low}, {high, low}},
+          {{high, low}, {high, high}},
+          {{high, high}, {low, high}},
+          {{low, high}, {low, low}}};
 }
 
 TEST(OutlineRegion, MeetsBoxesInsideAcrossAndAround) {

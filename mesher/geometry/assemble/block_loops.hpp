@@ -16,7 +16,7 @@ struct BlockRule {
   std::vector<std::string> boundaries;
   std::string loop;
   std::optional<Point> inside;
-  std::string where;  ///< where the rule stands, for messages
+  std::string where;                   ///< where the rule stands, for messages
   std::optional<double> spacing = {};  ///< largest cell size in the block
 };
 

@@ -206,7 +206,8 @@ void split_curves_at_crossings(std::vector<Chain>& chains) {
   }
   if (std::ranges::all_of(segments, [](const MetSegment& met) { return met.places.empty(); })) return;
   for (Chain& chain : chains) {
-    if (chain.open && chain.points.size() > 1) chain.points.erase(chain.points.begin(), chain.points.end() - 1);
+    if (chain.open && chain.points.size() > 1)
+      chain.points.erase(chain.points.begin(), chain.points.end() - 1);
     if (!chain.open) chain.points.clear();
     chain.curves.clear();
   }

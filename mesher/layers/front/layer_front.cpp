@@ -94,8 +94,8 @@ class OuterOutline {
       add_front(first, s);
     } else if (stays(s)) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none,
-                 std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s),
-                 g_.bend_degrees(s), stays(g_.next(s)) ? g_.curve(s) : Curve{});
+                 std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s), g_.bend_degrees(s),
+                 stays(g_.next(s)) ? g_.curve(s) : Curve{});
     }
   }
   /// Whether vertex s of the geometry is one of the outer geometry.
@@ -170,7 +170,8 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
     if (line_[i].opens_wake)
       add_wake(i);
     else
-      add_vertex(fitting_.front[i], on_interface ? strip_boundary() : g_.boundary_of(s), i, spacing_after(i), line_[i].kept, 0);
+      add_vertex(fitting_.front[i], on_interface ? strip_boundary() : g_.boundary_of(s), i, spacing_after(i),
+                 line_[i].kept, 0);
   }
   if (i == WallLine::none || line_[i].segment != s) return;
   if (line_[i].opens_wake) return add_wake(i);

@@ -424,10 +424,13 @@ void Fitting::mark_crossing_fronts() {
     const std::int32_t j = line_.next(i);
     const Box box = box_of(front(i), front(j));
     fronts_.for_each_meeting(box, [&](std::int32_t k) {
-      if (k != i && fronts_in_one_block(i, k) && fronts_meet(i, k)) meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
+      if (k != i && fronts_in_one_block(i, k) && fronts_meet(i, k))
+        meets_[i] = meets_[j] = meets_[k] = meets_[line_.next(k)] = 1;
     });
     wall_tree_.for_each_meeting(box, [&](std::int32_t w) {
-      if (w < line_.size() || !is_wall_of_block(i, w) || !segments_meet(front(i), front(j), walls_[w].from, walls_[w].to)) return;
+      if (w < line_.size() || !is_wall_of_block(i, w) ||
+          !segments_meet(front(i), front(j), walls_[w].from, walls_[w].to))
+        return;
       const std::int32_t segment = other_segments_[w - line_.size()];
       if (!ends_on(i, segment) && !ends_on(j, segment)) meets_[i] = meets_[j] = 1;
     });

@@ -127,7 +127,7 @@ class WallLine {
   void link(std::int32_t begin, bool closed);
 
   const Geometry* geometry_;
-  std::vector<char> has_layers_;  ///< flags of segments
+  std::vector<char> has_layers_;                             ///< flags of segments
   std::map<std::int32_t, WakeStart> wakes_from_, wakes_to_;  ///< by their first and last vertices
   std::vector<Station> stations_;
   std::vector<std::int32_t> next_, previous_;

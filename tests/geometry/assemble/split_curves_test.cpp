@@ -59,8 +59,8 @@ Geometry united_curves(std::vector<Chain> chains) {
 }
 
 TEST(SplitCurves, CirclesThatCrossAreUnited) {
-  const Geometry g =
-      united_curves({outline_box("sea", -5, 5, -5, 5), true_circle("left", {-0.3, 0.1}, 1), true_circle("right", {0.7, 0.1}, 1)});
+  const Geometry g = united_curves({outline_box("sea", -5, 5, -5, 5), true_circle("left", {-0.3, 0.1}, 1),
+                                    true_circle("right", {0.7, 0.1}, 1)});
   EXPECT_EQ(g.loop_count(), 2);
   EXPECT_NEAR(area_within_curves(g), 100 - (2 * half_turn - lens_of(1, 1)), 1e-6);
   const double height = std::sqrt(0.75);
@@ -78,7 +78,8 @@ TEST(SplitCurves, CirclesThatCrossAreUnited) {
 }
 
 TEST(SplitCurves, ACircleAndAPolygonAreUnited) {
-  const Geometry g = united_curves({outline_box("sea", -5, 5, -5, 5), true_circle("body", {0, 0}, 1), outline_box("mast", -0.5, 0.5, 0.5, 2)});
+  const Geometry g = united_curves({outline_box("sea", -5, 5, -5, 5), true_circle("body", {0, 0}, 1),
+                                    outline_box("mast", -0.5, 0.5, 0.5, 2)});
   const double covered = std::sqrt(0.75) / 2 + half_turn / 6 - 0.5;  // of the mast by the disc
   EXPECT_NEAR(area_within_curves(g), 100 - (half_turn + 1.5 - covered), 1e-6);
 }
@@ -88,8 +89,8 @@ TEST(SplitCurves, ALineMayEndInTheMiddleOfTheCurvesOfBlocks) {
   options.blocks = {{"low", {}, {}, Point{0, -0.5}, "case"}, {"high", {}, {}, Point{0, 0.5}, "case"}};
   Warnings warnings;
   const double y = 0.25, x = std::sqrt(1 - y * y);
-  const Geometry g =
-      assemble({true_circle("pipe", {0, 0}, 1), open_line("level", {{-1.5, y}, {1.5, y}})}, options, warnings);
+  const Geometry g = assemble({true_circle("pipe", {0, 0}, 1), open_line("level", {{-1.5, y}, {1.5, y}})},
+                              options, warnings);
   const double cap = std::acos(y) - y * x;
   EXPECT_NEAR(area_within_curves(g, 0), half_turn - cap, 1e-6);
   EXPECT_NEAR(area_within_curves(g, 1), cap, 1e-6);

@@ -406,10 +406,9 @@ TEST_F(SettingsTest, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
   EXPECT_EQ(refused("[[block]]\nloop = \"box\"\n").find("case.toml:3: 'block.0.name' is missing"), 0u);
   EXPECT_EQ(refused("[[block]]\nname = \"a b\"\nloop = \"box\"\n").find("case.toml:4: 'block.0.name'"), 0u);
   const std::string start = "case.toml:3: a mesh of several blocks cannot have ";
-  for (const auto& [more, what] :
-       {std::pair{"[mesh]\nmirror = \"x\"\n", "mirror images"},
-        {"[adapt]\nvariable = \"density\"\n", "the built-in solver"},
-        {"[output]\npartitions = 2\n", "partitions"}})
+  for (const auto& [more, what] : {std::pair{"[mesh]\nmirror = \"x\"\n", "mirror images"},
+                                   {"[adapt]\nvariable = \"density\"\n", "the built-in solver"},
+                                   {"[output]\npartitions = 2\n", "partitions"}})
     EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
 }
 
