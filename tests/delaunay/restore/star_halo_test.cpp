@@ -84,7 +84,7 @@ void expect_named(const SpreadGrid& grid, const StarHalo& halo, std::size_t i) {
 TEST(StarHalo, GrowsARingAtATimeUntilAllIsThere) {
   const SpreadGrid grid;
   const NodeOwners owners(world(), grid.first_node);
-  StarHalo halo(world(), owners, grid.mesh, grid.flags(1), {no_blocks, all_moved});
+  StarHalo halo(world(), owners, grid.mesh, grid.flags(1), {no_blocks, all_moved}, {});
   std::set<GlobalNodeId> known;
   for (std::int32_t n = 0; n < grid.mesh.owned_nodes; ++n) known.insert(grid.mesh.global(NodeId{n}));
   for (int ring = 0; ring < 8; ++ring) {
@@ -112,7 +112,7 @@ TEST(StarHalo, GrowsARingAtATimeUntilAllIsThere) {
 TEST(StarHalo, GrowsWhereItIsWantedAlone) {
   const SpreadGrid grid;
   const NodeOwners owners(world(), grid.first_node);
-  StarHalo halo(world(), owners, grid.mesh, grid.flags(1), {no_blocks, all_moved});
+  StarHalo halo(world(), owners, grid.mesh, grid.flags(1), {no_blocks, all_moved}, {});
   const auto before = numbers_of(halo);
   halo.grow(world().rank() == 1);
   if (world().rank() == 1) {
@@ -136,7 +136,7 @@ TEST(StarHalo, FlagsAndBlocksTravel) {
   }
   std::vector<std::int32_t> blocks;
   for (const auto& t : grid.mesh.triangles) blocks.push_back(block_of(grid.mesh.global(t[0])));
-  StarHalo halo(world(), owners, grid.mesh, core, {blocks, moved});
+  StarHalo halo(world(), owners, grid.mesh, core, {blocks, moved}, {});
   for (int ring = 0; ring < 8; ++ring) halo.grow(true);
   for (std::size_t i = 0; i < halo.triangles().size(); ++i) {
     bool any_core = false;
@@ -156,7 +156,7 @@ TEST(StarHalo, FlagsAndBlocksTravel) {
 TEST(StarHalo, ARegionMayBeEmpty) {
   const SpreadGrid grid;
   const NodeOwners owners(world(), grid.first_node);
-  StarHalo halo(world(), owners, grid.mesh, grid.flags(0), {no_blocks, all_moved});
+  StarHalo halo(world(), owners, grid.mesh, grid.flags(0), {no_blocks, all_moved}, {});
   halo.grow(true);
   EXPECT_TRUE(halo.triangles().empty());
   EXPECT_TRUE(halo.complete());
