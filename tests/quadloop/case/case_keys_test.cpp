@@ -52,6 +52,7 @@ class Dump {
   void add_one(const Box& b) { add(b.low, b.high); }
   void add_one(const SizeSource::Disc& d) { add(d.centre, d.radius); }
   void add_one(const SizeSource::Line& l) { add(l.from, l.to); }
+  void add_one(const SizeSource::Block& b) { add(b.name); }
   void add_one(const RootOptions& r) { add(r.corner, r.tree_edge, r.trees_x, r.trees_y); }
   void add_one(const FarField& f) { add(f.shape, f.radius, f.spacing); }
   void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
@@ -69,7 +70,7 @@ class Dump {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }
   void add_one(const LineRule& l) { add(l.name, l.boundary, l.path, l.baffle); }
-  void add_one(const BlockRule& b) { add(b.name, b.boundaries, b.loop, b.inside); }
+  void add_one(const BlockRule& b) { add(b.name, b.boundaries, b.loop, b.inside, b.spacing); }
   void add_one(const SizeSource& s) {
     std::visit([&](const auto& shape) { add_one(shape); }, s.shape);
     add(s.spacing);
