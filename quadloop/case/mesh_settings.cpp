@@ -244,7 +244,8 @@ const KeyTable<LineRule>& line_keys() {
       {key<&LineRule::name>(
            "name", text(),
            "Name of the line: `[boundary.NAME]` sets its `spacing` and `corner`. Without it that "
-           "of `boundary`."),
+           "of `boundary`.",
+           {.example = "\"screen\""}),
        key<&LineRule::path>("path", path_of_line(),
                             "The points of the line, which is closed if it ends where it begins. A line has "
                             "either `path` or `boundary`."),
