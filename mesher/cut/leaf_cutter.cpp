@@ -89,6 +89,12 @@ bool is_on_interface(const Geometry& geometry, std::int32_t v) {
   return geometry.has_twins() && (geometry.twin(v) >= 0 || geometry.twin(geometry.previous(v)) >= 0);
 }
 
+/// Whether a point is at the snapped vertex before it moved, and is where it moves, up to rounding.
+bool touches(const Snap& snap, Point p) {
+  const double rounding = 1e-9 * snap.radius;
+  return length(p - snap.position) < rounding && length(p - snap.centre) < rounding;
+}
+
 /// The side of the leaf that holds the point, without its corners, if any.
 std::optional<Side> side_at(const Box& box, Point p) {
   const bool on_x = p.x == box.low.x || p.x == box.high.x, on_y = p.y == box.low.y || p.y == box.high.y;
@@ -128,7 +134,10 @@ std::pmr::vector<Stop> stops_round(const Geometry& geometry, const Input& input,
   for (const std::int32_t v : geometry.has_twins() ? input.trace.vertices : std::span<const std::int32_t>()) {
     const Point p = geometry.point(v);
     const std::optional<Side> side = side_at(box, p);
-    if (side && geometry.kept(v) && is_on_interface(geometry, v)) add(*side, p, elsewhere_on(*side), -1, -1);
+    const auto is_there = [&](const LeafSnap& one) { return touches(*one.snap, p); };
+    if (side && geometry.kept(v) && is_on_interface(geometry, v) &&
+        std::ranges::none_of(input.snaps, is_there))
+      add(*side, p, elsewhere_on(*side), -1, -1);
   }
   const auto comes_first = [](const Stop& a, const Stop& b) {
     return a.side != b.side     ? a.side < b.side
@@ -148,22 +157,17 @@ struct NamedCrossing {
   std::int32_t node = -1;
 };
 
-/// Whether a crossing of a segment between two blocks is at the snapped vertex up to rounding. Where such a
-/// boundary touches a grid line, only the segments of one block cross it there, and the snap was chosen from
-/// those of the other block.
-bool touches(const Geometry& geometry, const Snap& snap, const Crossing& crossing) {
-  constexpr double rounding = 1e-9;
-  return geometry.twin(crossing.segment) >= 0 &&
-         length(crossing.position - snap.position) < rounding * snap.radius;
-}
-
-/// Returns the number of the snap that absorbs the crossing; -1 for none.
+/// Returns the number of the snap that absorbs the crossing; -1 for none. Where a boundary between two blocks
+/// touches a grid line up to rounding, only the segments of one block cross it, and the snap was chosen from
+/// those of the other block: it absorbs both.
 std::int32_t absorbing_snap(const Geometry& geometry, std::span<const LeafSnap> snaps,
                             const Crossing& crossing) {
   for (const LeafSnap& s : snaps) {
     if (!sides_of(s.site).contains(crossing.side)) continue;
     const Snap::Absorbed wanted{crossing.segment, is_vertical(crossing.side)};
-    if (std::ranges::binary_search(s.snap->absorbed, wanted) || touches(geometry, *s.snap, crossing))
+    const bool between_blocks = geometry.twin(crossing.segment) >= 0;
+    if (std::ranges::binary_search(s.snap->absorbed, wanted) ||
+        (between_blocks && touches(*s.snap, crossing.position)))
       return static_cast<std::int32_t>(&s - snaps.data());
   }
   return -1;

@@ -199,7 +199,7 @@ class CaseKeys : public ::testing::Test {
         name == "shape.name")
       accepted.set(table.text(), "code");
     if (name == "source.spacing") accepted.set(table.text(), "box");
-    if (name == "block.name") accepted.set(table.text(), "inside");
+    if (name == "block.name" || name == "block.spacing") accepted.set(table.text(), "inside");
     if (name == "line.name" || name == "line.kind") accepted.set(table.text(), "boundary");
     if (name == "line.kind" || name == "line.path") accepted.set(table.text(), "name");
     accepted.set(table.text(), key.text.name);
