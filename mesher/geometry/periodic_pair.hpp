@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "mesher/geometry/point.hpp"
-#include "mesher/geometry/turn.hpp"
 
 namespace quadloop {
 
@@ -19,13 +18,9 @@ struct PeriodicPair {
 
   bool rotates() const { return degrees != 0; }
   /// The point on `to` that belongs to a point on `from`.
-  Point image(Point p) const {
-    return rotates() ? turned_about(centre, p, unit_vector(degrees)) : p + translation;
-  }
+  Point image(Point p) const;
   /// The point on `from` whose image is p, up to rounding.
-  Point source(Point p) const {
-    return rotates() ? turned_about(centre, p, unit_vector(-degrees)) : p - translation;
-  }
+  Point source(Point p) const;
 
   friend bool operator==(const PeriodicPair&, const PeriodicPair&) = default;
 };

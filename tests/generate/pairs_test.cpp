@@ -12,6 +12,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/shapes.hpp"
+#include "mesher/geometry/turn.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"

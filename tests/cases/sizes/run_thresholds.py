@@ -66,7 +66,7 @@ def check_cap(program, case, folder, indicator):
 
 def check_wanted_nodes(program, case, folder):
     """On a mesh of a thousand nodes: on a coarser one a single mark, by gradation, adds a twentieth of them."""
-    fine = ["--set", "spacing.max=0.065", "--set", "spacing.min=0.05"]
+    fine = ["--set", "spacing.max=0.0625", "--set", "spacing.min=0.05"]
     adapt(program, case, folder / "base", options=[*fine, "--cycles", "0"])
     base = record_of(folder / "base", 0)["nodes"]
     for factor in (1.3, 2, 3):
