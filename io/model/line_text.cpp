@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "io/model/layers_text.hpp"
 #include "io/text/text_scanner.hpp"
 
 namespace quadloop::io {
