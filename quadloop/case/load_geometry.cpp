@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,36 @@ void warn_of_conditions_left_out(const Geometry& whole, const Geometry& half,
 
 }  // namespace
 
+namespace {
+
+/// The names of the blocks beside a boundary, in their order.
+std::set<std::string> blocks_beside(const Geometry& geometry, const Boundary& boundary) {
+  std::set<std::string> names;
+  for (std::int32_t s = 0; geometry.has_blocks() && s < geometry.size(); ++s) {
+    if (geometry.boundary(geometry.boundary_of(s)).name == boundary.name)
+      names.insert(geometry.block_names()[geometry.block_of(s)]);
+  }
+  return names;
+}
+
+/// Throws InputError for layers in a block that is not beside their boundary.
+void require_blocks_of_layers(const Settings& settings, const Geometry& geometry) {
+  for (const Boundary& boundary : geometry.boundaries()) {
+    if (!boundary.layers || boundary.layers_in.empty()) continue;
+    const std::set<std::string> beside = blocks_beside(geometry, boundary);
+    if (beside.contains(boundary.layers_in)) continue;
+    const auto rule = std::ranges::find(settings.outline.rules, std::optional(boundary.layers_in),
+                                        &BoundaryRule::layers_in);
+    throw InputError(fmt::format("{}: layers_in = \"{}\": {}", rule->where, boundary.layers_in,
+                                 beside.empty()
+                                     ? "the case has no [[block]]; remove this key"
+                                     : fmt::format("no block of this name is beside boundary '{}'; name {}",
+                                                   boundary.name, fmt::join(beside, " or "))));
+  }
+}
+
+}  // namespace
+
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
                        const std::optional<TreeAttributes>& saved, std::vector<FileExtent>* extents) {
   std::vector<Chain> chains;
@@ -122,6 +153,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   }
   Geometry geometry = assemble(std::move(chains), options, warnings);
   require_no_conditions(settings, geometry);
+  require_blocks_of_layers(settings, geometry);
   if (!axis) return geometry;
   const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);
   if (!settings.half) return geometry;

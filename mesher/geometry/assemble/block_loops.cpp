@@ -283,7 +283,7 @@ class LoopMaker {
   /// Warns about chains, or parts of them, that bound no block, and about those of inner lines that lie on
   /// other chains. Throws InputError for an inner line of which nothing is left.
   void warn_of_dropped(std::vector<std::string>& warnings) const {
-    std::map<std::string, std::pair<std::int64_t, Point>> bare, covered;
+    std::map<std::string, std::pair<std::int64_t, Point>> bare, outside, covered;
     std::map<std::string, std::int32_t> standing;
     const auto note = [&](auto& dropped, const std::string& name, std::int32_t e) {
       ++dropped.try_emplace(name, 0, lines_.start(e)).first->second.first;
@@ -293,7 +293,7 @@ class LoopMaker {
       if (blocks_.bounds(e) || blocks_.bounds(e + 1))
         ++standing[name];
       else
-        note(bare, name, e);
+        note(lines_.chain(e).inner_line ? outside : bare, name, e);
       for (const Chain* chain : lines_.covered_lines(e)) note(covered, chain->name, e);
     }
     for (const Chain& chain : lines_.chains()) {
@@ -309,6 +309,7 @@ class LoopMaker {
                                        found.first == 1 ? "was" : "were", coordinates(found.second)));
     };
     warn(bare, "with the same block, or none, on both sides");
+    warn(outside, "of the inner line outside the domain");
     warn(covered, "of the inner line that lie on another boundary or line");
   }
 

@@ -412,6 +412,17 @@ TEST_F(SettingsTest, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
     EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
 }
 
+TEST_F(SettingsTest, LayersAreInABlockBesideTheirBoundary) {
+  const std::string layers = "[boundary.box]\nlayers = { first = 0.01, count = 2 }\nlayers_in = \"gsa\"\n";
+  EXPECT_NE(refused(layers).find("the case has no [[block]]; remove this key"), std::string::npos);
+  const std::string block = "[[block]]\nname = \"gas\"\nloop = \"box\"\n";
+  const std::string said = refused(block + layers);
+  EXPECT_NE(said.find("[boundary.box]: layers_in = \"gsa\": no block of this name is beside boundary 'box'; "
+                      "name gas"),
+            std::string::npos)
+      << said;
+}
+
 TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacing]\nfoo = 1\n").find("case.toml:4: unknown key 'spacing.foo'"), 0u);
   EXPECT_EQ(refused("[spacings]\n").find("case.toml:3: unknown key 'spacings'"), 0u);
