@@ -15,6 +15,7 @@
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/half_edges.hpp"
 #include "mesher/geometry/assemble/split_loops.hpp"
+#include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/geometry/predicates.hpp"
 
 namespace quadloop {
@@ -194,7 +195,9 @@ class FaceBlocks {
   std::int32_t face_of_point(const BlockRule& rule) const {
     const Point p = *rule.inside;
     for (std::int32_t e = 0; e < graph_.size(); e += 2) {
-      if (on_segment(p, lines_.start(e), lines_.end(e)))
+      const Point from = lines_.start(e), to = lines_.end(e);
+      constexpr double rounding = 1e-9;
+      if (length(nearest_on_segment(p, from, to) - p) <= rounding * length(to - from))
         throw InputError(fmt::format("{}: block '{}': the point {} lies on boundary '{}'; move it",
                                      rule.where, rule.name, coordinates(p), lines_.chain(e).name));
     }

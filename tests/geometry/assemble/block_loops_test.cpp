@@ -181,6 +181,8 @@ TEST(BlockLoops, RunAlongInnerLinesAndBack) {
 TEST(BlockLoops, RefusesWithThePlace) {
   expect_refusal(nested(), {inside("fluid", {9, 9})}, "(9, 9)");
   expect_refusal(nested(), {inside("fluid", {5, 2})}, "lies on boundary 'wall'");
+  expect_refusal(nested(), {inside("fluid", {5, 2 + 1e-16})}, "lies on boundary 'wall'");
+  expect_refusal(nested(), {inside("fluid", {5 - 1e-12, 2})}, "lies on boundary 'wall'");
   expect_refusal(nested(), {within("solid", "rings")}, "no boundary 'rings'");
   expect_refusal(nested(), {within("solid", "ring"), inside("fluid", {0.75, 0}), inside("fluid", {0, 0})},
                  "block 'solid' has no region of its own");
