@@ -312,17 +312,26 @@ class ZoneReader {
     }
   }
 
-  /// Takes lists of nodes only: nodes that are connected in other ways are found by their places.
-  void read_connection(int connection, std::vector<ZoneConnection>& connections) const {
+  /// What libcgns tells of a GridConnectivity_t node.
+  struct Connectivity {
     Name name{}, donor{};
     GridLocation_t location = Vertex;
     GridConnectivityType_t type = GridConnectivityTypeNull;
     PointSetType_t set = PointSetTypeNull, donor_set = PointSetTypeNull;
+    cgsize_t count = 0, donors = 0;
+  };
+  Connectivity connectivity(int connection) const {
+    Connectivity c;
     ZoneType_t donor_zone = ZoneTypeNull;
     DataType_t donor_type = DataTypeNull;
-    cgsize_t count = 0, donors = 0;
-    file_.check(cg_conn_info(file_.id(), 1, zone_, connection, name.data(), &location, &type, &set, &count,
-                             donor.data(), &donor_zone, &donor_set, &donor_type, &donors));
+    file_.check(cg_conn_info(file_.id(), 1, zone_, connection, c.name.data(), &c.location, &c.type, &c.set,
+                             &c.count, c.donor.data(), &donor_zone, &c.donor_set, &donor_type, &c.donors));
+    return c;
+  }
+
+  /// Takes lists of nodes only: nodes that are connected in other ways are found by their places.
+  void read_connection(int connection, std::vector<ZoneConnection>& connections) const {
+    const auto [name, donor, location, type, set, donor_set, count, donors] = connectivity(connection);
     const bool lists_nodes = type == Abutting1to1 && location == Vertex && set == PointList &&
                              donor_set == PointListDonor && count > 0 && count == donors;
     if (!lists_nodes || donor.data() == name_) return;
@@ -339,26 +348,19 @@ class ZoneReader {
   }
 
   void mark_periodic(int connection) {
-    Name name{}, donor{};
-    GridLocation_t location = Vertex;
-    GridConnectivityType_t type = GridConnectivityTypeNull;
-    PointSetType_t set = PointSetTypeNull, donor_set = PointSetTypeNull;
-    ZoneType_t donor_zone = ZoneTypeNull;
-    DataType_t donor_type = DataTypeNull;
-    cgsize_t count = 0, donors = 0;
-    file_.check(cg_conn_info(file_.id(), 1, zone_, connection, name.data(), &location, &type, &set, &count,
-                             donor.data(), &donor_zone, &donor_set, &donor_type, &donors));
+    const Connectivity about = connectivity(connection);
+    const cgsize_t count = about.count;
     if (count < 1) return;
     std::vector<cgsize_t> numbers(count);
     file_.check(cg_conn_read_short(file_.id(), 1, zone_, connection, numbers.data()));
-    if (set == PointRange && count == 2) {
+    if (about.set == PointRange && count == 2) {
       if (numbers[1] - numbers[0] > std::max<std::int64_t>(nodes_, faces_.size()))
-        refuse("connectivity " + std::string(name.data()) + " is of " + range_text(numbers[0], numbers[1]) +
-               ", which is more than there are");
+        refuse("connectivity " + std::string(about.name.data()) + " is of " +
+               range_text(numbers[0], numbers[1]) + ", which is more than there are");
       for (cgsize_t number = numbers[0] + 1; number < numbers[1]; ++number) numbers.push_back(number);
     }
     for (const cgsize_t number : numbers) {
-      if (location == Vertex)
+      if (about.location == Vertex)
         mesh_.periodic_nodes.push_back(node_of(number));
       else if (const auto edge = faces_.find(number))
         mesh_.periodic_nodes.insert(mesh_.periodic_nodes.end(), edge->begin(), edge->begin() + 2);
