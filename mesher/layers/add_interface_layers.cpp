@@ -183,25 +183,17 @@ std::vector<std::int32_t> InterfaceBuilder::nodes_behind() {
 /// Sends the new numbers of feet, of the front's nodes and of ordinary columns' nodes to all ranks; those of
 /// the added nodes follow from them.
 void InterfaceBuilder::exchange_numbers() {
-  struct Renumbered {
-    GlobalNodeId before;
-    GrownNode node;
-  };
-  std::vector<Renumbered> own;
-  const auto tell = [&](GlobalNodeId node) {
-    if (owners_.rank_of(node) == comm_.rank()) own.push_back({node, grown_->node(owners_.local(node))});
-  };
+  std::vector<GlobalNodeId> wanted;
   for (const FilledInterface& filled : filled_) {
-    for (const InterfaceFoot& foot : filled.feet()) tell(foot.node);
-    for (const FrontNode& top : filled.tops()) tell(top.node);
+    for (const InterfaceFoot& foot : filled.feet()) wanted.push_back(foot.node);
+    for (const FrontNode& top : filled.tops()) wanted.push_back(top.node);
     for (const FilledInterface::Column& column : filled.columns()) {
       if (!column.is_walls) continue;
       for (int ring = 1; ring < filled.layers(); ++ring)
-        tell(GlobalNodeId{filled.tops()[column.top].node.value() + ring});
+        wanted.push_back(GlobalNodeId{filled.tops()[column.top].node.value() + ring});
     }
   }
-  for (const Renumbered& r : comm_.all_gather_values(std::span<const Renumbered>(own)))
-    grown_nodes_.emplace(r.before, r.node);
+  grown_nodes_ = grown_->nodes(wanted);
   for (const FilledInterface& filled : filled_) first_of_column_.emplace_back(filled.columns().size());
   GlobalNodeId before;
   std::int64_t next = 0;

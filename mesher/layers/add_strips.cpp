@@ -127,25 +127,17 @@ std::vector<std::int32_t> StripBuilder::nodes_behind() {
 
 /// Sends the new numbers of the fronts' nodes to all ranks; those of the columns' nodes follow from them.
 void StripBuilder::exchange_numbers() {
-  struct Renumbered {
-    GlobalNodeId before;
-    GrownNode node;
-  };
-  std::vector<Renumbered> own;
-  const auto tell = [&](GlobalNodeId node) {
-    if (owners_.rank_of(node) == comm_.rank()) own.push_back({node, grown_->node(owners_.local(node))});
-  };
+  std::vector<GlobalNodeId> wanted;
   for (const FilledStrip& strip : strips_) {
-    for (const FrontEdge& edge : strip.front()) tell(edge.nodes[0]);
+    for (const FrontEdge& edge : strip.front()) wanted.push_back(edge.nodes[0]);
     if (!strip.strip().root) continue;
-    tell(strip.front().back().nodes[1]);
+    wanted.push_back(strip.front().back().nodes[1]);
     for (std::int32_t ring = 0; ring < strip.strip().layers; ++ring) {
-      tell(wall_node(strip, true, ring));
-      if (ring > 0 || strip.strip().core > 0) tell(wall_node(strip, false, ring));
+      wanted.push_back(wall_node(strip, true, ring));
+      if (ring > 0 || strip.strip().core > 0) wanted.push_back(wall_node(strip, false, ring));
     }
   }
-  for (const Renumbered& r : comm_.all_gather_values(std::span<const Renumbered>(own)))
-    grown_nodes_.emplace(r.before, r.node);
+  grown_nodes_ = grown_->nodes(wanted);
   for (const FilledStrip& strip : strips_) first_of_column_.emplace_back(strip.columns());
   GlobalNodeId before;
   std::int64_t next = 0;

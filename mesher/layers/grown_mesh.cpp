@@ -29,6 +29,22 @@ GrownMesh::GrownMesh(const Communicator& comm, const std::vector<std::int32_t>& 
   NodeExchange(comm_, NodeOwners(comm_, mesh_.first_node), mesh_.owned_nodes, mesh_.ghosts).update(after_);
 }
 
+std::map<GlobalNodeId, GrownNode> GrownMesh::nodes(std::span<const GlobalNodeId> before) const {
+  struct Renumbered {
+    GlobalNodeId before;
+    GrownNode node;
+  };
+  const NodeOwners owners(comm_, mesh_.first_node);
+  std::vector<Renumbered> own;
+  for (const GlobalNodeId id : before) {
+    if (owners.rank_of(id) == comm_.rank()) own.push_back({id, node(owners.local(id))});
+  }
+  std::map<GlobalNodeId, GrownNode> all;
+  for (const Renumbered& r : comm_.all_gather_values(std::span<const Renumbered>(own)))
+    all.emplace(r.before, r.node);
+  return all;
+}
+
 void GrownMesh::use(const GrownNode& node) {
   if (!owns(node.id)) ghosts_.emplace(node.id, node.point);
 }

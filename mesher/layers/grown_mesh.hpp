@@ -37,6 +37,9 @@ class GrownMesh {
 
   /// An existing node, by its former number on this rank.
   GrownNode node(NodeId before) const { return {after_[before], mesh_.point(before)}; }
+  /// Existing nodes of any ranks, by their former global numbers. Each node must be in `before` at least on
+  /// its owner. *Collective.*
+  std::map<GlobalNodeId, GrownNode> nodes(std::span<const GlobalNodeId> before) const;
 
   /// Sets the beginning of the error message for bad cells, and its advice, for cells added from now on.
   void begin_cells_of(const std::string& whose, const std::string& cure) { whose_ = whose, cure_ = cure; }
