@@ -126,6 +126,7 @@ io::LoadedMesh load(const CommandContext& context, const ExtrudeArguments& argum
     warnings = whole.warnings;
     for (std::string& loss : io::drop_interfaces(whole, arguments.output))
       warnings.push_back(std::move(loss));
+    io::list_inner_curves(whole);
   });
   return whole;
 }

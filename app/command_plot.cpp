@@ -138,6 +138,7 @@ void add_quantity(io::LoadedMesh& loaded, const std::string& field) {
 
 std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {
   io::LoadedMesh loaded = io::read_mesh(arguments.input);
+  io::list_inner_curves(loaded);
   try {
     add_quantity(loaded, task.options.field);
     return io::draw_mesh(loaded, task.options, task.format);

@@ -94,7 +94,8 @@ FileFormat medit_row() {
           .places = {Content::mesh, Content::blocks},
           .read = read_medit,
           .write = write_medit,
-          .boundary_names = medit_boundary_names};
+          .boundary_names = medit_boundary_names,
+          .stores_lines = true};
 }
 
 /// The native formats: text and binary.
@@ -109,7 +110,8 @@ std::vector<FileFormat> native_rows() {
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
-           .write = write_binary}};
+           .write = write_binary,
+           .stores_lines = true}};
 }
 
 FileFormat cgns_row() {
@@ -121,6 +123,7 @@ FileFormat cgns_row() {
           .write = write_cgns,
           .boundary_names = cgns_boundary_names,
           .variable_names = cgns_variable_renames,
+          .stores_lines = true,
           .single_block_name = false,
           .has_zones = true};
 }
@@ -140,7 +143,8 @@ std::vector<FileFormat> vtk_rows() {
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
            .write = write_pvtu,
-           .file_beside = pvtu_piece_path}};
+           .file_beside = pvtu_piece_path,
+           .stores_lines = true}};
 }
 
 FileFormat su2_row() {
@@ -163,7 +167,8 @@ FileFormat fluent_row() {
           .boundary_names = fluent_zone_names,
           .condition_in_file =
               [](BoundaryCondition condition) { return condition_of_fluent(fluent_number(condition)); },
-          .unknown_boundary = "a wall"};
+          .unknown_boundary = "a wall",
+          .stores_lines = true};
 }
 
 FileFormat plane_ugrid_row() {
@@ -188,6 +193,7 @@ FileFormat foam_row() {
           .boundary_names = foam_patch_names,
           .unknown_boundary = "a plain patch, no wall",
           .stores_interfaces = false,
+          .stores_lines = true,
           .single_block_name = false,
           .is_folder = true};
 }

@@ -159,7 +159,8 @@ std::string lost_conditions(const MeshContent& content, const FileFormat& format
     for (std::size_t b = 0; b < content.conditions.size() && written != condition; ++b) {
       const std::string& name = content.boundary_names[b];
       const bool is_open =
-          condition == BoundaryCondition::none && std::ranges::count(content.interfaces, name) > 0;
+          condition == BoundaryCondition::none &&
+          std::ranges::count(content.interfaces, name) + std::ranges::count(content.lines, name) > 0;
       if (content.conditions[b] == condition && !is_open) names.push_back(name);
     }
     if (names.empty()) continue;
@@ -289,11 +290,7 @@ void write_mesh(OutputSet& outputs, const LoadedMesh& whole, const std::string& 
   if (!has_zones && !has_lines) return row->write(outputs, MeshStream(outputs.communicator(), whole), path);
   LoadedMesh written = whole;
   if (has_zones) name_interfaces(written);
-  for (const BoundaryEdges& curve : whole.inner_curves) {
-    if (!has_lines) break;
-    written.mesh.boundaries.push_back(curve);
-    written.mesh.boundaries.back().inner_line = true;
-  }
+  if (has_lines) list_inner_curves(written);
   row->write(
       outputs,
       MeshStream(outputs.communicator(), written, has_lines ? EdgeChoice::all : EdgeChoice::boundaries),
@@ -371,11 +368,15 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
       losses.push_back(
           fmt::format("{}: a boundary is named '{}'; that end of the 3D mesh is '{}'", path, wanted, *name));
   }
-  MeshContent content = content_of(mesh.plane.boundaries);
+  std::vector<BoundaryEdges> sides = mesh.plane.boundaries;
+  std::erase_if(sides, &BoundaryEdges::inner_line);
+  MeshContent content = content_of(sides);
   content.solution = mesh.solution;
   std::ranges::move(losses_of(content, *row, path), std::back_inserter(losses));
   if (!mesh.plane.pairs.empty() && !row->is_folder)
     losses.push_back(path + ": periodic pairs are written to a polyMesh only, and are omitted");
+  if (sides.size() < mesh.plane.boundaries.size() && !row->is_folder)
+    losses.push_back(path + ": inner lines are written to a polyMesh only, and are omitted");
   return losses;
 }
 

@@ -189,7 +189,8 @@ class ZoneReader {
     if (first < 1 || elements < 1 || size < 0)
       refuse("section " + std::string(name.data()) + " is said to hold the elements " +
              range_text(first, last));
-    faces_.begin_section(name.data());
+    file_.check(cg_goto(file_.id(), 1, "Zone_t", zone_, "Elements_t", section, "end"));
+    faces_.begin_section(file_.descriptor_here(full_name_descriptor).value_or(name.data()));
     std::vector<cgsize_t> data(size);
     const std::int64_t found =
         type == MIXED ? read_mixed(section, data, first) : read_rows(section, type, data, first);

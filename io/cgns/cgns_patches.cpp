@@ -28,14 +28,21 @@ void CgnsPatches::end_zone() {
   conditions_ = {};
 }
 
-void CgnsPatches::begin_section(const std::string& name, ElementType_t type, std::int64_t elements) {
+CgnsNodes::Node CgnsPatches::begin_section(const std::string& name, ElementType_t type,
+                                           std::int64_t elements) {
   const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(elements) - 1};
   next_ = range[1] + 1;
   const std::array<std::int32_t, 2> type_and_parents{type, 0};
-  const CgnsNodes::Node section = nodes_.add_integers(zone_, name, "Elements_t", type_and_parents);
+  CgnsNodes::Node section = nodes_.add_integers(zone_, name, "Elements_t", type_and_parents);
   nodes_.add_integers(section, "ElementRange", "IndexRange_t", range);
   elements_.emplace(
       nodes_.add_array(section, "ElementConnectivity", "DataArray_t", nodes_of(type) * elements));
+  return section;
+}
+
+void CgnsPatches::put_full_name(const CgnsNodes::Node& node, const std::string& in_file,
+                                const std::string& name) {
+  if (in_file != name) nodes_.add_text(node, full_name_descriptor, "Descriptor_t", name);
 }
 
 void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& boundary,
@@ -52,7 +59,7 @@ void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& bo
   nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
   nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(location));
   nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
-  if (name != boundary.name) nodes_.add_text(condition, full_name_descriptor, "Descriptor_t", boundary.name);
+  put_full_name(condition, name, boundary.name);
   if (boundary.layers.count > 0)
     nodes_.add_text(condition, layers_descriptor, "Descriptor_t", text_of_layers(boundary.layers));
 }
@@ -123,7 +130,7 @@ CgnsNodes::Node CgnsPatches::put_connection(const std::string& zone, const std::
 void CgnsPatches::put_block(const std::string& zone, std::int32_t number, const std::string& name) {
   const CgnsNodes::Node node = nodes_.at(CgnsSink::path_of_zone(zone));
   nodes_.add_integers(node, "Ordinal", "Ordinal_t", std::array{number});
-  if (zone != name) nodes_.add_text(node, full_name_descriptor, "Descriptor_t", name);
+  put_full_name(node, zone, name);
 }
 
 void CgnsPatches::close() {

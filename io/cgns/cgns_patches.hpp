@@ -30,7 +30,9 @@ class CgnsPatches {
 
   void begin_patch() { first_ = next_; }
   /// Begins a section of the current patch; its elements must be written before the next section.
-  void begin_section(const std::string& name, ElementType_t type, std::int64_t elements);
+  CgnsNodes::Node begin_section(const std::string& name, ElementType_t type, std::int64_t elements);
+  /// Stores the original name of a node, unless that is its name in the file.
+  void put_full_name(const CgnsNodes::Node& node, const std::string& in_file, const std::string& name);
   /// Call after the last section of the patch has begun. `boundary` provides original name, condition and
   /// layers.
   void put_condition(const std::string& name, const BoundaryEdges& boundary, GridLocation_t location);

@@ -13,6 +13,7 @@ MeshOfFile read_cgns(const std::string& path) {
   if (mesh.dimension == 3) return mesh;
   LoadedMesh loaded = loaded_mesh_of(std::move(mesh));
   if (loaded.blocks > 1) keep_first_mentions(loaded);
+  separate_inner_curves(loaded, EdgeTable(loaded.mesh), path);
   return loaded;
 }
 

@@ -166,8 +166,11 @@ class CgnsZoneWriter {
           const BoundaryEdges* const boundary = stream_.boundaries()->present()[n];
           const std::string& name = names_.of(boundary - boundaries.data());
           patches_->begin_patch();
-          patches_->begin_section(name, BAR_2, stream_.patches()[n].edges);
-          patches_->put_condition(name, *boundary, EdgeCenter);
+          const CgnsNodes::Node section = patches_->begin_section(name, BAR_2, stream_.patches()[n].edges);
+          if (boundary->inner_line)
+            patches_->put_full_name(section, name, boundary->name);
+          else
+            patches_->put_condition(name, *boundary, EdgeCenter);
         },
         [&](std::span<const BoundaryStream::Edge> edges) { patches_->put(edges); });
     const Mesh& mesh = stream_.extruded()->plane;

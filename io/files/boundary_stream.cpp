@@ -16,15 +16,12 @@ constexpr std::int64_t edges_per_piece = std::int64_t{1}
 }  // namespace
 
 BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeChoice choice)
-    : comm_{comm}, mesh_{mesh} {
-  const auto is_chosen = [&](const BoundaryEdges& boundary) {
-    return choice == EdgeChoice::all || boundary.inner_line == (choice == EdgeChoice::inner_lines);
-  };
+    : comm_{comm}, mesh_{mesh}, choice_{choice} {
   std::vector<Share> own;
   own_before_.push_back(0);
   for (std::int64_t b = 0; b < std::ssize(mesh.boundaries); ++b) {
     const BoundaryEdges& boundary = mesh.boundaries[b];
-    const std::int64_t count = is_chosen(boundary) ? std::ssize(boundary.edges) : 0;
+    const std::int64_t count = is_chosen(boundary, choice) ? std::ssize(boundary.edges) : 0;
     own_before_.push_back(own_before_.back() + count);
     if (count > 0) own.push_back({b, comm.rank(), count});
   }
@@ -44,11 +41,17 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeC
   if (comm.is_root()) shares_ = std::move(all);
 }
 
-BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead)
-    : BoundaryStream(comm, mesh) {
-  instead_ = std::move(instead);
-  QUADLOOP_REQUIRE(std::ssize(instead_) == own_before_.back(), "numbers for each boundary edge",
-                   instead_.size(), own_before_.back());
+BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead,
+                               EdgeChoice choice)
+    : BoundaryStream(comm, mesh, choice) {
+  auto at = instead.begin();
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    const auto end = at + std::min(std::ssize(boundary.edges), instead.end() - at);
+    if (is_chosen(boundary, choice)) instead_.insert(instead_.end(), at, end);
+    at = end;
+  }
+  QUADLOOP_REQUIRE(at == instead.end() && std::ssize(instead_) == own_before_.back(),
+                   "numbers for each boundary edge", instead.size(), own_before_.back());
 }
 
 void BoundaryStream::run(const Begin& begin, const Put& put) const {

@@ -15,6 +15,10 @@ namespace quadloop::io {
 /// Which of Mesh::boundaries: those with cells on one side and interfaces, inner lines, or all.
 enum class EdgeChoice { boundaries, inner_lines, all };
 
+inline bool is_chosen(const BoundaryEdges& boundary, EdgeChoice choice) {
+  return choice == EdgeChoice::all || boundary.inner_line == (choice == EdgeChoice::inner_lines);
+}
+
 /// Streams the edges of all boundaries through rank 0: boundary after boundary, in each first those of rank
 /// 0, then of rank 1, and so on. The communication does not grow with the number of boundaries: counts are
 /// exchanged once, and pieces of edges may span boundaries.
@@ -24,10 +28,11 @@ class BoundaryStream {
 
   /// The mesh must outlive the object. *Collective.*
   BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeChoice choice = EdgeChoice::boundaries);
-  /// Streams two other numbers for each edge instead of its nodes: those of this rank's edges, boundary after
-  /// boundary.
-  BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead);
+  /// Streams two other numbers for each chosen edge instead of its nodes. `instead` has two for each boundary
+  /// edge of this rank, chosen or not, boundary after boundary.
+  BoundaryStream(const Communicator& comm, const Mesh& mesh, std::vector<Edge> instead, EdgeChoice choice);
 
+  EdgeChoice choice() const { return choice_; }
   std::int64_t all_edges() const { return all_edges_; }
   /// The boundaries that have edges on any rank, in their order; and their numbers of edges.
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
@@ -63,6 +68,7 @@ class BoundaryStream {
 
   const Communicator& comm_;
   const Mesh& mesh_;
+  EdgeChoice choice_;
   std::vector<const BoundaryEdges*> present_;
   std::vector<std::int64_t> edges_;  ///< for each of them, over all ranks
   /// Number of this rank's edges of the boundaries before each; the last entry counts all.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,23 @@ namespace quadloop::io {
 
 namespace {
 
-/// Returns the files of a polyMesh: the five mandatory ones and, for several blocks, the cell zones.
-std::vector<std::string> foam_files(const StreamBlocks& blocks) {
+/// Returns the names of the inner lines of a mesh that is written, by the indices of boundaries.
+std::map<std::int64_t, std::string> names_of_lines(const MeshStream& stream) {
+  std::map<std::int64_t, std::string> names;
+  if (stream.held() != nullptr) return names;
+  const std::vector<BoundaryEdges>& boundaries = stream.extruded()->plane.boundaries;
+  for (std::int64_t b = 0; b < std::ssize(boundaries); ++b) {
+    if (boundaries[b].inner_line) names.emplace(b, boundaries[b].name);
+  }
+  return names;
+}
+
+/// Returns the files of a polyMesh: the five mandatory ones, the cell zones of several blocks and the face
+/// zones of inner lines.
+std::vector<std::string> foam_files(const MeshStream& stream, const StreamBlocks& blocks) {
   std::vector<std::string> files{"points", "faces", "owner", "neighbour", "boundary"};
   if (blocks.several()) files.emplace_back("cellZones");
+  if (!names_of_lines(stream).empty()) files.emplace_back("faceZones");
   return files;
 }
 
@@ -58,7 +72,7 @@ class FoamWriter {
         stream_{stream},
         faces_{stream, StreamFaces::CellNumbers::as_streamed, path},
         blocks_{stream},
-        staged_{outputs.stage_folder(path, foam_files(blocks_))} {}
+        staged_{outputs.stage_folder(path, foam_files(stream, blocks_))} {}
 
   void write() {
     write_points();
@@ -66,7 +80,8 @@ class FoamWriter {
     write_owner();
     write_neighbour();
     write_boundary();
-    if (blocks_.several()) write_zones();
+    if (blocks_.several()) write_cell_zones();
+    if (!names_of_lines(stream_).empty()) write_face_zones();
   }
 
  private:
@@ -181,7 +196,7 @@ class FoamWriter {
   }
 
   /// Writes the file `cellZones`: a zone for each block.
-  void write_zones() {
+  void write_cell_zones() {
     TextOutput file(comm_, staged_[5]);
     const std::vector<std::string> names = foam_patch_names(blocks_.names());
     file.write(foam_head("regIOobject", "cellZones") + std::to_string(names.size()) + "\n(\n");
@@ -202,6 +217,30 @@ class FoamWriter {
     finish(file);
   }
 
+  /// Writes the file `faceZones`: a zone for each inner line. A face is flipped if its owner is on the right.
+  void write_face_zones() {
+    TextOutput file(comm_, staged_.back());
+    const std::map<std::int64_t, std::string> lines = names_of_lines(stream_);
+    const std::vector<StreamFaces::LineFace> faces = faces_.inner_line_faces();
+    std::vector<std::string> names;
+    for (const auto& [line, name] : lines) names.push_back(name);
+    names = foam_patch_names(names);
+    file.write(foam_head("regIOobject", "faceZones") + std::to_string(names.size()) + "\n(\n");
+    auto name = names.begin();
+    for (const auto& [line, unused] : lines) {
+      const auto own = std::ranges::equal_range(faces, line, {}, &StreamFaces::LineFace::line);
+      const std::string count = std::to_string(own.size());
+      file.write(*name++ + "\n{\n    type faceZone;\n    faceLabels      List<label>\n" + count + "\n(\n");
+      file.write_root_rows(std::ssize(own), 1,
+                           [&](TextRows& text, std::int64_t i) { text.put(own[i].face, '\n'); });
+      file.write(")\n;\n    flipMap         List<bool>\n" + count + "\n(\n");
+      file.write_root_rows(std::ssize(own), 1,
+                           [&](TextRows& text, std::int64_t i) { text.put(own[i].turned ? 1 : 0, '\n'); });
+      file.write(")\n;\n}\n");
+    }
+    finish(file);
+  }
+
   static void finish(TextOutput& file) {
     file.write(")\n");
     file.close();
@@ -215,13 +254,14 @@ class FoamWriter {
   std::vector<StagedFile> staged_;
 };
 
-/// Returns the mesh without the boundary edges that have cells on both sides. *Collective.*
+/// Returns the mesh without the edges of interfaces, which have cells on both sides. *Collective.*
 Mesh without_interfaces(const Communicator& comm, const Mesh& mesh) {
   Mesh result = mesh;
   const std::vector<std::int64_t> right = cells_right_of_boundaries(comm, mesh);
   auto at = right.begin();
   for (BoundaryEdges& boundary : result.boundaries)
-    std::erase_if(boundary.edges, [&](const auto&) { return *at++ != EdgeCells::none; });
+    std::erase_if(boundary.edges,
+                  [&](const auto&) { return *at++ != EdgeCells::none && !boundary.inner_line; });
   return result;
 }
 

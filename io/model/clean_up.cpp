@@ -349,9 +349,9 @@ void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std
   }
   if (names.empty()) return;
   std::erase_if(loaded.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  loaded.warnings.push_back(
-      fmt::format("{}: left out {} between two cells, which cannot be boundary edges: those of {}", path,
-                  counted(count, "edge"), some_names(names)));
+  loaded.warnings.push_back(fmt::format("{}: {} between two cells {} inner lines, no boundaries: {}", path,
+                                        counted(count, "edge"), count == 1 ? "is of" : "are of",
+                                        some_names(names)));
 }
 
 void drop_empty_groups(FileMesh& mesh) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesh/field.hpp"
@@ -23,6 +24,15 @@ struct LoadedMesh {
   std::optional<Field> solution = {};
   std::vector<std::string> warnings = {};  ///< what the reader reversed or omitted, with the file's name
 };
+
+/// Moves the inner curves to the boundaries of the mesh, where they are inner lines.
+inline void list_inner_curves(LoadedMesh& loaded) {
+  for (BoundaryEdges& curve : loaded.inner_curves) {
+    curve.inner_line = true;
+    loaded.mesh.boundaries.push_back(std::move(curve));
+  }
+  loaded.inner_curves.clear();
+}
 
 /// Name of a block, numbered from 0, for which a file has none: "domain" if it is the only one.
 inline std::string usual_block_name(std::int32_t blocks, std::int32_t block) {

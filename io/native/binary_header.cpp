@@ -70,6 +70,10 @@ class HeaderParser {
       header_.boundaries.push_back({"", condition(), edges});
       if (line_.empty()) refuse("a boundary has a name");
       header_.boundaries.back().name = line_;
+    } else if (take("line ")) {
+      const std::int64_t edges = count("edges");
+      if (line_.empty()) refuse("an inner line has a name");
+      header_.boundaries.push_back({std::string(line_), {}, edges, {}, true});
     } else if (take("layers ")) {
       if (header_.boundaries.empty()) refuse("layers stand behind their boundary");
       header_.boundaries.back().layers = layers_of_text(line_);
@@ -167,8 +171,9 @@ std::string text_of(const BinaryHeader& header) {
   std::string lines = fmt::format("nodes {}\nnode_bytes {}\n", header.nodes, header.node_bytes);
   for (const auto& [name, triangles, quads] : header.blocks)
     lines += fmt::format("block {} {} {}\n", triangles, quads, one_line(name));
-  for (const auto& [name, condition, edges, layers] : header.boundaries) {
-    lines += fmt::format("boundary {} {} {}\n", edges, condition.word(), one_line(name));
+  for (const auto& [name, condition, edges, layers, inner_line] : header.boundaries) {
+    lines += inner_line ? fmt::format("line {} {}\n", edges, one_line(name))
+                        : fmt::format("boundary {} {} {}\n", edges, condition.word(), one_line(name));
     if (layers.count > 0) lines += "layers " + text_of_layers(layers) + "\n";
   }
   if (header.constants > 0) lines += fmt::format("constants {}\n", header.constants);

@@ -20,6 +20,7 @@ struct BinaryHeader {
     BoundaryCondition condition;
     std::int64_t edges = 0;
     WallLayers layers = {};
+    bool inner_line = false;
   };
 
   std::int64_t nodes = 0;

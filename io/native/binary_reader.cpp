@@ -133,7 +133,12 @@ class BinaryReader {
       loaded_.quad_to_block.resize(loaded_.quad_to_block.size() + quads, b);
     }
     NameIndex names;
-    for (const auto& [name, condition, edges, layers] : header_.boundaries) {
+    for (const auto& [name, condition, edges, layers, inner_line] : header_.boundaries) {
+      if (inner_line) {
+        loaded_.inner_curves.push_back({.name = name, .condition = {}, .edges = {}});
+        read_rows<Number>(edges, "edge of an inner line", loaded_.inner_curves.back().edges);
+        continue;
+      }
       const auto [index, is_new] = names.entry_of(name);
       if (is_new) mesh.boundaries.push_back({name, condition, {}, layers});
       read_rows<Number>(edges, "boundary edge", mesh.boundaries[index].edges);

@@ -28,7 +28,7 @@ class BinaryWriter {
     for (std::size_t n = 0; n < boundaries_.present().size(); ++n) {
       const BoundaryEdges& boundary = *boundaries_.present()[n];
       header_.boundaries.push_back(
-          {boundary.name, boundary.condition, boundaries_.edges_of(n), boundary.layers});
+          {boundary.name, boundary.condition, boundaries_.edges_of(n), boundary.layers, boundary.inner_line});
     }
     header_.comments = comments_of(mesh_);
     put_blocks(stream);

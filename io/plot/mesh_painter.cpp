@@ -63,6 +63,13 @@ std::array<Point, 3> arrow_on(const std::vector<Point>& line) {
 
 }  // namespace
 
+PlacedEdges::PlacedEdges(const Mesh& mesh) {
+  for (const BoundaryEdges& boundary : mesh.boundaries) {
+    for (const auto& [from, to] : boundary.edges) places_.push_back({mesh.point(from), mesh.point(to)});
+  }
+  std::ranges::sort(places_);
+}
+
 void MeshPainter::fill_all(const std::vector<std::size_t>& cells, Colour colour) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     std::vector<Point> corners = view_.visible_part(corners_of(mesh_, cells[i]));
@@ -88,8 +95,16 @@ void MeshPainter::fill(const std::vector<std::size_t>& cells, const CellPaint& p
   }
 }
 
-void MeshPainter::add_line(NodeId a, NodeId b) {
-  if (const auto part = view_.visible_part(mesh_.point(a), mesh_.point(b)))
+/// `to_left`: pixels by which the line is moved to its left.
+void MeshPainter::add_line(NodeId a, NodeId b, double to_left) {
+  Point from = mesh_.point(a), to = mesh_.point(b);
+  if (to_left != 0) {
+    const Point along = to - from,
+                shift = to_left / (view_.scale() * length(along)) * Point{-along.y, along.x};
+    from = from + shift;
+    to = to + shift;
+  }
+  if (const auto part = view_.visible_part(from, to))
     canvas_.add_line(view_.pixel((*part)[0]), view_.pixel((*part)[1]));
 }
 
@@ -127,7 +142,9 @@ void MeshPainter::stroke_boundary(const BoundaryEdges& boundary, Colour colour) 
   for (const auto& [a, b] : boundary.edges) along += view_.scale() * length(mesh_.point(b) - mesh_.point(a));
   const double width = std::clamp(1.0 + along / (4.0 * size32(boundary.edges)), 1.7, 2.6);
   for (std::size_t i = 0; i < boundary.edges.size(); ++i) {
-    add_line(boundary.edges[i][0], boundary.edges[i][1]);
+    const auto [a, b] = boundary.edges[i];
+    const bool has_other_side = boundary_edges_.has(mesh_.point(b), mesh_.point(a));
+    add_line(a, b, has_other_side ? 0.5 * width : 0);
     if ((i + 1) % batch == 0 || i + 1 == boundary.edges.size()) canvas_.stroke(colour, 1, width);
   }
 }

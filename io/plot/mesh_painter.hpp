@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "io/plot/canvas/plot_canvas.hpp"
@@ -9,11 +11,24 @@
 
 namespace quadloop::io {
 
+/// The boundary edges of a mesh by the places of their nodes.
+class PlacedEdges {
+ public:
+  explicit PlacedEdges(const Mesh& mesh);
+  /// Whether a boundary has an edge from `from` to `to`.
+  bool has(Point from, Point to) const { return std::ranges::binary_search(places_, Place{from, to}); }
+
+ private:
+  using Place = std::array<Point, 2>;
+
+  std::vector<Place> places_;  ///< ascending
+};
+
 /// Draws a mesh on a canvas, layer by layer.
 class MeshPainter {
  public:
   MeshPainter(const Mesh& mesh, const PlotView& view, Canvas& canvas)
-      : mesh_{mesh}, view_{view}, canvas_{canvas} {}
+      : mesh_{mesh}, view_{view}, canvas_{canvas}, boundary_edges_{mesh} {}
 
   /// Fills each cell with its colour. Cells too thin for drawing their edges are shaded instead, unless
   /// colours represent values.
@@ -24,16 +39,18 @@ class MeshPainter {
   /// below, it would look like a line where these change.
   void stroke_edges(const std::vector<std::size_t>& cells, double strength);
 
-  /// Thinner where edges are short: a coast drawn in bold would fill its own bays.
+  /// Thinner where edges are short: a coast drawn in bold would fill its own bays. The two sides of a baffle,
+  /// whose edges coincide, are drawn beside each other.
   void stroke_boundary(const BoundaryEdges& boundary, Colour colour);
 
  private:
   void fill_all(const std::vector<std::size_t>& cells, Colour colour);
-  void add_line(NodeId a, NodeId b);
+  void add_line(NodeId a, NodeId b, double to_left = 0);
 
   const Mesh& mesh_;
   const PlotView& view_;
   Canvas& canvas_;
+  PlacedEdges boundary_edges_;
 };
 
 /// Draws a field on a mesh. `values` has one entry for each node.

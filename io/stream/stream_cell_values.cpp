@@ -53,7 +53,7 @@ BoundaryStream StreamCellValues::along_sides(std::size_t variable) const {
     const double value = column == ExtrudedVariable::zero ? 0 : at_edges_[row + column];
     bits.push_back({std::bit_cast<std::int64_t>(value), 0});
   }
-  return {stream_.communicator(), mesh.plane, std::move(bits)};
+  return {stream_.communicator(), mesh.plane, std::move(bits), stream_.boundaries()->choice()};
 }
 
 /// Among the occurrences of a face patches come first.

@@ -13,6 +13,7 @@
 #include "io/stream/held_faces.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/text/text_output.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
 
 namespace quadloop::io {
@@ -38,6 +39,16 @@ class StreamFaces {
   std::int64_t all() const;
   /// Whether the faces of a patch are between cells.
   bool is_interface(std::size_t patch) const;
+
+  /// An inner face on an inner line, by its number among the inner faces.
+  struct LineFace {
+    std::int64_t line;  ///< index of the boundary
+    std::int64_t face;
+    bool turned;  ///< whether the first cell is on the right of the line
+  };
+  /// Returns on rank 0 the faces on inner lines that are not written as patches, ordered by line, then face.
+  /// Cells must be numbered as streamed, in a mesh that is not stored. *Collective.*
+  std::vector<LineFace> inner_line_faces() const;
 
   /// Writes the inner faces: `put(text, nodes, owner, neighbour)` writes at most `width` numbers for one.
   /// *Collective.*
@@ -71,6 +82,7 @@ class StreamFaces {
   }
 
  private:
+  using EdgeKey = std::array<GlobalNodeId, 2>;  ///< the lower node first
   /// Packs two numbers below 2^31 into one.
   static std::int64_t packed(std::int64_t first, std::int64_t second) { return first << 32 | second; }
   static std::array<std::int64_t, 2> unpacked(std::int64_t both) { return {both >> 32, both & 0xffffffff}; }
@@ -196,7 +208,6 @@ class StreamFaces {
     const std::int64_t triangles = std::ssize(stream_.extruded()->plane.triangles);
     return cell < triangles ? cells_.first_triangle + cell : cells_.first_quad + cell - triangles;
   }
-  using EdgeKey = std::array<GlobalNodeId, 2>;  ///< the lower node first
   EdgeKey key_of(NodeId from, NodeId to) const {
     const Mesh& mesh = stream_.extruded()->plane;
     const GlobalNodeId a = mesh.global(from), b = mesh.global(to);
@@ -205,6 +216,28 @@ class StreamFaces {
   bool is_between(NodeId from, NodeId to) const {
     return !between_.empty() && between_.contains(key_of(from, to));
   }
+  /// An edge of an inner line.
+  struct LineEdge {
+    EdgeKey key;
+    std::int64_t line, cell;
+    bool turned;  ///< as for LineFace
+  };
+  template <std::size_t corners>
+  std::size_t side_of(const LineEdge& edge, const std::array<NodeId, corners>& nodes) const {
+    std::size_t side = 0;
+    while (key_of(nodes[side], nodes[(side + 1) % corners]) != edge.key) ++side;
+    return side;
+  }
+  std::vector<LineEdge> line_edges(const CellOwners& owners) const;
+  template <std::size_t corners>
+  std::vector<std::int64_t> first_faces(const std::vector<std::array<NodeId, corners>>& cells,
+                                        std::int64_t before, std::int64_t first) const;
+  template <std::size_t corners>
+  void append_line_faces(const LineEdge& edge, const std::array<NodeId, corners>& nodes,
+                         std::size_t first_edge, std::int64_t first_face, std::vector<LineFace>& faces) const;
+  /// Whether the edges of a boundary of the mesh are in the stream.
+  bool is_streamed(const BoundaryEdges& boundary) const;
+  bool streams_lines() const;
   void find_plane_faces(const std::string& path);
   void find_interfaces();
   void require_conforming(const std::string& path) const;

@@ -121,8 +121,6 @@ void require_blocks_alone(const Settings& settings) {
   const std::pair<bool, const char*> others[] = {
       {lines && std::ranges::any_of(outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {lines && settings.adapt, "adaptation; remove [adapt]"},
-      {lines && std::ranges::count(settings.formats, "fluent.msh") > 0,
-       "the format fluent.msh; write mesh, vtu, msh or su2"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
       {outline.unite_islands, "a union of islands; remove geometry.overlap"},

@@ -1,21 +1,23 @@
 #!/usr/bin/env python3
 """A case with inner lines, both types of mesh: valid for `quadloop check`, the same bytes on 1, 2, 3 and 5 ranks in every format that holds
-lines, each line of the case followed from its first point to its last, also after conversion; as expected (expected.toml). Without baffles,
-whose nodes coincide, the mesh is also valid for the other judge.
+lines, each line of the case followed from its first point to its last, also after conversion; the face zones of a polyMesh; as expected
+(expected.toml). Without baffles, whose nodes coincide, the mesh is also valid for the other judge.
 
     run_lines.py --quadloop PROGRAM --case CASE.toml [--write-expected]
 """
 import argparse
 import math
+import re
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
 
 from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
-from run_case import compare, values_of, write_expected
+from run_case import check_cgns, compare, values_of, write_expected
 
-FORMATS = ("mesh", "vtu", "msh")
+FORMATS = ("mesh", "qmesh", "vtu", "msh", "cgns")
+SAME_BYTES = ("mesh", "qmesh", "vtu", "msh", "tree.h5")  # libcgns writes the time into a file
 
 
 def points_and_lines(path):
@@ -58,6 +60,33 @@ def check_line(name, path, points, edges):
         fail(f"line {name} ends at {points[node]}, not at {path[-1]}")
 
 
+def foam_lists(path):
+    """The texts between the parentheses that hold the lists of numbers, or of faces, of an OpenFOAM file, in their order."""
+    return [part.split() for part in re.findall(r"\n\(\n([-0-9. e()\n]*?)\n?\)\n", Path(path).read_text())]
+
+
+def check_face_zones(mesh, folder):
+    """The face zones of a polyMesh are the inner lines of the .mesh file, flipped where the owner is on the right."""
+    lines = points_and_lines(mesh)[1]
+    names = re.findall(r"\n(\w+)\n\{\n    type faceZone", (folder / "faceZones").read_text())
+    lists = foam_lists(folder / "faceZones")
+    if names != list(lines) or len(lists) != 2 * len(names):
+        fail(f"the face zones are {names}")
+    rows = re.findall(r"^4\(([0-9 ]+)\)$", (folder / "faces").read_text(), re.MULTILINE)
+    places = [tuple(map(float, row.split())) for row in re.findall(r"^\(([^()]+)\)$", (folder / "points").read_text(), re.MULTILINE)]
+    at = {(x, y): i for i, (x, y) in enumerate(points_and_lines(mesh)[0])}
+    for name, labels, flips in zip(names, lists[::2], lists[1::2]):
+        found = []
+        for label, flip in zip(map(int, labels), flips, strict=True):
+            nodes = list(map(int, rows[label].split()))
+            while places[nodes[0]][2] != 0 or places[nodes[1]][2] != 0:
+                nodes = nodes[1:] + nodes[:1]
+            edge = tuple(at[places[node][:2]] for node in nodes[:2])
+            found.append(edge if flip == "0" else edge[::-1])
+        if sorted(found) != sorted(lines[name]):
+            fail(f"the faces of zone {name} are others than the edges of the line")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -65,7 +94,7 @@ def main():
     parser.add_argument("--write-expected", action="store_true")
     args = parser.parse_args()
     tables = tomllib.loads(args.case.read_text())["line"]
-    options = ["--set", "output.formats=[" + ",".join(f'"{name}"' for name in FORMATS) + "]"]
+    options = ["--set", "output.formats=[" + ",".join(f'"{name}"' for name in (*FORMATS, "polyMesh")) + "]"]
     with tempfile.TemporaryDirectory(prefix="quadloop_lines_") as folder:
         work = Path(folder)
         for mesh_type in ("hybrid", "delaunay"):
@@ -73,13 +102,18 @@ def main():
             for ranks in (1, 2, 3, 5):
                 other = prefix if ranks == 1 else work / "other"
                 mesh_case(args.quadloop, args.case, other, ranks, [*options, "--type", mesh_type])
-                for name in (*FORMATS, "tree.h5"):
+                for name in SAME_BYTES:
                     if digest(f"{other}.{name}") != digest(f"{prefix}.{name}"):
                         fail(f"{name} differs on {ranks} ranks")
             for name in FORMATS:
                 run([args.quadloop, "check", f"{prefix}.{name}"])
                 again = work / f"again_{name}.mesh"
                 run([args.quadloop, "convert", f"{prefix}.{name}", str(again)])
+                if name == "cgns":
+                    of_ranks = work / "of_ranks.mesh"
+                    run([args.quadloop, "convert", f"{other}.cgns", str(of_ranks)])
+                    if digest(again) != digest(of_ranks):
+                        fail("cgns differs on 5 ranks")
                 points, lines = points_and_lines(again)
                 wanted = {t["name"]: t["path"] for t in tables if t.get("kind", "line") == "line"}
                 if set(lines) != set(wanted):
@@ -89,6 +123,11 @@ def main():
             script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
             if script is not None and len(wanted) == len(tables):
                 run([sys.executable, script, f"{prefix}.mesh"])
+            check_cgns(prefix)
+            for file in ("points", "faces", "owner", "neighbour", "boundary", "faceZones"):
+                if (work / f"{mesh_type}.polyMesh" / file).read_bytes() != (work / "other.polyMesh" / file).read_bytes():
+                    fail(f"{file} of the polyMesh differs on 5 ranks")
+            check_face_zones(f"{prefix}.mesh", work / f"{mesh_type}.polyMesh")
             found = values_of(prefix)
             expected = args.case.with_name(f"expected{'' if mesh_type == 'hybrid' else '_delaunay'}.toml")
             if args.write_expected:
