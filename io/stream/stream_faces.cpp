@@ -139,12 +139,4 @@ BoundaryStream StreamFaces::sides() const {
   return {stream_.communicator(), plane, std::move(edges)};
 }
 
-std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh) {
-  Mesh turned = mesh;
-  for (BoundaryEdges& boundary : turned.boundaries) {
-    for (auto& [from, to] : boundary.edges) std::swap(from, to);
-  }
-  return edge_cells(comm, turned).of_boundary;
-}
-
 }  // namespace quadloop::io
