@@ -89,6 +89,20 @@ bool is_on_interface(const Geometry& geometry, std::int32_t v) {
   return geometry.has_twins() && (geometry.twin(v) >= 0 || geometry.twin(geometry.previous(v)) >= 0);
 }
 
+/// Whether the leaf across a side has the vertex on it, too. It has not where the domain ends along the side.
+bool is_shared(const Geometry& geometry, std::int32_t v, Side side) {
+  const Point p = geometry.point(v);
+  const std::int32_t before = geometry.previous(v);
+  bool ends = false;
+  for (const auto& [segment, far] : {std::pair(before, before), std::pair(v, geometry.next(v))}) {
+    const Point q = geometry.point(far);
+    if (is_vertical(side) ? q.x != p.x : q.y != p.y) continue;
+    if (geometry.twin(segment) >= 0) return true;
+    ends = true;
+  }
+  return !ends;
+}
+
 /// Whether a point is at the snapped vertex before it moved, and is where it moves, up to rounding.
 bool touches(const Snap& snap, Point p) {
   const double rounding = 1e-9 * snap.radius;
@@ -134,8 +148,10 @@ std::pmr::vector<Stop> stops_round(const Geometry& geometry, const Input& input,
   for (const std::int32_t v : geometry.has_twins() ? input.trace.vertices : std::span<const std::int32_t>()) {
     const Point p = geometry.point(v);
     const std::optional<Side> side = side_at(box, p);
-    const auto is_there = [&](const LeafSnap& one) { return touches(*one.snap, p); };
-    if (side && geometry.kept(v) && is_on_interface(geometry, v) &&
+    const auto is_there = [&](const LeafSnap& one) {
+      return one.snap->position == p || touches(*one.snap, p);
+    };
+    if (side && geometry.kept(v) && is_on_interface(geometry, v) && is_shared(geometry, v, *side) &&
         std::ranges::none_of(input.snaps, is_there))
       add(*side, p, elsewhere_on(*side), -1, -1);
   }
