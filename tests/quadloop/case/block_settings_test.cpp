@@ -20,6 +20,7 @@ TEST_F(BlockSettings, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
   EXPECT_EQ(refused("[[block]]\nname = \"a b\"\nloop = \"box\"\n").find("case.toml:4: 'block.0.name'"), 0u);
   const std::string start = "case.toml:3: a mesh of several blocks cannot have ";
   for (const auto& [more, what] : {std::pair{"[mesh]\nmirror = \"x\"\n", "mirror images"},
+                                   {"[mesh]\nmirror = \"x\"\nhalf = \"axis\"\n", "mirror images"},
                                    {"[adapt]\nvariable = \"density\"\n", "the built-in solver"},
                                    {"[output]\npartitions = 2\n", "partitions"}})
     EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
