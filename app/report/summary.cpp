@@ -67,6 +67,7 @@ void add_sizes(Statistics& statistics, const MeshResult& result) {
   statistics.add("quads", counts.quads);
   statistics.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
                      json_of(std::round(report.estimate.cells)), "cells_estimated");
+  statistics.add("blocks", std::max<std::int64_t>(1, std::ssize(result.mesh.blocks.names)));
   statistics.add("regions", report.regions);
   statistics.add("leaves", report.leaves);
   statistics.add("cut leaves", report.cut_leaves);

@@ -25,8 +25,7 @@ class BlockMesh {
   }
 
  private:
-  friend class BlockCutter;
-  friend LoadedMesh one_block(const LoadedMesh& whole, std::int32_t block);
+  friend class PlaneBlockCutter;
   friend class HeldBlockCutter;
 
   std::string name_;

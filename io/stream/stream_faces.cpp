@@ -222,12 +222,4 @@ std::vector<StreamFaces::LineEdge> StreamFaces::line_edges(const CellOwners& own
   return to_owners.deliver(stream_.communicator());
 }
 
-std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh) {
-  Mesh turned = mesh;
-  for (BoundaryEdges& boundary : turned.boundaries) {
-    for (auto& [from, to] : boundary.edges) std::swap(from, to);
-  }
-  return edge_cells(comm, turned).of_boundary;
-}
-
 }  // namespace quadloop::io

@@ -257,8 +257,4 @@ class StreamFaces {
   std::int64_t internal_ = 0;
 };
 
-/// Returns the cell on the right of each boundary edge of this rank, boundary after boundary; EdgeCells::none
-/// if there is none. *Collective.*
-std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh);
-
 }  // namespace quadloop::io

@@ -117,7 +117,7 @@ void NodeNumbering::sort_listed() {
 
 std::int32_t NodeNumbering::listed_node(LeafId leaf, Point position) const {
   const std::int32_t entry = cut_->entry_of[graph_->local_index(leaf)];
-  QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline");
+  QUADLOOP_REQUIRE(entry >= 0, "a leaf that is not cut owns a node of the outline", position.x, position.y);
   const CutForest::Entry& e = cut_->entries[entry];
   std::int32_t node = e.begin.nodes;
   if (has_many(e)) {

@@ -187,11 +187,17 @@ void warn_of_lost_shapes(const Communicator& comm, const Geometry& geometry, con
                   cause, name));
 }
 
-/// Whether all of the loop is of inner lines.
-bool is_inner(const Geometry& geometry, std::int32_t loop) {
-  std::int32_t s = geometry.loop_start(loop);
-  while (s < geometry.loop_start(loop + 1) && geometry.is_inner_line(s)) ++s;
-  return s == geometry.loop_start(loop + 1);
+/// Whether cells on its two sides are not neighbours: there is one side only, or it is a baffle.
+bool separates(const Geometry& geometry, std::int32_t segment) {
+  return geometry.twin(segment) < 0 || geometry.boundary(geometry.boundary_of(segment)).baffle;
+}
+
+/// The next segment that separates, around the same connected part of the domain: through all blocks at the
+/// vertex between them.
+std::int32_t next_around(const Geometry& geometry, std::int32_t segment) {
+  std::int32_t next = geometry.next(segment);
+  while (!separates(geometry, next)) next = geometry.next(geometry.twin(next));
+  return next;
 }
 
 }  // namespace
@@ -230,10 +236,20 @@ double area_of_loop(const Geometry& geometry, std::int32_t loop) {
 }
 
 std::int64_t regions_of(const Geometry& geometry) {
-  std::int64_t regions = 0;
-  for (std::int32_t loop = 0; loop < geometry.loop_count(); ++loop)
-    regions += !is_inner(geometry, loop) && area_of_loop(geometry, loop) > 0;
-  return regions;
+  std::vector<std::int32_t> walk_of(geometry.size(), -1), starts;
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    if (walk_of[s] >= 0 || !separates(geometry, s)) continue;
+    for (std::int32_t v = s; walk_of[v] < 0; v = next_around(geometry, v)) walk_of[v] = size32(starts);
+    starts.push_back(s);
+  }
+  std::vector<double> twice(starts.size(), 0);  // areas; what is walked there and back encloses none
+  for (std::int32_t s = 0; s < geometry.size(); ++s) {
+    const std::int32_t walk = walk_of[s], twin = geometry.twin(s);
+    if (walk < 0 || (twin >= 0 && walk_of[twin] == walk)) continue;
+    const Point origin = geometry.point(starts[walk]);
+    twice[walk] += cross(geometry.point(s) - origin, geometry.point(geometry.next(s)) - origin);
+  }
+  return std::ranges::count_if(twice, [](double area) { return area > 0; });
 }
 
 void require_area(const Communicator& comm, const Geometry& geometry, double dropped, const Mesh& mesh,

@@ -20,7 +20,8 @@ void require_area(const Communicator& comm, const Geometry& geometry, double dro
 /// Returns the signed area of the loop: positive if its inside is part of the domain.
 double area_of_loop(const Geometry& geometry, std::int32_t loop);
 
-/// Returns the number of connected regions of the domain: each has one loop with its inside in the domain.
+/// Returns the number of connected regions of the domain, each of one block or several: around each there is
+/// one counter-clockwise walk. A closed baffle separates its inside.
 std::int64_t regions_of(const Geometry& geometry);
 
 /// Throws InputError for lost boundaries: the first with its size, the number of others, and the remedy.

@@ -33,7 +33,8 @@ class PointCapture {
         geometry_{geometry},
         share_{std::min(1.0, snap / usual_snap)} {}
 
-  /// Whether a point lies on a side of the leaf; crossings there already have its position.
+  /// Whether a point lies on a side of the leaf; crossings there already have its position. Where blocks meet
+  /// at it, only those of some may cross there.
   bool on_grid(LeafId leaf, Point p) const {
     const Box box = grid_.box_of(graph_.leaf(leaf));
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
@@ -253,14 +254,16 @@ Captures capture_points(const LeafGraph& graph, const TreeGrid& grid, const Geom
       if (view.pieces[p].entry < 0) continue;
       for (const std::int32_t v : view.vertices_of(view.pieces[p])) {
         if (!geometry.kept(v) && geometry.turn_degrees(v) < pointed_degrees) continue;
-        if (capture.on_grid(leaf, geometry.point(v))) continue;
+        const bool on_grid = capture.on_grid(leaf, geometry.point(v));
+        if (on_grid && !is_between_blocks(geometry, v)) continue;
         if (auto corner = capture.corner_near(leaf, geometry.point(v))) {
           corner->vertex = v;
           corner->trace = trace;
           corner->piece = p;
           corners.push_back(*corner);
-        } else if (auto edge =
-                       !geometry.kept(v) ? std::nullopt : capture.edge_near(leaf, v, view, view.pieces[p])) {
+        } else if (auto edge = on_grid || !geometry.kept(v)
+                                   ? std::nullopt
+                                   : capture.edge_near(leaf, v, view, view.pieces[p])) {
           edges.push_back(std::move(*edge));
         }
       }

@@ -39,6 +39,11 @@ std::vector<LeafSnap> sorted_by_leaf(const LeafGraph& graph, const std::vector<L
 
 }  // namespace
 
+bool is_between_blocks(const Geometry& geometry, std::int32_t v) {
+  const auto between = [&](std::int32_t s) { return geometry.twin(s) >= 0 && !geometry.is_inner_line(s); };
+  return geometry.has_twins() && (between(v) || between(geometry.previous(v)));
+}
+
 void settle_absorbed(const Geometry& geometry, Snap& snap) {
   for (std::size_t i = 0, count = snap.absorbed.size(); i < count; ++i) {
     const Snap::Absorbed one = snap.absorbed[i];

@@ -30,6 +30,9 @@ struct Snap {
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 
+/// Whether a segment between two blocks begins or ends at the vertex.
+bool is_between_blocks(const Geometry& geometry, std::int32_t v);
+
 /// Sorts what the snap absorbs, each crossing once, with those of twins.
 void settle_absorbed(const Geometry& geometry, Snap& snap);
 

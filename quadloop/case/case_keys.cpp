@@ -32,21 +32,35 @@ std::string form_of(const KeyText& key) {
   return key.unit.empty() ? key.value : fmt::format("{} ({})", key.value, key.unit);
 }
 
+/// Whether one of two keys must be given, and only one: the key is required without the other one.
+bool is_one_of_two(const KeyText& key, const KeyNeed& need) {
+  return need.when.empty() &&
+         std::ranges::any_of(key.required, [&](const KeyRequired& r) { return r.when == need.condition; });
+}
+
 /// Returns the meaning of the key and its requirements.
 std::string sentences_of(const KeyText& key) {
   std::string text = key.meaning;
+  std::string other;  // "no NAME" of the key that is given instead of this one
   for (const KeyNeed& need : key.needs) {
+    if (need.condition.starts_with("no ") && is_one_of_two(key, need)) {
+      other = need.condition;
+      text += fmt::format(" Give either this key or `{}`.", other.substr(3));
+      continue;
+    }
     const bool excludes = need.condition.starts_with("no ");
     const std::string subject = need.when.empty() ? "" : fmt::format("With `{}`: ", need.when);
     text += excludes ? fmt::format(" {}Not with `{}`.", subject, need.condition.substr(3))
                      : fmt::format(" {}{} `{}`.", subject, need.warns ? "Only with" : "Requires",
                                    std::regex_replace(need.condition, std::regex(" or "), "` or `"));
   }
-  for (const KeyRequired& required : key.required)
+  for (const KeyRequired& required : key.required) {
+    if (!other.empty() && required.when == other) continue;
     text += required.when.empty() ? " Required."
             : required.when.starts_with("no ")
                 ? fmt::format(" Required without `{}`.", required.when.substr(3))
                 : fmt::format(" Required with `{}`.", required.when);
+  }
   return text;
 }
 

@@ -179,7 +179,8 @@ ValueForm<std::vector<double>> numbers(const std::string& text, const std::strin
                                        bool (*is_good)(const std::vector<double>&)) {
   return {text, example, [=](const CaseTable& table, const std::string& key) {
             const std::vector<double> values = *table.numbers(key, count, {-1e100, 1e100});
-            if (!is_good(values)) table.refuse(key, "must be " + wanted);
+            if (!is_good(values))
+              table.refuse(key, fmt::format("is {}, but must be {}", table.json(key), wanted));
             return values;
           }};
 }

@@ -151,8 +151,7 @@ const KeyTable<LayerLine>& wake_keys() {
                            "A point near the trailing edge, if `from` has several. The nearest edge is used, "
                            "at most 1/20 of the extent of the boundary away.",
                            {.fallback = "none"}),
-       key<&LayerLine::length>("length", number(io::Range::positive()),
-                               "Length of a straight wake. Alternative to `path`.",
+       key<&LayerLine::length>("length", number(io::Range::positive()), "Length of a straight wake.",
                                {.unit = "length",
                                 .needs = {{"no path"}},
                                 .required = {{"how far the wake goes on, or with path where", "no path"}}}),
@@ -198,7 +197,9 @@ const KeyTable<BoundaryKeys>& boundary_keys() {
            "Largest size of cells at a sharp corner of this boundary, where it turns by more than `corner`.",
            {.unit = "length", .fallback = "none"}),
        key<&BoundaryKeys::rule, &BoundaryRule::condition>(
-           "bc", choice(values_of_bc()), "Boundary condition for the solver.", {.fallback = "`none`"}),
+           "bc", choice(values_of_bc()),
+           "Boundary condition for the solver. Between two blocks only `wall` and `interface` are possible.",
+           {.fallback = "`none`"}),
        key<&BoundaryKeys::wall>("wall", choice(values_of_wall()),
                                 "Kind of wall, for formats that distinguish them (CGNS, `.mapbc`). The "
                                 "built-in solver uses `viscosity` instead.",

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -107,6 +108,42 @@ void require_blocks_of_layers(const Settings& settings, const Geometry& geometry
   }
 }
 
+/// The blocks on the two sides of a boundary, if it lies between two.
+std::optional<std::array<std::string, 2>> blocks_of_interface(const Geometry& geometry,
+                                                              const Boundary& boundary) {
+  for (std::int32_t s = 0; geometry.has_blocks() && s < geometry.size(); ++s) {
+    if (geometry.boundary(geometry.boundary_of(s)).name != boundary.name) continue;
+    if (geometry.twin(s) < 0 || geometry.is_inner_line(s)) return std::nullopt;
+    const std::int32_t one = geometry.block_of(s), other = geometry.block_of(geometry.twin(s));
+    return std::array{geometry.block_names()[std::min(one, other)],
+                      geometry.block_names()[std::max(one, other)]};
+  }
+  return std::nullopt;
+}
+
+/// Throws InputError for conditions that need an outside, on boundaries between two blocks; warns of walls.
+void check_conditions_of_interfaces(const Settings& settings, const Geometry& geometry, Warnings& warnings) {
+  for (const Boundary& boundary : geometry.boundaries()) {
+    const BoundaryCondition condition = boundary.condition;
+    if (condition == BoundaryCondition::none || condition == BoundaryCondition::interface) continue;
+    const auto blocks = blocks_of_interface(geometry, boundary);
+    if (!blocks) continue;
+    const std::string text = fmt::format("boundary '{}' lies between the blocks '{}' and '{}'", boundary.name,
+                                         blocks->front(), blocks->back());
+    const std::string remedy = fmt::format("set bc = \"interface\" in [boundary.{}]", boundary.name);
+    if (condition.is_wall()) {
+      warnings.push_back(
+          fmt::format("{}: bc = \"wall\" makes it a wall in both; if it is none, {}", text, remedy));
+      continue;
+    }
+    const auto rule = std::ranges::find_if(settings.outline.rules, [&](const BoundaryRule& one) {
+      return one.condition == condition && matches(one.pattern, boundary.name);
+    });
+    throw InputError(fmt::format("{}: {}, where bc = \"{}\" is not possible; {}", rule->where, text,
+                                 condition.word(), remedy));
+  }
+}
+
 }  // namespace
 
 Geometry load_geometry(const Settings& settings, Warnings& warnings,
@@ -154,6 +191,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   Geometry geometry = assemble(std::move(chains), options, warnings);
   require_no_conditions(settings, geometry);
   require_blocks_of_layers(settings, geometry);
+  check_conditions_of_interfaces(settings, geometry, warnings);
   if (!axis) return geometry;
   const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);
   if (!settings.half) return geometry;

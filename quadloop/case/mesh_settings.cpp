@@ -220,12 +220,14 @@ const KeyTable<BlockRule>& block_keys() {
                              {.required = {{"a word for the block, as in name = \"solid\""}}}),
        key<&BlockRule::boundaries>(
            "boundaries", texts(),
-           "The boundaries around the block and its holes. A minus before a name (walked in the other "
-           "direction) has no effect, as the sides follow from the closed lines. A block has one of "
+           "The boundaries around the block and around its holes, in any order and direction. A minus before "
+           "a name, which denotes the opposite direction, is accepted and has no effect. A block has one of "
            "`boundaries`, `loop` and `inside`."),
        key<&BlockRule::loop>("loop", text(), "The closed boundary that encloses the block."),
-       key<&BlockRule::inside>("inside", point(),
-                               "A point of the block, which reaches from there to the boundaries around it."),
+       key<&BlockRule::inside>(
+           "inside", point(),
+           "A point inside the block, which extends from there to the nearest boundaries in all "
+           "directions."),
        key<&BlockRule::spacing>("spacing", number(io::Range::positive()), "Largest cell size in the block.",
                                 {.unit = "length", .fallback = "`spacing.max`"})}};
   return keys;
@@ -243,9 +245,8 @@ const KeyTable<LineRule>& line_keys() {
       "line",
       {key<&LineRule::name>(
            "name", text(),
-           "Name of the line: `[boundary.NAME]` sets its `spacing` and `corner`. Without it that "
-           "of `boundary`.",
-           {.example = "\"screen\""}),
+           "Name of the line. `[boundary.NAME]` sets its `spacing` and `corner`. Required with `path`.",
+           {.fallback = "the name in `boundary`", .example = "\"screen\""}),
        key<&LineRule::path>("path", path_of_line(),
                             "The points of the line, which is closed if it ends where it begins. A line has "
                             "either `path` or `boundary`."),
@@ -384,6 +385,9 @@ LineRule read_line(const io::CaseTable& table) {
   if (table.has("name")) rule.name = boundary_name().read(table, "name");
   if (rule.path.size() == 1)
     table.refuse("path", "has one point; a single node is not possible yet, so give the line two points");
+  if (!rule.path.empty() && std::ranges::count(rule.path, rule.path.front()) == std::ssize(rule.path))
+    table.refuse("path", fmt::format("has no length: all its points are ({}, {}); give two different points",
+                                     rule.path.front().x, rule.path.front().y));
   return rule;
 }
 

@@ -19,7 +19,7 @@ const KeyTable<PairKeys>& pair_keys() {
            "to", boundary_name(), "The other boundary, which is the image of `from`.",
            {.example = "\"outlet\"", .required = {{"the boundary that `from` is mapped to"}}}),
        key<&PairKeys::pair, &PeriodicPair::translation>(
-           "translation", point(), "The translation that maps `from` to `to`. Alternative to `rotation`.",
+           "translation", point(), "The translation that maps `from` to `to`.",
            {.needs = {{"no rotation", "give one of them"}},
             .required = {{"the translation from `from` to `to`, or with rotation the angle in degrees",
                           "no rotation"}}}),

@@ -8,15 +8,15 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
-#include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/check/require_sound.hpp"
-#include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/build/sound_meshes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -85,31 +85,13 @@ double wanted_area(const Geometry& g, std::int32_t block) {
 
 /// Each type of mesh is valid, fills each block, and is the same on one rank.
 void expect_meshes(const Blocks& blocks, const MeshOptions& given, double tolerance = 0.01) {
-  const Communicator self(MPI_COMM_SELF);
   const Geometry geometry = blocks.geometry();
-  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
-    MeshOptions options = given;
-    options.type = type;
-    const MeshResult made = build_mesh(world(), geometry, options);
-    require_sound(world(), made.mesh);
-    const Mesh whole = gather_whole(world(), made.mesh);
-    const MeshResult alone = build_mesh(self, geometry, options);
-    if (!world().is_root()) continue;
-    EXPECT_EQ(whole.points, alone.mesh.points);
-    EXPECT_EQ(whole.triangles, alone.mesh.triangles);
-    EXPECT_EQ(whole.quads, alone.mesh.quads);
-    EXPECT_EQ(whole.blocks.of_triangles, alone.mesh.blocks.of_triangles);
-    EXPECT_EQ(whole.blocks.of_quads, alone.mesh.blocks.of_quads);
-    const auto count = static_cast<std::int32_t>(geometry.block_names().size());
-    for (const MeshFault& fault : validate(whole, {count, whole.blocks.of_triangles, whole.blocks.of_quads}))
-      ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what << " at " << fault.place.x << " "
-                    << fault.place.y;
-    for (std::int32_t b = 0; b < count; ++b) {
+  test::expect_sound_meshes(geometry, given, [&](const Mesh& whole, const MeshResult&) {
+    for (std::int32_t b = 0; b < size32(geometry.block_names()); ++b) {
       const double wanted = wanted_area(geometry, b);
       EXPECT_NEAR(area_of_block(whole, b), wanted, tolerance * wanted) << geometry.block_names()[b];
     }
-    EXPECT_TRUE(type != MeshType::delaunay || is_delaunay(whole, whole.blocks.of_triangles));
-  }
+  });
 }
 
 TEST(Blocks, ASquareInASquareOnGridLines) {
@@ -184,6 +166,47 @@ TEST(Blocks, ThreeMeetAtAPoint) {
     EXPECT_EQ(names, (std::vector<std::string>{"low__left", "low__right", "up", "wall"}));
     expect_meshes(blocks, between(0.02, 0.1));
   }
+}
+
+/// Blocks of closed lines, of which the later ones take precedence.
+Blocks of_loops(const std::vector<std::vector<Point>>& loops) {
+  Blocks blocks;
+  for (const std::vector<Point>& points : loops) {
+    const std::string name = "loop" + std::to_string(blocks.rules.size());
+    blocks.chains.push_back(loop(name, points));
+    blocks.rules.push_back(of_loop("block_of_" + name, name));
+  }
+  return blocks;
+}
+
+void expect_wide_angles(const Blocks& blocks, const MeshOptions& options) {
+  expect_meshes(blocks, options, 1e-9);
+  const Mesh mesh = build_mesh(world(), blocks.geometry(), options).mesh;
+  EXPECT_GT(summarise_quality(world(), mesh).smallest_degrees, 15);
+}
+
+/// Four blocks around a point, three at the edge of the domain, on grid lines in no direction, one or both.
+TEST(Blocks, MeetAtPointsOnGridLines) {
+  const Blocks four = of_loops({box_points(0, 10, 0, 10), box_points(0, 10, 10, 20),
+                                box_points(10, 20, 0, 10), box_points(10, 20, 10, 20)});
+  MeshOptions options = between(1, 2);
+  for (const double x : {-6.0, -6.2, -6.5, -7.0}) {
+    for (const double y : {-6.0, -6.2, -6.5, -7.0}) {
+      SCOPED_TRACE("root at " + std::to_string(x) + ", " + std::to_string(y));
+      options.size.root = RootOptions{{x, y}, 32, 1, 1};
+      expect_wide_angles(four, options);
+    }
+  }
+}
+
+/// 259.8 and 359.8 differ from grid lines by rounding.
+TEST(Blocks, MeetAtPointsOnGridLinesUpToRounding) {
+  MeshOptions options = between(10, 10);
+  options.size.root = RootOptions{{-160, -1370.2}, 1280, 2, 2};
+  expect_wide_angles(of_loops({box_points(400, 700, 115, 504.6), box_points(620, 760, 259.8, 359.8)}),
+                     options);
+  expect_wide_angles(of_loops({box_points(620, 760, 259.8, 359.8), box_points(400, 700, 359.8, 504.6)}),
+                     options);
 }
 
 TEST(Blocks, AStackOfLayersOnAndBesideGridLines) {

@@ -11,10 +11,8 @@
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
-#include "mesher/mesh/check/delaunay_check.hpp"
-#include "mesher/mesh/check/require_sound.hpp"
-#include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
+#include "tests/build/sound_meshes.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop {
@@ -104,30 +102,12 @@ void expect_nodes_at_kept(const Geometry& g, const Mesh& whole, std::int64_t los
 /// lines chords may cut off; `distance`: of nodes from their line, where lines meet within a smallest cell.
 void expect_meshes(const Geometry& geometry, const MeshOptions& given, double shorter = 1e-12,
                    double distance = 1e-12) {
-  const Communicator self(MPI_COMM_SELF);
-  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
-    MeshOptions options = given;
-    options.type = type;
-    const MeshResult made = build_mesh(world(), geometry, options);
-    require_sound(world(), made.mesh);
-    const Mesh whole = gather_whole(world(), made.mesh);
-    const MeshResult alone = build_mesh(self, geometry, options);
-    if (!world().is_root()) continue;
-    EXPECT_EQ(whole.points, alone.mesh.points);
-    EXPECT_EQ(whole.triangles, alone.mesh.triangles);
-    EXPECT_EQ(whole.quads, alone.mesh.quads);
-    for (std::size_t b = 0; b < whole.boundaries.size(); ++b)
-      EXPECT_EQ(whole.boundaries[b].edges, alone.mesh.boundaries[b].edges);
-    const auto count = std::max<std::int32_t>(1, static_cast<std::int32_t>(geometry.block_names().size()));
-    for (const MeshFault& fault : validate(whole, {count, whole.blocks.of_triangles, whole.blocks.of_quads}))
-      ADD_FAILURE() << name_of(fault.rule) << ": " << fault.what << " at " << fault.place.x << " "
-                    << fault.place.y;
+  test::expect_sound_meshes(geometry, given, [&](const Mesh& whole, const MeshResult& made) {
     expect_edges_on_lines(geometry, whole, distance);
     expect_nodes_at_kept(geometry, whole, made.report.corners_lost);
     const double wanted = length_of_lines(geometry);
     EXPECT_NEAR(length_of_lines(whole), wanted, shorter * wanted);
-    EXPECT_TRUE(type != MeshType::delaunay || is_delaunay(whole, whole.blocks.of_triangles));
-  }
+  });
 }
 
 TEST(Lines, FromWallToWall) {

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/cell_demands.hpp"
 #include "mesher/build/islands.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/world.hpp"
@@ -88,6 +90,49 @@ TEST(Islands, WhereNoLoopRemainsThereIsNoDomain) {
               without_small_islands(loops({box({3, 3}, 1, 1)}), 2, report);
             }).find("boundary b0 near (3.5, 3.5)"),
             std::string::npos);
+}
+
+Chain chain_of(const std::string& name, std::vector<Point> points) {
+  return {name, false, std::move(points), {}};
+}
+
+/// Squares of side 1 with these lower left corners, each a block, in a hole of a block of their own if
+/// `around`.
+std::int64_t regions_of_squares(const std::vector<Point>& corners, bool around = false) {
+  std::vector<Chain> chains;
+  AssembleOptions options;
+  const auto add = [&](const std::string& name, std::vector<Point> points) {
+    chains.push_back(chain_of(name, std::move(points)));
+    options.blocks.push_back({name, {}, name, {}, "case"});
+  };
+  if (around) add("around", box({-10, -10}, 20, 20));
+  for (const Point corner : corners) add("square" + std::to_string(chains.size()), box(corner, 1, 1));
+  Warnings warnings;
+  return regions_of(assemble(std::move(chains), options, warnings));
+}
+
+TEST(Regions, ExtendOverSeveralBlocks) {
+  EXPECT_EQ(regions_of_squares({{0, 0}}), 1);
+  EXPECT_EQ(regions_of_squares({{0, 0}, {1, 0}, {1, 1}}), 1);
+  EXPECT_EQ(regions_of_squares({{0, 0}, {1, 1}}), 2) << "which touch at a point";
+  EXPECT_EQ(regions_of_squares({{0, 0}, {3, 0}, {3, 1}}), 2);
+  EXPECT_EQ(regions_of_squares({{0, 0}, {3, 0}, {3, 1}}, true), 1);
+  EXPECT_EQ(regions_of_squares({{0, 0}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, 2}, {1, 2}, {2, 2}}), 1)
+      << "around a hole";
+}
+
+TEST(Regions, AreSeparatedByBaffles) {
+  const auto with_baffle = [](std::vector<Point> path) {
+    AssembleOptions options;
+    options.lines = {{"plate", {}, std::move(path), true, "case"}};
+    Warnings warnings;
+    return regions_of(assemble({chain_of("box", box({0, 0}, 4, 4))}, options, warnings));
+  };
+  EXPECT_EQ(with_baffle({{1, 1}, {3, 1}, {2.9, 2.7}}), 1);
+  EXPECT_EQ(with_baffle({{0, 1}, {3, 1.1}}), 1);
+  EXPECT_EQ(with_baffle({{0, 1}, {4, 1}}), 2);
+  EXPECT_EQ(with_baffle({{1, 1}, {3, 1}, {2, 3}, {1, 1}}), 2);
+  EXPECT_EQ(regions_of(loops({box({0, 0}, 9, 9), reversed(box({1, 1}, 7, 7)), box({2, 2}, 1, 1)})), 2);
 }
 
 TEST(OutlineLosses, BoundariesWithoutEdgesVanish) {

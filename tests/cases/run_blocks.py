@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A case with several blocks, both types of mesh: valid for `quadloop check` and the judges, the same bytes on 1, 2, 3 and 5 ranks in every
+"""A case with several blocks, both types of mesh: valid for `quadloop check` and the judges, the same bytes on 1, 2, 3, 5 and 8 ranks in every
 format that holds blocks, as expected (expected.toml); what does not work with blocks is refused in one line.
 
     run_blocks.py --quadloop PROGRAM --case CASE.toml [--write-expected]
@@ -128,7 +128,7 @@ def main():
         work = Path(folder)
         for mesh_type in ("hybrid", "delaunay"):
             prefix = work / mesh_type
-            for ranks in (1, 2, 3, 5):
+            for ranks in (1, 2, 3, 5, 8):
                 other = prefix if ranks == 1 else work / "other"
                 mesh_case(args.quadloop, args.case, other, ranks, [*options, "--type", mesh_type, "--geometry-out", f"{other}.geom"])
                 for name in (*FORMATS, "tree.h5", *(f"{FOLDER}/{path.name}" for path in Path(f"{prefix}.{FOLDER}").iterdir())):

@@ -161,6 +161,10 @@ class FaceBlocks {
       : chains_{chains}, lines_{lines}, graph_{lines.graph()}, faces_{lines} {
     block_.assign(faces_.count(), no_block);
     for (const BlockRule& rule : rules) apply(rule);
+    for (const BlockRule& rule : rules) {
+      enclosing_.insert(enclosing_.end(), rule.boundaries.begin(), rule.boundaries.end());
+      if (!rule.loop.empty()) enclosing_.push_back(rule.loop);
+    }
     for (std::int32_t b = 0; b < size32(names_); ++b) {
       if (std::ranges::count(block_, b) == 0) refuse_covered(rules, names_[b]);
     }
@@ -171,6 +175,10 @@ class FaceBlocks {
   /// Whether the half-edge has a block to its left, and bounds it or belongs to an inner line.
   bool bounds(std::int32_t h) const {
     return left_of(h) != no_block && (left_of(h) != left_of(h ^ 1) || lines_.is_inner_line(h));
+  }
+  /// Whether one block is on both sides of a boundary that encloses a block: a later block covers it there.
+  bool is_covered(std::int32_t h) const {
+    return left_of(h) != no_block && left_of(h) == left_of(h ^ 1) && lines_.is_on(h, enclosing_);
   }
 
  private:
@@ -263,7 +271,8 @@ class FaceBlocks {
   const HalfEdges& graph_;
   Faces faces_;
   std::vector<std::string> names_;
-  std::vector<std::int32_t> block_;  ///< of each face
+  std::vector<std::int32_t> block_;     ///< of each face
+  std::vector<std::string> enclosing_;  ///< the boundaries that rules name
 };
 
 /// Names the edges and walks round the blocks.
@@ -295,7 +304,7 @@ class LoopMaker {
       const std::string& name = lines_.chain(e).name;
       if (blocks_.bounds(e) || blocks_.bounds(e + 1))
         ++standing[name];
-      else
+      else if (!blocks_.is_covered(e))
         note(lines_.chain(e).inner_line ? outside : bare, name, e);
       for (const Chain* chain : lines_.covered_lines(e)) note(covered, chain->name, e);
     }

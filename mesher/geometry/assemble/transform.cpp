@@ -97,17 +97,19 @@ void add_far_field(std::vector<Chain>& chains, FarFieldShape shape, const Box& b
   const auto& [low, high] = box;
   const double radius = 0.5 * box.width();
   const bool is_rectangle = shape == FarFieldShape::rectangle;
+  const bool is_round = shape == FarFieldShape::circle || shape == FarFieldShape::rounded_front;
   const double reach = is_rectangle ? 0 : reach_of(chains, shape, box.centre());
   const bool encloses = low.x < inner.low.x && low.y < inner.low.y && inner.high.x < high.x &&
                         inner.high.y < high.y && reach < radius;
   if (!encloses) {
+    const char* measure = is_round ? "radius" : "half width";
     throw InputError(
-        fmt::format("{}: a far field of half width {:g} around ({}, {}) does not enclose the geometry, which "
+        fmt::format("{}: a far field of {} {:g} around ({}, {}) does not enclose the geometry, which "
                     "reaches from ({}, {}) to ({}, {}); make it larger than {}",
-                    where, radius, box.centre().x, box.centre().y, inner.low.x, inner.low.y, inner.high.x,
-                    inner.high.y, reach));
+                    where, measure, radius, box.centre().x, box.centre().y, inner.low.x, inner.low.y,
+                    inner.high.x, inner.high.y, reach));
   }
-  if (shape == FarFieldShape::circle || shape == FarFieldShape::rounded_front)
+  if (is_round)
     chains.push_back(rounded_square(shape, box, where));
   else
     chains.push_back({"farfield", false, {low, {high.x, low.y}, high, {low.x, high.y}}, where});

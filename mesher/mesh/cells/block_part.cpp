@@ -1,114 +1,128 @@
 #include "mesher/mesh/cells/block_part.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
+#include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/edge_cells.hpp"
-#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
 namespace {
 
-/// Makes the part of one block.
-class PartMaker {
- public:
-  PartMaker(const Communicator& comm, const Mesh& mesh, std::int32_t block)
-      : comm_{comm}, mesh_{mesh}, block_{block} {}
-
-  /// *Collective.*
-  BlockPart make() {
-    add_cells(mesh_.triangles, mesh_.blocks.of_triangles, 0, part_.mesh.triangles);
-    add_cells(mesh_.quads, mesh_.blocks.of_quads, size32(mesh_.triangles), part_.mesh.quads);
-    add_edges();
-    renumber();
-    return std::move(part_);
-  }
-
- private:
-  template <class Cells>
-  void add_cells(const Cells& cells, const std::vector<std::int32_t>& blocks, std::int32_t first, Cells& to) {
-    for (std::int32_t i = 0; i < size32(cells); ++i) {
-      if (blocks[i] != block_) continue;
-      to.push_back(cells[i]);
-      part_.cells.push_back(first + i);
-    }
-  }
-
-  /// Adds the boundary edges that have a cell of the part to their left, in one of their two directions.
-  /// *Collective.*
-  void add_edges() {
-    Mesh& mesh = part_.mesh;
-    mesh.points = mesh_.points;
-    mesh.first_node = mesh_.first_node;
-    mesh.owned_nodes = mesh_.owned_nodes;
-    mesh.ghosts = mesh_.ghosts;
-    for (const BoundaryEdges& boundary : mesh_.boundaries) {
-      BoundaryEdges both{boundary.name, boundary.condition, boundary.edges, boundary.layers};
-      for (const auto& [from, to] : boundary.edges) both.edges.push_back({to, from});
-      mesh.boundaries.push_back(std::move(both));
-    }
-    const std::vector<std::int64_t> left = edge_cells(comm_, mesh).of_boundary;
-    auto cell = left.begin();
-    for (BoundaryEdges& boundary : mesh.boundaries)
-      std::erase_if(boundary.edges, [&](const auto&) { return *cell++ == EdgeCells::none; });
-  }
-
-  /// Flags the nodes of this rank's cells and edges, and the owned ones of other ranks' cells. *Collective.*
-  NodeFlags used_nodes() const {
-    NodeFlags used(mesh_.points.size(), 0);
-    part_.mesh.for_each_cell([&](const auto& nodes) { flag_all(nodes, used); });
-    for (const BoundaryEdges& boundary : part_.mesh.boundaries) {
-      for (const auto& nodes : boundary.edges) flag_all(nodes, used);
-    }
-    std::vector<GlobalNodeId> ghosts;
-    for_each_flagged(used, [&](NodeId node) {
-      if (!mesh_.owns(node)) ghosts.push_back(mesh_.global(node));
-    });
-    flag_at_owners(comm_, NodeOwners(comm_, mesh_.first_node), ghosts, used);
-    return used;
-  }
-
-  /// *Collective.*
-  void renumber() {
-    const NodeFlags used = used_nodes();
-    Mesh& mesh = part_.mesh;
-    mesh.points.clear();
-    mesh.ghosts.clear();
-    IdVector<NodeId, NodeId> number(mesh_.points.size());
-    for (const NodeId node : used.ids()) {
-      if (used[node] == 0) continue;
-      number[node] = NodeId{size32(mesh.points)};
-      mesh.points.push_back(mesh_.point(node));
-      if (mesh_.owns(node)) part_.nodes.push_back(node);
-    }
-    mesh.owned_nodes = size32(part_.nodes);
-    mesh.first_node = comm_.exclusive_sum(mesh.owned_nodes);
-    std::vector<std::int64_t> global(mesh_.points.size(), 0);
-    for (const NodeId node : part_.nodes) global[node.value()] = mesh.first_node + number[node].value();
-    NodeExchange(comm_, NodeOwners(comm_, mesh_.first_node), mesh_.owned_nodes, mesh_.ghosts).update(global);
-    for (const NodeId node : used.ids()) {
-      if (used[node] != 0 && !mesh_.owns(node)) mesh.ghosts.push_back(GlobalNodeId{global[node.value()]});
-    }
-    const auto renumber_all = [&](auto& nodes) {
-      for (NodeId& node : nodes) node = number[node];
-    };
-    mesh.for_each_cell(renumber_all);
-    for (BoundaryEdges& boundary : mesh.boundaries) std::ranges::for_each(boundary.edges, renumber_all);
-  }
-
-  const Communicator& comm_;
-  const Mesh& mesh_;
-  std::int32_t block_;
-  BlockPart part_;
-};
+constexpr std::int32_t no_block = -1;
 
 }  // namespace
 
+BlockCutter::BlockCutter(const Communicator& comm, const Mesh& mesh, const MeshBlocks& blocks)
+    : comm_{comm},
+      mesh_{mesh},
+      blocks_{blocks},
+      owners_(comm, mesh.first_node),
+      ghosts_(comm, owners_, mesh.owned_nodes, mesh.ghosts),
+      left_{blocks_of(edge_cells(comm, mesh).of_boundary)},
+      right_{blocks_of(cells_right_of_boundaries(comm, mesh))} {}
+
+BlockPart BlockCutter::cut(std::int32_t block) const {
+  BlockPart part;
+  take_cells(block, part);
+  take_edges(block, part.mesh);
+  take_nodes(part);
+  return part;
+}
+
+/// Returns the block of each cell, by global cell numbers; `no_block` for EdgeCells::none. *Collective.*
+std::vector<std::int32_t> BlockCutter::blocks_of(const std::vector<std::int64_t>& cells) const {
+  std::vector<std::int32_t> own = blocks_.of_triangles;
+  own.insert(own.end(), blocks_.of_quads.begin(), blocks_.of_quads.end());
+  std::vector<std::int64_t> wanted;
+  for (const std::int64_t cell : cells) {
+    if (cell != EdgeCells::none) wanted.push_back(cell);
+  }
+  const std::vector<std::int32_t> found =
+      rows_of_cells(comm_, CellOwners(comm_, mesh_), std::span<const std::int64_t>(wanted), own);
+  std::vector<std::int32_t> all;
+  auto next = found.begin();
+  for (const std::int64_t cell : cells) all.push_back(cell == EdgeCells::none ? no_block : *next++);
+  return all;
+}
+
+/// Takes the block's cells, still with the nodes of the whole mesh.
+void BlockCutter::take_cells(std::int32_t block, BlockPart& part) const {
+  const auto take = [&](const auto& cells, const std::vector<std::int32_t>& blocks, std::int32_t first,
+                        auto& to) {
+    for (std::int32_t i = 0; i < size32(cells); ++i) {
+      if (blocks[i] != block) continue;
+      to.push_back(cells[i]);
+      part.cells.push_back(first + i);
+    }
+  };
+  take(mesh_.triangles, blocks_.of_triangles, 0, part.mesh.triangles);
+  take(mesh_.quads, blocks_.of_quads, size32(mesh_.triangles), part.mesh.quads);
+}
+
+/// Takes the boundary edges beside the block, still with the nodes of the whole mesh.
+void BlockCutter::take_edges(std::int32_t block, Mesh& part) const {
+  std::size_t at = 0;
+  for (const BoundaryEdges& boundary : mesh_.boundaries) {
+    BoundaryEdges& own = part.boundaries.emplace_back(
+        BoundaryEdges{boundary.name, boundary.condition, {}, boundary.layers, false, boundary.inner_line});
+    for (const auto& [from, to] : boundary.edges) {
+      if (left_[at] == block)
+        own.edges.push_back({from, to});
+      else if (right_[at] == block)
+        own.edges.push_back({to, from});
+      ++at;
+    }
+  }
+}
+
+/// Flags the nodes of this rank's cells and edges, and the owned ones of other ranks' cells. *Collective.*
+NodeFlags BlockCutter::nodes_used_by(const Mesh& part) const {
+  NodeFlags used(mesh_.points.size(), 0);
+  part.for_each_cell([&](const auto& nodes) { flag_all(nodes, used); });
+  for (const BoundaryEdges& boundary : part.boundaries) {
+    for (const auto& nodes : boundary.edges) flag_all(nodes, used);
+  }
+  std::vector<GlobalNodeId> ghosts;
+  for_each_flagged(used, [&](NodeId node) {
+    if (!mesh_.owns(node)) ghosts.push_back(mesh_.global(node));
+  });
+  flag_at_owners(comm_, owners_, ghosts, used);
+  return used;
+}
+
+/// Takes the nodes of the block and numbers them anew. *Collective.*
+void BlockCutter::take_nodes(BlockPart& part) const {
+  const NodeFlags used = nodes_used_by(part.mesh);
+  Mesh& mesh = part.mesh;
+  IdVector<NodeId, NodeId> number(mesh_.points.size());
+  for (const NodeId node : used.ids()) {
+    if (used[node] == 0) continue;
+    number[node] = NodeId{size32(mesh.points)};
+    mesh.points.push_back(mesh_.point(node));
+    if (mesh_.owns(node)) part.nodes.push_back(node);
+  }
+  mesh.owned_nodes = size32(part.nodes);
+  mesh.first_node = comm_.exclusive_sum(std::int64_t{mesh.owned_nodes});
+  std::vector<std::int64_t> global(mesh_.points.size(), 0);
+  for (const NodeId node : part.nodes) global[node.value()] = mesh.first_node + number[node].value();
+  ghosts_.update(global);
+  for (const NodeId node : used.ids()) {
+    if (used[node] != 0 && !mesh_.owns(node)) mesh.ghosts.push_back(GlobalNodeId{global[node.value()]});
+  }
+  const auto renumber_all = [&](auto& nodes) {
+    for (NodeId& node : nodes) node = number[node];
+  };
+  mesh.for_each_cell(renumber_all);
+  for (BoundaryEdges& boundary : mesh.boundaries) std::ranges::for_each(boundary.edges, renumber_all);
+}
+
 std::vector<BlockPart> block_parts(const Communicator& comm, const Mesh& mesh) {
   std::vector<BlockPart> parts;
-  for (std::int32_t block = 0; block < size32(mesh.blocks.names); ++block)
-    parts.push_back(PartMaker(comm, mesh, block).make());
+  const BlockCutter cutter(comm, mesh, mesh.blocks);
+  for (std::int32_t block = 0; block < size32(mesh.blocks.names); ++block) parts.push_back(cutter.cut(block));
   return parts;
 }
 

@@ -6,18 +6,44 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/node_exchange.hpp"
 
 namespace quadloop {
 
-/// The part of a distributed mesh in one block, as a mesh of its own. An edge between two blocks is a
-/// boundary edge of both parts, directed with the part to its left. Strips are left out.
+/// The part of a distributed mesh in one block, as a mesh of its own. Nodes, cells and boundary edges are in
+/// the order of the whole mesh. An edge between two blocks is a boundary edge of both parts, directed with
+/// the part to its left. Strips are left out.
 struct BlockPart {
   Mesh mesh;
   std::vector<NodeId> nodes;        ///< the whole mesh's numbers of the part's owned nodes
   std::vector<std::int32_t> cells;  ///< the whole mesh's numbers of the part's cells, triangles before quads
 };
 
-/// One part for each block, in their order. *Collective.*
+/// Cuts the parts of blocks out of a distributed mesh.
+class BlockCutter {
+ public:
+  /// `blocks` are those of the mesh's cells. All three must outlive the object. *Collective.*
+  BlockCutter(const Communicator& comm, const Mesh& mesh, const MeshBlocks& blocks);
+
+  /// *Collective.*
+  BlockPart cut(std::int32_t block) const;
+
+ private:
+  std::vector<std::int32_t> blocks_of(const std::vector<std::int64_t>& cells) const;
+  void take_cells(std::int32_t block, BlockPart& part) const;
+  void take_edges(std::int32_t block, Mesh& part) const;
+  NodeFlags nodes_used_by(const Mesh& part) const;
+  void take_nodes(BlockPart& part) const;
+
+  const Communicator& comm_;
+  const Mesh& mesh_;
+  const MeshBlocks& blocks_;
+  NodeOwners owners_;
+  NodeExchange ghosts_;
+  std::vector<std::int32_t> left_, right_;  ///< block beside each boundary edge; -1: none
+};
+
+/// One part for each block of `mesh.blocks`, in their order. *Collective.*
 std::vector<BlockPart> block_parts(const Communicator& comm, const Mesh& mesh);
 
 /// Returns the field on a part: rows of its owned nodes and of its cells.

@@ -19,7 +19,12 @@ struct EdgeCells {
   std::int64_t first_triangle = 0, first_quad = 0;  ///< global numbers of this rank's first cells
 };
 
-/// The mesh must be valid. *Collective.*
+/// The mesh must be valid. A boundary edge may be stored on a rank that has neither of its cells.
+/// *Collective.*
 EdgeCells edge_cells(const Communicator& comm, const Mesh& mesh);
+
+/// For each boundary edge, boundary after boundary, the cell to its right: none on an outer boundary.
+/// *Collective.*
+std::vector<std::int64_t> cells_right_of_boundaries(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

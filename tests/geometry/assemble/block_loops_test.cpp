@@ -70,6 +70,16 @@ TEST(BlockLoops, LaterBlocksTakePrecedence) {
   EXPECT_DOUBLE_EQ(area_of(other, "fluid"), 1);
 }
 
+TEST(BlockLoops, WhatALaterBlockCoversIsNoWarning) {
+  std::vector<Chain> chains = nested();
+  chains.push_back({"bar", false, {{-3, -0.2}, {3, -0.2}, {3, 0.2}, {-3, 0.2}}, {}});
+  Warnings warnings;
+  block_loops(chains, {within("fluid", "wall"), within("solid", "ring"), within("rod", "bar")}, 1e-9,
+              warnings);
+  ASSERT_EQ(warnings.size(), 1U) << "of the core, which encloses no block";
+  EXPECT_EQ(warnings[0].find("boundary 'core': 8 segments"), 0U) << warnings[0];
+}
+
 TEST(BlockLoops, FacesOfNoBlockAreHoles) {
   const BlockOutline blocks = found(nested(), {inside("fluid", {2, 2}), inside("solid", {0.75, 0})});
   EXPECT_DOUBLE_EQ(area_of(blocks, "fluid"), 96);

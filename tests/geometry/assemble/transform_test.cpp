@@ -51,7 +51,11 @@ TEST(FarField, RefusesATooSmallOne) {
   std::vector<Chain> chains{square("body", {3, 4}, 1)};
   const std::string message = refusal([&] { add(chains, FarFieldShape::square, 1); });
   EXPECT_EQ(message.find("case.toml:3"), 0u) << message;
-  EXPECT_NE(message.find("does not enclose"), std::string::npos) << message;
+  EXPECT_NE(message.find("of half width 1 around (3, 4) does not enclose"), std::string::npos) << message;
+  for (const FarFieldShape round : {FarFieldShape::circle, FarFieldShape::rounded_front}) {
+    const std::string of_round = refusal([&] { add(chains, round, 1); });
+    EXPECT_NE(of_round.find("of radius 1 around (3, 4) does not enclose"), std::string::npos) << of_round;
+  }
 }
 
 TEST(FarField, ARectangleHasOneDistanceFromTheGeometry) {

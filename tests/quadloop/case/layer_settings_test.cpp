@@ -5,7 +5,7 @@
 
 #include "quadloop/case/case_input.hpp"
 #include "quadloop/case/first_height.hpp"
-#include "tests/io/input/temporary_file.hpp"
+#include "tests/quadloop/case/settings_fixture.hpp"
 
 namespace quadloop {
 namespace {
@@ -121,6 +121,83 @@ TEST_F(LayerSettingsTest, RefusesNumbersOfLayersAndGrowthsThatCannotBe) {
   expect_refused("first = 1e-3, count = 3, equal = 4",
                  "'boundary.box.layers.equal' is 4, more than the 3 layers");
   expect_refused("first = 1e-3, count = 3, last = 4", "unknown key 'boundary.box.layers.last'");
+}
+
+class LayerTables : public test::SettingsFixture {};
+
+TEST_F(LayerTables, ReadsLayers) {
+  const auto layers = [&](const std::string& text) {
+    const Geometry g = load(read("[boundary.box]\nlayers = { " + text + " }\n"));
+    return g.boundary(BoundaryId{0}).layers.value_or(LayerSpec{});
+  };
+  EXPECT_FALSE(load(read("")).boundary(BoundaryId{0}).layers.has_value());
+  EXPECT_EQ(layers("first = 1e-3, growth = 1.3, count = 12"), (LayerSpec{1e-3, 1.3, 1.3, 12, 1}));
+  EXPECT_EQ(layers("first = 1e-3, count = 12"), (LayerSpec{1e-3, 1.2, 1.2, 12, 1}));
+  EXPECT_EQ(layers("first = 1e-3, growth = [1.1, 1.5], count = 12, equal = 2"),
+            (LayerSpec{1e-3, 1.1, 1.5, 12, 2}));
+  EXPECT_EQ(layers("first = 4e-3, growth = 1.5, thickness = 0.019").count, 3) << "4 + 6 + 9";
+  EXPECT_EQ(layers("first = 4e-3, growth = 1.5, thickness = 0.0191").count, 4);
+}
+
+TEST_F(LayerTables, RefusesBadLayers) {
+  const auto layers = [&](const std::string& text) {
+    return refused("[boundary.box]\nlayers = { " + text + " }\n");
+  };
+  const std::string place = "case.toml:4: 'boundary.box.layers.";
+  EXPECT_EQ(layers("count = 3").find(place + "first' is missing"), 0u);
+  EXPECT_EQ(layers("first = 0, count = 3").find(place + "first' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1").find(place + "count' is missing"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 3, thickness = 4").find(place + "thickness' stands beside count"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 0").find(place + "count' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 1001").find(place + "count' is 1001"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 2.5").find(place + "count' must be a whole number"), 0u);
+  EXPECT_EQ(layers("first = 1, growth = 0.9, count = 3").find(place + "growth' "), 0u);
+  EXPECT_EQ(layers("first = 1, growth = 2.1, count = 3").find(place + "growth' "), 0u);
+  EXPECT_EQ(layers("first = 1, growth = [1.5, 1.2], count = 3").find(place + "growth' must be a number"), 0u);
+  EXPECT_EQ(layers("first = 1, growth = [1.1, 1.1, 1.1], count = 3").find(place + "growth' must be a number"),
+            0u);
+  EXPECT_EQ(
+      layers("first = 1, growth = 1.0001, thickness = 1100").find(place + "thickness' takes more than 1000"),
+      0u);
+  EXPECT_EQ(layers("first = 1, equal = 0, count = 3").find(place + "equal' is 0"), 0u);
+  EXPECT_EQ(layers("first = 1, count = 3, height = 1")
+                .find("case.toml:4: unknown key 'boundary.box.layers.height'"),
+            0u);
+}
+
+TEST_F(LayerTables, ReadsWakesAndFreeLinesWithLayers) {
+  EXPECT_TRUE(read("").lines.empty());
+  const Settings settings = read(
+      "[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n"
+      "[[wake]]\nfrom = \"box\"\nat = [1, 0]\npath = [[2, 0], [4, 1]]\nspacing = 0.2\n"
+      "[[layer_line]]\npath = [[0, 0], [1, 1]]\nspacing = 0.3\nfirst = 1e-3\ncount = 5\n");
+  ASSERT_EQ(settings.lines.size(), 3U);
+  EXPECT_TRUE(settings.lines[0].where.ends_with("/case.toml:3")) << settings.lines[0].where;
+  EXPECT_TRUE(settings.lines[2].where.ends_with("/case.toml:12")) << settings.lines[2].where;
+  const auto both = read("[[wake]]\nfrom = [\"upper\", \"lower\"]\nlength = 1\nspacing = 1\n").lines;
+  EXPECT_EQ(both[0].from, (std::vector<std::string>{"upper", "lower"}));
+  EXPECT_EQ(settings.lines[0], (LayerLine{{"box"}, {}, 3, 0.1, {}}));
+  EXPECT_EQ(settings.lines[1], (LayerLine{{"box"}, {{2, 0}, {4, 1}}, 0, 0.2, {}, {}, Point{1, 0}}));
+  EXPECT_EQ(settings.lines[2], (LayerLine{{}, {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
+}
+
+TEST_F(LayerTables, RefusesBadWakesAndFreeLines) {
+  const auto wake = [&](const std::string& text) { return refused("[[wake]]\n" + text + "\n"); };
+  const auto line = [&](const std::string& text) { return refused("[[layer_line]]\n" + text + "\n"); };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(wake("length = 1\nspacing = 1"), "from' is missing");
+  has(wake("from = \"a\"\nspacing = 1"), "length' is missing: how far the wake goes on, or with path where");
+  has(wake("from = \"a\"\nlength = 1\npath = [[1, 1]]\nspacing = 1"), "length' stands beside path");
+  has(wake("from = \"a\"\nat = [1]\nlength = 1\nspacing = 1"), "at' ");
+  has(wake("from = \"a\"\nlength = 1"), "spacing' is missing");
+  has(wake("from = \"a\"\nlength = 1\nspacing = 0"), "spacing' is 0");
+  has(wake("from = \"a\"\npath = [[1, 1], [1, 1]]\nspacing = 1"),
+      "path' has the point (1, 1) twice in a row");
+  has(wake("from = \"a\"\nlength = 1\nspacing = 1\nfirst = 1"), "unknown key");
+  has(line("path = [[1, 1]]\nspacing = 1\nfirst = 1\ncount = 1"), "path' must have two points at least");
+  has(line("path = [[1, 1], [2, 2]]\nspacing = 1\ncount = 1"), "first' is missing");
 }
 
 }  // namespace

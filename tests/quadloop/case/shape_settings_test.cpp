@@ -137,7 +137,7 @@ TEST_F(ShapeSettings, WrongKeysAreNamed) {
   expect_refused(shape("name = \"a\"\nkind = \"circle\"\nradius = 1\nbox = [0, 1, 0, 1]\n"),
                  "case.toml:7: 'shape.0.box' needs kind = \"rectangle\", but kind = \"circle\"");
   expect_refused(shape("name = \"a\"\nkind = \"rectangle\"\nbox = [0, 0, 0, 1]\n"),
-                 "'shape.0.box' must be [x0, x1, y0, y1]");
+                 "'shape.0.box' is [0, 0, 0, 1], but must be [x0, x1, y0, y1] with x0 < x1");
   expect_refused(shape("name = \"a\"\nkind = \"polygon\"\n"), "'shape.0.points' is missing");
   expect_refused(shape("name = \"a\"\nkind = \"polygon\"\npoints = [[0, 0], [1, 0]]\n"), "case.toml:3: ");
   expect_refused(shape("name = \"a\"\ncode = \"2412\"\nchord = 2\n"),
