@@ -16,6 +16,7 @@ TEST(Su2History, ItsLastRowHasTheForces) {
   EXPECT_EQ(end.cd, 0.0625);
   ASSERT_TRUE(end.residual);
   EXPECT_NEAR(*end.residual, 1e-4, 1e-18) << "of the density where there are two";
+  EXPECT_EQ(end.log_residual, -5.5);
 }
 
 TEST(Su2History, WithoutADensityThePressureTells) {
@@ -29,6 +30,15 @@ TEST(Su2History, LeavesOutWhatItCannotRead) {
   EXPECT_EQ(end.cl, 3) << "of the last whole row";
   EXPECT_EQ(end.cd, std::nullopt);
   EXPECT_EQ(end.residual, std::nullopt);
+  EXPECT_EQ(end.log_residual, std::nullopt);
+}
+
+TEST(Su2Log, ItsLastSentenceTellsWhetherItConverged) {
+  EXPECT_EQ(converged_by_log("--- Solver Exit ---\nAll convergence criteria satisfied.\n+--+\n"), true);
+  EXPECT_EQ(converged_by_log("\nMaximum number of iterations reached (ITER = 10) before convergence.\n"),
+            false);
+  EXPECT_EQ(converged_by_log("\nMaximum number of time iterations reached (TIME_ITER = 10).\n"),
+            std::nullopt);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The cause of an end of OpenFOAM's, of a log's end.
+// The error that OpenFOAM or SU2 reports at the end of its log.
 #include <gtest/gtest.h>
 
 #include "flow/command/log_tail.hpp"
@@ -10,10 +10,10 @@ namespace {
 std::string error_in(const std::string& text, std::size_t length = 300) {
   const test::CycleFolder folder;
   folder.write("log", text);
-  return foam_error(folder.file("log"), length);
+  return reported_error(folder.file("log"), length);
 }
 
-TEST(FoamError, IsTheMessageAboveThePlaceInTheSource) {
+TEST(ReportedError, OfFoamIsTheMessageAboveThePlaceInTheSource) {
   const std::string log =
       "Time = 1\n\n\n--> FOAM FATAL IO ERROR: \nCannot find patchField entry for square\n\nfile: 0/p from "
       "line "
@@ -25,7 +25,7 @@ TEST(FoamError, IsTheMessageAboveThePlaceInTheSource) {
             "FOAM FATAL ERROR: (openfoam-2312) no");
 }
 
-TEST(FoamError, OfSeveralRanksIsThatOfOne) {
+TEST(ReportedError, OfSeveralRanksOfFoamIsThatOfOne) {
   EXPECT_EQ(
       error_in(
           "[1] \n[1] \n[0] \n[1] --> FOAM FATAL ERROR: \n[0] --> FOAM FATAL ERROR: \n[0] of zero\n[1] of "
@@ -33,10 +33,20 @@ TEST(FoamError, OfSeveralRanksIsThatOfOne) {
       "FOAM FATAL ERROR: of one");
 }
 
-TEST(FoamError, OfOtherLogsIsNothing) {
+TEST(ReportedError, OfSu2IsTheTextBetweenItsRulers) {
+  const std::string ruler = std::string(73, '-') + "\n", exit = "----------- Error Exit -----------\n\n";
+  EXPECT_EQ(error_in("| 12| -3.1|\n\n\nError in \"void CSolver::SetResidual_RMS(const CGeometry*)\": \n" +
+                     ruler + "SU2 has diverged (Residual > 10^20 detected).\n" + exit +
+                     "[host:1] 3 more processes have sent help message\nORTE_ERROR_LOG: unpack\n"),
+            "SU2 has diverged (Residual > 10^20 detected).");
+  EXPECT_EQ(error_in("Error in \"a\": \n" + ruler + "First line\nand the second.\n" + exit),
+            "First line and the second.");
+}
+
+TEST(ReportedError, OfOtherLogsIsNothing) {
   EXPECT_EQ(error_in("--> FOAM Warning : \nfine\n"), "");
   EXPECT_EQ(error_in(""), "");
-  EXPECT_EQ(foam_error("/there/is/no/such/log"), "");
+  EXPECT_EQ(reported_error("/there/is/no/such/log"), "");
 }
 
 }  // namespace
