@@ -43,6 +43,11 @@ TEST(ReportedError, OfSu2IsTheTextBetweenItsRulers) {
             "First line and the second.");
 }
 
+TEST(ReportedError, OfARecordedLogOfSu2IsItsMessage) {
+  EXPECT_EQ(reported_error(std::string(QUADLOOP_SOURCE_DIR) + "/tests/io/su2/recorded/error.log"),
+            "The configuration file doesn't have any definition for marker inlet");
+}
+
 TEST(ReportedError, OfOtherLogsIsNothing) {
   EXPECT_EQ(error_in("--> FOAM Warning : \nfine\n"), "");
   EXPECT_EQ(error_in(""), "");
