@@ -102,6 +102,8 @@ std::string line_of(const adapt::CycleRecord& record) {
   if (record.morphed) line += *record.morphed ? "  morphed" : "  remeshed";
   if (record.cl) line += fmt::format("  cl {:.5f}  cd {:.5f}", *record.cl, *record.cd);
   if (record.residual) line += fmt::format("  residual {:.1e}", *record.residual);
+  if (record.log_residual) line += fmt::format(" (10^{:.2f})", *record.log_residual);
+  if (record.converged == false) line += "  not converged";
   if (record.estimate) line += fmt::format("  error {:.3e}", *record.estimate);
   if (record.order) line += fmt::format("  order {:.2f}", *record.order);
   if (!record.passes.empty()) line += fmt::format("  after {} passes", record.passes.size());

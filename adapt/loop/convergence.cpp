@@ -7,13 +7,13 @@
 namespace quadloop::adapt {
 
 CycleValues values_of(const CycleRecord& record) {
-  return {record.nodes, record.cl, record.cd, record.estimate};
+  return {record.nodes, record.cl, record.cd, record.estimate, record.converged};
 }
 
 CycleValues recorded_values(const std::string& json) {
   const double nodes = recorded_number(json, "nodes").value_or(0);
   return {static_cast<std::int64_t>(nodes), recorded_number(json, "cl"), recorded_number(json, "cd"),
-          recorded_number(json, "estimate")};
+          recorded_number(json, "estimate"), recorded_flag(json, "converged")};
 }
 
 std::optional<double> observed_order(const CycleValues& before, const CycleValues& now) {
@@ -30,6 +30,7 @@ bool have_settled(const AdaptOptions::Until& until, const CycleValues& before, c
     if (!most) return true;
     return a && b && std::abs(*b - *a) < *most * (relative ? std::abs(*a) : 1);
   };
+  if (before.converged == false || now.converged == false) return false;
   return !until.empty() && within(until.cl, before.cl, now.cl, false) &&
          within(until.cd, before.cd, now.cd, false) &&
          within(until.estimate, before.estimate, now.estimate, true);

@@ -13,6 +13,7 @@ namespace quadloop::adapt {
 struct CycleValues {
   std::int64_t nodes = 0;
   std::optional<double> cl, cd, estimate;
+  std::optional<bool> converged = {};  ///< whether the solver converged, if it reports this
 };
 
 CycleValues values_of(const CycleRecord& record);
@@ -23,7 +24,8 @@ CycleValues recorded_values(const std::string& json);
 /// the cycles has no estimate, or the numbers of nodes differ by less than a tenth.
 std::optional<double> observed_order(const CycleValues& before, const CycleValues& now);
 
-/// Whether all values that `until` names have changed by less than its limits; false if it names none.
+/// Whether all values that `until` names have changed by less than its limits; false if it names none, or if
+/// the solver did not converge in one of the cycles.
 bool have_settled(const AdaptOptions::Until& until, const CycleValues& before, const CycleValues& now);
 
 /// Throws InputError if `until` names a force that the solver does not provide.

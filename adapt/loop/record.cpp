@@ -91,10 +91,12 @@ JsonObject statistics_of(const CycleRecord& record) {
   for (const auto& [name, value] : {std::pair{"cl", record.cl},
                                     {"cd", record.cd},
                                     {"residual", record.residual},
+                                    {"log_residual", record.log_residual},
                                     {"estimate", record.estimate},
                                     {"order", record.order}}) {
     if (value) json.add(name, *value);
   }
+  if (record.converged) json.add("converged", *record.converged);
   if (record.unsteady) json.add("unsteady", record_of(*record.unsteady));
   if (record.settled) json.add("settled", *record.settled);
   if (!record.goals.empty()) json.add("goals", record_of(record.goals));
@@ -179,6 +181,13 @@ std::optional<double> recorded_number(const std::string& text, const std::string
   const auto found = json.find(key);
   if (found == json.end() || !found->is_number()) return {};
   return found->get<double>();
+}
+
+std::optional<bool> recorded_flag(const std::string& text, const std::string& key) {
+  const Json json = parsed(text);
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_boolean()) return {};
+  return found->get<bool>();
 }
 
 std::optional<RecordedCase> recorded_case(const std::string& text) {

@@ -85,6 +85,8 @@ struct RecordedCase {
 
 /// Returns the number stored under a top-level key of a record, e.g. `cl`; empty if there is none.
 std::optional<double> recorded_number(const std::string& text, const std::string& key);
+/// Returns the same for a flag, e.g. `converged`.
+std::optional<bool> recorded_flag(const std::string& text, const std::string& key);
 
 /// Returns the case data of a record; empty if the text is not a complete record.
 std::optional<RecordedCase> recorded_case(const std::string& text);

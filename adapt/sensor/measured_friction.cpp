@@ -34,32 +34,57 @@ struct HeightAbove {
   double height = unknown;
 };
 
-std::optional<std::size_t> only_one(const std::vector<std::size_t>& found) {
-  if (found.size() != 1) return std::nullopt;
-  return found.front();
-}
-
 std::optional<std::size_t> y_plus_among(const std::vector<std::string>& names) {
   const auto as_written = std::ranges::find(names, "y+");
   if (as_written != names.end()) return as_written - names.begin();
-  return only_one(variables_like(names, "y_plus"));
+  return only_variable_like(names, "y_plus");
 }
 
-/// Wall edges of all ranks, in the order of their nodes. *Collective.*
+/// The nodal variables that give friction: shear along the wall, SU2's skin friction coefficient, or else y+.
+class FrictionAtNodes {
+ public:
+  FrictionAtNodes(const std::vector<std::string>& names, const WallFlow& flow)
+      : shear_{only_variable_like(names, "wall_shear")}, dynamic_pressure_{flow.dynamic_pressure} {
+    if (shear_) return;
+    if (dynamic_pressure_ > 0) coefficient_ = components_like(names, "Skin_Friction_Coefficient");
+    if (!coefficient_) y_plus_ = y_plus_among(names);
+  }
+
+  bool tells() const { return shear_ || coefficient_ || y_plus_; }
+  bool is_y_plus() const { return y_plus_.has_value(); }
+  const std::string& name(const std::vector<std::string>& names) const {
+    return names[shear_ ? *shear_ : coefficient_ ? coefficient_->front() : *y_plus_];
+  }
+  /// Magnitude of the shear, or y+.
+  double value(std::span<const double> row) const {
+    if (coefficient_)
+      return dynamic_pressure_ * std::hypot(row[coefficient_->front()], row[coefficient_->back()]);
+    return std::abs(row[shear_ ? *shear_ : *y_plus_]);
+  }
+
+ private:
+  std::optional<std::size_t> shear_, y_plus_;
+  std::optional<std::array<std::size_t, 2>> coefficient_;
+  double dynamic_pressure_;
+};
+
+/// Wall edges of all ranks, in the order of their nodes; `friction` is null for edges without values.
+/// *Collective.*
 std::vector<WallEdge> wall_edges(const Communicator& comm, const Mesh& mesh, const Field& with_ghosts,
-                                 std::span<const std::string> walls, std::optional<std::size_t> variable) {
-  const auto density = only_one(variables_like(with_ghosts.names, "density"));
+                                 std::span<const std::string> walls, const FrictionAtNodes* friction) {
+  const auto density = only_variable_like(with_ghosts.names, "density");
   std::vector<WallEdge> own;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     if (std::ranges::find(walls, boundary.name) == walls.end()) continue;
     for (const auto& [from, to] : boundary.edges) {
-      const auto of = [&](const std::optional<std::size_t>& v, NodeId node) {
-        return v ? with_ghosts.row(node)[*v] : 0;
+      const auto value_at = [&](NodeId node) {
+        return friction != nullptr ? friction->value(with_ghosts.row(node)) : 0;
       };
+      const auto density_at = [&](NodeId node) { return density ? with_ghosts.row(node)[*density] : 0; };
       own.push_back({{mesh.global(from), mesh.global(to)},
                      {mesh.point(from), mesh.point(to)},
-                     {of(variable, from), of(variable, to)},
-                     {of(density, from), of(density, to)}});
+                     {value_at(from), value_at(to)},
+                     {density_at(from), density_at(to)}});
     }
   }
   std::vector<WallEdge> edges = comm.all_gather_values(std::span<const WallEdge>(own));
@@ -78,25 +103,27 @@ struct CellAtEdge {
 struct FrictionInCells {
   explicit FrictionInCells(const std::vector<std::string>& names)
       : y_plus{y_plus_among(names)},
-        shear{only_one(variables_like(names, "wall_shear"))},
-        shear_x{only_one(variables_like(names, "wallShearStress_x"))},
-        shear_y{only_one(variables_like(names, "wallShearStress_y"))},
-        density{only_one(variables_like(names, "density"))} {}
+        shear{only_variable_like(names, "wall_shear")},
+        stress{components_like(names, "wallShearStress")},
+        density{only_variable_like(names, "density")} {}
 
-  bool tells() const { return y_plus || shear || (shear_x && shear_y); }
+  bool tells() const { return y_plus || shear || stress; }
   const std::string& name(const std::vector<std::string>& names) const {
-    return names[y_plus ? *y_plus : shear ? *shear : *shear_x];
+    return names[y_plus ? *y_plus : shear ? *shear : stress->front()];
   }
 
   /// `height`: of the cell centre above the wall.
   double wall_units(std::span<const double> row, double height, const WallFlow& flow) const {
     if (y_plus) return std::abs(row[*y_plus]) / height;
-    const double along_wall = shear ? std::abs(row[*shear]) : std::hypot(row[*shear_x], row[*shear_y]);
+    const double along_wall =
+        shear ? std::abs(row[*shear]) : std::hypot(row[stress->front()], row[stress->back()]);
     const double at_wall = density && row[*density] > 0 ? row[*density] : flow.density;
     return std::sqrt(along_wall * at_wall) / flow.viscosity;
   }
 
-  std::optional<std::size_t> y_plus, shear, shear_x, shear_y, density;
+  std::optional<std::size_t> y_plus, shear;
+  std::optional<std::array<std::size_t, 2>> stress;
+  std::optional<std::size_t> density;
 };
 
 /// The local cells at wall edges, by the ends of the edges.
@@ -200,35 +227,66 @@ std::map<GlobalNodeId, double> heights_above(const Communicator& comm, const Mes
   return least;
 }
 
+/// Whether the wall turns at the node between two edges, so that the nearest node off the wall, to whose
+/// distance a solver's y+ refers, may be on a wake or in a corner.
+bool is_corner(const WallEdge& before, const WallEdge& after) {
+  constexpr double cosine = 0.866;  // 30 degrees
+  const Point a = before.points[1] - before.points[0], b = after.points[1] - after.points[0];
+  return dot(a, b) < cosine * length(a) * length(b);
+}
+
+/// Replaces the value at each corner by that at the other end of the edge, unless that is a corner too.
+void replace_corners(const std::vector<WallEdge>& edges, MeasuredWall& measured) {
+  std::map<GlobalNodeId, std::size_t> edge_from;
+  for (std::size_t k = 0; k < edges.size(); ++k) edge_from.emplace(edges[k].nodes[0], k);
+  std::vector<std::array<bool, 2>> corners(edges.size());
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto next = edge_from.find(edges[k].nodes[1]);
+    if (next == edge_from.end() || !is_corner(edges[k], edges[next->second])) continue;
+    corners[k][1] = corners[next->second][0] = true;
+  }
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    if (corners[k][0] && !corners[k][1]) measured[k].wall_units_from = measured[k].wall_units_to;
+    if (corners[k][1] && !corners[k][0]) measured[k].wall_units_to = measured[k].wall_units_from;
+  }
+}
+
+/// *Collective.*
+MeasuredWall friction_at_nodes(const Communicator& comm, const Mesh& mesh, const Field& solution,
+                               std::span<const std::string> walls, const WallFlow& flow,
+                               const std::string& where) {
+  const FrictionAtNodes friction(solution.names, flow);
+  const std::vector<WallEdge> edges =
+      wall_edges(comm, mesh, with_ghosts(comm, mesh, solution), walls, &friction);
+  const bool by_height = friction.is_y_plus();
+  const auto heights = by_height ? heights_above(comm, mesh, edges) : std::map<GlobalNodeId, double>{};
+  MeasuredWall measured;
+  for (const WallEdge& edge : edges) {
+    const auto wall_units = [&](std::size_t end) {
+      const double value = edge.value[end];
+      if (!std::isfinite(value))
+        throw InputError(fmt::format("{}: '{}' is not finite at the wall's node at ({}, {})", where,
+                                     friction.name(solution.names), edge.points[end].x, edge.points[end].y));
+      if (by_height) return value / heights.at(edge.nodes[end]);
+      const double density = edge.density[end] > 0 ? edge.density[end] : flow.density;
+      return std::sqrt(value * density) / flow.viscosity;
+    };
+    measured.push_back({edge.points[0], edge.points[1], wall_units(0), wall_units(1)});
+  }
+  if (by_height) replace_corners(edges, measured);
+  return measured;
+}
+
 }  // namespace
 
 MeasuredWall measured_friction(const Communicator& comm, const Mesh& mesh, const Field& solution,
                                std::span<const std::string> walls, const WallFlow& flow,
                                const std::string& where) {
-  const auto shear = only_one(variables_like(solution.names, "wall_shear")),
-             y_plus = shear ? std::nullopt : y_plus_among(solution.names);
-  if (!shear && !y_plus) {
-    if (!FrictionInCells(solution.cells.names).tells()) return {};
-    const std::vector<WallEdge> edges = wall_edges(comm, mesh, {}, walls, std::nullopt);
-    return friction_of_cells(comm, mesh, solution.cells, edges, flow, where);
-  }
-  const Field values = with_ghosts(comm, mesh, solution);
-  const std::vector<WallEdge> edges = wall_edges(comm, mesh, values, walls, shear ? *shear : *y_plus);
-  const auto heights = y_plus ? heights_above(comm, mesh, edges) : std::map<GlobalNodeId, double>{};
-  MeasuredWall measured;
-  for (const WallEdge& edge : edges) {
-    const auto wall_units = [&](std::size_t end) {
-      const double value = std::abs(edge.value[end]);
-      if (!std::isfinite(value))
-        throw InputError(fmt::format("{}: '{}' is not finite at the wall's node at ({}, {})", where,
-                                     solution.names[shear ? *shear : *y_plus], edge.points[end].x,
-                                     edge.points[end].y));
-      const double density = edge.density[end] > 0 ? edge.density[end] : flow.density;
-      return shear ? std::sqrt(value * density) / flow.viscosity : value / heights.at(edge.nodes[end]);
-    };
-    measured.push_back({edge.points[0], edge.points[1], wall_units(0), wall_units(1)});
-  }
-  return measured;
+  if (FrictionAtNodes(solution.names, flow).tells())
+    return friction_at_nodes(comm, mesh, solution, walls, flow, where);
+  if (!FrictionInCells(solution.cells.names).tells()) return {};
+  const std::vector<WallEdge> edges = wall_edges(comm, mesh, {}, walls, nullptr);
+  return friction_of_cells(comm, mesh, solution.cells, edges, flow, where);
 }
 
 }  // namespace quadloop::adapt

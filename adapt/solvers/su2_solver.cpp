@@ -1,9 +1,12 @@
 #include "adapt/solvers/su2_solver.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
+#include "flow/command/log_tail.hpp"
 #include "flow/su2/su2_config.hpp"
 #include "flow/su2/su2_history.hpp"
 #include "flow/su2/su2_variables.hpp"
@@ -69,23 +72,47 @@ void write_config(const Communicator& comm, const Su2Solver& solver, const std::
   outputs.commit();
 }
 
-/// Adds how SU2 ended, if it reports this. *Collective.*
-void add_end(const Communicator& comm, const std::string& folder, flow::SolvedFlow& flow) {
-  flow::Su2End end;
+/// Returns how SU2 ended, as far as its history and its log report this. *Collective.*
+flow::Su2End end_of_run(const Communicator& comm, const std::string& folder) {
+  std::vector<flow::Su2End> own;
   comm.together([&] {
+    if (!comm.is_root()) return;
     const std::string path = (std::filesystem::path(folder) / history_name).string() + ".csv";
-    if (comm.is_root() && std::filesystem::is_regular_file(path))
-      end = flow::end_of_history(io::read_input(path));
+    flow::SolverFiles files;
+    files.folder = folder;
+    own.emplace_back();
+    if (std::filesystem::is_regular_file(path)) own.back() = flow::end_of_history(io::read_input(path));
+    own.back().converged = flow::converged_by_log(flow::end_of_file(flow::solver_log(files)));
   });
-  const auto from_root = [&](const std::optional<double>& value) {
-    std::vector<double> own;
-    if (comm.is_root() && value) own.push_back(*value);
-    const std::vector<double> all = comm.all_gather_values(std::span<const double>(own));
-    return all.empty() ? std::nullopt : std::optional(all.front());
-  };
-  flow.cl = from_root(end.cl);
-  flow.cd = from_root(end.cd);
-  flow.residual = from_root(end.residual);
+  return comm.all_gather_values(std::span<const flow::Su2End>(own)).front();
+}
+
+/// Returns a warning about a flow that did not converge.
+std::string unconverged_warning(const flow::Su2Config& config, const flow::Su2End& end) {
+  std::string text = "SU2 reached its limit of iterations";
+  if (const auto limit = config.value("ITER")) text += fmt::format(" (ITER= {})", *limit);
+  text += " before it converged";
+  if (end.log_residual) text += fmt::format("; its residual is 10^{:.2f}", *end.log_residual);
+  if (const auto goal = config.value("CONV_RESIDUAL_MINVAL"))
+    text += fmt::format(", and CONV_RESIDUAL_MINVAL= {}", *goal);
+  return text +
+         ". The forces and the next mesh depend on this unfinished flow: increase ITER, or change the "
+         "settings of the scheme";
+}
+
+/// Adds how SU2 ended to its flow. *Collective.*
+void add_end(const Communicator& comm, const Su2Solver& solver, const std::string& folder,
+             flow::SolvedFlow& flow) {
+  const flow::Su2End end = end_of_run(comm, folder);
+  flow.cl = end.cl;
+  flow.cd = end.cd;
+  flow.residual = end.residual;
+  flow.log_residual = end.log_residual;
+  flow.converged = end.converged;
+  comm.together([&] {
+    if (end.converged == false && comm.is_root())
+      flow.warnings.push_back(unconverged_warning(read_config(solver.config), end));
+  });
 }
 
 }  // namespace
@@ -114,7 +141,7 @@ flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycl
     write_config(comm, solver, folder, start.width() > 0);
     flow::SolvedFlow flow = command(comm, mesh, flow::without_primitive_variables(start), cycle);
     flow.solution = flow::with_primitive_variables(std::move(flow.solution), solver.command.gamma);
-    add_end(comm, folder, flow);
+    add_end(comm, solver, folder, flow);
     return flow;
   };
 }

@@ -23,18 +23,6 @@ bool says_something(const std::string& line) {
 
 bool inside_character(char byte) { return (byte & 0xC0U) == 0x80U; }  // UTF-8
 
-/// Returns the last 64 KiB; empty if the file cannot be read.
-std::string end_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) return {};
-  const std::streamoff size = file.tellg();
-  file.seekg(std::max<std::streamoff>(0, size - most_bytes));
-  std::string bytes(std::min(size, most_bytes), '\0');
-  file.read(bytes.data(), bytes.size());
-  bytes.resize(file.gcount());
-  return bytes;
-}
-
 /// Trims a line and truncates it to `length` bytes between characters; tabs become blanks and other control
 /// characters '?'.
 std::string fit_for_message(std::string line, std::size_t length) {
@@ -62,23 +50,10 @@ bool ends_message(const std::string& line) {
   return false;
 }
 
-}  // namespace
-
-std::string last_line(const std::string& path, std::size_t length) {
-  const std::string bytes = end_of_file(path);
-  for (std::size_t end = bytes.size(); end > 0;) {
-    const std::size_t before = bytes.find_last_of("\r\n", end - 1);
-    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    const std::string line = bytes.substr(begin, end - begin);
-    if (says_something(line)) return fit_for_message(line, length);
-    end = before == std::string::npos ? 0 : before;
-  }
-  return {};
-}
-
-std::string foam_error(const std::string& path, std::size_t length) {
+/// Returns OpenFOAM's first error in the text.
+std::string foam_error(const std::string& text) {
   constexpr std::string_view head = "--> FOAM FATAL";
-  std::istringstream lines(end_of_file(path));
+  std::istringstream lines(text);
   std::string message, of_rank, line;
   while (std::getline(lines, line)) {
     if (message.empty()) {
@@ -94,7 +69,52 @@ std::string foam_error(const std::string& path, std::size_t length) {
     if (ends_message(words)) break;
     if (!words.empty()) message += " " + words;
   }
-  return fit_for_message(message, length);
+  return message;
+}
+
+/// Returns SU2's first error in the text: the lines between its two rulers (CBaseMPIWrapper::Error).
+std::string su2_error(const std::string& text) {
+  std::istringstream lines(text);
+  std::string message, line;
+  bool inside = false;
+  while (std::getline(lines, line)) {
+    const std::string words(trimmed(line));
+    if (words.find("Error Exit") != std::string::npos) break;
+    if (inside && says_something(words)) message += (message.empty() ? "" : " ") + words;
+    inside = inside || words.starts_with("Error in \"");
+  }
+  return message;
+}
+
+}  // namespace
+
+std::string end_of_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max<std::streamoff>(0, size - most_bytes));
+  std::string bytes(std::min(size, most_bytes), '\0');
+  file.read(bytes.data(), bytes.size());
+  bytes.resize(file.gcount());
+  return bytes;
+}
+
+std::string last_line(const std::string& path, std::size_t length) {
+  const std::string bytes = end_of_file(path);
+  for (std::size_t end = bytes.size(); end > 0;) {
+    const std::size_t before = bytes.find_last_of("\r\n", end - 1);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string line = bytes.substr(begin, end - begin);
+    if (says_something(line)) return fit_for_message(line, length);
+    end = before == std::string::npos ? 0 : before;
+  }
+  return {};
+}
+
+std::string reported_error(const std::string& path, std::size_t length) {
+  const std::string text = end_of_file(path);
+  const std::string of_foam = foam_error(text);
+  return fit_for_message(of_foam.empty() ? su2_error(text) : of_foam, length);
 }
 
 }  // namespace quadloop::flow

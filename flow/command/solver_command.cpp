@@ -148,7 +148,7 @@ std::string solver_message(const SolverCommand& command, const SolverFiles& file
   const std::string& program = command.name.empty() ? first : command.name;
   const std::string message =
       "the solver '" + program + "' of cycle " + std::to_string(files.cycle) + " " + fault + "; ";
-  if (const std::string cause = foam_error(solver_log(files)); !cause.empty())
+  if (const std::string cause = reported_error(solver_log(files)); !cause.empty())
     return message + solver_log(files) + " has: " + cause;
   const std::string last = last_line(solver_log(files));
   if (last.empty()) return message + "it wrote nothing to its log, " + solver_log(files);

@@ -19,6 +19,8 @@ struct FlowTables {
 /// Results of a flow, for any solver.
 struct FlowStatistics : FlowTables {
   std::optional<double> cl, cd, residual;  ///< if the solver provides them
+  std::optional<double> log_residual;      ///< base-10 logarithm of the residual in the solver's units
+  std::optional<bool> converged;           ///< whether the solver met its own criterion, if it reports this
 };
 
 }  // namespace quadloop::flow

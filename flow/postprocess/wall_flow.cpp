@@ -67,14 +67,6 @@ class WallRows {
   bool has_density_, has_shear_;
 };
 
-/// Finds the columns of SU2's skin friction, shear stress over dynamic pressure.
-std::optional<std::array<std::size_t, 2>> skin_friction_columns(const std::vector<std::string>& names) {
-  const auto along_x = variables_like(names, "Skin_Friction_Coefficient_x"),
-             along_y = variables_like(names, "Skin_Friction_Coefficient_y");
-  if (along_x.size() != 1 || along_y.size() != 1) return std::nullopt;
-  return {{along_x.front(), along_y.front()}};
-}
-
 /// For each owned node. *Collective.*
 std::vector<double> shear_at_nodes(const Communicator& comm, const Mesh& mesh, const Field& solution,
                                    const FlowColumns& columns, const FreeStream& stream,
@@ -85,7 +77,7 @@ std::vector<double> shear_at_nodes(const Communicator& comm, const Mesh& mesh, c
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     velocities[i] = columns.velocity(solution.row(NodeId{i}));
   halo.exchange().update(velocities);
-  const auto coefficients = skin_friction_columns(solution.names);
+  const auto coefficients = components_like(solution.names, "Skin_Friction_Coefficient");  // SU2's
   std::vector<double> shear(mesh.owned_nodes, 0.0);
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
     if (length(above.inward[i]) == 0) continue;

@@ -59,12 +59,20 @@ Su2End end_of_history(const std::string& text) {
     if (first.empty()) first = row;
     last = std::move(row);
   }
-  Su2End end{value_of(last, "CL"), value_of(last, "CD"), {}};
+  Su2End end{value_of(last, "CL"), value_of(last, "CD"), {}, {}, {}};
   for (const char* name : {"rms[P]", "rms[Rho]"}) {
     const auto before = value_of(first, name), now = value_of(last, name);
-    if (before && now) end.residual = std::pow(10.0, *now - *before);
+    if (!before || !now) continue;
+    end.residual = std::pow(10.0, *now - *before);
+    end.log_residual = now;
   }
   return end;
+}
+
+std::optional<bool> converged_by_log(const std::string& text) {
+  if (text.find("All convergence criteria satisfied") != std::string::npos) return true;
+  if (text.find("Maximum number of iterations reached") != std::string::npos) return false;
+  return std::nullopt;
 }
 
 }  // namespace quadloop::flow

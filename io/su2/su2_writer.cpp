@@ -92,14 +92,17 @@ class Su2Writer {
     if (stream_.is_plane()) write_pairs();
   }
 
-  /// Writes what the solver's configuration must say of pairs, as comments.
+  /// Writes what the solver's configuration must say of pairs, as a comment: one line for all pairs, because
+  /// SU2 accepts a key once only.
   void write_pairs() {
+    std::vector<std::string> entries;
     for (const PeriodicPair& pair : stream_.extruded()->plane.pairs) {
       const std::vector<std::string> names = su2_marker_names({pair.from, pair.to});
-      file_.write(fmt::format("% MARKER_PERIODIC= ( {}, {}, {}, {}, 0, 0, 0, {}, {}, {}, 0 )\n", names[0],
-                              names[1], pair.centre.x, pair.centre.y, pair.degrees, pair.translation.x,
-                              pair.translation.y));
+      entries.push_back(fmt::format("{}, {}, {}, {}, 0, 0, 0, {}, {}, {}, 0", names[0], names[1],
+                                    pair.centre.x, pair.centre.y, pair.degrees, pair.translation.x,
+                                    pair.translation.y));
     }
+    if (!entries.empty()) file_.write(fmt::format("% MARKER_PERIODIC= ( {} )\n", fmt::join(entries, ", ")));
   }
 
   /// A line of a plane mesh, or a quad per layer.

@@ -84,6 +84,19 @@ std::size_t variable(std::span<const std::string> names, const std::string& want
                    "; name one of them as it is written");
 }
 
+std::optional<std::size_t> only_variable_like(std::span<const std::string> names, const std::string& wanted) {
+  const std::vector<std::size_t> found = variables_like(names, wanted);
+  if (found.size() != 1) return std::nullopt;
+  return found.front();
+}
+
+std::optional<std::array<std::size_t, 2>> components_like(std::span<const std::string> names,
+                                                          const std::string& wanted) {
+  const auto x = only_variable_like(names, wanted + "_x"), y = only_variable_like(names, wanted + "_y");
+  if (!x || !y) return std::nullopt;
+  return {{*x, *y}};
+}
+
 std::string word_of(const std::string& name) {
   std::string word = name;
   for (char& c : word) {

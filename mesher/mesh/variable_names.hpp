@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,6 +18,14 @@ std::size_t variable(std::span<const std::string> names, const std::string& want
 /// Returns the indices of all matching names, by the first of these rules that gives a match; more than one
 /// if it is ambiguous.
 std::vector<std::size_t> variables_like(std::span<const std::string> names, const std::string& wanted);
+
+/// Returns the index of the only variable that variables_like() finds; empty for none or several.
+std::optional<std::size_t> only_variable_like(std::span<const std::string> names, const std::string& wanted);
+
+/// Returns the indices of both components of a vector, `wanted`_x and `wanted`_y, if each is
+/// only_variable_like() its name.
+std::optional<std::array<std::size_t, 2>> components_like(std::span<const std::string> names,
+                                                          const std::string& wanted);
 
 /// Returns a name as one word, which the native format can store: each blank and control character becomes
 /// "_".

@@ -268,7 +268,8 @@ std::optional<adapt::WallFlow> wall_flow(const Settings& settings) {
   if (!settings.flow || !settings.wants_y_plus) return {};
   if (solver.kind == SolverSettings::Kind::euler && solver.euler.viscosity > 0)
     return adapt::WallFlow{solver.euler.viscosity, 1};
-  return adapt::WallFlow{settings.flow->viscosity(), settings.flow->density};
+  const double density = settings.flow->density, speed = settings.flow->speed;
+  return adapt::WallFlow{settings.flow->viscosity(), density, 0.5 * density * speed * speed};
 }
 
 Warnings unused_flow(const Settings& settings) {

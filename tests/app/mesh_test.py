@@ -114,6 +114,8 @@ class MeshWarnings(ProgramTest):
         _, warnings = self.mesh(geometry, case)
         self.assertRegex(warnings, r"a\.su2: \d+ % of the quads are not parallelograms, .* mesh\.quads = \"parallel\" divides them")
         self.assertEqual(self.mesh(geometry, case + '[mesh]\nquads = "parallel"\n')[1], "")
+        layered = case + '[boundary.wedge]\nlayers = { first = 0.02, growth = 1.2, count = 6 }\n'
+        self.assertNotIn("parallelograms", self.mesh(geometry, layered)[1])
 
     def test_a_lone_outline_that_runs_as_a_hole(self):
         _, warnings = self.mesh("1\nwing\n3\n0 0\n0 4\n4 0\n")

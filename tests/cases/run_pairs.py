@@ -71,6 +71,25 @@ def check_msh(path, pairs, mesh):
         at += 3 + count
 
 
+def check_su2(path, pairs, mesh):
+    """The comment for the configuration: one line, as SU2 accepts a key once; its map is that of CPhysicalGeometry::MatchPeriodic."""
+    rows = re.findall(r"^% MARKER_PERIODIC= \( (.*) \)$", Path(path).read_text(), re.M)
+    words = rows[0].split(", ") if len(rows) == 1 else []
+    if len(words) != 11 * len(pairs):
+        fail(f"{path} tells {rows} of {len(pairs)} pairs")
+    for at, pair in enumerate(pairs):
+        name, donor, *numbers = words[11 * at:11 * (at + 1)]
+        cx, cy, cz, about_x, about_y, degrees, tx, ty, tz = map(float, numbers)
+        if (name, donor) != (pair["from"], pair["to"]) or any((cz, about_x, about_y, tz)):
+            fail(f"{path}: {words}")
+        turn, centre = math.radians(degrees), np.array((cx, cy))
+        for one, other in partners(mesh, pair):
+            x, y = mesh[0][one] - centre
+            turned = np.array((math.cos(turn) * x - math.sin(turn) * y, math.sin(turn) * x + math.cos(turn) * y))
+            if np.abs(turned + centre + (tx, ty) - mesh[0][other]).max() > TOLERANCE:
+                fail(f"{path}: SU2 finds no donor for node {one}")
+
+
 def foam_list(path, pattern):
     text = path.read_text()
     body = text[text.index("\n(\n") + 3:text.rindex(")")]
@@ -150,8 +169,7 @@ def main():
             partners(read_mesh(smooth), pair)
         check_msh(f"{prefix}.msh", pairs, mesh)
         check_msh(f"{prefix}.msh41", pairs, mesh)
-        if Path(f"{prefix}.su2").read_text().count("% MARKER_PERIODIC= (") != len(pairs):
-            fail("the .su2 file does not tell the markers of the configuration")
+        check_su2(f"{prefix}.su2", pairs, mesh)
         check_fault(args.quadloop, f"{prefix}.mesh", pairs[0], mesh, work)
         if shutil.which("cgnscheck"):
             said = run(["cgnscheck", f"{prefix}.cgns"])

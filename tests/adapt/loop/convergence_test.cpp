@@ -23,6 +23,15 @@ TEST(Settling, NeedsAllThatIsNamedToChangeByLess) {
   EXPECT_FALSE(have_settled({.cl = 1}, {1000, {}, 0.02, {}}, now));
 }
 
+TEST(Settling, NeedsConvergedFlows) {
+  CycleValues finished = before, unfinished = before;
+  finished.converged = true;
+  unfinished.converged = false;
+  EXPECT_TRUE(have_settled({.cl = 1e-3}, finished, finished));
+  EXPECT_FALSE(have_settled({.cl = 1e-3}, finished, unfinished));
+  EXPECT_FALSE(have_settled({.cl = 1e-3}, unfinished, finished));
+}
+
 TEST(Settling, RefusesWhatTheSolverDoesNotTell) {
   EXPECT_NO_THROW(require_reported({.estimate = 1}, {}));
   EXPECT_NO_THROW(require_reported({.cl = 1, .cd = 1}, before));
@@ -45,13 +54,17 @@ TEST(Settling, ValuesComeBackFromTheRecord) {
   record.estimate = 1e-3 / 7;
   record.order = 2.25;
   record.settled = false;
+  record.converged = false;
+  record.log_residual = -4.5;
   const std::string text = json_text(record);
   const CycleValues values = recorded_values(text);
   EXPECT_EQ(values.nodes, 1234);
   EXPECT_EQ(values.cl, record.cl);
   EXPECT_FALSE(values.cd.has_value());
   EXPECT_EQ(values.estimate, record.estimate);
+  EXPECT_EQ(values.converged, false);
   EXPECT_EQ(recorded_number(text, "order"), 2.25);
+  EXPECT_EQ(recorded_number(text, "log_residual"), -4.5);
   EXPECT_NE(text.find("\n  \"settled\": false,"), std::string::npos) << text;
 }
 

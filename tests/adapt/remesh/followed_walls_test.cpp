@@ -89,6 +89,24 @@ TEST(FollowedWalls, TellFrictionByYPlusOfTheFirstNodes) {
   }
 }
 
+/// SU2's y+ is wrong at the roots of wakes, its friction coefficient is not.
+TEST(FollowedWalls, PreferAFrictionCoefficientToYPlus) {
+  const MeshInput input = channel();
+  constexpr double dynamic_pressure = 3;
+  SolvedMesh flow = solved(world(), input, "Skin_Friction_Coefficient_x",
+                           [](double x) { return 0.6 * shear(x) / dynamic_pressure; });
+  std::vector<double> values;
+  for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i) {
+    const auto row = flow.solution.row(NodeId{i});
+    values.insert(values.end(), {row[0], row[1], row[1] * 0.8 / 0.6, 1000.0});
+  }
+  flow.solution = {
+      {"density", "Skin_Friction_Coefficient_x", "Skin_Friction_Coefficient_y", "Y_Plus"}, values, {}};
+  AdaptOptions with_pressure = options();
+  with_pressure.wall_flow->dynamic_pressure = dynamic_pressure;
+  expect_friction_of_the_floor(wall_to_follow(world(), input, with_pressure, flow));
+}
+
 /// The flow of a solver that keeps its values in cells, 0 where they touch no wall, as OpenFOAM's function
 /// objects do; of an edge at the floor by the place of its middle.
 SolvedMesh solved_in_cells(const MeshInput& input, const std::vector<std::string>& names,
@@ -266,9 +284,9 @@ TEST(OwnMesh, MayHaveLayersThatReachFarBelowTheirLeaves) {
 }
 
 /// A wedge of layers with sharp edges, in a box; with a wake behind one of them, or fans at both.
-MeshInput wedge(bool with_wake) {
+MeshInput wedge(bool with_wake, double y_plus = 0) {
   Boundary box{"box", 1, 30, "farfield"}, body{"body", 0.25, 30, "wall"};
-  body.layers = LayerSpec{0.02, 1.3, 1.3, 8};
+  body.layers = LayerSpec{0.02, 1.3, 1.3, 8, 1, y_plus};
   const std::vector<Point> points{{-8, -8}, {8, -8},     {8, 8}, {-8, 8},
                                   {-2, 0},  {-1.5, 0.5}, {2, 0}, {-1.5, -0.5}};
   std::vector<BoundaryId> of_segment(4, BoundaryId{0});
@@ -278,6 +296,31 @@ MeshInput wedge(bool with_wake) {
   input.mesh.size.max = 1;
   if (with_wake) input.lines = {{{"body"}, {}, 3, 0.1, {}}};
   return input;
+}
+
+TEST(FollowedWalls, IgnoreYPlusWhereTheWallTurns) {
+  for (const bool with_wake : {false, true}) {
+    const MeshInput input = wedge(with_wake, 1);
+    MeshResult made = generate_mesh(world(), input).result;
+    SolvedMesh flow{std::move(made.mesh), std::move(made.tree), {{"density", "Y_Plus"}, {}, {}}, "flow.mesh"};
+    const auto is_edge = [](Point p) {
+      return p == Point{2, 0} || p == Point{-2, 0} || std::abs(p.x + 1.5) < 1e-12;
+    };
+    for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i)
+      flow.solution.values.insert(flow.solution.values.end(),
+                                  {density, is_edge(flow.mesh.point(NodeId{i})) ? 1719.0 : 2.0});
+    const MeasuredWall wall = wall_to_follow(world(), input, options(), flow);
+    ASSERT_GT(wall.size(), 10U);
+    double least = 1e9, most = 0;
+    for (const MeasuredEdge& edge : wall) {
+      for (const double units : {edge.wall_units_from, edge.wall_units_to}) {
+        least = std::min(least, units);
+        most = std::max(most, units);
+      }
+    }
+    EXPECT_GT(least, 0);
+    EXPECT_LT(most, 2 * least) << "y+ over the heights of the layers";
+  }
 }
 
 TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {

@@ -56,7 +56,7 @@ def check_cycles(made, restart, cycles):
     for k, record in enumerate(records):
         folder = made / f"cycle_{k:02d}"
         require(abs(record["cl"] - 0.301) < 1e-12 and abs(record["cd"] - 0.021) < 1e-12, f"cycle {k}: forces are not those of the history: {record}")
-        require(abs(record["residual"] / 1e-3 - 1) < 1e-12, f"cycle {k}: residual {record['residual']}")
+        require(abs(record["residual"] / 1e-3 - 1) < 1e-12 and record["log_residual"] == -5, f"cycle {k}: residual {record['residual']}")
         require((folder / restart).exists(), f"cycle {k} has no {restart}")
         log = (folder / "solver.log").read_text()
         require(log == ("started from nothing\n" if k == 0 else "started from Density Momentum_x Momentum_y Energy\n"), f"cycle {k}: {log}")
@@ -87,7 +87,25 @@ def check_refusals(program, folder):
     config.write_text(CONFIG.format(files="RESTART"))
     case.write_text(text)
     status, said = attempt(program, "adapt", case, "-o", folder / "out")
-    require(status == 3 and "has no condition" in said, f"a marker without a condition: {status} {said}")
+    require(status == 3 and "solver.log has: marker" in said and "has no condition" in said, f"a marker without a condition: {status} {said}")
+    require("MPI_ABORT" not in said, f"a launcher's last line: {said}")
+
+
+def check_unconverged(program, folder):
+    """A flow that ends at the limit of iterations is told, and does not settle the run."""
+    case = wedge_case(folder / "unconverged", "RESTART")
+    config = folder / "unconverged" / "flow.cfg"
+    given = config.read_text()
+    for goal, converged in (("-5", True), ("-6", False)):
+        config.write_text(given + f"ITER= 4\nCONV_RESIDUAL_MINVAL= {goal}\n")
+        made = folder / f"unconverged_{converged}"
+        status, said = attempt(program, "adapt", case, "-o", made, "--cycles", "2", "--set", "adapt.until.cl=0.1")
+        require(status == 0, said)
+        told = "SU2 reached its limit of iterations (ITER= 4) before it converged; its residual is 10^-5.00, and CONV_RESIDUAL_MINVAL= -6."
+        require((told in said) != converged, said)
+        record = json.loads((made / "cycle_01" / "record.json").read_text())
+        require(record["converged"] is converged and record["log_residual"] == -5 and record["settled"] is converged, f"{record}")
+        require((made / "cycle_02").exists() != converged, f"the run ends after {sorted(made.iterdir())}")
 
 
 def check_no_su2(program, folder):
@@ -141,6 +159,7 @@ def main():
             adapt(program, case, folder / f"on_3_{restart}", ranks=3)
             require_same_folders(made, folder / f"on_3_{restart}", "on 3 ranks")
         check_refusals(program, folder)
+        check_unconverged(program, folder)
         if shutil.which("SU2_CFD") is None:
             check_no_su2(program, folder)
         check_resume(program, folder)

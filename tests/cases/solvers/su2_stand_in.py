@@ -13,6 +13,12 @@ BEFORE, BEHIND = (1.0, 2.0, 0.0, 1 / 1.4), (1.458435, 1.640526 * math.cos(math.r
 MAGIC, NAME = 535532, 33
 
 
+def refuse(message):
+    """As CBaseMPIWrapper::Error, and what a launcher adds."""
+    print(f'\n\nError in "void CStandIn::Run()": \n{"-" * 73}\n{message}\n{"-" * 30} Error Exit {"-" * 31}\n\nMPI_ABORT was invoked on rank 0', flush=True)
+    sys.exit(1)
+
+
 def configuration(path):
     keys = {}
     for line in open(path):
@@ -20,7 +26,7 @@ def configuration(path):
         if line:
             key, value = (word.strip() for word in line.split("=", 1))
             if key in keys:
-                sys.exit(f"{key}: option appears twice")
+                refuse(f"{key}: option appears twice")
             keys[key] = value
     return keys
 
@@ -49,7 +55,7 @@ def state(keys, points):
         data = open(name, "rb").read()
         magic, columns, rows, _, _ = struct.unpack_from("5i", data)
         if magic != MAGIC:
-            sys.exit(f"{name} is not a binary SU2 restart file")
+            refuse(f"{name} is not a binary SU2 restart file")
         names = [data[20 + NAME * k:20 + NAME * (k + 1)].split(b"\0")[0].decode() for k in range(columns)]
         values = list(struct.iter_unpack(f"{columns}d", data[20 + NAME * columns:]))
     else:
@@ -58,11 +64,11 @@ def state(keys, points):
         values = [tuple(map(float, line.split(",")))[1:] for line in lines[1:]]
         rows = len(values)
     if rows != len(points) or names[:2] != ["x", "y"] or any(row[:2] != p for row, p in zip(values, points)):
-        sys.exit(f"{name} is of another mesh")
+        refuse(f"{name} is of another mesh")
     if names[2:6] != ["Density", "Momentum_x", "Momentum_y", "Energy"]:
-        sys.exit(f"{name} begins with {names[2:6]}")
+        refuse(f"{name} begins with {names[2:6]}")
     if any(row[2] <= 0 for row in values):
-        sys.exit(f"{name} has a density that is not positive")
+        refuse(f"{name} has a density that is not positive")
     return names[2:]
 
 
@@ -77,14 +83,14 @@ def main(path):
     named = [word for key, value in keys.items() if key.startswith("MARKER_") and key not in ("MARKER_MONITORING", "MARKER_PLOTTING") for word in words(value)]
     for marker in markers:
         if marker not in named:
-            sys.exit(f"marker {marker} of the mesh has no condition")
+            refuse(f"marker {marker} of the mesh has no condition")
     turbulent = keys["SOLVER"] == "RANS"
     names = ["Density", "Momentum_x", "Momentum_y", "Energy"] + (["Nu_Tilde"] if turbulent else [])
     started = "nothing"
     if keys["RESTART_SOL"] == "YES":
         found = state(keys, points)
         if found[:len(names)] != names:
-            sys.exit(f"the restart file has {found}, where {names} are wanted")
+            refuse(f"the restart file has {found}, where {names} are wanted")
         started = " ".join(found)
     rows = [(*p, *conserved(*p), *((3e-5,) if turbulent else ())) for p in points]
     name = keys["RESTART_FILENAME"].rsplit(".", 1)[0]
@@ -105,6 +111,9 @@ def main(path):
         for step in range(4):
             print(f"{step}, {-2.0 - step}, {0.02 + 0.1 ** step}, {0.3 + 0.1 ** step}", sep=",", file=file)
     print(f"started from {started}")
+    if "CONV_RESIDUAL_MINVAL" in keys:
+        converged = -5 <= float(keys["CONV_RESIDUAL_MINVAL"])
+        print("All convergence criteria satisfied." if converged else f"\nMaximum number of iterations reached (ITER = {keys['ITER']}) before convergence.")
 
 
 main(sys.argv[1])

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 namespace quadloop::flow {
 namespace {
 
@@ -16,6 +19,7 @@ TEST(Su2History, ItsLastRowHasTheForces) {
   EXPECT_EQ(end.cd, 0.0625);
   ASSERT_TRUE(end.residual);
   EXPECT_NEAR(*end.residual, 1e-4, 1e-18) << "of the density where there are two";
+  EXPECT_EQ(end.log_residual, -5.5);
 }
 
 TEST(Su2History, WithoutADensityThePressureTells) {
@@ -29,6 +33,30 @@ TEST(Su2History, LeavesOutWhatItCannotRead) {
   EXPECT_EQ(end.cl, 3) << "of the last whole row";
   EXPECT_EQ(end.cd, std::nullopt);
   EXPECT_EQ(end.residual, std::nullopt);
+  EXPECT_EQ(end.log_residual, std::nullopt);
+}
+
+TEST(Su2Log, ItsLastSentenceTellsWhetherItConverged) {
+  EXPECT_EQ(converged_by_log("--- Solver Exit ---\nAll convergence criteria satisfied.\n+--+\n"), true);
+  EXPECT_EQ(converged_by_log("\nMaximum number of iterations reached (ITER = 10) before convergence.\n"),
+            false);
+  EXPECT_EQ(converged_by_log("\nMaximum number of time iterations reached (TIME_ITER = 10).\n"),
+            std::nullopt);
+}
+
+/// What SU2 8.1 itself wrote, of one run of tests/io/su2/recorded/flow.cfg and two others.
+std::string recorded(const std::string& name) {
+  std::ifstream file(std::string(QUADLOOP_SOURCE_DIR) + "/tests/io/su2/recorded/" + name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Su2Recorded, ItsHistoryAndLogsAreUnderstood) {
+  const Su2End end = end_of_history(recorded("history.csv"));
+  EXPECT_EQ(end.log_residual, -3.82194366);
+  EXPECT_EQ(end.cd, 0.01666731592);
+  EXPECT_EQ(converged_by_log(recorded("limit.log")), false);
+  EXPECT_EQ(converged_by_log(recorded("converged.log")), true);
+  EXPECT_EQ(converged_by_log(recorded("error.log")), std::nullopt);
 }
 
 }  // namespace
