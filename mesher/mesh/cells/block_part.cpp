@@ -36,7 +36,7 @@ class PartMaker {
   }
 
   /// Adds the boundary edges that have a cell of the part to their left, in one of their two directions.
-  /// *Collective.*
+  /// Inner lines bound no part. *Collective.*
   void add_edges() {
     Mesh& mesh = part_.mesh;
     mesh.points = mesh_.points;
@@ -44,8 +44,9 @@ class PartMaker {
     mesh.owned_nodes = mesh_.owned_nodes;
     mesh.ghosts = mesh_.ghosts;
     for (const BoundaryEdges& boundary : mesh_.boundaries) {
-      BoundaryEdges both{boundary.name, boundary.condition, boundary.edges, boundary.layers};
-      for (const auto& [from, to] : boundary.edges) both.edges.push_back({to, from});
+      BoundaryEdges both{boundary.name, boundary.condition, {}, boundary.layers};
+      if (!boundary.inner_line) both.edges = boundary.edges;
+      for (const auto& [from, to] : std::vector(both.edges)) both.edges.push_back({to, from});
       mesh.boundaries.push_back(std::move(both));
     }
     const std::vector<std::int64_t> left = edge_cells(comm_, mesh).of_boundary;
