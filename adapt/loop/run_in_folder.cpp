@@ -57,6 +57,18 @@ CycleFileOptions file_options(const AdaptiveCase& adaptive) {
   return options;
 }
 
+/// The built-in solver, for which inner lines are no boundaries.
+flow::FlowSolver built_in_solver(const flow::EulerOptions& options) {
+  return [solver = flow::euler_solver(options, flow::estimate_goals(options))](
+             const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
+    if (std::ranges::none_of(mesh.boundaries, &BoundaryEdges::inner_line))
+      return solver(comm, mesh, start, cycle);
+    Mesh bounded = mesh;
+    std::erase_if(bounded.boundaries, [](const BoundaryEdges& edges) { return edges.inner_line; });
+    return solver(comm, bounded, start, cycle);
+  };
+}
+
 flow::FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver& chosen) {
   const auto folder_of = [&folders](int cycle) { return folders.under_way(cycle); };
   if (const auto* su2 = std::get_if<Su2Solver>(&chosen)) return su2_solver(*su2, folder_of);
@@ -67,7 +79,7 @@ flow::FlowSolver outer_solver_in(const CycleFolders& folders, const ChosenSolver
 
 flow::FlowSolver solver_in(const CycleFolders& folders, const AdaptiveCase& adaptive) {
   if (const auto* options = std::get_if<flow::EulerOptions>(&adaptive.solver))
-    return flow::euler_solver(*options, flow::estimate_goals(*options));
+    return built_in_solver(*options);
   flow::FlowSolver solver = outer_solver_in(folders, adaptive.solver);
   return adaptive.stream ? with_wall_quantities(std::move(solver), *adaptive.stream) : solver;
 }
@@ -82,7 +94,7 @@ flow::FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   rough.tolerance = std::max(rough.tolerance, enough);
   rough.unsteady = flow::EulerOptions::Unsteady::stop;
   if (adaptive.adapt.source != AdaptOptions::Source::error) rough.goals.clear();
-  return flow::euler_solver(rough, flow::estimate_goals(rough));
+  return built_in_solver(rough);
 }
 
 /// Returns the result of the last complete cycle of an earlier run, from its files. The files of a finished

@@ -138,7 +138,7 @@ TransferredCells transfer_cells(const Communicator& comm, const CurvePartition& 
                                 const TransferSide& new_side) {
   const BrokenField old_field = broken_cells(comm, old_side.mesh, cells, old_side.triangles);
   const std::vector<Corners> corners = corners_of(new_side);
-  const OverlapIntegrals integrals = integrate_overlaps(comm, shares, old_field, corners);
+  const OverlapIntegrals integrals = integrate_overlaps(comm, shares, old_field, corners, old_side.baffles);
   const CellOwners owners(comm, new_side.mesh);
   const std::size_t count = new_side.mesh.cell_count(), width = cells.width();
   std::vector<double> areas(count, 0), covered(count, 0);
@@ -174,8 +174,9 @@ TransferredCells transfer_cells(const Communicator& comm, const CurvePartition& 
 void conserve_at_nodes(const Communicator& comm, const CurvePartition& shares, const TransferSide& old_side,
                        const Field& old_field, const TransferSide& new_side, const Mesh& areas_of,
                        std::vector<double>& values) {
-  const OverlapIntegrals integrals = integrate_overlaps(
-      comm, shares, broken_nodal(old_side.mesh, old_field, old_side.triangles), corners_of(new_side));
+  const OverlapIntegrals integrals =
+      integrate_overlaps(comm, shares, broken_nodal(old_side.mesh, old_field, old_side.triangles),
+                         corners_of(new_side), old_side.baffles);
   const HaloMesh halo(comm, new_side.mesh);
   const CellSums sums(comm, new_side, areas_of, integrals);
   const std::size_t width = old_field.width();

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "adapt/transfer/locate/baffle_places.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
@@ -12,6 +13,7 @@ namespace quadloop::adapt {
 struct TransferSide {
   const Mesh& mesh;
   std::vector<CellTriangle> triangles;
+  const BafflePlaces* baffles = nullptr;  ///< of both meshes; null: there are none
 };
 
 /// Means over the cells of a new mesh from those of an old mesh: means of the limited linear functions in the

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "adapt/transfer/column_places.hpp"
 #include "adapt/transfer/conservative.hpp"
 #include "adapt/transfer/linear_values.hpp"
+#include "adapt/transfer/locate/baffle_places.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
@@ -37,6 +39,12 @@ struct OldMesh {
   Point centre;  ///< determines how its quadrilaterals are split
   const CurvePartition& shares;
   const NodeFlags is_inner;
+};
+
+/// A place on the old boundary for a row of the new mesh.
+struct PlacedRow {
+  std::int64_t row;
+  BoundaryPlace place;
 };
 
 /// Old nodes with their rows, in one part of the plane.
@@ -121,10 +129,12 @@ class Found {
   std::size_t next_point_ = 0, next_moved_ = 0;
 };
 
-/// Rows at owned nodes, and the list of nodes without values.
+/// Rows at owned nodes, and the lists of nodes without values: those outside the old mesh, and those that
+/// take values from a side of a baffle.
 struct NewRows {
   std::vector<double> values;
   std::vector<std::int32_t> outside;
+  std::vector<PlacedRow> at_baffles;
 };
 
 /// Rows at queried places, and whether these are inside the old mesh.
@@ -146,13 +156,21 @@ Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point>
   return {questions.answer(rows, width), questions.answer(is_inside)};
 }
 
-/// Values of the old mesh at the positions of a new mesh's owned nodes. *Collective.*
-NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
+/// Values of the old mesh at the positions of a new mesh's owned nodes, the first of which is `first_node`.
+/// *Collective.*
+NewRows rows_at(const Communicator& comm, const OldMesh& old, const BafflePlaces& baffles,
+                GlobalNodeId first_node, std::span<const Point> places) {
   const std::vector<std::int32_t> standing = unchanged_nodes(old.mesh, old.is_inner, places);
   const std::size_t width = old.field.width();
-  NewRows rows{std::vector<double>(places.size() * width), {}};
+  NewRows rows{std::vector<double>(places.size() * width), {}, {}};
   std::vector<std::int32_t> others;
   for (std::int32_t node = 0; node < std::ssize(places); ++node) {
+    std::optional<BoundaryPlace> at_baffle = baffles.of_node(GlobalNodeId{first_node.value() + node});
+    if (!at_baffle) at_baffle = baffles.across(places[node]);
+    if (at_baffle) {
+      rows.at_baffles.push_back({node, *at_baffle});
+      continue;
+    }
     if (standing[node] < 0) {
       others.push_back(node);
       continue;
@@ -173,12 +191,16 @@ NewRows rows_at(const Communicator& comm, const OldMesh& old, std::span<const Po
 /// Ranks that have the nearest edges send the values there. *Collective.*
 void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                         std::span<const Point> at, NewRows& rows) {
-  const NearestBoundary boundary(comm, old_mesh);
+  std::vector<PlacedRow> placed = rows.at_baffles;
+  if (comm.sum(std::ssize(rows.outside)) > 0) {
+    const NearestBoundary boundary(comm, old_mesh);
+    for (const std::int32_t node : rows.outside) placed.push_back({node, boundary.nearest(at[node])});
+  }
   std::vector<BoundaryPlace> places;
   std::vector<int> ranks;
-  for (const std::int32_t node : rows.outside) {
-    places.push_back(boundary.nearest(at[node]));
-    ranks.push_back(places.back().rank);
+  for (const PlacedRow& one : placed) {
+    places.push_back(one.place);
+    ranks.push_back(one.place.rank);
   }
   const Exchange questions(comm, ranks);
   const auto edges = boundary_edges_of(old_mesh);
@@ -190,9 +212,8 @@ void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Fi
     answers.insert(answers.end(), row.begin(), row.end());
   }
   answers = questions.answer(answers, width);
-  for (std::size_t i = 0; i < rows.outside.size(); ++i) {
-    std::copy_n(answers.begin() + (i * width), width, rows.values.begin() + (rows.outside[i] * width));
-  }
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    std::copy_n(answers.begin() + (i * width), width, rows.values.begin() + (placed[i].row * width));
 }
 
 /// The new mesh with its nodes at these positions. *Collective.*
@@ -205,13 +226,14 @@ Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Poin
 
 /// Cells outside the old mesh get the values of the cell at the nearest boundary edge. *Collective.*
 void take_from_boundary_cells(const Communicator& comm, const Mesh& old_mesh, const CellValues& old_cells,
-                              const Mesh& new_mesh, TransferredCells& result) {
+                              const Mesh& new_mesh, const BafflePlaces& baffles, TransferredCells& result) {
   const NearestBoundary boundary(comm, old_mesh);
   const std::vector<CellShape> shapes = cell_shapes(new_mesh);
   std::vector<std::int32_t> edges;
   std::vector<int> ranks;
   for (const std::int64_t cell : result.outside) {
-    const BoundaryPlace place = boundary.nearest(shapes[cell].centroid);
+    const Point centroid = shapes[cell].centroid;
+    const BoundaryPlace place = baffles.across(centroid).value_or(boundary.nearest(centroid));
     edges.push_back(place.edge);
     ranks.push_back(place.rank);
   }
@@ -234,7 +256,7 @@ CellValues transferred_cells(const Communicator& comm, const CurvePartition& sha
   TransferredCells result = transfer_cells(comm, shares, old_side, old_cells, new_side);
   report.cells_outside = comm.sum(std::ssize(result.outside));
   if (report.cells_outside > 0)
-    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, result);
+    take_from_boundary_cells(comm, old_side.mesh, old_cells, new_side.mesh, *old_side.baffles, result);
   return {old_cells.names, std::move(result.values)};
 }
 
@@ -271,14 +293,18 @@ Transferred transfer_in_block(const Communicator& comm, const Mesh& old_mesh, co
   const std::vector<Point> at = column_places(comm, old_mesh, new_mesh);
   Transferred transferred;
   TransferReport& report = transferred.report;
+  const BafflePlaces baffles(comm, old_mesh, new_mesh);
   NewRows rows;
-  if (old.width() > 0) rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, at);
+  if (old.width() > 0)
+    rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, baffles,
+                   GlobalNodeId{new_mesh.first_node}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
-  if (report.outside > 0) take_from_boundary(comm, old_mesh, old, at, rows);
+  if (report.outside > 0 || comm.sum(std::ssize(rows.at_baffles)) > 0)
+    take_from_boundary(comm, old_mesh, old, at, rows);
   transferred.field = {old.names, std::move(rows.values), old.constants};
   const bool conserves = kind == TransferKind::conservative && old.width() > 0;
   if (conserves || old.cells.width() > 0) {
-    const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre)};
+    const TransferSide old_side{old_mesh, cell_triangles(comm, old_mesh, centre), &baffles};
     const Mesh moved = moved_to(comm, new_mesh, at);
     const TransferSide new_side{moved, cell_triangles(comm, moved, centre_of_nodes(comm, new_mesh))};
     if (conserves)

@@ -120,15 +120,17 @@ void require_blocks_alone(const Settings& settings) {
   const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
   const std::pair<bool, const char*> others[] = {
       {lines && std::ranges::any_of(outline.rules, has_layers), "boundary layers; remove 'layers'"},
-      {lines && settings.adapt, "adaptation; remove [adapt]"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value() || (!outline.blocks.empty() && settings.half),
        "mirror images; remove mesh.mirror"},
       {outline.unite_islands, "a union of islands; remove geometry.overlap"},
       {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
       {settings.mesh.type == MeshType::metric, "anisotropic adaptation; set mesh.type to delaunay"},
-      {settings.adapt && settings.solver.kind != SolverSettings::Kind::command,
-       "the built-in solver, OpenFOAM or SU2 in the loop; set solver.kind = \"command\""},
+      {settings.adapt && !outline.blocks.empty() && settings.solver.kind == SolverSettings::Kind::euler,
+       "the built-in solver in the loop; set solver.kind = \"command\""},
+      {settings.adapt && settings.solver.kind != SolverSettings::Kind::command &&
+           settings.solver.kind != SolverSettings::Kind::euler,
+       "OpenFOAM or SU2 in the loop; set solver.kind = \"command\""},
       {settings.partitions > 0, "partitions; remove output.partitions"}};
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;

@@ -21,11 +21,14 @@ struct Edge {
 std::vector<Edge> gather_edges(const Communicator& comm, const Mesh& mesh) {
   std::vector<Edge> own;
   std::int64_t before = 0;
+  std::int32_t index = 0;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     const auto count = std::ssize(boundary.edges);
     std::int64_t number = before + comm.exclusive_sum(count);
     for (const auto& [from, to] : boundary.edges) {
-      own.push_back({number++, mesh.point(from), mesh.point(to), comm.rank(), size32(own)});
+      if (!boundary.inner_line) own.push_back({number, mesh.point(from), mesh.point(to), comm.rank(), index});
+      ++number;
+      ++index;
     }
     before += comm.sum(count);
   }

@@ -16,8 +16,8 @@ struct BoundaryPlace {
   double parameter = 0;  ///< along the edge, 0 at its first node
 };
 
-/// The boundary edges of all ranks, copied to each rank (they are few compared with the cells), with a search
-/// for the nearest one.
+/// The boundary edges of all ranks except those of inner lines, copied to each rank (they are few compared
+/// with the cells), with a search for the nearest one.
 class NearestBoundary {
  public:
   /// *Collective.*

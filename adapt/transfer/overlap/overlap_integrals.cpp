@@ -102,8 +102,9 @@ struct Parts {
 class OldPiece {
  public:
   /// *Collective.*
-  OldPiece(const Communicator& comm, const CurvePartition& shares, const BrokenField& field)
-      : rank_{comm.rank()}, shares_{shares} {
+  OldPiece(const Communicator& comm, const CurvePartition& shares, const BrokenField& field,
+           const BafflePlaces* baffles)
+      : rank_{comm.rank()}, shares_{shares}, baffles_{baffles} {
     const ToPartition to_partition(comm, shares, field.triangles);
     field_.width = field.width;
     field_.triangles = to_partition.deliver(field.triangles);
@@ -124,6 +125,7 @@ class OldPiece {
       if (!is_mine(box, box_of_triangle(field_.triangles[old]))) continue;
       const TriangleOverlap overlap = overlap_of(triangle, field_.triangles[old]);
       if (!(overlap.area > 0)) continue;
+      if (baffles_ != nullptr && baffles_->across(triangle[0] + overlap.centroid)) continue;
       fill(old, triangle, overlap, std::min(area_of(triangle), area_of(field_.triangles[old])));
       if (all_here)
         sum.add(overlap.area, row_);
@@ -168,6 +170,7 @@ class OldPiece {
 
   int rank_;
   const CurvePartition& shares_;
+  const BafflePlaces* baffles_;  ///< null: there are none
   BrokenField field_;
   BoxTree tree_;
   std::vector<std::int32_t> candidates_;
@@ -201,8 +204,9 @@ OverlapIntegrals add_up(const Communicator& comm, const Parts& parts, std::size_
 }  // namespace
 
 OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartition& shares,
-                                    const BrokenField& old_field, std::span<const Triangle> new_triangles) {
-  OldPiece old_piece(comm, shares, old_field);
+                                    const BrokenField& old_field, std::span<const Triangle> new_triangles,
+                                    const BafflePlaces* baffles) {
+  OldPiece old_piece(comm, shares, old_field, baffles);
   const ToPartition to_partition(comm, shares, new_triangles);
   std::vector<std::int64_t> items(new_triangles.size());
   std::iota(items.begin(), items.end(), std::int64_t{0});

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "adapt/transfer/locate/baffle_places.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/overlap/broken_field.hpp"
 
@@ -34,9 +35,11 @@ struct OverlapIntegrals {
 /// (supermesh) of Farrell, Piggott, Pain, Gorman and Wilson, "Conservative interpolation between unstructured
 /// meshes via supermesh construction", Comput. Methods Appl. Mech. Engrg. 198 (2009). A pair is intersected
 /// on the rank whose part of the plane contains the lower left corner of the intersection of their boxes.
-/// Sums are ordered by the numbers of the old triangles: the same bits on any number of ranks. *Collective.*
+/// Overlaps of triangles on opposite sides of a baffle do not count. Sums are ordered by the numbers of the
+/// old triangles: the same bits on any number of ranks. *Collective.*
 OverlapIntegrals integrate_overlaps(const Communicator& comm, const CurvePartition& shares,
                                     const BrokenField& old_field,
-                                    std::span<const std::array<Point, 3>> new_triangles);
+                                    std::span<const std::array<Point, 3>> new_triangles,
+                                    const BafflePlaces* baffles = nullptr);
 
 }  // namespace quadloop::adapt
