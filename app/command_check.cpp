@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "app/command.hpp"
@@ -26,16 +28,39 @@ struct CheckArguments {
   std::string input, geometry;
 };
 
-/// Returns the geometry as `mesh` would use it: joined, with consistently directed loops. With several blocks
-/// it is not that of a single domain and is left unchanged.
-std::vector<Chain> load_chains(const CommandContext& context, const std::string& path, bool one_domain) {
+/// Whether chains are not the outline of one domain, but also interfaces, inner lines or baffles.
+bool has_more_than_outline(const io::LoadedMesh& loaded, std::span<const Chain> chains) {
+  if (loaded.blocks > 1 || !loaded.inner_curves.empty()) return true;
+  std::set<std::pair<Point, Point>> seen;
+  return std::ranges::any_of(chains, [&](const Chain& chain) {
+    for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+      seen.emplace(chain.points[i], chain.points[i + 1]);
+      if (seen.contains({chain.points[i + 1], chain.points[i]})) return true;
+    }
+    return false;
+  });
+}
+
+/// Returns the geometry as `mesh` would use it: joined, with consistently directed loops. Unless it is the
+/// outline of a single domain it is left unchanged.
+std::vector<Chain> load_chains(const CommandContext& context, const std::string& path,
+                               const io::LoadedMesh& loaded) {
   Warnings warnings;
   std::vector<Chain> chains = io::read_geometry(path, warnings);
   AssembleOptions options;
   options.domain_is_known = true;
-  if (one_domain) chains = chains_of(assemble(std::move(chains), options, warnings));
+  if (!has_more_than_outline(loaded, chains))
+    chains = chains_of(assemble(std::move(chains), options, warnings));
   context.warn(warnings);
   return chains;
+}
+
+/// Compares the boundaries and inner lines of a mesh with the geometry.
+GeometryFit fit_to(const io::LoadedMesh& loaded, const std::vector<Chain>& chains, const CellBlocks& blocks) {
+  if (loaded.inner_curves.empty()) return validate_geometry(loaded.mesh, chains, blocks);
+  io::LoadedMesh listed = loaded;
+  io::list_inner_curves(listed);
+  return validate_geometry(listed.mesh, chains, blocks);
 }
 
 /// Checks a mesh whose connectivity is valid, as that of every mesh read from a file is.
@@ -46,6 +71,9 @@ CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chai
   report.blocks = block_statistics(mesh, blocks, loaded.block_names);
   for (const BoundaryEdges& boundary : mesh.boundaries)
     report.boundaries.emplace_back(boundary.name, boundary.edges.size());
+  for (const BoundaryEdges& line : loaded.inner_curves)
+    report.inner_lines.emplace_back(line.name, line.edges.size());
+  for (const PeriodicPair& pair : mesh.pairs) report.pairs.push_back(pair.from + " and " + pair.to);
   report.quality = summarise_quality(Communicator(MPI_COMM_SELF), mesh);
   const MeshTopology topology(mesh);
   report.shape =
@@ -66,7 +94,7 @@ CheckReport examine(const io::LoadedMesh& loaded, const std::vector<Chain>* chai
   report.faults = validate(mesh, blocks);
   const bool has_cells = report.quality.counts.triangles + report.quality.counts.quads > 0;
   if (chains == nullptr || !has_cells) return report;
-  report.fit = validate_geometry(mesh, *chains, blocks);
+  report.fit = fit_to(loaded, *chains, blocks);
   report.faults.insert(report.faults.end(), report.fit->faults.begin(), report.fit->faults.end());
   return report;
 }
@@ -95,7 +123,7 @@ void check_plane_on_root(const CommandContext& context, const CheckArguments& ar
                          const io::LoadedMesh& loaded) {
   context.warn(loaded.warnings);
   std::vector<Chain> chains;
-  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded.blocks == 1);
+  if (!arguments.geometry.empty()) chains = load_chains(context, arguments.geometry, loaded);
   CheckReport report = examine(loaded, arguments.geometry.empty() ? nullptr : &chains);
   report.file = arguments.input;
   if (report.regions.count > 1) context.warn({regions_warning(report)});

@@ -49,8 +49,7 @@ std::string inner_row(std::string_view name, const Value& value) {
   return fmt::format("    {:<22}{:>16}\n", name, value);
 }
 
-std::string boundaries_text(const std::vector<std::pair<std::string, std::int64_t>>& boundaries,
-                            std::size_t most) {
+std::string boundaries_text(const CheckReport::Edges& boundaries, std::size_t most) {
   std::string text;
   const std::size_t listed = std::min(boundaries.size(), most);
   for (std::size_t b = 0; b < listed; ++b) text += inner_row(boundaries[b].first, boundaries[b].second);
@@ -102,10 +101,25 @@ void add_shape(Statistics& statistics, const CheckReport& report, bool verbose) 
   statistics.add_member("passages", places_json(shape.passages));
 }
 
-std::string boundaries_json(const CheckReport& report) {
-  JsonObject boundaries;
-  for (const auto& [name, edges] : report.boundaries) boundaries.add(name, edges);
-  return boundaries.text();
+std::string boundaries_json(const CheckReport::Edges& boundaries) {
+  JsonObject counts;
+  for (const auto& [name, edges] : boundaries) counts.add(name, edges);
+  return counts.text();
+}
+
+/// Adds the inner lines and the periodic pairs, if there are any.
+void add_lines_and_pairs(Statistics& statistics, const CheckReport& report, std::size_t most) {
+  if (!report.inner_lines.empty()) {
+    statistics.add("inner lines", std::ssize(report.inner_lines));
+    statistics.add_member("edges_of_inner_lines", boundaries_json(report.inner_lines));
+    statistics.add_lines(boundaries_text(report.inner_lines, most));
+  }
+  if (report.pairs.empty()) return;
+  statistics.add("periodic pairs", std::ssize(report.pairs));
+  const bool match = std::ranges::none_of(
+      report.faults, [](const MeshFault& fault) { return fault.rule == MeshRule::pairs; });
+  for (const std::string& pair : report.pairs)
+    statistics.add_lines(inner_row(pair, match ? "nodes match" : ""));
 }
 
 /// Adds the number of blocks; if there are several, also cells and area of each, and the error of the area if
@@ -143,8 +157,9 @@ Statistics statistics_of(const CheckReport& report, bool verbose, std::size_t mo
   add_blocks(statistics, report);
   statistics.add("regions", report.regions.count);
   statistics.add("boundary edges", quality.counts.boundary_edges);
-  statistics.add_member("boundaries", boundaries_json(report));
+  statistics.add_member("boundaries", boundaries_json(report.boundaries));
   statistics.add_lines(boundaries_text(report.boundaries, most));
+  add_lines_and_pairs(statistics, report, most);
   statistics.add("area", report.area, number_pattern);
   add_quality(statistics, quality, report.by_layers, report.faces, &report.worst);
   add_shape(statistics, report, verbose);

@@ -21,7 +21,9 @@ struct CheckReport {
   std::string file;
   std::vector<BlockStatistics> blocks;
   InterfaceEdges interfaces;
-  std::vector<std::pair<std::string, std::int64_t>> boundaries;  ///< name and number of edges
+  using Edges = std::vector<std::pair<std::string, std::int64_t>>;
+  Edges boundaries, inner_lines;   ///< name and number of edges
+  std::vector<std::string> pairs;  ///< both names of each periodic pair
   QualitySummary quality;
   ShapeStatistics shape;
   SolverStatistics statistics;

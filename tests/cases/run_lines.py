@@ -87,6 +87,22 @@ def check_face_zones(mesh, folder):
             fail(f"the faces of zone {name} are others than the edges of the line")
 
 
+def check_geometry(quadloop, case, work):
+    """The lines of a mesh lie on those of its geometry, and not on one with a moved point."""
+    mesh, geometry = work / "fits.mesh", work / "fits.geom"
+    run([quadloop, "mesh", case, "-o", work / "fits", "--geometry-out", geometry])
+    run([quadloop, "check", mesh, "--geometry", geometry])
+    rows = geometry.read_text().splitlines()
+    line = next(iter(points_and_lines(mesh)[1]))
+    first = rows.index(f"{line} open") + 2
+    x, y = map(float, rows[first].split())
+    moved = f"{x + 0.01} {y + 0.02}"  # in both directions of the line
+    geometry.write_text("\n".join(moved if row == rows[first] else row for row in rows) + "\n")
+    said = run([quadloop, "check", mesh, "--geometry", geometry], accept=range(1, 5))
+    if f"a node of boundary {line} lies off it" not in said:
+        fail(f"a moved point of line {line} is not noticed: {said}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -124,6 +140,7 @@ def main():
             if script is not None and len(wanted) == len(tables):
                 run([sys.executable, script, f"{prefix}.mesh"])
             check_cgns(prefix)
+            check_geometry(args.quadloop, args.case, work)
             for file in ("points", "faces", "owner", "neighbour", "boundary", "faceZones"):
                 if (work / f"{mesh_type}.polyMesh" / file).read_bytes() != (work / "other.polyMesh" / file).read_bytes():
                     fail(f"{file} of the polyMesh differs on 5 ranks")

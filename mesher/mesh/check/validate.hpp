@@ -101,6 +101,7 @@ inline constexpr double largest_area_error = 0.05;
 /// Compares a valid mesh, whole on this rank, with the polylines it was made from. `tolerance` is relative to
 /// the mesh's extent. With several blocks the polylines must have points where blocks meet; one between two
 /// blocks may occur twice, once in each direction: then the mesh must have cells on both sides of it.
+/// Boundaries of the mesh that are inner lines are compared too.
 GeometryFit validate_geometry(const Mesh& mesh, std::span<const Chain> geometry,
                               const CellBlocks& blocks = {}, double tolerance = 1e-9);
 

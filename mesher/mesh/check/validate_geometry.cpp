@@ -117,6 +117,9 @@ class Comparison {
         topology_{mesh},
         longest_{longest_edge_of_cells(mesh)},
         reach_{mesh, longest_} {
+    for (const BoundaryEdges& boundary : mesh.boundaries) {
+      if (boundary.inner_line) lines_.insert(boundary.name);
+    }
     Box box;
     for (const Point p : mesh.points) box.include(p);
     centre_ = box.centre();
@@ -137,7 +140,7 @@ class Comparison {
       compare_points(boundary, outline->second);
     }
     for (const auto& [name, outline] : outlines_) fit_.boundaries_dropped += present.contains(name) ? 0 : 1;
-    if (blocks_.count > 1) meet_twins();
+    if (blocks_.count > 1 || !lines_.empty()) meet_twins();
     compare_loops();
     compare_corners();
     compare_area();
@@ -202,7 +205,8 @@ class Comparison {
           p);
   }
 
-  /// Flags chains that coincide with one that a boundary node lies on, as those between two blocks do.
+  /// Flags chains that coincide with one that a boundary node lies on, as those between two blocks and those
+  /// of inner lines do.
   void meet_twins() {
     std::map<Ends, std::size_t> first_with;
     for (std::size_t c = 0; c < geometry_.size(); ++c) {
@@ -306,9 +310,11 @@ class Comparison {
 
   void compare_area() {
     long double wanted = 0, meshed = 0;
-    for (const Chain& chain : geometry_)
+    for (const Chain& chain : geometry_) {
+      if (lines_.contains(chain.name)) continue;
       for_each_segment(
           chain, [&](Point a, Point b, const Curve&) { wanted += cross(a - centre_, b - centre_) / 2; });
+    }
     for (const auto& edge : topology_.outer_edges())
       meshed += cross(mesh_.point(edge.from) - centre_, mesh_.point(edge.to) - centre_) / 2;
     fit_.area_error = static_cast<double>(std::abs(meshed - wanted) / std::abs(wanted));
@@ -322,7 +328,8 @@ class Comparison {
   const CellBlocks& blocks_;
   std::span<const Chain> geometry_;
   std::map<std::string, NamedOutline> outlines_;
-  std::vector<char> met_;  ///< for each chain: whether a boundary node of its name lies on it
+  std::set<std::string> lines_;  ///< names of inner lines
+  std::vector<char> met_;        ///< for each chain: whether a boundary node of its name lies on it
   MeshTopology topology_;
   std::vector<double> longest_;
   CellReach reach_;
