@@ -98,7 +98,7 @@ def check_geometry(quadloop, case, work):
     x, y = map(float, rows[first].split())
     moved = f"{x + 0.01} {y + 0.02}"  # in both directions of the line
     geometry.write_text("\n".join(moved if row == rows[first] else row for row in rows) + "\n")
-    said = run([quadloop, "check", mesh, "--geometry", geometry], accept=range(1, 5))
+    said = run([quadloop, "check", mesh, "--geometry", geometry, "--verbose"], accept=range(1, 5))
     if f"a node of boundary {line} lies off it" not in said:
         fail(f"a moved point of line {line} is not noticed: {said}")
 
