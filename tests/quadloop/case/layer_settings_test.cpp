@@ -63,9 +63,9 @@ TEST_F(LayerSettingsTest, AYPlusFollowsTheFlowInTheLoop) {
   };
   EXPECT_EQ(read(layers, flow).y_plus, 2);
   EXPECT_EQ(read("first = 1e-3, count = 7").y_plus, 0);
-  EXPECT_EQ(of(layers, flow), (adapt::WallFlow{1 / 6e6, 1}));
+  EXPECT_EQ(of(layers, flow), (adapt::WallFlow{1 / 6e6, 1, 0.5}));
   EXPECT_EQ(of(layers, flow + "reference_length = 3\ndensity = 2\nspeed = 5\n"),
-            (adapt::WallFlow{2 * 5 * 3 / 6e6, 2}));
+            (adapt::WallFlow{2 * 5 * 3 / 6e6, 2, 0.5 * 2 * 5 * 5}));
   EXPECT_EQ(of(layers, flow + "[solver]\nmach = 0.5\nreynolds = 5000\n"), (adapt::WallFlow{0.5 / 5000, 1}))
       << "a laminar flow has its own viscosity";
   EXPECT_FALSE(of("first = 1e-3, count = 7", flow));
