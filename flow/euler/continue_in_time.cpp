@@ -44,7 +44,7 @@ struct Course {
 };
 
 Course course_of(FlowRun& run) {
-  run.mesh.exchange().update(run.states);
+  run.mesh.update(run.states);
   Course course{flow_through_time(run), RungeKutta(run, run.options.cfl).longest_step(),
                 run.options.time_step};
   if (!course.step && course.explicit_step * most_explicit_steps < course.flow_through)

@@ -46,7 +46,7 @@ double free_stream_residual(FlowRun& run) {
 
 void surround(FlowRun& run, FarField& far_field) {
   if (run.options.far_field != EulerOptions::FarField::vortex) return;
-  run.mesh.exchange().update(run.states);
+  run.mesh.update(run.states);
   const ForceCoefficients forces = wall_forces(run.comm, run.mesh, run.model, run.states,
                                                run.residual.friction(), run.options.reference_length);
   const double speed = std::hypot(run.model.free_stream[1], run.model.free_stream[2]);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "flow/euler/forces.hpp"
+#include "flow/euler/joined_flow.hpp"
 #include "flow/euler/march.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
@@ -136,13 +137,9 @@ EulerResult march(FlowRun& run, const Field& start, TimeAverage& average) {
   return steady;
 }
 
-}  // namespace
-
-EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
-                        const Field& start, const AtEnd& at_end) {
-  validate(options);
-  const FlowModel model = flow_model(comm, mesh, options);
-  const DualMesh dual(comm, mesh);
+/// `mesh` and `start` have the nodes of `dual`. *Collective.*
+EulerResult solve_on(const Communicator& comm, const Mesh& mesh, const DualMesh& dual, const FlowModel& model,
+                     const EulerOptions& options, const Field& start, const AtEnd& at_end) {
   IdVector<NodeId, State> states = start_states(comm, mesh, dual, model, options, start);
   FlowRun run{
       comm, options, dual, model, Residual(dual, model, options), std::move(states), start.width() > 0};
@@ -151,6 +148,25 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
   EulerResult result = march(run, start, average);
   keep_flow(run, mesh.boundaries, average, result);
   if (at_end) at_end(mesh, run, result);
+  return result;
+}
+
+}  // namespace
+
+EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerOptions& options,
+                        const Field& start, const AtEnd& at_end) {
+  validate(options);
+  if (mesh.pairs.empty()) {
+    const FlowModel model = flow_model(comm, mesh, options);
+    return solve_on(comm, mesh, DualMesh(comm, mesh), model, options, start, at_end);
+  }
+  const JoinedMesh joined = join_pairs(comm, mesh);
+  const FlowModel model = flow_model(comm, joined.mesh, options);
+  require_usable_with_pairs(mesh, model, options);
+  const DualMesh dual(comm, joined);
+  EulerResult result =
+      solve_on(comm, joined.mesh, dual, model, options, at_joined_nodes(joined, start), at_end);
+  result.flow = at_given_nodes(dual, joined, result.flow);
   return result;
 }
 

@@ -1,14 +1,16 @@
 #include "mesher/mesh/halo_mesh.hpp"
 
 #include <algorithm>
+#include <compare>
+#include <iterator>
 
 namespace quadloop {
 
 namespace {
 
 struct TravellingNode {
-  GlobalNodeId node;
-  Point point;
+  GlobalNodeId image;
+  Point original;  ///< its position
 };
 
 template <std::size_t width>
@@ -40,52 +42,87 @@ void for_cells_at_ghosts(const std::vector<std::array<NodeId, width>>& cells, st
   }
 }
 
-/// Returns the other ranks that own a node of a cell or an edge.
+/// Where a cell or an edge is needed: the rank, and the shift that takes it to that rank's node.
+struct Destination {
+  int rank;
+  PeriodicShift shift;
+  friend auto operator<=>(const Destination&, const Destination&) = default;
+};
+
+/// Returns where a cell or an edge is needed other than in its place on this rank.
 template <class Nodes>
-std::vector<int> other_owners(const Mesh& mesh, const NodeOwners& owners, const Nodes& nodes) {
-  std::vector<int> ranks;
+std::vector<Destination> destinations(const Mesh& mesh, const NodeOwners& owners, const Nodes& nodes) {
+  std::vector<Destination> found;
   for (const NodeId node : nodes) {
-    if (!mesh.owns(node)) ranks.push_back(owners.rank_of(mesh.global(node)));
+    if (mesh.owns(node)) continue;
+    const GlobalNodeId image = mesh.global(node);
+    found.push_back({owners.rank_of(original_of(image)), -shift_of(image)});
   }
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-  return ranks;
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace
 
-HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh)
-    : mesh_{&mesh}, points_{mesh.points}, ghosts_{mesh.ghosts}, exchange_{gather(comm)} {}
+HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh) : HaloMesh(comm, mesh, nullptr) {}
+
+HaloMesh::HaloMesh(const Communicator& comm, const JoinedMesh& joined)
+    : HaloMesh(comm, joined.mesh, &joined) {}
+
+HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh, const JoinedMesh* joined)
+    : mesh_{&mesh}, joined_{joined}, points_{mesh.points}, ghosts_{mesh.ghosts}, exchange_{gather(comm)} {}
 
 NodeExchange HaloMesh::gather(const Communicator& comm) {
   const NodeOwners owners(comm, mesh_->first_node);
   NodeTable nodes(mesh_->first_node, owned_nodes(), points_, ghosts_);
-  receive_cells(comm, owners, mesh_->triangles, nodes, triangles_before_, triangles_after_, triangles_sent_);
-  receive_cells(comm, owners, mesh_->quads, nodes, quads_before_, quads_after_, quads_sent_);
+  receive_cells<3>(comm, owners, mesh_->triangles, nodes,
+                   {triangles_before_, triangles_after_, triangles_moved_}, triangles_sent_);
+  receive_cells<4>(comm, owners, mesh_->quads, nodes, {quads_before_, quads_after_, quads_moved_},
+                   quads_sent_);
   receive_edges(comm, owners, nodes);
-  return {comm, owners, owned_nodes(), ghosts_};
+  std::vector<GlobalNodeId> originals;
+  std::ranges::transform(ghosts_, std::back_inserter(originals), original_of);
+  return {comm, owners, owned_nodes(), originals};
+}
+
+Point HaloMesh::place(GlobalNodeId image, Point original) const {
+  const PeriodicShift shift = shift_of(image);
+  return shift == 0 ? original : joined_->maps.image(shift, original);
 }
 
 template <std::size_t width>
 void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
-                             NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent) {
+                             NodeTable& nodes, const CellsOfOthers<width>& received, Sent& sent) {
   std::vector<TravellingCell<width>> out;
+  Outbox<TravellingCell<width>> moved_out;
   const auto send = [&](std::int32_t i) {
-    for (const int rank : other_owners(*mesh_, owners, own[i])) {
-      TravellingCell<width>& cell = out.emplace_back();
-      for (std::size_t k = 0; k < width; ++k) cell[k] = {mesh_->global(own[i][k]), mesh_->point(own[i][k])};
+    for (const auto& [rank, shift] : destinations(*mesh_, owners, own[i])) {
+      TravellingCell<width> cell;
+      for (std::size_t k = 0; k < width; ++k)
+        cell[k] = {shifted(mesh_->global(own[i][k]), shift), original(own[i][k])};
+      if (shift != 0) {
+        moved_out.add(rank, cell);
+        continue;
+      }
+      out.push_back(cell);
       sent.cells.push_back(i);
       sent.ranks.push_back(rank);
     }
   };
   const bool any_shared = !mesh_->ghosts.empty();  // otherwise no cell touches a node of another rank
   if (any_shared) for_cells_at_ghosts(own, owned_nodes(), send);
+  const auto append = [&](const TravellingCell<width>& cell, Cells<width>& cells) {
+    auto& to = cells.emplace_back();
+    for (std::size_t k = 0; k < width; ++k)
+      to[k] = nodes.local(cell[k].image, place(cell[k].image, cell[k].original));
+  };
   const Exchange exchange(comm, sent.ranks);
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());
-  for (const TravellingCell<width>& cell : exchange.deliver(out)) {
-    auto& to = (before.size() < from_lower ? before : after).emplace_back();
-    for (std::size_t k = 0; k < width; ++k) to[k] = nodes.local(cell[k].node, cell[k].point);
-  }
+  for (const TravellingCell<width>& cell : exchange.deliver(out))
+    append(cell, received.before.size() < from_lower ? received.before : received.after);
+  if (joined_ == nullptr) return;
+  for (const TravellingCell<width>& cell : moved_out.deliver(comm)) append(cell, received.moved);
 }
 
 void HaloMesh::receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes) {
@@ -94,8 +131,10 @@ void HaloMesh::receive_edges(const Communicator& comm, const NodeOwners& owners,
   for (std::int32_t boundary = 0; boundary < boundaries; ++boundary) {
     for (const auto& ends : mesh_->boundaries[boundary].edges) {
       edges_.push_back({ends[0], ends[1], boundary});
-      for (const int rank : other_owners(*mesh_, owners, ends))
-        out.add(rank, {mesh_->global(ends[0]), mesh_->global(ends[1]), boundary});
+      for (const auto& [rank, shift] : destinations(*mesh_, owners, ends)) {
+        out.add(rank,
+                {shifted(mesh_->global(ends[0]), shift), shifted(mesh_->global(ends[1]), shift), boundary});
+      }
     }
   }
   for (const TravellingEdge& edge : out.deliver(comm))

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/error.hpp"
 #include "mesher/base/parallel/communicator.hpp"
+#include "mesher/mesh/joined_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -24,6 +26,10 @@ class HaloMesh {
  public:
   /// `mesh` must outlive the object, with unchanged cells. *Collective.*
   HaloMesh(const Communicator& comm, const Mesh& mesh);
+  /// Around each node also the cells on the other sides of periodic pairs, moved to where the node is; their
+  /// other nodes are images, which are ghosts. These cells come after the others of their kind, in global
+  /// order. `joined` must outlive the object, with unchanged cells. *Collective.*
+  HaloMesh(const Communicator& comm, const JoinedMesh& joined);
 
   /// The owned nodes and the ghosts of the mesh, in its order, then the remaining nodes of the cells of other
   /// ranks.
@@ -32,7 +38,10 @@ class HaloMesh {
   const Point& point(NodeId node) const { return points_[node.value()]; }
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
   bool owns(NodeId node) const { return mesh_->owns(node); }
-  GlobalNodeId global(NodeId node) const {
+  /// Of an image the number of its original.
+  GlobalNodeId global(NodeId node) const { return original_of(image(node)); }
+  /// The image_number() of a node.
+  GlobalNodeId image(NodeId node) const {
     return owns(node) ? mesh_->global(node) : ghosts_[node.value() - owned_nodes()];
   }
   const NodeExchange& exchange() const { return exchange_; }
@@ -42,25 +51,28 @@ class HaloMesh {
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
   /// `own` has a value for each cell of this rank's Mesh, triangles first, then quads. Returns the values of
-  /// all cells of the HaloMesh, in the order of for_each_cell(). *Collective.*
+  /// all cells of the HaloMesh, in the order of for_each_cell(); not for a JoinedMesh. *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
-  bool has_quads() const { return !(quads_before_.empty() && mesh_->quads.empty() && quads_after_.empty()); }
+  bool has_quads() const {
+    return !(quads_before_.empty() && mesh_->quads.empty() && quads_after_.empty() && quads_moved_.empty());
+  }
 
   /// Number of cells that for_each_cell() visits.
   std::size_t cell_count() const {
     return triangles_before_.size() + mesh_->triangles.size() + triangles_after_.size() +
-           quads_before_.size() + mesh_->quads.size() + quads_after_.size();
+           triangles_moved_.size() + quads_before_.size() + mesh_->quads.size() + quads_after_.size() +
+           quads_moved_.size();
   }
 
   /// Calls `visit(nodes)` for each cell, with an array of three or four nodes: triangles, then quads.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
-    for (const auto* part : {&triangles_before_, &mesh_->triangles, &triangles_after_}) {
+    for (const auto* part : {&triangles_before_, &mesh_->triangles, &triangles_after_, &triangles_moved_}) {
       for (const auto& nodes : *part) visit(nodes);
     }
-    for (const auto* part : {&quads_before_, &mesh_->quads, &quads_after_}) {
+    for (const auto* part : {&quads_before_, &mesh_->quads, &quads_after_, &quads_moved_}) {
       for (const auto& nodes : *part) visit(nodes);
     }
   }
@@ -74,20 +86,32 @@ class HaloMesh {
     std::vector<std::int32_t> cells;
     std::vector<int> ranks;
   };
+  template <std::size_t width>
+  struct CellsOfOthers {
+    Cells<width>&before, &after, &moved;
+  };
+  HaloMesh(const Communicator& comm, const Mesh& mesh, const JoinedMesh* joined);
   NodeExchange gather(const Communicator& comm);
+  Point original(NodeId node) const {
+    return joined_ ? joined_->originals[node.value()] : mesh_->point(node);
+  }
+  Point place(GlobalNodeId image, Point original) const;
   template <std::size_t width>
   void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
-                     NodeTable& nodes, Cells<width>& before, Cells<width>& after, Sent& sent);
+                     NodeTable& nodes, const CellsOfOthers<width>& received, Sent& sent);
   void receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes);
   template <class T>
   static void append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
                             std::span<const T> own, std::vector<T>& all);
 
   const Mesh* mesh_;
+  const JoinedMesh* joined_;  ///< null if no pairs are joined
   std::vector<Point> points_;
-  std::vector<GlobalNodeId> ghosts_;
+  std::vector<GlobalNodeId> ghosts_;             ///< as image_number()
   Cells<3> triangles_before_, triangles_after_;  ///< of lower and of higher ranks
   Cells<4> quads_before_, quads_after_;
+  Cells<3> triangles_moved_;  ///< of the other sides of pairs
+  Cells<4> quads_moved_;
   std::vector<HaloEdge> edges_;
   Sent triangles_sent_, quads_sent_;
   NodeExchange exchange_;
@@ -107,6 +131,7 @@ void HaloMesh::append_spread(const Communicator& comm, const Sent& sent, std::si
 
 template <class T>
 std::vector<T> HaloMesh::spread(const Communicator& comm, const std::vector<T>& own) const {
+  QUADLOOP_REQUIRE(joined_ == nullptr, "the values are spread over cells that are not moved");
   std::vector<T> all;
   const std::size_t triangles = mesh_->triangles.size();
   append_spread(comm, triangles_sent_, triangles_before_.size(), std::span(own).first(triangles), all);

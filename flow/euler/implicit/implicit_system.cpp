@@ -248,7 +248,7 @@ void ImplicitSystem::relax(const IdVector<NodeId, Flux>& residual, int sweeps,
       const int colour = sweep % 2 == 0 ? step : colours_.count - 1 - step;
       relax_rows(colour_starts_[colour], colour_starts_[colour + 1], residual, change);
       if (!lines_.empty()) change_lines(colour, change);
-      mesh_.exchange().update(change, [&](std::int32_t node) { return turn(NodeId{node}) == colour; });
+      mesh_.update(change, [&](std::int32_t node) { return turn(NodeId{node}) == colour; });
     }
   }
 }

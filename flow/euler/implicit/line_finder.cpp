@@ -92,7 +92,7 @@ class LineFinder {
     mesh_.exchange().update(partners_);
   }
 
-  /// Keeps the edges that are strong at both of their nodes.
+  /// Keeps the edges that are strong at both of their nodes, except across periodic pairs.
   void join() {
     IdVector<NodeId, Partners> common(mesh_.owned_nodes());
     const auto note = [&](NodeId node, GlobalNodeId other) {
@@ -101,6 +101,7 @@ class LineFinder {
       nodes[nodes[0] == nobody ? 0 : 1] = other.value();
     };
     for (const DualEdge& edge : mesh_.edges()) {
+      if (mesh_.is_image(edge.low) || mesh_.is_image(edge.high)) continue;  // lines end at periodic pairs
       const GlobalNodeId low = mesh_.global(edge.low), high = mesh_.global(edge.high);
       if (!partners_[edge.low].contains(high) || !partners_[edge.high].contains(low)) continue;
       joints_.push_back({edge.low, edge.high});

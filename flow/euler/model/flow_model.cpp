@@ -165,12 +165,6 @@ bool feels_force(Condition condition) {
 }
 
 FlowModel flow_model(const Communicator& comm, const Mesh& mesh, const EulerOptions& options) {
-  if (!mesh.pairs.empty())
-    throw InputError(
-        fmt::format("boundaries '{}' and '{}' are a periodic pair, which the built-in flow solver does not "
-                    "support; use an "
-                    "external solver",
-                    mesh.pairs.front().from, mesh.pairs.front().to));
   FlowModel model;
   model.gas.gamma = options.gamma;
   if (options.mach > 0) model.gas.least_mach = std::min(options.mach, 1.0);

@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
 
 #include "flow/euler/scheme/skewness.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/turn.hpp"
 
 namespace quadloop::flow::euler {
 
 namespace {
 
+/// Order of the nodes: by number, images after their original.
+using NodeKey = std::pair<GlobalNodeId, GlobalNodeId>;
+NodeKey key_of_node(const HaloMesh& mesh, NodeId node) { return {mesh.global(node), mesh.image(node)}; }
+
 /// Contribution of one cell to the dual face of an edge.
 struct Facet {
-  GlobalNodeId global_low, global_high;
+  NodeKey low_key, high_key;
   NodeId low, high;
   Point normal;                        ///< its length is that of the facet
   Skewness of_middle, left_over, sum;  ///< as in SkewFace
@@ -34,11 +41,11 @@ Point turned(Point v) { return {v.y, -v.x}; }
 
 /// Returns the facet of the edge from node a to node b of a counter-clockwise cell.
 Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_quad) {
-  const GlobalNodeId global_a = mesh.global(a), global_b = mesh.global(b);
-  const double side = global_a < global_b ? 1 : -1;
+  const NodeKey key_a = key_of_node(mesh, a), key_b = key_of_node(mesh, b);
+  const double side = key_a < key_b ? 1 : -1;
   const Point along = mesh.point(b) - mesh.point(a), across = centre - middle(mesh.point(a), mesh.point(b)),
               normal = side * turned(across);
-  Facet facet{global_a, global_b, a, b, normal, {}, {}, {}};
+  Facet facet{key_a, key_b, a, b, normal, {}, {}, {}};
   // half by the facet's own midpoint; the rest is what each triangle passes on from one edge to the next
   if (is_quad) {
     facet.of_middle = {0.5 * across.x * normal, 0.5 * across.y * normal};
@@ -46,7 +53,7 @@ Facet facet_of(const HaloMesh& mesh, NodeId a, NodeId b, Point centre, bool is_q
     facet.sum = facet.of_middle + facet.left_over;
   }
   if (side < 0) {
-    std::swap(facet.global_low, facet.global_high);
+    std::swap(facet.low_key, facet.high_key);
     std::swap(facet.low, facet.high);
   }
   return facet;
@@ -74,7 +81,19 @@ double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3
 }  // namespace
 
 DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh)
-    : halo_(comm, mesh), first_node_{mesh.first_node} {
+    : DualMesh(comm, HaloMesh(comm, mesh), mesh.first_node, nullptr) {}
+
+DualMesh::DualMesh(const Communicator& comm, const JoinedMesh& joined)
+    : DualMesh(comm, HaloMesh(comm, joined), joined.mesh.first_node, &joined.maps) {}
+
+DualMesh::DualMesh(const Communicator& comm, HaloMesh halo, std::int64_t first_node, const PeriodicMaps* maps)
+    : halo_{std::move(halo)}, first_node_{first_node} {
+  if (maps != nullptr) {
+    for (const NodeId node : ids()) {
+      const double degrees = maps->degrees(shift_of(halo_.image(node)));
+      if (degrees != 0) turned_.push_back({node, unit_vector(degrees)});
+    }
+  }
   add_areas();
   collect_edges();
   comm.together([&] { collect_faces(); });
@@ -106,7 +125,7 @@ void DualMesh::collect_edges() {
     }
   });
   std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
-    return a.global_low != b.global_low ? a.global_low < b.global_low : a.global_high < b.global_high;
+    return std::tie(a.low_key, a.high_key) < std::tie(b.low_key, b.high_key);
   });
   std::vector<SkewFace> skew;
   for (std::size_t i = 0; i < facets.size();) {
@@ -131,7 +150,7 @@ void DualMesh::collect_skew_edges(const std::vector<SkewFace>& faces) {
     nearness[edge.low].add(2.0 * edge.half);
     nearness[edge.high].add(2.0 * edge.half);
   }
-  halo_.exchange().update(nearness);
+  update(nearness);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const DualEdge& edge = edges_[e];
     const auto [with_x, with_y] = bearable(faces[e], nearness[edge.low], nearness[edge.high]);
@@ -143,7 +162,9 @@ void DualMesh::collect_skew_edges(const std::vector<SkewFace>& faces) {
 void DualMesh::collect_faces() {
   std::vector<HaloEdge> outline = halo_.boundary_edges();
   std::erase_if(outline, [&](const HaloEdge& e) { return !halo_.owns(e.from) && !halo_.owns(e.to); });
-  const auto key = [&](NodeId a, NodeId b) { return std::minmax({halo_.global(a), halo_.global(b)}); };
+  const auto key = [&](NodeId a, NodeId b) {
+    return std::minmax({key_of_node(halo_, a), key_of_node(halo_, b)});
+  };
   const auto key_of = [&](const DualEdge& edge) { return key(edge.low, edge.high); };
   std::sort(outline.begin(), outline.end(),
             [&](const HaloEdge& a, const HaloEdge& b) { return key(a.from, a.to) < key(b.from, b.to); });

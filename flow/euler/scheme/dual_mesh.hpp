@@ -4,8 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "flow/euler/scheme/turned.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
+#include "mesher/mesh/joined_mesh.hpp"
 
 namespace quadloop::flow::euler {
 
@@ -49,6 +51,8 @@ class DualMesh {
   /// `mesh` must outlive the object unchanged. Throws InputError if an edge with a single cell is on no
   /// boundary. *Collective.*
   DualMesh(const Communicator& comm, const Mesh& mesh);
+  /// The edges of a node continue across periodic pairs, to ghosts that are images. *Collective.*
+  DualMesh(const Communicator& comm, const JoinedMesh& joined);
 
   std::int64_t first_node() const { return first_node_; }  ///< as in the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
@@ -59,7 +63,20 @@ class DualMesh {
   Point point(NodeId node) const { return halo_.point(node); }
   GlobalNodeId global(NodeId node) const { return halo_.global(node); }
   const HaloMesh& halo() const { return halo_; }
+  /// Whether the node is the image of another one, across periodic pairs.
+  bool is_image(NodeId node) const { return shift_of(halo_.image(node)) != 0; }
+  /// For values that do not depend on the directions of the axes; the others need update().
   const NodeExchange& exchange() const { return halo_.exchange(); }
+  /// Updates the ghosts; images across a rotation get values that are turned, by turned(value, direction).
+  /// *Collective.*
+  template <class Values>
+  void update(Values& values) const {
+    exchange().update(values);
+    for (const auto& [node, direction] : turned_) values[node] = turned(values[node], direction);
+  }
+  /// Updates only the ghosts of owned nodes for which `changed` is true. *Collective.*
+  template <class Values, class Changed>
+  void update(Values& values, const Changed& changed) const;
 
   const IdVector<NodeId, double>& areas() const { return areas_; }  ///< of the owned nodes' dual cells
   std::span<const DualEdge> edges() const { return edges_; }
@@ -67,12 +84,18 @@ class DualMesh {
   std::span<const BoundaryFace> faces() const { return faces_; }
 
  private:
+  struct TurnedImage {
+    NodeId node;
+    Point direction;  ///< cosine and sine
+  };
+  DualMesh(const Communicator& comm, HaloMesh halo, std::int64_t first_node, const PeriodicMaps* maps);
   void add_areas();
   void collect_edges();
   void collect_skew_edges(const std::vector<SkewFace>& faces);
   void collect_faces();
 
   HaloMesh halo_;
+  std::vector<TurnedImage> turned_;
   std::int64_t first_node_;
   IdVector<NodeId, double> areas_;
   std::vector<DualEdge> edges_;
@@ -80,5 +103,17 @@ class DualMesh {
   std::vector<char> open_;  ///< during construction, for each edge: 1 if it has one cell and no boundary yet
   std::vector<BoundaryFace> faces_;
 };
+
+template <class Values, class Changed>
+void DualMesh::update(Values& values, const Changed& changed) const {
+  if (turned_.empty()) return exchange().update(values, changed);
+  IdVector<NodeId, char> is_new(nodes(), 0);
+  for (const NodeId node : owned_ids()) is_new[node] = changed(node.value()) ? 1 : 0;
+  exchange().update(is_new);
+  exchange().update(values, changed);
+  for (const auto& [node, direction] : turned_) {
+    if (is_new[node] != 0) values[node] = turned(values[node], direction);
+  }
+}
 
 }  // namespace quadloop::flow::euler

@@ -13,6 +13,17 @@ struct Gradient {
   std::array<double, 4> x{}, y{};
 };
 
+/// The gradient after a rotation: its own direction turns, and the velocity.
+inline Gradient turned(const Gradient& gradient, Point direction) {
+  Gradient result{turned(gradient.x, direction), turned(gradient.y, direction)};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point v = turned(Point{result.x[k], result.y[k]}, direction);
+    result.x[k] = v.x;
+    result.y[k] = v.y;
+  }
+  return result;
+}
+
 /// Nodal gradients by least squares over the edges, weighted by the inverse edge length: exact for linear
 /// fields on any mesh.
 class LeastSquares {

@@ -49,11 +49,11 @@ void Residual::release_limiter() {
 }
 
 const IdVector<NodeId, Flux>& Residual::evaluate(IdVector<NodeId, State>& states) {
-  mesh_.exchange().update(states);
+  mesh_.update(states);
   least_squares_.compute(states, gradients_);
   if (model_.is_viscous()) find_viscous_gradients(states);
   if (limiter_) limiter_->apply(states, gradients_);
-  mesh_.exchange().update(gradients_);
+  mesh_.update(gradients_);
   if (shocks_) shocks_->find(states);
   for (Flux& sum : sums_) sum = {};
   add_edges(states);
@@ -70,7 +70,7 @@ const IdVector<NodeId, Flux>& Residual::evaluate(IdVector<NodeId, State>& states
 void Residual::find_viscous_gradients(const IdVector<NodeId, State>& states) {
   for (const NodeId node : mesh_.owned_ids())
     viscous_gradients_[node] = viscous_gradient(model_.gas, states[node], gradients_[node]);
-  mesh_.exchange().update(viscous_gradients_);
+  mesh_.update(viscous_gradients_);
 }
 
 void Residual::take_viscous_edges(const IdVector<NodeId, State>& states) {

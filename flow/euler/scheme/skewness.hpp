@@ -34,6 +34,13 @@ struct Nearness {
   }
 };
 
+inline Nearness turned(const Nearness& nearness, Point direction) {
+  const auto& [xx, xy, yy] = nearness;
+  const double c = direction.x, s = direction.y;
+  return {c * c * xx - 2 * c * s * xy + s * s * yy, c * s * (xx - yy) + (c * c - s * s) * xy,
+          s * s * xx + 2 * c * s * xy + c * c * yy};
+}
+
 /// The face of an edge with its skewness: by its own midpoint, and the part that triangles pass on to the
 /// next edge (1 / 24 of the edge squared).
 struct SkewFace {

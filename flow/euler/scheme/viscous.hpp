@@ -10,6 +10,12 @@ struct ViscousGradient {
   Point x_velocity, y_velocity, temperature;
 };
 
+inline ViscousGradient turned(const ViscousGradient& gradient, Point direction) {
+  const Point u = turned(gradient.x_velocity, direction), v = turned(gradient.y_velocity, direction);
+  return {direction.x * u - direction.y * v, direction.y * u + direction.x * v,
+          turned(gradient.temperature, direction)};
+}
+
 inline double temperature(const Gas& gas, const State& state) { return gas.gamma * state[3] / state[0]; }
 
 /// Converts the gradients of a node's variables.
