@@ -117,9 +117,7 @@ void require_blocks_alone(const Settings& settings) {
   const AssembleOptions& outline = settings.outline;
   if (outline.blocks.empty() && outline.lines.empty()) return;
   const bool lines = !outline.lines.empty();
-  const auto has_layers = [](const BoundaryRule& rule) { return rule.layers.has_value(); };
   const std::pair<bool, const char*> others[] = {
-      {lines && std::ranges::any_of(outline.rules, has_layers), "boundary layers; remove 'layers'"},
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value() || (!outline.blocks.empty() && settings.half),
        "mirror images; remove mesh.mirror"},

@@ -95,7 +95,7 @@ class OuterOutline {
     } else if (stays(s)) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none,
                  std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s), g_.bend_degrees(s),
-                 stays(g_.next(s)) ? g_.curve(s) : Curve{});
+                 stays(g_.next(s)) ? g_.curve(s) : Curve{}, g_.returns(s));
     }
   }
   /// Whether vertex s of the geometry is one of the outer geometry.
@@ -114,8 +114,8 @@ class OuterOutline {
   void add_free_strip(const PlacedLine& line);
   void add_front_of(const LayerStrip& strip);
   void add_vertex(Point p, BoundaryId boundary, std::int32_t station, double spacing, bool kept, double bend,
-                  const Curve& curve = {}) {
-    builder_.add(p, boundary, curve);
+                  const Curve& curve = {}, bool returns = false) {
+    builder_.add(p, boundary, curve, returns);
     station_of_.push_back(station);
     spacing_.push_back(spacing);
     kept_.push_back(kept ? 1 : 0);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "mesher/base/error.hpp"
 
 namespace quadloop {
@@ -28,6 +30,7 @@ class Runs {
     for (std::int32_t s = 0; s < g_.size(); ++s) {
       if (asks(s)) extend(s);
     }
+    require_clear_of_lines();
     require_one_count();
     require_own_layers();
     std::vector<WallRun> runs;
@@ -63,6 +66,22 @@ class Runs {
           "boundaries {} and {} meet at ({:.6g}, {:.6g}), but one has {} layers and the other {}; give "
           "both the same count",
           a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
+    }
+  }
+
+  /// Throws InputError if an inner line begins or ends on a wall with layers.
+  void require_clear_of_lines() const {
+    for (std::int32_t s = 0; s < g_.size(); ++s) {
+      const std::int32_t next = g_.next(s);
+      if (g_.is_inner_line(s) == g_.is_inner_line(next)) continue;
+      const auto [line, wall] = g_.is_inner_line(s) ? std::pair(s, next) : std::pair(next, s);
+      if (!carries(wall)) continue;
+      const std::string& with_layers = g_.boundary(layers_[wall]).name;
+      throw InputError(fmt::format(
+          "inner line '{}' meets boundary {} at ({:.6g}, {:.6g}), where the layers of boundary {} lie; end "
+          "the line outside the layers, or remove layers from [boundary.{}]",
+          g_.boundary(g_.boundary_of(line)).name, g_.boundary(g_.boundary_of(wall)).name, g_.point(next).x,
+          g_.point(next).y, with_layers, with_layers));
     }
   }
 

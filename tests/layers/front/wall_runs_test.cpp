@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "mesher/base/error.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
 
@@ -101,6 +105,44 @@ TEST(WallRuns, ADirectionTurnsRoundToTheLastBit) {
   const Point a{0.1, 0.7}, b{0.35, -0.2};
   EXPECT_EQ(direction_of(a, b), -1.0 * direction_of(b, a));
   EXPECT_NEAR(length(direction_of(a, b)), 1, 1e-15);
+}
+
+/// A box from (0, 0) to (4, 4) with layers on its floor, and an inner line that begins in the middle of the
+/// floor or of the lid.
+Geometry box_with_line(bool on_floor) {
+  GeometryBuilder builder;
+  const auto add_line = [&](Point from, Point to) {
+    builder.add(from, BoundaryId{2});
+    builder.add(to, BoundaryId{2}, {}, true);
+  };
+  builder.add({0, 0}, BoundaryId{0});
+  if (on_floor) {
+    add_line({2, 0}, {2, 1});
+    builder.add({2, 0}, BoundaryId{0});
+  }
+  builder.add({4, 0}, BoundaryId{1});
+  builder.add({4, 4}, BoundaryId{1});
+  if (!on_floor) {
+    add_line({2, 4}, {2, 3});
+    builder.add({2, 4}, BoundaryId{1});
+  }
+  builder.add({0, 4}, BoundaryId{1});
+  builder.end_loop();
+  std::vector<Boundary> boundaries{{.name = "floor"}, {.name = "rest"}, {.name = "screen"}};
+  boundaries[0].layers = four_layers;
+  return std::move(builder).geometry(std::move(boundaries));
+}
+
+TEST(WallRuns, AnInnerLineOnAWallWithLayersIsRefused) {
+  EXPECT_EQ(wall_runs(box_with_line(false))[0].segments, (std::vector<std::int32_t>{0}));
+  try {
+    wall_runs(box_with_line(true));
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"'screen'", "boundary floor", "(2, 0)", "; end the line"})
+      EXPECT_NE(text.find(part), std::string::npos) << text;
+  }
 }
 
 }  // namespace
