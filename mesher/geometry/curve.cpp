@@ -7,6 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "mesher/geometry/curve_parts.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -51,6 +53,7 @@ class Poles {
 struct PointAndDerivative {
   Point point;
   Point derivative;  ///< by the parameter
+  double parameter = 0;
 };
 
 /// De Casteljau's algorithm, which overwrites the poles (Farin, Curves and Surfaces for CAGD, chapters 4 and
@@ -62,7 +65,7 @@ PointAndDerivative evaluate(std::span<Pole> poles, double t) {
   }
   const Pole a = poles[0], b = poles[1], at = between(a, b, t);
   const double scale = double(degree) * a.weight * b.weight / (at.weight * at.weight);
-  return {at.point(), scale * (b.point() - a.point())};
+  return {at.point(), scale * (b.point() - a.point()), t};
 }
 
 CurvedSegment segment_of(std::span<const Pole> poles, Point from, Point to, Point origin, const Curve& like) {
@@ -109,6 +112,22 @@ PointAndDerivative above_chord_from_start(const CurvedSegment& segment, Point p)
   return at;
 }
 
+/// The parts of the curve before and after a parameter.
+std::pair<CurvedSegment, CurvedSegment> parts_at_parameter(const CurvedSegment& segment, double t) {
+  Poles of_segment(segment);
+  const std::span<Pole> poles = of_segment.all();
+  std::vector<Pole> first{poles.front()}, second{poles.back()};
+  for (std::size_t round = poles.size() - 1; round > 0; --round) {
+    for (std::size_t i = 0; i < round; ++i) poles[i] = between(poles[i], poles[i + 1], t);
+    first.push_back(poles.front());
+    second.push_back(poles[round - 1]);
+  }
+  std::ranges::reverse(second);
+  const Point origin = origin_of(segment), middle = origin + first.back().point();
+  return {segment_of(first, segment.from, middle, origin, segment.curve),
+          segment_of(second, middle, segment.to, origin, segment.curve)};
+}
+
 }  // namespace
 
 Curve reversed(Curve curve) {
@@ -122,18 +141,15 @@ CurvedSegment reversed(CurvedSegment segment) {
 }
 
 std::pair<CurvedSegment, CurvedSegment> halves(const CurvedSegment& segment) {
-  Poles of_segment(segment);
-  const std::span<Pole> poles = of_segment.all();
-  std::vector<Pole> first{poles.front()}, second{poles.back()};
-  for (std::size_t round = poles.size() - 1; round > 0; --round) {
-    for (std::size_t i = 0; i < round; ++i) poles[i] = between(poles[i], poles[i + 1], 0.5);
-    first.push_back(poles.front());
-    second.push_back(poles[round - 1]);
-  }
-  std::ranges::reverse(second);
-  const Point origin = origin_of(segment), middle = origin + first.back().point();
-  return {segment_of(first, segment.from, middle, origin, segment.curve),
-          segment_of(second, middle, segment.to, origin, segment.curve)};
+  return parts_at_parameter(segment, 0.5);
+}
+
+std::pair<CurvedSegment, CurvedSegment> parts_at(const CurvedSegment& segment, Point p) {
+  const double forward = above_chord_from_start(segment, p).parameter,
+               back = above_chord_from_start(reversed(segment), p).parameter;
+  auto parts = parts_at_parameter(segment, 0.5 * (forward + (1 - back)));
+  parts.first.to = parts.second.from = above_chord(segment, p).point;
+  return parts;
 }
 
 Point point_at(const CurvedSegment& segment, double parameter) {

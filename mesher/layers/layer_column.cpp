@@ -47,25 +47,38 @@ LayerSpec spec_at(const WallLine& line, const FrontPlace& place) {
   return spec;
 }
 
+/// The curve on which the column lies; null for a straight column.
+const EndPath* path_at(const WallLine& line, const FrontPlace& place) {
+  return place.at_station() && line.ends_on_curve(place.station) ? &line.end_path(place.station) : nullptr;
+}
+
 }  // namespace
 
 LayerColumn column_at(const LayerFront& front, const FrontPlace& place, Point node) {
   const WallLine& line = front.line;
   const Point foot = foot_of(line, place), way = node - foot;
-  const double whole = length(way);
+  const EndPath* const path = path_at(line, place);
+  const double whole = path ? front.columns.length[place.station] : length(way);
+  const Point direction = path ? path->direction() : (1 / whole) * way;
   const LayerSpec spec = spec_at(line, place);
-  const double cosine = std::clamp(cosine_of_tilt(line, place, (1 / whole) * way), 0.2, 1.0);
+  const double cosine = std::clamp(cosine_of_tilt(line, place, direction), 0.2, 1.0);
   return {foot, cosine, column_heights(spec, spec.first / cosine, whole)};
 }
 
 namespace {
 
-/// Nodes at the column's heights from one point towards another.
-std::vector<Point> nodes_between(const ColumnHeights& heights, Point from, Point to) {
+/// Nodes at the column's heights from one point towards another, or along a path that is not null.
+std::vector<Point> nodes_between(const ColumnHeights& heights, const EndPath* path, Point from, Point to) {
   const Point way = to - from;
   const double whole = length(way);
   std::vector<Point> nodes;
   nodes.reserve(heights.reached.size() - 1);
+  if (path) {
+    nodes.push_back(from);
+    for (std::size_t layer = 1; layer + 1 < heights.reached.size(); ++layer)
+      nodes.push_back(path->point_at(heights.reached[layer]));
+    return nodes;
+  }
   for (std::size_t layer = 0; layer + 1 < heights.reached.size(); ++layer)
     nodes.push_back(from + (heights.reached[layer] / whole) * way);
   return nodes;
@@ -75,7 +88,7 @@ std::vector<Point> nodes_between(const ColumnHeights& heights, Point from, Point
 
 std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
   const LayerColumn column = column_at(front, place, node);
-  return nodes_between(column.heights, column.foot, node);
+  return nodes_between(column.heights, path_at(front.line, place), column.foot, node);
 }
 
 Point point_of_front(const LayerFront& front, const FrontPlace& place) {
@@ -85,7 +98,7 @@ Point point_of_front(const LayerFront& front, const FrontPlace& place) {
 
 std::vector<Point> column_on_foot(const LayerFront& front, const FrontPlace& place, Point foot) {
   const Point top = point_of_front(front, place);
-  return nodes_between(column_at(front, place, top).heights, foot, top);
+  return nodes_between(column_at(front, place, top).heights, path_at(front.line, place), foot, top);
 }
 
 }  // namespace quadloop

@@ -41,24 +41,32 @@ double share_at(const LayerFront& front, const FrontPlace& place) {
   return 0.5 * ((here + place.share * (next - here)) + (next + place.rest * (here - next)));
 }
 
-/// The columns of this rank's front edges; a column may occur twice, or on two ranks.
+/// Adds the columns of this rank's front edges of one boundary of the mesh outside.
+void add_columns(const LayerFront& front, const FrontPlaces& places, const Mesh& outer, BoundaryId boundary,
+                 std::vector<Column>& columns) {
+  for (const auto& [from, to] : outer.boundaries[boundary.value()].edges) {
+    const std::array nodes{from, to};
+    const std::array ends{places.locate(outer.point(from), boundary),
+                          places.locate(outer.point(to), boundary)};
+    if (!places.follows(ends[0], ends[1])) continue;
+    for (const std::size_t k : {0, 1}) {
+      const LayerColumn column = column_at(front, ends[k], outer.point(nodes[k]));
+      columns.push_back({front.line[ends[k].station].layers, outer.global(nodes[k]),
+                         size32(column.heights.reached) - 1, column.heights.first * column.cosine,
+                         column.heights.growth, share_at(front, ends[k]), column.foot});
+    }
+  }
+}
+
+/// The columns of this rank's front edges; a column may occur twice, or on two ranks. Columns on interfaces
+/// are those at the nodes of their front.
 std::vector<Column> own_columns(const LayerFront& front, const Mesh& outer) {
   const FrontPlaces places(front);
   std::vector<Column> columns;
-  for (std::int32_t b = 0; b < size32(outer.boundaries); ++b) {
-    for (const auto& [from, to] : outer.boundaries[b].edges) {
-      const std::array nodes{from, to};
-      const std::array ends{places.locate(outer.point(from), BoundaryId{b}),
-                            places.locate(outer.point(to), BoundaryId{b})};
-      if (!places.follows(ends[0], ends[1])) continue;
-      for (const std::size_t k : {0, 1}) {
-        const LayerColumn column = column_at(front, ends[k], outer.point(nodes[k]));
-        columns.push_back({front.line[ends[k].station].layers, outer.global(nodes[k]),
-                           size32(column.heights.reached) - 1, column.heights.first * column.cosine,
-                           column.heights.growth, share_at(front, ends[k]), column.foot});
-      }
-    }
-  }
+  for (std::int32_t b = 0; b < size32(outer.boundaries); ++b)
+    add_columns(front, places, outer, BoundaryId{b}, columns);
+  if (front.on_interfaces)
+    add_columns(front, FrontPlaces::on_interface_fronts(front), outer, front.interface_boundary(), columns);
   return columns;
 }
 
@@ -239,7 +247,10 @@ void add_warnings_of_walls(const LayerFront& front, double min, std::vector<std:
     const std::int32_t station = front.station_of[s];
     if (station == WallLine::none || share_at(front, station) < thin_share) continue;
     const double size = leaf_over_last_layer * front.last_heights[s];
-    TargetLeaf& least = wanted[outer.boundary_of(s)];
+    const bool on_interface = front.on_interfaces && outer.boundary_of(s) == front.interface_boundary();
+    const Geometry& g = front.line.geometry();
+    TargetLeaf& least =
+        wanted[on_interface ? g.boundary_of(front.line[station].segment) : outer.boundary_of(s)];
     if (size < std::min(min, least.size)) least = {size, outer.point(s)};
   }
   std::vector<BoundaryId> limited;

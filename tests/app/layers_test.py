@@ -3,14 +3,20 @@
 
     layers_test.py QUADLOOP MPIRUN
 """
+import itertools
 import json
 import math
 import re
 import struct
 import sys
 import unittest
+from pathlib import Path
 
 from program import ProgramTest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "judge"))
+import judge  # noqa: E402
+from mesh_files import read_geometry, read_mesh  # noqa: E402
 
 BOX = "4\n{wall} open\n2\n0 0\n4 0\noutlet open\n2\n4 0\n4 2\ntop open\n2\n4 2\n0 2\ninlet open\n2\n0 2\n0 0\n"
 CASE = """[geometry]
@@ -179,6 +185,77 @@ class Layers(ProgramTest):
         self.make()
         self.write("case.toml", CASE.format(layers="first = 1e-6, growth = 1.1, count = 100"))
         self.refused(1, ["of them are in layers: use fewer"], "mesh", "case.toml", "--max-cells", "5000")
+
+
+# Inlets of a channel from (0, 1) to (0, 0), rational Bezier curves: control points and weights. They bulge out of the channel, or into it.
+INLETS = {
+    "arc out": ([(-0.5 * math.tan(0.6), 0.5)], [1, math.cos(0.6), 1]),
+    "arc in": ([(0.5 * math.tan(0.6), 0.5)], [1, math.cos(0.6), 1]),
+    "ellipse out": ([(-0.3, 0.6)], [1, 0.7, 1]),
+    "ellipse in": ([(0.3, 0.4)], [1, 0.7, 1]),
+    "spline": ([(-0.12, 0.7), (0.1, 0.3)], [1, 1, 1, 1]),
+}
+CHANNEL = "4\nfloor open\n2\n0 0\n2 0\noutlet open\n2\n2 0\n2 1\ntop open\n2\n2 1\n0 1\ninlet open\n2\n0 1 curve {}\n0 0\n"
+CHANNEL_CASE = """[geometry]
+file = "channel.geom"
+[spacing]
+min = 0.02
+max = 0.2
+curvature = 8
+"""
+CHANNEL_WALL = "[boundary.{}]\nspacing = 0.06\nlayers = {{ first = 0.004, growth = 1.2, count = 12 }}\n"
+
+
+def point_of(poles, weights, t):
+    """De Casteljau's algorithm."""
+    rows = [(w * x, w * y, w) for (x, y), w in zip(poles, weights)]
+    while len(rows) > 1:
+        rows = [tuple((1 - t) * a + t * b for a, b in zip(p, q)) for p, q in zip(rows, rows[1:])]
+    x, y, w = rows[0]
+    return x / w, y / w
+
+
+class EndsOnCurves(ProgramTest):
+    def channel(self, inlet, walls):
+        control, weights = INLETS[inlet]
+        self.write("channel.geom", CHANNEL.format(" ".join(map(repr, sum(control, ()))) + " weights " + " ".join(map(repr, weights))))
+        self.write("case.toml", CHANNEL_CASE + "".join(CHANNEL_WALL.format(wall) for wall in walls))
+        return [(0, 1), *control, (0, 0)], weights
+
+    def require_on_inlet(self, mesh, curve):
+        """That all nodes of the inlet lie on it to 1e-12, and so do those of the layers; y decreases along each inlet."""
+        nodes = mesh.points[sorted(set(mesh.boundaries["inlet"].ravel()))]
+        for x, y in nodes:
+            low, high = 0.0, 1.0
+            for _ in range(60):
+                middle = (low + high) / 2
+                low, high = (middle, high) if point_of(*curve, middle)[1] > y else (low, middle)
+            self.assertLess(abs(point_of(*curve, low)[0] - x), 1e-12, (x, y))
+        return nodes
+
+    def test_nodes_of_the_last_column_lie_on_the_curve(self):
+        for inlet, (kind, walls) in itertools.product(INLETS, (("hybrid", ["floor", "top"]), ("delaunay", ["floor"]))):
+            with self.subTest(inlet=inlet, kind=kind, walls=walls):
+                curve = self.channel(inlet, walls)
+                stdout, stderr = self.done("mesh", "case.toml", "-o", "out", "--json", "--type", kind)
+                self.assertEqual(stderr, "")
+                for row in json.loads(stdout)["layers"]:
+                    self.assertEqual((row["count"], row["thickness_share_least"]), (12, 1))
+                    self.assertAlmostEqual(row["first_least"], 0.004, delta=1e-5)
+                mesh = read_mesh(str(self.folder / "out.mesh"))
+                self.assertEqual(judge.judge(mesh, geometry=read_geometry(str(self.folder / "channel.geom")), corners=True), [])
+                y = self.require_on_inlet(mesh, curve)[:, 1]
+                self.assertEqual(sum(y < 0.17), 13)
+                self.assertEqual(sum(y > 0.83), 13 if "top" in walls else sum(y > 0.83))
+
+    def test_ranks_write_the_same_and_smoothing_stays_on_the_curve(self):
+        for kind in ("hybrid", "delaunay"):
+            curve = self.channel("spline", ["floor", "top"])
+            for ranks in (1, 2, 3, 5):
+                self.done("mesh", "case.toml", "-o", f"out{ranks}", "--type", kind, ranks=ranks)
+                self.assertEqual((self.folder / f"out{ranks}.mesh").read_bytes(), (self.folder / "out1.mesh").read_bytes())
+            self.done("smooth", "out1.mesh", "-o", "smooth.mesh", "--geometry", "channel.geom")
+            self.require_on_inlet(read_mesh(str(self.folder / "smooth.mesh")), curve)
 
 
 if __name__ == "__main__":

@@ -207,6 +207,41 @@ TEST(BlockLayers, OnOuterWallsAlone) {
   expect_layers(layout, "wall", 0.8, 0.01);
 }
 
+bool has_text(const std::vector<std::string>& warnings, const std::string& text) {
+  return std::ranges::any_of(warnings,
+                             [&](const std::string& w) { return w.find(text) != std::string::npos; });
+}
+
+TEST(BlockLayers, AreReportedAsOnWalls) {
+  Layout layout = plate;
+  for (const std::optional<std::string>& block :
+       {std::optional<std::string>("fluid"), std::optional<std::string>("solid"),
+        std::optional<std::string>()}) {
+    layout.rules = {layers("solid__fluid", block)};
+    const GeneratedMesh made = generate_mesh(world(), layout.input());
+    ASSERT_EQ(made.layers.size(), 1U);
+    EXPECT_EQ(made.layers[0].boundary, "solid__fluid");
+    EXPECT_EQ(made.layers[0].reached, 6);
+    EXPECT_GT(made.layers[0].columns, 20);
+    EXPECT_NEAR(made.layers[0].first_least, 0.01, 1e-12);
+    EXPECT_EQ(made.layers[0].share_least, 1);
+  }
+}
+
+TEST(BlockLayers, ThatAreThinOrNextToLargeCellsAreWarnedOf) {
+  Layout layout{{box("duct", 0, 2, 0, 0.1), box("plate", 0, 2, -0.5, 0)},
+                {at("solid", {1, -0.2}), at("fluid", {1, 0.05})},
+                {layers("solid__fluid", "fluid")}};
+  EXPECT_TRUE(has_text(generate_mesh(world(), layout.input()).result.report.warnings,
+                       "boundary 'solid__fluid': near ("));
+  layout = plate;
+  layout.rules = {layers("solid__fluid", "fluid")};
+  MeshInput coarse = layout.input();
+  coarse.mesh.size.min = 0.06;
+  EXPECT_TRUE(has_text(generate_mesh(world(), coarse).result.report.warnings,
+                       "boundary 'solid__fluid': its last layer is"));
+}
+
 TEST(BlockLayers, ThatEndOnAnInterfaceAreRefused) {
   Layout layout = plate;
   layout.rules = {layers("duct", "fluid")};

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "mesher/geometry/curve_parts.hpp"
+
 namespace quadloop {
 namespace {
 
@@ -42,6 +44,26 @@ TEST(Curve, HalvesAreTheCurve) {
     EXPECT_LT(length(point_at(second, t) - point_at(quarter(), 0.5 + t / 2)), 1e-14);
   }
   EXPECT_LT(turning_of_hull(first), 45 + 1e-12);
+}
+
+TEST(Curve, PartsAtAPointAreTheCurve) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0.01, 0.99);
+  for (int i = 0; i < 200; ++i) {
+    const CurvedSegment curve = i % 2 == 0 ? quarter() : random_cubic(random);
+    const Point p = curve.from + share(random) * (curve.to - curve.from);
+    const auto [first, second] = parts_at(curve, p);
+    EXPECT_EQ(first.from, curve.from);
+    EXPECT_EQ(first.to, above_chord(curve, p).point);
+    EXPECT_EQ(second.from, first.to);
+    EXPECT_EQ(second.to, curve.to);
+    for (int k = 0; k <= 16; ++k) {
+      for (const CurvedSegment& part : {first, second}) {
+        const Point at = point_at(part, k / 16.0);
+        EXPECT_LT(length(at - above_chord(curve, at).point), 5e-15);
+      }
+    }
+  }
 }
 
 TEST(Curve, HalvesOfTheReversedCurveAreTheReversedHalves) {

@@ -7,12 +7,16 @@
 
 namespace quadloop {
 
-/// The columns of a wall's stations: straight lines from the wall to the layer front.
+/// The columns of a wall's stations: straight lines from the wall to the layer front. Where a run ends on a
+/// curve, the last column is a part of the curve.
 struct WallColumns {
   std::vector<Point> direction;  ///< unit vector, away from the wall
-  std::vector<double> length;
+  std::vector<double> length;    ///< on a curve: the distance along its path
 
-  Point front(const WallLine& line, std::int32_t i) const { return line[i].wall + length[i] * direction[i]; }
+  Point front(const WallLine& line, std::int32_t i) const {
+    if (line.ends_on_curve(i)) return line.end_path(i).point_at(length[i]);
+    return line[i].wall + length[i] * direction[i];
+  }
 };
 
 /// Columns for layers of given thicknesses (normal to the wall, one for each station), for one set of these

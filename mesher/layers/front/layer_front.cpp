@@ -9,6 +9,7 @@
 #include <span>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/curve_parts.hpp"
 #include "mesher/layers/front/followed_layers.hpp"
 #include "mesher/layers/front/strip_room.hpp"
 #include "mesher/layers/front/thickness.hpp"
@@ -94,8 +95,8 @@ class OuterOutline {
       add_front(first, s);
     } else if (stays(s)) {
       add_vertex(g_.point(s), g_.boundary_of(s), WallLine::none,
-                 std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s), g_.bend_degrees(s),
-                 stays(g_.next(s)) ? g_.curve(s) : Curve{}, g_.returns(s));
+                 std::min(g_.spacing_of(s), spacing_across(s)), g_.kept(s), bend_of(s), rest_of(s),
+                 g_.returns(s));
     }
   }
   /// Whether vertex s of the geometry is one of the outer geometry.
@@ -103,6 +104,9 @@ class OuterOutline {
     return first_of_segment_[s] == WallLine::none && !begins_below(s) && !is_base(s) && !covered_[s];
   }
   void cover_ends();
+  Curve rest_of(std::int32_t s) const;
+  double bend_of(std::int32_t s) const;
+  std::int32_t segment_of_end(std::int32_t i) const;
   void add_front(std::int32_t first, std::int32_t s);
   void add_wake(std::int32_t i);
   /// The station on the right of a wake's root.
@@ -139,6 +143,9 @@ class OuterOutline {
   bool mirrored_;
   std::vector<std::int32_t> first_of_segment_;
   std::vector<char> covered_;  ///< flags of vertices on which a run's last column lies
+  /// By segment: where its rest begins and ends, if the last column of a run lies on the part before or
+  /// after.
+  std::map<std::int32_t, Point> cut_begins_, cut_ends_;
   std::map<std::int32_t, const PlacedLine*> wake_from_;  ///< by the vertex of its edge
   std::vector<char> is_base_;                            ///< flags of segments: a wake begins there
   GeometryBuilder builder_;
@@ -153,11 +160,45 @@ class OuterOutline {
 void OuterOutline::cover_ends() {
   for (std::int32_t i = 0; i < line_.size(); ++i) {
     if (!ends_run(i) || line_[i].at_wake) continue;
-    const double column = length(fitting_.front[i] - line_[i].wall);
-    line_.walk_end(i, [&](std::int32_t vertex, double distance) {
-      if (distance <= column) covered_[vertex] = 1;
-    });
+    const EndPath& path = line_.end_path(i);
+    const double column =
+        path.is_curved() ? fitting_.columns.length[i] : length(fitting_.front[i] - line_[i].wall);
+    for (const EndPath::Piece& piece : path.pieces()) {
+      if (piece.distance <= column) covered_[piece.vertex] = 1;
+    }
+    if (!path.is_curved()) continue;
+    const EndPath::Place place = path.place_at(column);
+    (line_.previous(i) == WallLine::none ? cut_ends_ : cut_begins_).emplace(place.segment, place.point);
   }
+}
+
+/// The shape of a segment, without its parts on which last columns lie. It is straight if its end is not in
+/// the outer geometry for another reason.
+Curve OuterOutline::rest_of(std::int32_t s) const {
+  const auto begin = cut_begins_.find(s), end = cut_ends_.find(s);
+  if (!g_.is_curved(s) || (end == cut_ends_.end() && !stays(g_.next(s)))) return {};
+  CurvedSegment rest = g_.segment(s);
+  if (begin != cut_begins_.end()) rest = parts_at(rest, begin->second).second;
+  if (end != cut_ends_.end()) rest = parts_at(rest, end->second).first;
+  return rest.curve;
+}
+
+/// The turn at a vertex. Where a last column covers a part of one of its segments, the turn of the rest is
+/// smaller in proportion.
+double OuterOutline::bend_of(std::int32_t s) const {
+  const std::int32_t before = g_.previous(s), next = g_.next(s);
+  const auto begin = cut_begins_.find(before), end = cut_ends_.find(s);
+  const double in = length(g_.point(s) - g_.point(before)), out = length(g_.point(next) - g_.point(s));
+  const double left_in = begin == cut_begins_.end() ? in : length(g_.point(s) - begin->second),
+               left_out = end == cut_ends_.end() ? out : length(end->second - g_.point(s));
+  return left_in + left_out == in + out ? g_.bend_degrees(s)
+                                        : g_.bend_degrees(s) * (left_in + left_out) / (in + out);
+}
+
+/// The segment of the geometry on which the last column of a run ends.
+std::int32_t OuterOutline::segment_of_end(std::int32_t i) const {
+  if (line_.ends_on_curve(i)) return line_.end_path(i).place_at(fitting_.columns.length[i]).segment;
+  return g_.next(line_[i].segment);
 }
 
 /// Adds the stations of segment s from `first` on; where the run ends, also the rest of the boundary on which
@@ -175,8 +216,8 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   }
   if (i == WallLine::none || line_[i].segment != s) return;
   if (line_[i].opens_wake) return add_wake(i);
-  std::int32_t on = g_.next(s);  // the segment on which the run's last column ends
-  add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0);
+  const std::int32_t on = segment_of_end(i);
+  add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0, rest_of(on));
 }
 
 /// Adds a wake's front, from the column on its left to the column on its right.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "mesher/base/error.hpp"
@@ -15,7 +16,6 @@ namespace quadloop {
 
 namespace {
 
-constexpr double share_of_end = 0.9;  // of the straight part of the boundary on which a run ends
 constexpr double shrink = 0.85, steepest = 0.35;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
 // Fraction of a gap: the columns of two facing walls, with their clearance, just do not meet.
@@ -146,14 +146,11 @@ class Fitting {
   }
 
  private:
-  /// The available length of a run's last column: the first straight part of the boundary on which the run
-  /// ends.
+  /// The available length of a run's last column on the boundary on which the run ends.
   double room_at(std::int32_t i) const {
     const Station& end = line_[i];
     if (end.shape != Station::Shape::end || end.at_wake) return std::numeric_limits<double>::infinity();
-    double straight = 0;
-    line_.walk_end(i, [&](std::int32_t, double distance) { straight = distance; });
-    return share_of_end * straight * dot(end.direction, left_of(end.after));
+    return share_of_end * line_.end_path(i).length() * dot(end.direction, left_of(end.after));
   }
 
   /// Notes the stations whose fronts have moved; only these have to be checked again.
@@ -335,7 +332,7 @@ class Fitting {
   /// that is locally one-to-one, and one-to-one on its rims, is one-to-one.
   void mark_unproved() {
     for (std::int32_t i = 0; i < line_.size(); ++i) {
-      if (!place_exists(i) || !front_moved(i) || is_positive(i)) continue;
+      if (!place_exists(i) || !front_moved(i) || (is_positive(i) && is_beside_ends(i))) continue;
       meets_[i] = meets_[line_.next(i)] = 1;
     }
     mark_crossing_fronts();
@@ -374,6 +371,7 @@ class Fitting {
            orientation(d, a, b) > 0;
   }
 
+  bool is_beside_ends(std::int32_t i) const;
   void mark_crossing_fronts();
   bool ends_on(std::int32_t i, std::int32_t segment) const;
   bool fronts_meet(std::int32_t i, std::int32_t k) const;
@@ -403,17 +401,27 @@ class Fitting {
   std::vector<Point> front_;
 };
 
+/// Whether the curve on which a run ends at one of two stations does not meet the column at the other one, as
+/// far as the last column reaches.
+bool Fitting::is_beside_ends(std::int32_t i) const {
+  constexpr int samples = 8;
+  const std::int32_t j = line_.next(i);
+  for (const auto& [end, from, to] : {std::tuple(i, wall(j), front(j)), std::tuple(j, front(i), wall(i))}) {
+    if (!line_.ends_on_curve(end)) continue;
+    for (int k = 1; k < samples; ++k) {
+      const double distance = columns_.length[end] * k / samples;
+      if (orientation(from, to, line_.end_path(end).point_at(distance)) <= 0) return false;
+    }
+  }
+  return true;
+}
+
 /// Whether the front at a station lies on a segment of a boundary without layers, on which the run ends.
 bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
   if (line_[i].shape != Station::Shape::end) return false;
   if (line_[i].at_wake) return true;
-  const Geometry& g = line_.geometry();
-  const bool first = line_.previous(i) == WallLine::none;
-  bool found = false;
-  line_.walk_end(i, [&](std::int32_t vertex, double) {
-    found = found || segment == (first ? vertex : g.previous(vertex));
-  });
-  return found;
+  return std::ranges::find(line_.end_path(i).pieces(), segment, &EndPath::Piece::segment) !=
+         line_.end_path(i).pieces().end();
 }
 
 /// Tests fronts against each other and against boundaries without layers; a front that ends on one may touch

@@ -217,14 +217,18 @@ void WallLine::add_end(const WallRun& run, bool first) {
   station.layers = first ? run.layers.front() : run.layers.back();
   station.shape = Station::Shape::end;
   station.kept = true;
-  station.direction = first ? direction_of(g.point(vertex), g.point(g.previous(vertex)))
-                            : direction_of(g.point(vertex), g.point(g.next(vertex)));
+  const EndPath path(g, vertex, first);
+  const double thickness = layers_thickness(*g.boundary(station.layers).layers);
+  const Point along = path.is_curved() ? path.point_at(std::min(thickness, share_of_end * path.length()))
+                                       : g.point(first ? g.previous(vertex) : g.next(vertex));
+  station.direction = direction_of(station.wall, along);
   const auto& wakes = first ? wakes_to_ : wakes_from_;
   if (const auto wake = wakes.find(vertex); wake != wakes.end()) {
     station.at_wake = true;
     station.opens_wake = !first;
     station.direction = unit(left_of(station.after) + (first ? -1 : 1) * left_of(wake->second.direction));
   }
+  if (!station.at_wake) ends_.emplace(size(), path);
   station.slope = slope_over(station.direction, station.after, first);
   stations_.push_back(station);
 }

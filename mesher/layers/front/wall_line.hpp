@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
+#include "mesher/layers/front/end_path.hpp"
 #include "mesher/layers/front/wall_runs.hpp"
 
 namespace quadloop {
@@ -35,6 +36,8 @@ struct Station {
   bool fixed() const { return shape != Shape::smooth; }
 };
 
+/// The longest last column of a run, as a fraction of the part of a boundary on which it can lie.
+constexpr double share_of_end = 0.9;
 constexpr double cosine_of_sharp_edge = -0.5;  ///< the wall turns by more than 120 degrees
 
 /// An edge at which a wake begins.
@@ -91,10 +94,15 @@ class WallLine {
     return before != none && goes_on(before) && goes_on(i) && is_on_interface(before) != is_on_interface(i);
   }
   bool has_layers(std::int32_t segment) const { return has_layers_[segment] != 0; }
-  /// Calls `visit(vertex, distance)` for the vertices of the boundary on which a run ends at station i, along
-  /// its first straight part, with their distances from the wall.
-  template <class Visit>
-  void walk_end(std::int32_t i, const Visit& visit) const;
+  /// The part of a boundary without layers on which the last column of a run lies, which ends at station i,
+  /// but not at a wake.
+  const EndPath& end_path(std::int32_t i) const { return ends_.at(i); }
+  /// Whether the last column of a run lies on a curve and ends at station i.
+  bool ends_on_curve(std::int32_t i) const {
+    if (stations_[i].shape != Station::Shape::end) return false;
+    const auto found = ends_.find(i);
+    return found != ends_.end() && found->second.is_curved();
+  }
 
   /// Calls `visit(station, distance)` once for each station after i (walk_on) or before i (walk_back) within
   /// `reach` along the wall; i itself is excluded. Distances are summed from i, so that a mirror image has
@@ -130,6 +138,7 @@ class WallLine {
   std::vector<char> has_layers_;                             ///< flags of segments
   std::map<std::int32_t, WakeStart> wakes_from_, wakes_to_;  ///< by their first and last vertices
   std::vector<Station> stations_;
+  std::map<std::int32_t, EndPath> ends_;  ///< by station
   std::vector<std::int32_t> next_, previous_;
   struct Run {
     std::int32_t begin = 0, end = 0;
@@ -140,22 +149,6 @@ class WallLine {
   std::vector<double> width_, asked_;
   std::vector<LayerSpec> followed_;
 };
-
-template <class Visit>
-void WallLine::walk_end(std::int32_t i, const Visit& visit) const {
-  constexpr double straight_sine = 1e-9;
-  const Geometry& g = *geometry_;
-  const bool first = previous_[i] == none;
-  const std::int32_t wall = first ? stations_[i].segment : g.next(stations_[i].segment);
-  const std::int32_t on = first ? g.previous(wall) : wall;
-  for (std::int32_t s = on; g.boundary_of(s) == g.boundary_of(on); s = first ? g.previous(s) : g.next(s)) {
-    const std::int32_t vertex = first ? s : g.next(s);
-    const Point way = g.point(vertex) - stations_[i].wall;
-    const double distance = length(way);
-    if (vertex == wall || std::abs(cross(stations_[i].direction, way)) > straight_sine * distance) return;
-    visit(vertex, distance);
-  }
-}
 
 /// The direction rotated by 90 degrees to the left: into the domain.
 constexpr Point left_of(Point direction) { return {-direction.y, direction.x}; }
