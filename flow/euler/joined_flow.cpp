@@ -36,7 +36,7 @@ void require_usable_with_pairs(const Mesh& mesh, const FlowModel& model, const E
   }
 }
 
-Field at_joined_nodes(const JoinedMesh& joined, const Field& given) {
+Field at_joined_nodes(const PeriodicMesh& joined, const Field& given) {
   if (given.width() == 0) return given;
   const std::size_t rows = given.values.size() / given.width();
   QUADLOOP_REQUIRE(rows == joined.node_of.size(), "a row for each owned node", rows, joined.node_of.size());
@@ -50,7 +50,7 @@ Field at_joined_nodes(const JoinedMesh& joined, const Field& given) {
   return field;
 }
 
-Field at_given_nodes(const DualMesh& mesh, const JoinedMesh& joined, const Field& flow) {
+Field at_given_nodes(const DualMesh& mesh, const PeriodicMesh& joined, const Field& flow) {
   const std::size_t width = flow.width();
   Field all = flow, result = flow;
   all.values.resize(width * mesh.nodes());

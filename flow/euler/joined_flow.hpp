@@ -13,10 +13,10 @@ void require_usable_with_pairs(const Mesh& mesh, const FlowModel& model, const E
 
 /// Returns the rows of the nodes that remain in the joined mesh, of a field with a row for each owned node of
 /// the given mesh.
-Field at_joined_nodes(const JoinedMesh& joined, const Field& given);
+Field at_joined_nodes(const PeriodicMesh& joined, const Field& given);
 
 /// Inverse of at_joined_nodes(): nodes across a pair get the row of their original; the velocity turns with a
 /// rotation. *Collective.*
-Field at_given_nodes(const DualMesh& mesh, const JoinedMesh& joined, const Field& flow);
+Field at_given_nodes(const DualMesh& mesh, const PeriodicMesh& joined, const Field& flow);
 
 }  // namespace quadloop::flow::euler

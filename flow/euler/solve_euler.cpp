@@ -160,7 +160,7 @@ EulerResult solve_euler(const Communicator& comm, const Mesh& mesh, const EulerO
     const FlowModel model = flow_model(comm, mesh, options);
     return solve_on(comm, mesh, DualMesh(comm, mesh), model, options, start, at_end);
   }
-  const JoinedMesh joined = join_pairs(comm, mesh);
+  const PeriodicMesh joined = join_pairs(comm, mesh);
   const FlowModel model = flow_model(comm, joined.mesh, options);
   require_usable_with_pairs(mesh, model, options);
   const DualMesh dual(comm, joined);

@@ -67,10 +67,10 @@ std::vector<Destination> destinations(const Mesh& mesh, const NodeOwners& owners
 
 HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh) : HaloMesh(comm, mesh, nullptr) {}
 
-HaloMesh::HaloMesh(const Communicator& comm, const JoinedMesh& joined)
+HaloMesh::HaloMesh(const Communicator& comm, const PeriodicMesh& joined)
     : HaloMesh(comm, joined.mesh, &joined) {}
 
-HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh, const JoinedMesh* joined)
+HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh, const PeriodicMesh* joined)
     : mesh_{&mesh}, joined_{joined}, points_{mesh.points}, ghosts_{mesh.ghosts}, exchange_{gather(comm)} {}
 
 NodeExchange HaloMesh::gather(const Communicator& comm) {

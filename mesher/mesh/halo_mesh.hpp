@@ -29,7 +29,7 @@ class HaloMesh {
   /// Around each node also the cells on the other sides of periodic pairs, moved to where the node is; their
   /// other nodes are images, which are ghosts. These cells come after the others of their kind, in global
   /// order. `joined` must outlive the object, with unchanged cells. *Collective.*
-  HaloMesh(const Communicator& comm, const JoinedMesh& joined);
+  HaloMesh(const Communicator& comm, const PeriodicMesh& joined);
 
   /// The owned nodes and the ghosts of the mesh, in its order, then the remaining nodes of the cells of other
   /// ranks.
@@ -51,7 +51,7 @@ class HaloMesh {
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
 
   /// `own` has a value for each cell of this rank's Mesh, triangles first, then quads. Returns the values of
-  /// all cells of the HaloMesh, in the order of for_each_cell(); not for a JoinedMesh. *Collective.*
+  /// all cells of the HaloMesh, in the order of for_each_cell(); not for a PeriodicMesh. *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
@@ -90,7 +90,7 @@ class HaloMesh {
   struct CellsOfOthers {
     Cells<width>&before, &after, &moved;
   };
-  HaloMesh(const Communicator& comm, const Mesh& mesh, const JoinedMesh* joined);
+  HaloMesh(const Communicator& comm, const Mesh& mesh, const PeriodicMesh* joined);
   NodeExchange gather(const Communicator& comm);
   Point original(NodeId node) const {
     return joined_ ? joined_->originals[node.value()] : mesh_->point(node);
@@ -105,7 +105,7 @@ class HaloMesh {
                             std::span<const T> own, std::vector<T>& all);
 
   const Mesh* mesh_;
-  const JoinedMesh* joined_;  ///< null if no pairs are joined
+  const PeriodicMesh* joined_;  ///< null if no pairs are joined
   std::vector<Point> points_;
   std::vector<GlobalNodeId> ghosts_;             ///< as image_number()
   Cells<3> triangles_before_, triangles_after_;  ///< of lower and of higher ranks

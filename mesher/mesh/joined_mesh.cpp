@@ -90,7 +90,7 @@ class NodesOfPairs {
 };
 
 /// Fills in the nodes. Returns the new local number of each node of the given mesh.
-IdVector<NodeId, NodeId> join_nodes(const Mesh& given, const NodesOfPairs& nodes, JoinedMesh& joined) {
+IdVector<NodeId, NodeId> join_nodes(const Mesh& given, const NodesOfPairs& nodes, PeriodicMesh& joined) {
   Mesh& mesh = joined.mesh;
   IdVector<NodeId, NodeId> news(given.points.size());
   mesh.first_node = nodes.number(GlobalNodeId{given.first_node}).value();
@@ -130,8 +130,8 @@ Cells renumbered(Cells cells, const IdVector<NodeId, NodeId>& news) {
 
 }  // namespace
 
-JoinedMesh join_pairs(const Communicator& comm, const Mesh& mesh) {
-  JoinedMesh joined;
+PeriodicMesh join_pairs(const Communicator& comm, const Mesh& mesh) {
+  PeriodicMesh joined;
   joined.maps = PeriodicMaps(mesh.pairs);
   const NodesOfPairs nodes(comm, mesh, joined.maps);
   const IdVector<NodeId, NodeId> news = join_nodes(mesh, nodes, joined);

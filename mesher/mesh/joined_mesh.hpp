@@ -12,7 +12,7 @@ namespace quadloop {
 /// A mesh in which the nodes on the two sides of periodic pairs are joined. Of the nodes that belong together
 /// the first remains; in the cells on the other side its image takes the place of its partner. An image is a
 /// ghost with an image_number(), on every rank.
-struct JoinedMesh {
+struct PeriodicMesh {
   Mesh mesh;  ///< without pairs and strips; the boundaries of pairs have no edges
   PeriodicMaps maps;
   std::vector<Point> originals;      ///< for each node its position; for an image that of its original
@@ -22,6 +22,6 @@ struct JoinedMesh {
 /// Returns the mesh with its pairs joined; the order of the nodes is kept. Throws InputError if the nodes of
 /// a pair do not match, if the maps of the pairs do not commute, or if a node is its own partner.
 /// *Collective.*
-JoinedMesh join_pairs(const Communicator& comm, const Mesh& mesh);
+PeriodicMesh join_pairs(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop

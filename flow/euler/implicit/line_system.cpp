@@ -18,7 +18,9 @@ LineSystem::LineSystem(const Communicator& comm, const DualMesh& mesh, const Col
   const std::vector<NodeLine> found = find_lines(comm, mesh, colours);
   if (!comm.any(!found.empty())) return;
   std::unordered_map<GlobalNodeId, NodeId> here;  // nodes of this rank's edges
-  for (const NodeId node : mesh.ids()) here.emplace(mesh.global(node), node);
+  for (const NodeId node : mesh.ids()) {
+    if (!mesh.is_image(node)) here.emplace(mesh.global(node), node);
+  }
   std::vector<GlobalNodeId> others;
   for (const NodeLine& line : found) {
     std::vector<NodeId> locals;

@@ -83,7 +83,7 @@ double twice_area(const std::array<Point, 4>& p) { return cross(p[2] - p[0], p[3
 DualMesh::DualMesh(const Communicator& comm, const Mesh& mesh)
     : DualMesh(comm, HaloMesh(comm, mesh), mesh.first_node, nullptr) {}
 
-DualMesh::DualMesh(const Communicator& comm, const JoinedMesh& joined)
+DualMesh::DualMesh(const Communicator& comm, const PeriodicMesh& joined)
     : DualMesh(comm, HaloMesh(comm, joined), joined.mesh.first_node, &joined.maps) {}
 
 DualMesh::DualMesh(const Communicator& comm, HaloMesh halo, std::int64_t first_node, const PeriodicMaps* maps)

@@ -52,7 +52,7 @@ class DualMesh {
   /// boundary. *Collective.*
   DualMesh(const Communicator& comm, const Mesh& mesh);
   /// The edges of a node continue across periodic pairs, to ghosts that are images. *Collective.*
-  DualMesh(const Communicator& comm, const JoinedMesh& joined);
+  DualMesh(const Communicator& comm, const PeriodicMesh& joined);
 
   std::int64_t first_node() const { return first_node_; }  ///< as in the mesh
   std::int32_t owned_nodes() const { return halo_.owned_nodes(); }
