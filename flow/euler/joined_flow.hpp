@@ -4,7 +4,7 @@
 #include "flow/euler/model/flow_model.hpp"
 #include "flow/euler/scheme/dual_mesh.hpp"
 #include "mesher/mesh/field.hpp"
-#include "mesher/mesh/joined_mesh.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 
 namespace quadloop::flow::euler {
 

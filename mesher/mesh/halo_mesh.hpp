@@ -7,10 +7,10 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/mesh/joined_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 
 namespace quadloop {
 

@@ -7,7 +7,7 @@
 #include "flow/euler/scheme/turned.hpp"
 #include "mesher/base/id_vector.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
-#include "mesher/mesh/joined_mesh.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 
 namespace quadloop::flow::euler {
 

@@ -125,7 +125,9 @@ TEST_F(SettingsTest, RefusesEveryBadKey) {
   EXPECT_EQ(refused("[spacing]\ncorner = 190\n").find("case.toml:4: 'spacing.corner' is 190"), 0u);
   EXPECT_EQ(refused("[mesh]\nsnap = 0.5\n").find("case.toml:4: 'mesh.snap' is 0.5"), 0u);
   EXPECT_EQ(refused("[mesh]\ntype = \"voronoi\"\n").find("case.toml:4: 'mesh.type' "), 0u);
-  EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n").find("case.toml:4: 'mesh.root' is [0, 0, 1, 1.5, 1], but must be [x0"), 0u);
+  EXPECT_EQ(refused("[mesh]\nroot = [0, 0, 1, 1.5, 1]\n")
+                .find("case.toml:4: 'mesh.root' is [0, 0, 1, 1.5, 1], but must be [x0"),
+            0u);
   EXPECT_EQ(refused("[boundary.box]\nwall = \"viscous\"\n").find("case.toml:4: 'boundary.box.wall' needs bc"),
             0u);
   EXPECT_EQ(refused("[boundary.box]\nbc = \"wall\"\nwall = \"wet\"\n")

@@ -1,4 +1,4 @@
-#include "mesher/mesh/joined_mesh.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 
 #include <fmt/format.h>
 
