@@ -61,7 +61,8 @@ TEST(PeriodicImages, ANumberTellsNodeAndShift) {
 /// A square of 4 x 4 cells with pairs in both directions, on all ranks.
 Mesh torus() {
   Mesh whole = test::Grid{4, {4, 4}}.mesh();
-  std::vector<BoundaryEdges> sides{{"south"}, {"north"}, {"west"}, {"east"}};
+  std::vector<BoundaryEdges> sides;
+  for (const char* name : {"south", "north", "west", "east"}) sides.push_back({name, {}, {}});
   for (const BoundaryEdges& boundary : whole.boundaries) {
     for (const auto& edge : boundary.edges) {
       const Point middle = 0.5 * (whole.point(edge[0]) + whole.point(edge[1]));
