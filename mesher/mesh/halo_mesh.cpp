@@ -4,6 +4,8 @@
 #include <compare>
 #include <iterator>
 
+#include "mesher/mesh/periodic_mesh.hpp"
+
 namespace quadloop {
 
 namespace {
@@ -66,6 +68,12 @@ std::vector<Destination> destinations(const Mesh& mesh, const NodeOwners& owners
 }  // namespace
 
 HaloMesh::HaloMesh(const Communicator& comm, const Mesh& mesh) : HaloMesh(comm, mesh, nullptr) {}
+
+Point HaloMesh::original(NodeId node) const {
+  return joined_ != nullptr ? joined_->originals[node.value()] : mesh_->point(node);
+}
+
+GlobalNodeId HaloMesh::number_of_original(NodeId node) const { return original_of(image(node)); }
 
 HaloMesh::HaloMesh(const Communicator& comm, const PeriodicMesh& joined)
     : HaloMesh(comm, joined.mesh, &joined) {}

@@ -10,9 +10,10 @@
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/node_exchange.hpp"
 #include "mesher/mesh/node_table.hpp"
-#include "mesher/mesh/periodic_mesh.hpp"
 
 namespace quadloop {
+
+struct PeriodicMesh;
 
 /// A boundary edge with the domain to its left.
 struct HaloEdge {
@@ -39,7 +40,9 @@ class HaloMesh {
   std::int32_t owned_nodes() const { return mesh_->owned_nodes; }
   bool owns(NodeId node) const { return mesh_->owns(node); }
   /// Of an image the number of its original.
-  GlobalNodeId global(NodeId node) const { return original_of(image(node)); }
+  GlobalNodeId global(NodeId node) const {
+    return joined_ == nullptr ? image(node) : number_of_original(node);
+  }
   /// The image_number() of a node.
   GlobalNodeId image(NodeId node) const {
     return owns(node) ? mesh_->global(node) : ghosts_[node.value() - owned_nodes()];
@@ -92,9 +95,8 @@ class HaloMesh {
   };
   HaloMesh(const Communicator& comm, const Mesh& mesh, const PeriodicMesh* joined);
   NodeExchange gather(const Communicator& comm);
-  Point original(NodeId node) const {
-    return joined_ ? joined_->originals[node.value()] : mesh_->point(node);
-  }
+  Point original(NodeId node) const;
+  GlobalNodeId number_of_original(NodeId node) const;
   Point place(GlobalNodeId image, Point original) const;
   template <std::size_t width>
   void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
