@@ -349,8 +349,8 @@ void separate_inner_curves(LoadedMesh& loaded, const EdgeTable& table, const std
   }
   if (names.empty()) return;
   std::erase_if(loaded.mesh.boundaries, [](const BoundaryEdges& boundary) { return boundary.edges.empty(); });
-  loaded.warnings.push_back(fmt::format("{}: {} between two cells {} inner lines, no boundaries: {}", path,
-                                        counted(count, "edge"), count == 1 ? "is of" : "are of",
+  loaded.warnings.push_back(fmt::format("{}: {} between two cells {} to inner lines, not to boundaries: {}",
+                                        path, counted(count, "edge"), count == 1 ? "belongs" : "belong",
                                         some_names(names)));
 }
 

@@ -218,7 +218,7 @@ class NodesThatStay(ProgramTest):
         self.assertFalse(moved & self.nodes("crack"))
         self.assertTrue(moved & self.nodes("low"))
         self.assertIn("a.msh: the nodes of the inner curves 'crack' are fixed", stderr)
-        self.assertRegex(stderr, "4 edges between two cells are of inner lines, no boundaries: .*crack")
+        self.assertRegex(stderr, "4 edges between two cells belong to inner lines, not to boundaries: .*crack")
         self.assertFalse(self.smooth("a.msh", "--fix", "crack", "in")[0] & self.nodes("in"))
 
 

@@ -68,7 +68,7 @@ TEST(CleanUp, EdgesInsideABlockAreLeftOutWithTheirBoundary) {
   ASSERT_EQ(mesh.mesh.boundaries.size(), 1U);
   EXPECT_EQ(mesh.mesh.boundaries[0].name, "wall");
   ASSERT_EQ(mesh.warnings.size(), 1U);
-  EXPECT_NE(mesh.warnings[0].find("1 edge between two cells is of inner lines"), std::string::npos);
+  EXPECT_NE(mesh.warnings[0].find("1 edge between two cells belongs to inner lines"), std::string::npos);
 }
 
 TEST(CleanUp, WithoutABoundaryAllOuterEdgesAreOne) {

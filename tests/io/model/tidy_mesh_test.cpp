@@ -132,7 +132,7 @@ TEST(TidyMesh, EdgesInsideABlockBecomeInnerCurves) {
     EXPECT_EQ(loaded.inner_curves[0].name, "wall");
     EXPECT_EQ(loaded.inner_curves[0].edges, (std::vector{std::array{node(4), node(7)}}));
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("no boundaries: 'wall'"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("not to boundaries: 'wall'"), std::string::npos);
   }
 }
 

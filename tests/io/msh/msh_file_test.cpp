@@ -193,7 +193,8 @@ TEST(MshReader, LeavesOutLinesInsideABlock) {
   const LoadedMesh loaded =
       check.of(replaced(replaced(old_house, "ments\n8", "ments\n9"), "$EndEl", "9 1 2 8 4 40 30\n$EndEl"));
   expect_house(loaded);
-  EXPECT_NE(loaded.warnings.back().find("1 edge between two cells is of inner lines"), std::string::npos);
+  EXPECT_NE(loaded.warnings.back().find("1 edge between two cells belongs to inner lines"),
+            std::string::npos);
 }
 
 TEST(MshReader, KeepsBlocksApart) {
@@ -282,7 +283,7 @@ TEST(MshReader, NamesTheGroupsThatItLeavesOut) {
                "ments\n8", "ments\n9");
   EXPECT_NE(check.of(replaced(inner, "$EndEl", "9 1 2 9 4 40 30\n$EndEl"))
                 .warnings.back()
-                .find("1 edge between two cells is of inner lines, no boundaries: 'fracture'"),
+                .find("1 edge between two cells belongs to inner lines, not to boundaries: 'fracture'"),
             std::string::npos);
 }
 
