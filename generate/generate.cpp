@@ -14,6 +14,7 @@
 #include "generate/match_pairs.hpp"
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
+#include "generate/refine_inverted.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/split_quads.hpp"
@@ -210,7 +211,7 @@ class OutsideMesh {
 
   GeneratedMesh made(const MeshChange& wanted) {
     cut();
-    for (int attempt = 0; !columns_stand_when_smooth() && attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; !stands_when_smooth() && attempt < most_attempts; ++attempt) {
       discard();
       mesh_ = build(comm_, outer_, splits_);
     }
@@ -236,8 +237,9 @@ class OutsideMesh {
     }
   }
 
-  bool columns_stand_when_smooth() {
+  bool stands_when_smooth() {
     smooth(comm_, outer_, pinned_, mesh_);
+    if (refine_inverted(comm_, mesh_.result, splits_)) return false;
     const std::vector<GlobalNodeId> unsound = unsound_nodes(comm_, front_, mesh_.result);
     pinned_.insert(pinned_.end(), unsound.begin(), unsound.end());
     std::ranges::sort(pinned_);
@@ -306,10 +308,23 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   return generated;
 }
 
+/// Where smoothing leaves inverted cells, the mesh is made again from smaller quadtree cells there.
 GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
                              const MeshChange& wanted) {
-  GeneratedMesh generated = build(comm, input, demanded);
+  constexpr int most_attempts = 4;
+  DemandedSplits splits = demanded;
+  GeneratedMesh generated = build(comm, input, splits);
   smooth(comm, input, {}, generated);
+  for (int attempt = 0; attempt < most_attempts && refine_inverted(comm, generated.result, splits);
+       ++attempt) {
+    StageTimes times;
+    times.append_as("trials", std::exchange(generated, {}).times);
+    generated = build(comm, input, splits);
+    smooth(comm, input, {}, generated);
+    times.append(generated.times);
+    generated.times = times;
+    forget_splits(demanded, generated.result.tree);
+  }
   change(comm, input, wanted, generated);
   return generated;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "generate/leaf_quadrant.hpp"
 #include "generate/pair_sides.hpp"
 #include "generate/split_edges.hpp"
 #include "mesher/base/error.hpp"
@@ -30,11 +31,8 @@ std::vector<Quadrant> cells_at_edges(const Communicator& comm, const std::string
   std::vector<Quadrant> own;
   for (std::size_t b = 0; b < result.mesh.boundaries.size(); ++b) {
     if (result.mesh.boundaries[b].name != boundary) continue;
-    for (const std::int32_t leaf : result.edge_leaves[b]) {
-      const LeafRecord& r = result.tree.leaves[leaf];
-      own.push_back({(std::int64_t{r.tree_x} << Quadrant::unit_level) + r.x,
-                     (std::int64_t{r.tree_y} << Quadrant::unit_level) + r.y, r.level});
-    }
+    for (const std::int32_t leaf : result.edge_leaves[b])
+      own.push_back(quadrant_of(result.tree.leaves[leaf]));
   }
   return comm.all_gather_values(std::span<const Quadrant>(own));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/layers/unsound_strips.hpp"
 
@@ -69,13 +70,7 @@ std::vector<GlobalNodeId> unsound_nodes(const Communicator& comm, const LayerFro
 
 void forget_splits(const DemandedSplits& adapted, TreeRecord& tree) {
   DemandPath demands(adapted);
-  for (LeafRecord& leaf : tree.leaves) {
-    const auto from_root = [](std::int32_t tree_number, std::int32_t within) {
-      return (std::int64_t{tree_number} << Quadrant::unit_level) + within;
-    };
-    leaf.adapted =
-        demands.levels_above({from_root(leaf.tree_x, leaf.x), from_root(leaf.tree_y, leaf.y), leaf.level});
-  }
+  for (LeafRecord& leaf : tree.leaves) leaf.adapted = demands.levels_above(quadrant_of(leaf));
 }
 
 }  // namespace quadloop

@@ -8,6 +8,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "adapt/sensor/cells_of_leaves.hpp"
 #include "generate/digests.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/check/validate.hpp"

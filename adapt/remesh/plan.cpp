@@ -17,6 +17,7 @@
 #include "adapt/remesh/demands/target_levels.hpp"
 #include "adapt/remesh/demands/trial_count.hpp"
 #include "adapt/remesh/followed_walls.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/facets.hpp"

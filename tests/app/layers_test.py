@@ -14,9 +14,10 @@ from pathlib import Path
 
 from program import ProgramTest
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "judge"))
+sys.path[:0] = [str(Path(__file__).parents[1] / name) for name in ("judge", "cases")]
 import judge  # noqa: E402
 from mesh_files import read_geometry, read_mesh  # noqa: E402
+from quadloop_runs import NativeMesh  # noqa: E402
 
 BOX = "4\n{wall} open\n2\n0 0\n4 0\noutlet open\n2\n4 0\n4 2\ntop open\n2\n4 2\n0 2\ninlet open\n2\n0 2\n0 0\n"
 CASE = """[geometry]
@@ -247,6 +248,35 @@ class EndsOnCurves(ProgramTest):
                 y = self.require_on_inlet(mesh, curve)[:, 1]
                 self.assertEqual(sum(y < 0.17), 13)
                 self.assertEqual(sum(y > 0.83), 13 if "top" in walls else sum(y > 0.83))
+
+    def mesh_of_middle(self, control, weights, *settings):
+        """The channel with layers on floor and top, which end on one curve, between y = -0.5 and 0.5."""
+        row = " ".join(f"{x!r} {round(y - 0.5, 12)!r}" for x, y in control) + " weights " + " ".join(map(repr, weights))
+        self.channel("spline", ["floor", "top"])
+        rows = CHANNEL.format(row).replace("0 1 curve", "0 0.5 curve").splitlines()
+        self.write("channel.geom", "\n".join({"0 0": "0 -0.5", "2 0": "2 -0.5", "2 1": "2 0.5", "0 1": "0 0.5"}.get(text, text) for text in rows) + "\n")
+        self.done("mesh", "case.toml", "-o", "out", "--set", "mesh.root=[-1, -2, 4, 1, 1]", *settings)
+        return NativeMesh(self.folder / "out.mesh")
+
+    def require_images(self, mesh, other):
+        image = other.mapped(lambda x, y: (x, 0.0 - y), True)
+        image.boundaries = {{"floor": "top", "top": "floor"}.get(name, name): edges for name, edges in image.boundaries.items()}
+        for here, there in zip(mesh.canonical(), image.canonical()):
+            self.assertTrue(here == there, sorted(set(here) ^ set(there))[:4])
+
+    def test_a_mirrored_curve_gives_mirrored_columns(self):
+        for inlet, kind in itertools.product(INLETS, ("hybrid", "delaunay")):
+            with self.subTest(inlet=inlet, kind=kind):
+                control, weights = INLETS[inlet]
+                mirrored = [(x, 1 - y) for x, y in control[::-1]]
+                settings = ("smooth.sweeps=0", f'mesh.type="{kind}"')
+                self.require_images(*(self.mesh_of_middle(points, weights, *settings) for points in (control, mirrored)))
+
+    def test_columns_at_both_ends_of_a_symmetric_curve_are_images(self):
+        for inlet, kind in itertools.product(("arc out", "arc in"), ("hybrid", "delaunay")):
+            with self.subTest(inlet=inlet, kind=kind):
+                mesh = self.mesh_of_middle(*INLETS[inlet], 'mesh.mirror="x"', f'mesh.type="{kind}"')
+                self.require_images(mesh, mesh)
 
     def test_ranks_write_the_same_and_smoothing_stays_on_the_curve(self):
         for kind in ("hybrid", "delaunay"):

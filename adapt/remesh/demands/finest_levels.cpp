@@ -1,6 +1,6 @@
 #include "adapt/remesh/demands/finest_levels.hpp"
 
-#include "adapt/remesh/demands/restart.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/geometry/facets.hpp"
 #include "mesher/grid/tree_grid.hpp"
 

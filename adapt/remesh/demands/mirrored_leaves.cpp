@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "adapt/remesh/demands/restart.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/parallel/partners.hpp"
 
 namespace quadloop::adapt {

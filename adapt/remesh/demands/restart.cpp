@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "adapt/sensor/cells_of_leaves.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::adapt {
@@ -81,11 +82,6 @@ class LeafRun {
 };
 
 }  // namespace
-
-Quadrant quadrant_of(const LeafRecord& leaf) {
-  return {(std::int64_t{leaf.tree_x} << Quadrant::unit_level) + leaf.x,
-          (std::int64_t{leaf.tree_y} << Quadrant::unit_level) + leaf.y, leaf.level};
-}
 
 std::vector<SplitDemand> adapted_splits(const TreeRecord& tree) {
   std::vector<SplitDemand> demands;

@@ -11,9 +11,6 @@
 
 namespace quadloop::adapt {
 
-/// Returns the square of a quadtree cell, in coordinates of the whole forest.
-Quadrant quadrant_of(const LeafRecord& leaf);
-
 /// Returns the adaptation splits of this rank's part of a saved tree. With them the same case and geometry
 /// give the same tree again.
 std::vector<SplitDemand> adapted_splits(const TreeRecord& tree);

@@ -10,6 +10,7 @@
 #include "adapt/sensor/interpolation_error.hpp"
 #include "adapt/sensor/solver_error.hpp"
 #include "adapt/sensor/target_size.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
 

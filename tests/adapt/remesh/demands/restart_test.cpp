@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "generate/leaf_quadrant.hpp"
 #include "mesher/base/error.hpp"
 #include "tests/support/world.hpp"
 

@@ -1,0 +1,63 @@
+#include "generate/refine_inverted.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "generate/leaf_quadrant.hpp"
+#include "mesher/base/log.hpp"
+#include "mesher/geometry/predicates.hpp"
+
+namespace quadloop {
+
+namespace {
+
+/// Appends the nodes of the cells that have a corner that does not turn left.
+template <class Cells>
+void append_inverted(const Mesh& mesh, const Cells& cells, std::vector<GlobalNodeId>& nodes) {
+  for (const auto& cell : cells) {
+    const std::size_t width = cell.size();
+    bool sound = true;
+    for (std::size_t k = 0; k < width; ++k) {
+      sound = sound && orientation(mesh.point(cell[k]), mesh.point(cell[(k + 1) % width]),
+                                   mesh.point(cell[(k + 2) % width])) > 0;
+    }
+    if (sound) continue;
+    for (const NodeId node : cell) nodes.push_back(mesh.global(node));
+  }
+}
+
+}  // namespace
+
+bool refine_inverted(const Communicator& comm, const MeshResult& result, DemandedSplits& splits) {
+  const Mesh& mesh = result.mesh;
+  std::vector<GlobalNodeId> own;
+  append_inverted(mesh, mesh.triangles, own);
+  append_inverted(mesh, mesh.quads, own);
+  const std::vector<GlobalNodeId> all = comm.all_gather_values(std::span<const GlobalNodeId>(own));
+  if (all.empty()) return false;
+  const std::set<GlobalNodeId> inverted(all.begin(), all.end());
+  std::vector<SplitDemand> demands;
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    const auto& edges = mesh.boundaries[b].edges;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const bool beside =
+          std::ranges::any_of(edges[e], [&](NodeId node) { return inverted.contains(mesh.global(node)); });
+      if (!beside) continue;
+      const Quadrant cell = quadrant_of(result.tree.leaves[result.edge_leaves[b][e]]);
+      demands.push_back({cell, 1U << cell.level});
+    }
+  }
+  const std::int64_t count = comm.sum(std::ssize(demands));
+  if (count == 0) return false;
+  log::detail(fmt::format("cells at {} boundary edges are inverted; the mesh is made again", count));
+  splits = DemandedSplits(comm, demands, splits);
+  return true;
+}
+
+}  // namespace quadloop
