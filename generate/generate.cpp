@@ -216,6 +216,7 @@ class OutsideMesh {
       mesh_ = build(comm_, outer_, splits_);
     }
     forget_splits(demanded_, mesh_.result.tree);
+    require_not_inverted(comm_, outer_.geometry, mesh_.result.mesh);
     change(comm_, outer_, wanted, mesh_);
     StageTimes times;
     if (!trials_.stages().empty()) times.append_as("trials", trials_);
@@ -239,7 +240,10 @@ class OutsideMesh {
 
   bool stands_when_smooth() {
     smooth(comm_, outer_, pinned_, mesh_);
-    if (refine_inverted(comm_, mesh_.result, splits_)) return false;
+    if (refined_curves_ < most_refined_curves && refine_inverted(comm_, mesh_.result, splits_)) {
+      ++refined_curves_;
+      return false;
+    }
     const std::vector<GlobalNodeId> unsound = unsound_nodes(comm_, front_, mesh_.result);
     pinned_.insert(pinned_.end(), unsound.begin(), unsound.end());
     std::ranges::sort(pinned_);
@@ -257,6 +261,7 @@ class OutsideMesh {
   MeshInput outer_;
   GeneratedMesh mesh_;
   std::vector<GlobalNodeId> pinned_;
+  int refined_curves_ = 0;
   StageTimes trials_;
 };
 
@@ -311,11 +316,10 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
 /// Where smoothing leaves inverted cells, the mesh is made again from smaller quadtree cells there.
 GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
                              const MeshChange& wanted) {
-  constexpr int most_attempts = 4;
   DemandedSplits splits = demanded;
   GeneratedMesh generated = build(comm, input, splits);
   smooth(comm, input, {}, generated);
-  for (int attempt = 0; attempt < most_attempts && refine_inverted(comm, generated.result, splits);
+  for (int attempt = 0; attempt < most_refined_curves && refine_inverted(comm, generated.result, splits);
        ++attempt) {
     StageTimes times;
     times.append_as("trials", std::exchange(generated, {}).times);
@@ -325,6 +329,7 @@ GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, c
     generated.times = times;
     forget_splits(demanded, generated.result.tree);
   }
+  require_not_inverted(comm, input.geometry, generated.result.mesh);
   change(comm, input, wanted, generated);
   return generated;
 }

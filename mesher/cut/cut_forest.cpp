@@ -169,16 +169,22 @@ class ForestCutter {
              (detail == Detail::exact || maker_.smallest_sine() > thinnest_sine);
     };
     if (!done(Detail::merged)) {
-      if (!snaps.empty()) {
-        for (const LeafSnap& s : snaps) vetoes_.push_back(s.snap->corner);
-        return;
-      }
+      if (!snaps.empty()) return veto(snaps);
       if (!done(Detail::full) && !done(Detail::exact)) refuse(input.trace);
     }
     const bool bent = std::any_of(snaps.begin(), snaps.end(), [](const LeafSnap& s) {
       return s.snap->on_edge;
     });  // a node of the neighbour
     if (state(leaf) != CutForest::State::outside || trace_of(leaf) >= 0 || bent) store(leaf);
+  }
+
+  /// Revokes the snaps that move a vertex or an edge; if there are none, the others, without which crossings
+  /// that differ by rounding become different nodes.
+  void veto(std::span<const LeafSnap> snaps) {
+    const bool any_moves = std::ranges::any_of(snaps, [](const LeafSnap& s) { return moves(*s.snap); });
+    for (const LeafSnap& s : snaps) {
+      if (moves(*s.snap) || !any_moves) vetoes_.push_back(s.snap->corner);
+    }
   }
 
   CutForest::Offsets offsets() const {

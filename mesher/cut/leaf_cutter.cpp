@@ -347,8 +347,9 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   std::pmr::vector<CutLeaf::Edge>& edges = sides->inside;
   const bool simple = is_simple(input, leaf_);
   if (!cancel_opposites(geometry, leaf_, edges) || !trace_loops(edges, leaf_)) return false;
-  return simple || (loops_are_sound(edges, leaf_) &&
-                    (input.snaps.empty() || sides_are_sound(edges, sides->outside, leaf_)));
+  const bool sides_bend = std::ranges::any_of(input.snaps, [](const LeafSnap& s) { return moves(*s.snap); });
+  return simple ||
+         (loops_are_sound(edges, leaf_) && (!sides_bend || sides_are_sound(edges, sides->outside, leaf_)));
 }
 
 }  // namespace quadloop

@@ -64,8 +64,7 @@ bool is_shared(const Geometry& geometry, std::int32_t v, Side side) {
 
 /// Whether a point is at the snapped vertex before it moved, and is where it moves, up to rounding.
 bool touches(const Snap& snap, Point p) {
-  const double rounding = 1e-9 * snap.radius;
-  return length(p - snap.position) < rounding && length(p - snap.centre) < rounding;
+  return length(p - snap.position) < rounding_at(snap) && length(p - snap.centre) < rounding_at(snap);
 }
 
 /// Returns corners, hanging nodes, crossings and kept points between blocks in their order around the leaf.

@@ -131,10 +131,13 @@ void Survey::look_at(std::size_t b) {
     const std::array<Point, 2> ends{outer_.point(edge[0]), outer_.point(edge[1])};
     const std::array<FrontPlace, 2> places{places_.locate(ends[0], boundary),
                                            places_.locate(ends[1], boundary)};
+    const bool on_front = places_.follows(places[0], places[1]);
+    // Inner lines and interfaces may begin at any node.
+    if (!on_front && outer_.boundaries[b].two_sided()) continue;
     UnsoundStrip strip{edge, edge_leaves_[b][e], {}};
     Chord chord{ends[0], ends[1], outer_.global(edge[0]), outer_.global(edge[1])};
     bool sound = true;
-    if (places_.follows(places[0], places[1]) && !in_one_fan(front_.line, places[0], places[1])) {
+    if (on_front && !in_one_fan(front_.line, places[0], places[1])) {
       strip.stations = stations_between(front_.line, places[0], places[1]);
       sound = is_sound(strip, places, chord);
     }

@@ -30,6 +30,14 @@ struct Snap {
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 
+/// The distance in which places at the snapped vertex differ by rounding only.
+inline double rounding_at(const Snap& snap) { return 1e-9 * snap.radius; }
+
+/// Whether the snap moves the vertex or edge by more than rounding. Others only absorb crossings.
+inline bool moves(const Snap& snap) {
+  return snap.on_edge || length(snap.position - snap.centre) >= rounding_at(snap);
+}
+
 /// Whether a segment between two blocks begins or ends at the vertex.
 bool is_between_blocks(const Geometry& geometry, std::int32_t v);
 

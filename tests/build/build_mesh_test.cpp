@@ -60,6 +60,21 @@ TEST(BuildMesh, ASquareIsSquares) {
   EXPECT_EQ(world().sum(edges), 32);
 }
 
+TEST(BuildMesh, AGridVertexOnASlantedSideUpToRoundingIsOneNode) {
+  // Each slanted side passes a grid vertex at a distance of 1e-16, in a leaf beside which a wall lies on a
+  // grid line.
+  const Geometry slanted{{{"wall", 0, 30, "wall"}},
+                         {{1.25, 0.25}, {1.5, 0.3}, {1.5, 1.3}, {1.25, 1.25}},
+                         {0, 4},
+                         std::vector<BoundaryId>(4, BoundaryId{0})};
+  MeshOptions options = sized(0.125, 0.125);
+  options.size.root = RootOptions{{-0.25, -0.35}, 2, 1, 1};
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    options.type = type;
+    EXPECT_GT(summarise_quality(world(), build_mesh(world(), slanted, options).mesh).smallest_degrees, 30);
+  }
+}
+
 TEST(BuildMesh, MeshesAreValidFillTheOutlineAndAreTheSameOnAnyNumberOfRanks) {
   const Communicator self(MPI_COMM_SELF);
   for (const auto& [type, quads] : {std::pair{MeshType::hybrid, QuadChoice::all},

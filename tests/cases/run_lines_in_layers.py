@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Inner lines and a baffle beside a body with boundary layers: valid, the lines followed, the layers thinner where a line is near, the same
-bytes on several numbers of ranks. A line that ends on the body is refused.
+"""Inner lines, two of which cross, and a baffle beside a body with boundary layers: valid, the lines followed, the layers thinner where a line is
+near, no refinement where the lines meet, the same bytes on several numbers of ranks. A line that ends on the body is refused.
 
     run_lines_in_layers.py --quadloop PROGRAM [--ranks 1,2,3]
 """
 import argparse
+import json
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,7 @@ from quadloop_runs import digest, fail, mesh_case, run
 from run_lines import check_line, points_and_lines
 
 SECTION = [[2, 2], [1.5, 0.2], [1.0, -1.0]]
+ACROSS = [[1.1, 1.2], [2.3, 0.85]]
 NEAR = [[0.1, 0.6], [0.6, 0.65]]
 
 CASE = """
@@ -31,6 +33,10 @@ radius = 0.5
 [[line]]
 name = "section"
 path = {section}
+
+[[line]]
+name = "across"
+path = {across}
 
 [[line]]
 name = "near"
@@ -62,13 +68,20 @@ def layer_comments(path):
 def check_mesh(prefix, quadloop):
     run([quadloop, "check", f"{prefix}.mesh"])
     points, lines = points_and_lines(f"{prefix}.mesh")
-    for name, path in (("section", SECTION), ("near", NEAR)):
+    for name, path in (("section", SECTION), ("across", ACROSS), ("near", NEAR)):
         check_line(name, path, points, lines[name])
     if not layer_comments(f"{prefix}.mesh"):
         fail(f"{prefix}.mesh has no layers on the body")
     doubled = len(points) - len(set(points))
     if doubled < 10:
         fail(f"{prefix}.mesh has only {doubled} doubled nodes on the baffle")
+
+
+def check_sizes(quadloop, case, work):
+    """The layers do not ask for smaller cells where lines cross."""
+    said = json.loads(run([quadloop, "mesh", case, "-o", work / "sizes", "--json"]))
+    if "trials" in json.dumps(said):
+        fail(f"the mesh is made several times for the columns of layers: {said}")
 
 
 def check_refusal(quadloop, case, work):
@@ -89,7 +102,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="quadloop_lines_in_layers_") as name:
         work = Path(args.keep or name)
         case = work / "case.toml"
-        case.write_text(CASE.format(section=SECTION, near=NEAR))
+        case.write_text(CASE.format(section=SECTION, across=ACROSS, near=NEAR))
         for mesh_type in ("hybrid", "delaunay"):
             first = None
             for ranks in map(int, args.ranks.split(",")):
@@ -100,6 +113,7 @@ def main():
                     if digest(f"{first}.{file}") != digest(f"{prefix}.{file}"):
                         fail(f"{mesh_type}: {file} differs on {ranks} ranks")
             check_mesh(first, args.quadloop)
+        check_sizes(args.quadloop, case, work)
         check_refusal(args.quadloop, case, work)
     print("good")
     return None
