@@ -240,7 +240,8 @@ class OutsideMesh {
 
   bool stands_when_smooth() {
     smooth(comm_, outer_, pinned_, mesh_);
-    if (refined_curves_ < most_refined_curves && refine_inverted(comm_, mesh_.result, splits_)) {
+    if (refined_curves_ < most_refined_curves &&
+        refine_inverted(comm_, outer_.geometry, mesh_.result, splits_)) {
       ++refined_curves_;
       return false;
     }
@@ -313,13 +314,14 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   return generated;
 }
 
-/// Where smoothing leaves inverted cells, the mesh is made again from smaller quadtree cells there.
+/// Where cells at curves are inverted, the mesh is made again from smaller quadtree cells there.
 GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
                              const MeshChange& wanted) {
   DemandedSplits splits = demanded;
   GeneratedMesh generated = build(comm, input, splits);
   smooth(comm, input, {}, generated);
-  for (int attempt = 0; attempt < most_refined_curves && refine_inverted(comm, generated.result, splits);
+  for (int attempt = 0;
+       attempt < most_refined_curves && refine_inverted(comm, input.geometry, generated.result, splits);
        ++attempt) {
     StageTimes times;
     times.append_as("trials", std::exchange(generated, {}).times);

@@ -48,7 +48,9 @@ std::vector<PlacedNode> inverted_nodes(const Communicator& comm, const Mesh& mes
 
 }  // namespace
 
-bool refine_inverted(const Communicator& comm, const MeshResult& result, DemandedSplits& splits) {
+bool refine_inverted(const Communicator& comm, const Geometry& geometry, const MeshResult& result,
+                     DemandedSplits& splits) {
+  if (!geometry.has_curves()) return false;
   const Mesh& mesh = result.mesh;
   std::set<GlobalNodeId> inverted;
   for (const PlacedNode& node : inverted_nodes(comm, mesh)) inverted.insert(node.node);

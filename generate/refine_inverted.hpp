@@ -13,8 +13,10 @@ inline constexpr int most_refined_curves = 2;
 
 /// Refines the next mesh where cells of this one are inverted or flat, because their boundary nodes have
 /// moved from a chord onto its curve: the quadtree cells of the boundary edges there are split, below
-/// spacing.min if necessary. Returns whether there is such a cell at a boundary edge. *Collective.*
-bool refine_inverted(const Communicator& comm, const MeshResult& result, DemandedSplits& splits);
+/// spacing.min if necessary. Returns whether there is such a cell at a boundary edge; there is none without
+/// curves. *Collective.*
+bool refine_inverted(const Communicator& comm, const Geometry& geometry, const MeshResult& result,
+                     DemandedSplits& splits);
 
 /// Throws InputError on all ranks, with place and remedy, if the geometry has curves and the mesh has such a
 /// cell. *Collective.*
