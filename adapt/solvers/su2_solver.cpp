@@ -44,17 +44,26 @@ double gamma_of(const flow::Su2Config& config, const std::string& path, double a
   }
 }
 
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+/// Returns the keys that the loop sets, with their values.
+Entries entries_of_loop(const CommandSolver& command, bool restarts) {
+  return {{"MESH_FILENAME", command.mesh},
+          {"MESH_FORMAT", "SU2"},
+          {"RESTART_SOL", restarts ? "YES" : "NO"},
+          {"SOLUTION_FILENAME", command.state()},
+          {"RESTART_FILENAME", command.solution},
+          {"READ_BINARY_RESTART", suffix_of(command.solution) == ".dat" ? "YES" : "NO"},
+          {"CONV_FILENAME", history_name}};
+}
+
 /// Returns the user's configuration with the settings of the cycle.
 std::string config_text(const Su2Solver& solver, bool restarts) {
   flow::Su2Config config = read_config(solver.config);
-  const CommandSolver& command = solver.command;
-  config.set("MESH_FILENAME", command.mesh);
-  config.set("MESH_FORMAT", "SU2");
-  config.set("RESTART_SOL", restarts ? "YES" : "NO");
-  config.set("SOLUTION_FILENAME", command.state());
-  config.set("RESTART_FILENAME", command.solution);
-  config.set("READ_BINARY_RESTART", suffix_of(command.solution) == ".dat" ? "YES" : "NO");
-  config.set("CONV_FILENAME", history_name);
+  for (const auto& [key, value] : entries_of_loop(solver.command, restarts)) config.set(key, value);
+  if (restarts) {
+    for (const auto& [key, value] : solver.warm) config.set(flow::su2_key(key), value);
+  }
   return config.text();
 }
 
@@ -117,7 +126,12 @@ void add_end(const Communicator& comm, const Su2Solver& solver, const std::strin
 
 }  // namespace
 
-Su2Solver su2_solver_of(const std::string& config, CommandSolver command) {
+bool is_set_by_loop(const std::string& key) {
+  const Entries entries = entries_of_loop({}, false);
+  return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == flow::su2_key(key); });
+}
+
+Su2Solver su2_solver_of(const std::string& config, CommandSolver command, Entries warm) {
   const flow::Su2Config given = read_config(config);
   command.mesh = "mesh.su2";
   command.solution = restart_name(given, config);
@@ -130,7 +144,7 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command) {
     command.command.name = "SU2_CFD";
     command.command.where = "[solver] has no command, so SU2_CFD is run";
   }
-  return {config, std::move(command)};
+  return {config, std::move(warm), std::move(command)};
 }
 
 flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of) {

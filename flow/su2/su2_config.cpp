@@ -10,15 +10,11 @@
 
 namespace quadloop::flow {
 
-namespace {
-
-std::string upper(std::string text) {
+std::string su2_key(std::string text) {
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
-
-}  // namespace
 
 Su2Config::Su2Config(const std::string& text, const std::string& path) {
   std::istringstream input(text);
@@ -39,7 +35,7 @@ Su2Config::Su2Config(const std::string& text, const std::string& path) {
     if (!meaning.empty() && equals == std::string::npos)
       refuse("expected KEY= value, found '" + meaning.substr(0, 40) + "'");
     if (equals != std::string::npos) {
-      line.key = upper(std::string(trimmed(std::string_view(meaning).substr(0, equals))));
+      line.key = su2_key(std::string(trimmed(std::string_view(meaning).substr(0, equals))));
       line.value = trimmed(std::string_view(meaning).substr(equals + 1));
       if (find(line.key) != nullptr) refuse(line.key + " is there twice");
     }

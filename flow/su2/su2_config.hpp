@@ -6,6 +6,9 @@
 
 namespace quadloop::flow {
 
+/// Returns a key in upper case, as SU2 compares keys.
+std::string su2_key(std::string text);
+
 /// An SU2 configuration: lines "KEY= value", keys in any case, '%' begins a comment. A line that ends with a
 /// backslash continues on the next one. Everything that is not set remains as the user wrote it.
 class Su2Config {

@@ -30,6 +30,22 @@ ValueForm<std::string> file_name() {
   return form;
 }
 
+/// Keys of SU2's configuration, each with a number or a text as it stands there.
+ValueForm<std::vector<std::pair<std::string, std::string>>> su2_entries() {
+  const auto read = [](const io::CaseTable& table, const std::string& key) {
+    if (!table.is_table(key)) table.refuse(key, "must be a table, as in { CFL_NUMBER = 1000 }");
+    const io::CaseTable entries = *table.table(key);
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const std::string& entry : entries.keys()) {
+      if (adapt::is_set_by_loop(entry)) entries.refuse(entry, "is set by quadloop in each cycle");
+      result.emplace_back(
+          entry, entries.is_text(entry) ? *entries.text(entry) : fmt::format("{}", *entries.number(entry)));
+    }
+    return result;
+  };
+  return {"table", "{ CFL_NUMBER = 1000 }", read};
+}
+
 /// A need without which the key has no effect.
 KeyNeed only_with(const std::string& condition) { return {condition, "", "", true}; }
 
@@ -153,7 +169,12 @@ std::vector<Key<SolverSettings>> command_keys() {
                .required = {{"kind = \"su2\" needs the configuration to run, relative to the case file",
                              "kind = \"su2\""},
                             {"kind = \"openfoam\" needs the folder of a case, relative to the case file",
-                             "kind = \"openfoam\""}}})};
+                             "kind = \"openfoam\""}}}),
+          key<&SolverSettings::warm>(
+              "warm", su2_entries(),
+              "Keys of SU2's configuration, with their values for runs that restart from a transferred "
+              "solution: a number, or text as in the configuration.",
+              {.fallback = "none", .needs = {{"kind = \"su2\""}}})};
 }
 
 /// Checks the time steps, and combinations of several keys.
@@ -305,7 +326,8 @@ adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vec
   solver.gamma = settings.euler.gamma;
   solver.case_folder = case_folder.string();
   if (settings.kind == SolverSettings::Kind::su2)
-    return adapt::su2_solver_of((case_folder / settings.case_template).string(), std::move(solver));
+    return adapt::su2_solver_of((case_folder / settings.case_template).string(), std::move(solver),
+                                settings.warm);
   return solver;
 }
 

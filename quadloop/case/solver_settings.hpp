@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/solvers/chosen_solver.hpp"
@@ -42,6 +43,8 @@ struct SolverSettings {
   std::vector<std::string> goal_on = {};  ///< patterns of boundaries
   std::optional<Point> goal_about = {};
   adapt::CommandSolver command;  ///< without the case's folder
+  /// Keys of SU2's configuration, with their values in runs that restart.
+  std::vector<std::pair<std::string, std::string>> warm;
   std::string case_template;     ///< path of SU2's configuration or OpenFOAM's case, as written in the case
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;

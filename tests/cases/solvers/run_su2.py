@@ -24,6 +24,7 @@ MARKER_OUTLET= ( outlet, 1.0 )
 MESH_FILENAME= other.su2   % to be replaced
 OUTPUT_FILES= ( {files} )
 GAMMA_VALUE= 1.4
+CFL_NUMBER= 10
 """
 
 
@@ -46,6 +47,7 @@ pressure = 0.7142857142857143
 kind = "su2"
 template = "flow.cfg"
 command = ["{sys.executable}", "{STAND_IN}", "su2.cfg"]
+warm = {{ cfl_number = 1000, CFL_ADAPT_PARAM = "( 0.5, 1.04 )" }}
 """)
     return case
 
@@ -58,6 +60,9 @@ def check_cycles(made, restart, cycles):
         require(abs(record["cl"] - 0.301) < 1e-12 and abs(record["cd"] - 0.021) < 1e-12, f"cycle {k}: forces are not those of the history: {record}")
         require(abs(record["residual"] / 1e-3 - 1) < 1e-12 and record["log_residual"] == -5, f"cycle {k}: residual {record['residual']}")
         require((folder / restart).exists(), f"cycle {k} has no {restart}")
+        config = (folder / "su2.cfg").read_text().splitlines()
+        require(("CFL_NUMBER= 1000" in config) == (k > 0) and ("CFL_NUMBER= 10" in config) == (k == 0), f"cycle {k}: {config}")
+        require(("CFL_ADAPT_PARAM= ( 0.5, 1.04 )" in config) == (k > 0), f"cycle {k}: {config}")
         log = (folder / "solver.log").read_text()
         require(log == ("started from nothing\n" if k == 0 else "started from Density Momentum_x Momentum_y Energy\n"), f"cycle {k}: {log}")
         ramp = record["forces"]["ramp"]
@@ -81,6 +86,10 @@ def check_refusals(program, folder):
     status, said = attempt(program, "adapt", case, "-o", folder / "out")
     require(status == 1 and "flow.cfg" in said, f"{status} {said}")
     text = case.read_text()
+    for entry in ("mesh_filename", "RESTART_SOL"):
+        case.write_text(text.replace("cfl_number", entry))
+        status, said = attempt(program, "adapt", case, "-o", folder / "out")
+        require(status == 1 and f"{entry}' is set by quadloop in each cycle" in said, f"{status} {said}")
     case.write_text(text.replace('template = "flow.cfg"\n', ""))
     status, said = attempt(program, "adapt", case, "-o", folder / "out")
     require(status == 1 and "'solver.template' is missing" in said, f"{status} {said}")
@@ -125,7 +134,7 @@ def check_resume(program, folder):
     status, said = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "2")
     require(status == 0 and "flow.cfg" not in said, f"the same configuration: {status} {said}")
     with open(folder / "resumed" / "flow.cfg", "a") as config:
-        config.write("CFL_NUMBER= 3\n")
+        config.write("ITER= 3\n")
     status, said = attempt(program, "adapt", case, "-o", made, "--resume", "--cycles", "3")
     told = "the file 'flow.cfg' of solver.template has changed; the cycles up to cycle_02 remain unchanged"
     require(status == 0 and told in said, f"another configuration: {status} {said}")
