@@ -117,7 +117,7 @@ Statistics statistics_of(const io::FileMesh& mesh) {
 }
 
 /// Returns the request of --parts, which is known before the mesh is read.
-io::PartRequest part_request(const ConvertArguments& arguments, std::int32_t blocks) {
+io::PartRequest part_request(const ConvertArguments& arguments, std::size_t blocks) {
   const io::FileFormat* format =
       arguments.format.empty() ? io::format_of(arguments.output) : io::format_named(arguments.format);
   io::PartRequest request{std::filesystem::path(arguments.output).replace_extension().string(),
@@ -155,7 +155,7 @@ std::optional<WrittenParts> write_parts(const Communicator& comm, const io::Mesh
   const io::LoadedMesh* plane = std::get_if<io::LoadedMesh>(&input);
   if (comm.any(plane == nullptr))
     throw InputError(arguments.input + ": contains a 3D mesh; only 2D meshes can be partitioned");
-  const auto blocks = static_cast<std::int32_t>(comm.maximum(std::int64_t{plane->blocks}));
+  const auto blocks = static_cast<std::size_t>(comm.maximum(std::int64_t{plane->blocks}));
   const io::PartRequest request = part_request(arguments, blocks);
   return WrittenParts{request, io::write_parts_of_root(files, comm, *plane, request)};
 }

@@ -72,7 +72,7 @@ Prepared prepare(const MeshArguments& arguments, const std::optional<TreeRecord>
   prepared.files.push_back(settings.output_prefix + io::tree_suffix);
   if (settings.partitions > 0)
     prepared.part_files =
-        io::part_file_names(settings.output_prefix, settings.partitions, io::part_formats(settings.formats));
+        io::part_file_names(settings.output_prefix, settings.partitions, prepared.input.part_formats);
   io::require_possible_outputs(prepared.files);
   io::require_possible_outputs(prepared.part_files);
   return prepared;
@@ -103,9 +103,8 @@ std::optional<PartStatistics> write_outputs(const Communicator& comm, const Mesh
   if (!geometry_out.empty()) write_geometry(outputs, meshed_geometry(*prepared.input.mesh), geometry_out);
   io::write_tree(outputs, result.tree, settings.output_prefix + io::tree_suffix);
   if (settings.partitions > 0)
-    parts =
-        io::write_parts(part_files, comm, result.mesh, {},
-                        {settings.output_prefix, settings.partitions, io::part_formats(settings.formats)});
+    parts = io::write_parts(part_files, comm, result.mesh, nullptr,
+                            {settings.output_prefix, settings.partitions, prepared.input.part_formats});
   part_files.commit(outputs);
   return parts;
 }

@@ -8,10 +8,12 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "adapt/morph/morph_derivative.hpp"
 #include "adapt/morph/morph_mesh.hpp"
+#include "adapt/morph/outline_pieces.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/refusals.hpp"
@@ -28,6 +30,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/point_table.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/outline/outline_match.hpp"
 
@@ -52,6 +55,7 @@ struct MorphInput {
   io::LoadedMesh whole;
   MeshOrder order;
   std::optional<Geometry> to, from;
+  bool by_pieces = false;        ///< these are OutlinePieces
   std::vector<Point> direction;  ///< for each point of `to`
 };
 
@@ -96,19 +100,50 @@ void require_other_outputs(const MorphArguments& arguments) {
   require_other(table, mesh);
 }
 
+/// Reads both geometries piece by piece if the boundaries and inner lines of the mesh are no closed loops,
+/// else as outlines.
+void read_geometries(const MorphArguments& arguments, bool closed, MorphInput& input, Warnings& warnings) {
+  if (!closed && !arguments.from.empty()) {
+    Warnings told_already;
+    std::optional<adapt::OutlinePieces> pieces = adapt::pieces_of(
+        io::read_geometry(arguments.from, warnings), io::read_geometry(arguments.geometry, told_already));
+    if (!pieces)
+      throw InputError(fmt::format(
+          "{}: its pieces are not those of {}, with the same names and numbers of points in the "
+          "same order, as a mesh with inner lines, or with blocks that touch its boundary, requires",
+          arguments.geometry, arguments.from));
+    input.by_pieces = true;
+    input.to = std::move(pieces->to);
+    input.from = std::move(pieces->from);
+    return;
+  }
+  try {
+    input.to = io::read_outline(arguments.geometry, warnings);
+  } catch (const InputError& fault) {
+    if (closed) throw;
+    throw InputError(std::string(fault.what()) +
+                     "; for a mesh with inner lines, or with blocks that touch its boundary, give --from "
+                     "OLD.geom with the same pieces and numbers of points");
+  }
+  if (!arguments.from.empty()) input.from = io::read_outline(arguments.from, warnings);
+}
+
+/// Whether the boundaries of the mesh are closed loops and the mesh has no inner lines or baffles.
+bool is_closed(const io::LoadedMesh& whole) {
+  return whole.inner_curves.empty() && !PointTable(whole.mesh.points).any_twice() &&
+         adapt::has_closed_boundaries(whole.mesh);
+}
+
 /// *Collective.*
 MorphInput load(const CommandContext& context, const MorphArguments& arguments) {
   MorphInput input;
   Warnings& warnings = context.record.noted;
+  bool closed = true;
   context.comm.together([&] {
     io::require_readable_suffix(arguments.input);
     require_outputs(arguments);
     if (!arguments.output.empty()) io::require_writable_suffix(arguments.output);
     if (!arguments.nodal_gradient.empty()) io::require_solution_suffix(arguments.nodal_gradient);
-    input.to = io::read_outline(arguments.geometry, warnings);
-    if (!arguments.from.empty()) input.from = io::read_outline(arguments.from, warnings);
-    if (!arguments.direction.empty())
-      input.direction = io::read_point_table(arguments.direction, *input.to, {"dx", "dy"});
     if (!context.comm.is_root()) return;
     require_other_outputs(arguments);
     input.whole = io::read_mesh(arguments.input);
@@ -120,6 +155,13 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
     append(input.whole.warnings);
     if (!arguments.output.empty()) append(io::losses_in(input.whole, arguments.output));
     input.order = space_filling_order(input.whole.mesh);
+    closed = is_closed(input.whole);
+  });
+  closed = !context.comm.any(!closed);
+  context.comm.together([&] {
+    read_geometries(arguments, closed, input, warnings);
+    if (!arguments.direction.empty())
+      input.direction = io::read_point_table(arguments.direction, *input.to, {"dx", "dy"});
   });
   return input;
 }
@@ -201,21 +243,40 @@ Statistics statistics_of(const adapt::MorphReport& report) {
   return statistics;
 }
 
+/// Distributes the mesh with its inner lines. *Collective.*
+Mesh distributed(const Communicator& comm, const MorphInput& input) {
+  if (!comm.any(!input.whole.inner_curves.empty())) return scatter_mesh(comm, input.whole.mesh, input.order);
+  io::LoadedMesh listed = input.whole;
+  io::list_inner_curves(listed);
+  return scatter_mesh(comm, listed.mesh, input.order);
+}
+
+/// Flags the nodes between blocks and those of inner lines; empty if there are none.
+NodeFlags inner_nodes(const io::LoadedMesh& whole) {
+  NodeFlags flags;
+  if (whole.blocks > 1) flags = io::interface_nodes(whole);
+  if (!whole.inner_curves.empty()) flags.resize(whole.mesh.points.size(), 0);
+  for (const BoundaryEdges& line : whole.inner_curves) {
+    for (const auto& edge : line.edges) flag_all(edge, flags);
+  }
+  return flags;
+}
+
 void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
   MorphInput input = load(context, arguments);
-  Mesh part = scatter_mesh(comm, input.whole.mesh, input.order);
-  NodeFlags interfaces;
-  if (comm.is_root() && input.whole.blocks > 1) interfaces = io::interface_nodes(input.whole);
-  interfaces = NodeFlags(scatter_nodes(comm, interfaces, input.order));
+  Mesh part = distributed(comm, input);
+  NodeFlags inner;
+  if (comm.is_root()) inner = inner_nodes(input.whole);
+  inner = NodeFlags(scatter_nodes(comm, inner, input.order));
   times.begin("morph");
   const adapt::OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
-                                    arguments.from};
+                                    arguments.from, input.by_pieces};
   std::optional<adapt::MorphDerivative> derivative;
   if (arguments.wants_derivative()) derivative.emplace(comm, part, change);
-  const adapt::MorphReport report = adapt::morph_mesh(comm, part, change, interfaces);
+  const adapt::MorphReport report = adapt::morph_mesh(comm, part, change, inner);
   if (!report.valid()) refuse_way(arguments, report);
   gather_mesh(comm, part, input.order, input.whole.mesh);
   comm.together([&] {

@@ -143,7 +143,7 @@ std::optional<PartStatistics> write(const Communicator& comm, const adapt::Remes
       io::write_mesh(outputs, result.mesh, file, &remeshed.start, problem.input.settings.solver.euler.gamma);
   }
   if (!problem.part_files.empty())
-    parts = io::write_parts(part_files, comm, result.mesh, {.field = &remeshed.start}, problem.parts);
+    parts = io::write_parts(part_files, comm, result.mesh, &remeshed.start, problem.parts);
   part_files.commit(outputs);
   return parts;
 }
@@ -166,7 +166,7 @@ RemeshProblem load(const Communicator& comm, const RemeshArguments& arguments, W
     for (const std::string& format : settings.formats) problem.files.push_back(prefix + "." + format);
     problem.files.push_back(prefix + io::tree_suffix);
     if (settings.partitions > 0) {
-      problem.parts = {prefix, settings.partitions, io::part_formats(settings.formats)};
+      problem.parts = {prefix, settings.partitions, problem.input.part_formats};
       problem.part_files = io::part_file_names(prefix, settings.partitions, problem.parts.formats);
     }
     io::require_possible_outputs(io::with_files_beside(problem.files));

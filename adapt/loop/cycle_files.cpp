@@ -85,9 +85,9 @@ void CycleFiles::meshed(const MeshResult& mesh, const Field& start) {
 void CycleFiles::write_parts_of(const Mesh& mesh, const Field* field) const {
   if (options_.partitions == 0) return;
   io::PartFiles files(comm_);
-  io::write_parts(files, comm_, mesh, cell_parts_, {.field = field},
+  io::write_parts(files, comm_, mesh, cell_parts_, field,
                   {CyclePaths{folders_.under_way(cycle_)}.stem(), options_.partitions,
-                   io::part_formats(options_.formats)});
+                   io::part_formats(options_.formats, mesh.blocks.names.size())});
   files.commit();
 }
 

@@ -31,7 +31,10 @@ std::vector<Point> images_by_mesh(const Geometry& outline, const OutlineChange& 
 class PlacesOnOutline {
  public:
   PlacesOnOutline(const Geometry& outline, const OutlineChange& change)
-      : outline_{outline}, change_{change}, from_{walked_as(outline, *change.from)}, path_{from_} {}
+      : outline_{outline},
+        change_{change},
+        from_{change.by_pieces ? *change.from : walked_as(outline, *change.from)},
+        path_{from_} {}
 
   const Geometry& from() const { return from_; }
 
@@ -57,8 +60,10 @@ class PlacesOnOutline {
 
 std::vector<Point> images_by_outline(const Geometry& outline, const OutlineChange& change) {
   const PlacesOnOutline places(outline, change);
-  const Geometry to = walked_as(outline, change.to);
-  const OutlineMap map(places.from(), to, true, {change.file, change.from_file});
+  const Geometry to = change.by_pieces ? change.to : walked_as(outline, change.to);
+  const OutlineMap map = change.by_pieces
+                             ? OutlineMap(places.from(), to)
+                             : OutlineMap(places.from(), to, true, {change.file, change.from_file});
   std::vector<Point> images;
   for (std::int32_t v = 0; v < outline.size(); ++v) {
     const smoother::OutlinePlace place = places.of(v);
@@ -122,6 +127,10 @@ std::vector<Point> images_of(const BoundaryOutline& outline, const OutlineChange
 
 std::vector<PointShares> image_shares(const BoundaryOutline& outline, const OutlineChange& change) {
   if (change.from == nullptr) refuse_shares(change);
+  if (change.by_pieces)
+    throw InputError(change.file +
+                     ": derivatives with respect to its points require a mesh without inner lines, and "
+                     "without blocks that touch its boundary");
   const Geometry& before = outline.geometry;
   const PlacesOnOutline places(before, change);
   const Geometry to = walked_as(before, change.to);

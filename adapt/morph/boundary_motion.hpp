@@ -35,11 +35,14 @@ struct OutlineChange {
   /// Otherwise nodes keep their relative position between two corners.
   const Geometry* from = nullptr;
   std::string from_file = {};
+  /// Whether `from` and `to` are OutlinePieces: edges between two blocks and of inner lines then move with
+  /// their pieces. Otherwise inner lines follow the boundary.
+  bool by_pieces = false;
 };
 
 /// Returns the motions of all boundary nodes, sorted by number, each once; nodes of boundaries that the new
 /// geometry lacks do not move. A node rotates by the mean of its two edges' rotations. Throws InputError as
-/// OutlineMap does, and if a node is not on `change.from`.
+/// OutlineMap does, if a node is not on `change.from`, and if the pieces that meet at a node separate.
 std::vector<BoundaryNodeMotion> boundary_motion(const BoundaryOutline& outline, const OutlineChange& change);
 
 /// Returns the image of each vertex of a mesh boundary.

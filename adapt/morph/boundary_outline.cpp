@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/cells/edge_cells.hpp"
 
 namespace quadloop::adapt {
 
@@ -20,11 +21,21 @@ struct OutlineEdge {
 };
 
 /// Gathers the edges of all ranks, sorted by their start nodes.
-std::vector<OutlineEdge> all_edges(const Communicator& comm, const Mesh& mesh) {
+std::vector<OutlineEdge> all_edges(const Communicator& comm, const Mesh& mesh, bool by_pieces,
+                                   const std::set<std::string>& names) {
+  std::vector<std::int64_t> right;  // the cells to the right of boundary edges
+  if (by_pieces) right = cells_right_of_boundaries(comm, mesh);
+  auto across = right.begin();
   std::vector<OutlineEdge> own;
   for (std::int32_t b = 0; b < size32(mesh.boundaries); ++b) {
-    for (const auto& [from, to] : mesh.boundaries[b].edges)
+    const BoundaryEdges& boundary = mesh.boundaries[b];
+    const bool left_out = boundary.inner_line && !(by_pieces && names.contains(boundary.name));
+    for (const auto& [from, to] : boundary.edges) {
+      const bool both_ways = by_pieces && *across++ != EdgeCells::none;
+      if (left_out) continue;
       own.push_back({mesh.global(from), mesh.global(to), mesh.point(from), b});
+      if (both_ways) own.push_back({mesh.global(to), mesh.global(from), mesh.point(to), b});
+    }
   }
   std::vector<OutlineEdge> edges = comm.all_gather_values(std::span<const OutlineEdge>(own));
   std::ranges::sort(edges, {}, [](const OutlineEdge& e) { return std::tuple(e.from, e.boundary, e.to); });
@@ -55,8 +66,13 @@ class Loops {
 
   std::span<const OutlineEdge> leaving(GlobalNodeId node) const {
     const auto edges = std::ranges::equal_range(edges_, node, {}, &OutlineEdge::from);
-    QUADLOOP_REQUIRE(!edges.empty(), "the boundary of a mesh is closed");
+    if (edges.empty()) refuse_open();
     return edges;
+  }
+  [[noreturn]] static void refuse_open() {
+    throw InputError(
+        "the boundaries of the mesh are no closed loops, as a boundary between two blocks ends on another "
+        "one; give the geometry of the mesh, with the same pieces and numbers of points");
   }
   Point along(const OutlineEdge& edge) const { return leaving(edge.to).front().place - edge.place; }
 
@@ -89,13 +105,27 @@ class Loops {
 
 }  // namespace
 
-BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh) {
+BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh, bool by_pieces,
+                           const std::set<std::string>& names) {
   std::vector<Boundary> boundaries;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
     boundaries.emplace_back();
     boundaries.back().name = boundary.name;
   }
-  return Loops(all_edges(comm, mesh)).outline(boundaries);
+  return Loops(all_edges(comm, mesh, by_pieces, names)).outline(boundaries);
+}
+
+bool has_closed_boundaries(const Mesh& whole) {
+  IdVector<NodeId, std::int32_t> leaving_less_arriving(whole.points.size(), 0);
+  for (const BoundaryEdges& boundary : whole.boundaries) {
+    if (boundary.inner_line) continue;
+    for (const auto& [from, to] : boundary.edges) {
+      ++leaving_less_arriving[from];
+      --leaving_less_arriving[to];
+    }
+  }
+  return std::ranges::all_of(leaving_less_arriving.ids(),
+                             [&](NodeId node) { return leaving_less_arriving[node] == 0; });
 }
 
 }  // namespace quadloop::adapt

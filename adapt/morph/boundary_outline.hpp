@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
@@ -16,7 +18,13 @@ struct BoundaryOutline {
   std::vector<GlobalNodeId> nodes;
 };
 
-/// `mesh` must have a closed boundary (MeshRule::closed). Each rank stores all boundary edges. *Collective.*
-BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh);
+/// `mesh` must have a closed boundary (MeshRule::closed). Each rank stores all boundary edges. Inner lines
+/// are left out. With `by_pieces` the inner lines in `names` are in it, too, and edges with cells on both
+/// sides are walked in both directions. Throws InputError if the edges are no closed loops. *Collective.*
+BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh, bool by_pieces = false,
+                           const std::set<std::string>& names = {});
+
+/// Whether the boundaries of a mesh are closed loops, with each edge between two blocks walked once.
+bool has_closed_boundaries(const Mesh& whole);
 
 }  // namespace quadloop::adapt

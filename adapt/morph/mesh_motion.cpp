@@ -18,6 +18,12 @@ std::vector<Box> boxes_of_loops(const Geometry& geometry) {
   return boxes;
 }
 
+std::set<std::string> names_of(const Geometry& geometry) {
+  std::set<std::string> names;
+  for (const Boundary& boundary : geometry.boundaries()) names.insert(boundary.name);
+  return names;
+}
+
 double extent(const Box& box) { return std::max(box.width(), box.height()); }
 
 /// Returns the extent of the moving boundaries; 0 if none moves.
@@ -42,7 +48,7 @@ double extent_of_moved(const BoundaryOutline& outline, std::span<const BoundaryN
 MeshMotion::MeshMotion(const Communicator& comm, const Mesh& mesh, const OutlineChange& change)
     : halo_{comm, mesh},
       places_{layer_places(comm, mesh)},
-      outline_{outline_of(comm, mesh)},
+      outline_{outline_of(comm, mesh, change.by_pieces, names_of(change.to))},
       boundary_{boundary_motion(outline_, change)},
       feet_(halo_.points().size(), -1),
       reach_{extent_of_moved(outline_, boundary_)} {
@@ -62,8 +68,7 @@ MeshMotion::MeshMotion(const Communicator& comm, const Mesh& mesh, const Outline
 
 double MeshMotion::possible_reach(const OutlineChange& change) const {
   if (reach_ > 0) return reach_;
-  std::set<std::string> names;
-  for (const Boundary& boundary : change.to.boundaries()) names.insert(boundary.name);
+  const std::set<std::string> names = names_of(change.to);
   const Geometry& geometry = outline_.geometry;
   const std::vector<Box> boxes = boxes_of_loops(geometry);
   double inside = 0, all = 0;

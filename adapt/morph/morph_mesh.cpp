@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "adapt/morph/mesh_motion.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/check/quality.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/smooth_mesh.hpp"
 #include "smoother/sweeps/rings.hpp"
@@ -21,6 +23,7 @@ namespace {
 constexpr double quality_kept = 0.8;  // relative quality of the worst cell: below it the mesh is smoothed
 constexpr int smoothed_rings = 4;
 constexpr int bisections = 7;
+constexpr double pair_tolerance = 1e-11;  // of the largest coordinate, as for `quadloop check`
 
 /// Returns the quality of a cell with the node positions `place(node)`.
 template <std::size_t width, class Place>
@@ -61,6 +64,20 @@ class Morph {
     for (const NodeId node : flags.ids()) flags[node] = motion_.is_boundary(node) ? 1 : 0;
     return flags;
   }
+  /// Throws InputError if the nodes on the two sides of a pair would no longer match. *Collective.*
+  void require_alike(const Mesh& mesh, const PeriodicPair& pair) const {
+    const PairedNodes nodes = paired_nodes(comm_, mesh, pair);
+    for (std::size_t k = 0; k < nodes.from.nodes.size(); ++k) {
+      const Point from = image_of(nodes.from.nodes[k]), to = image_of(nodes.to.nodes[k]);
+      const double size = std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
+      if (length(pair.image(from) - to) <= pair_tolerance * size) continue;
+      throw InputError(
+          fmt::format("the two sides of the periodic pair '{}' and '{}' do not move alike near ({:g}, {:g}), "
+                      "so that their nodes would no longer match; generate a new mesh",
+                      pair.from, pair.to, nodes.from.points[k].x, nodes.from.points[k].y));
+    }
+  }
+
   /// Returns how far an owned node has moved.
   double way_of(NodeId node, const Mesh& mesh) const { return length(mesh.point(node) - halo_.point(node)); }
 
@@ -111,6 +128,11 @@ class Morph {
   }
 
  private:
+  Point image_of(GlobalNodeId node) const {
+    const auto at = std::ranges::lower_bound(motion_.boundary(), node, {}, &BoundaryNodeMotion::node);
+    return at->motion.to;
+  }
+
   const Communicator& comm_;
   MeshMotion motion_;
   const HaloMesh& halo_;  ///< with the original node positions
@@ -118,10 +140,10 @@ class Morph {
 
 /// Smooths the cells outside layers whose quality has decreased too much, and those near them; boundary and
 /// layers do not move. *Collective.*
-void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& interfaces) {
+void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& inner) {
   smoother::SmoothOptions options;
   options.pinned = morph.boundary_nodes();
-  for (const NodeId node : interfaces.ids()) options.pinned[node] |= interfaces[node];
+  for (const NodeId node : inner.ids()) options.pinned[node] |= inner[node];
   const NodeFlags near = morph.nodes_near_suffering(mesh);
   for (const NodeId node : near.ids()) {
     if (near[node] == 0) options.pinned[node] = 1;
@@ -146,21 +168,17 @@ double possible_way(const Morph& morph, Mesh& mesh) {
 }  // namespace
 
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
-                       const NodeFlags& interfaces) {
-  if (!mesh.pairs.empty())
-    throw InputError(
-        fmt::format("boundaries '{}' and '{}' are a periodic pair, whose nodes would no longer "
-                    "match; generate a new mesh",
-                    mesh.pairs.front().from, mesh.pairs.front().to));
+                       const NodeFlags& inner) {
   MorphReport report;
   const Morph morph(comm, mesh, change);
+  for (const PeriodicPair& pair : mesh.pairs) morph.require_alike(mesh, pair);
   report.worst_before = report.worst_after = morph.worst_quality(mesh);
   if (!morph.moves()) return report;
   morph.move(1, mesh);
   report.worst_after = morph.worst_quality(mesh);
   if (report.worst_after < quality_kept * report.worst_before) {
     report.smoothed = true;
-    smooth_inside(comm, mesh, morph, interfaces);
+    smooth_inside(comm, mesh, morph, inner);
     report.worst_after = morph.worst_quality(mesh);
   }
   if (!report.valid()) {

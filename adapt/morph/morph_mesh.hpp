@@ -23,10 +23,11 @@ struct MorphReport {
 /// outer edges of layers (InverseDistance). Without smoothing, node positions are smooth functions of the new
 /// geometry's points; so smoothing is applied only if the worst cell loses more than a fifth of its quality.
 /// Then the cells outside layers that lose as much are smoothed, and those near them, except owned nodes
-/// flagged in `interfaces`, if given. If the mesh cannot follow, it is left with inverted cells and the
-/// report contains the possible fraction. Bitwise independent of the number of ranks. Throws InputError as
-/// boundary_motion() does. *Collective.*
+/// flagged in `inner`, if given: those between blocks and of inner lines. If the mesh cannot follow, it is
+/// left with inverted cells and the report contains the possible fraction. Bitwise independent of the number
+/// of ranks. Throws InputError as boundary_motion() does, and if the two sides of a periodic pair do not move
+/// alike. *Collective.*
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
-                       const NodeFlags& interfaces = {});
+                       const NodeFlags& inner = {});
 
 }  // namespace quadloop::adapt

@@ -187,6 +187,12 @@ OutlineMap::OutlineMap(const Geometry& from, const Geometry& to, bool by_points,
   }
 }
 
+OutlineMap::OutlineMap(const Geometry& from, const Geometry& to)
+    : from_{from}, to_{to}, old_path_{from}, new_path_{to} {
+  for (std::int32_t loop = 0; loop < from.loop_count(); ++loop)
+    loops_.push_back(anchored(loop, all_vertices(from, loop), all_vertices(to, loop), 0));
+}
+
 void OutlineMap::refuse_loop(std::int32_t image, const Names& names) const {
   const NameSet own = names_of(to_, image);
   for (std::int32_t loop = 0; loop < from_.loop_count(); ++loop) {

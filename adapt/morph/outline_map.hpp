@@ -40,6 +40,8 @@ class OutlineMap {
   };
   /// Both geometries must outlive the object. Throws InputError if a loop or a corner has no counterpart.
   OutlineMap(const Geometry& from, const Geometry& to, bool by_points, const Names& names);
+  /// The map of OutlinePieces: loop by loop and vertex by vertex, in their order.
+  OutlineMap(const Geometry& from, const Geometry& to);
 
   bool maps(std::int32_t loop) const { return loops_[loop].image >= 0; }
   /// `arc`: arc length along the loop from its first vertex.

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "adapt/morph/outline_pieces.hpp"
 #include "generate/digests.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/build/islands.hpp"
@@ -80,7 +82,10 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
   try {
     MeshReport reported_already;
     const Geometry to = without_small_islands(input.geometry, input.mesh.size.min, reported_already);
-    report = morph_mesh(comm, mesh, {to, wish.file, wish.from, wish.from_file});
+    std::optional<OutlinePieces> pieces;
+    if (to.has_twins() && wish.from_chains != nullptr) pieces = pieces_of(*wish.from_chains, chains_of(to));
+    report = pieces ? morph_mesh(comm, mesh, {pieces->to, wish.file, &pieces->from, wish.from_file, true})
+                    : morph_mesh(comm, mesh, {to, wish.file, wish.from, wish.from_file});
   } catch (const InputError& error) {
     return {{}, error.what()};
   }
@@ -163,7 +168,8 @@ RemeshedSolution continued_mesh(const Communicator& comm, const MeshInput& input
   if (wish) morphed = morph_solved(comm, input, old, *wish);
   if (morphed.remeshed) {
     std::vector<std::string>& warnings = morphed.remeshed->generated.result.report.warnings;
-    if (wish->from == nullptr) warnings.push_back(without_former_outline(old));
+    const bool knows_chains = wish->from_chains != nullptr && !wish->from_chains->empty();
+    if (wish->from == nullptr && !knows_chains) warnings.push_back(without_former_outline(old));
     if (has_other_settings(input, old, *wish))
       warnings.push_back(fmt::format(
           "{}: {} have changed since this mesh was generated{}; its cells are kept, and the new settings "

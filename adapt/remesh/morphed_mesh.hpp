@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adapt/morph/morph_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
@@ -22,6 +23,8 @@ struct MorphWish {
   /// Geometry of the solved mesh, if available, and its file (OutlineChange).
   const Geometry* from = nullptr;
   std::string from_file = {};
+  /// The same as chains, for meshes with blocks or inner lines (OutlinePieces).
+  const std::vector<Chain>* from_chains = nullptr;
   /// Boundary settings that have changed since the mesh was made, for messages; empty: none, or not known.
   std::string changed = {};
 };

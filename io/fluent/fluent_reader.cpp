@@ -101,23 +101,50 @@ class FluentReader {
     return face.is_inside() && (face.type == fluent_interior || face.type == 0);
   }
 
-  /// Returns the zones of inner faces some of which have the same block on both sides: these are not
-  /// boundaries, even where two blocks meet. A zone with only edges between blocks is their boundary, unless
-  /// it has the name that our writer uses for the others.
+  /// Returns the zones of inner faces some of which have the same block on both sides: these are neither
+  /// boundaries, even where two blocks meet, nor inner lines. A zone with only edges between blocks is their
+  /// boundary, unless it has the name that our writer uses for the others.
   std::set<std::int64_t> inner_zones() const {
-    std::set<std::int64_t> zones;
-    for (const FluentFace& face : file_.faces()) {
-      if (is_interior(face) && block_of_[face.cells[0]] == block_of_[face.cells[1]]) zones.insert(face.zone);
-    }
+    std::set<std::int64_t> zones, rest = zones_round_cells();
     for (const auto& [zone, name] : file_.zone_names()) {
-      if (name == fluent_inner_zone) zones.insert(zone);
+      if (name == fluent_inner_zone) rest.insert(zone);
+    }
+    std::set<std::int32_t> blocks;  // those of the faces in `rest`
+    const auto is_inside = [&](const FluentFace& face) {
+      return is_interior(face) && block_of_[face.cells[0]] == block_of_[face.cells[1]];
+    };
+    for (const FluentFace& face : file_.faces()) {
+      if (is_inside(face) && rest.contains(face.zone)) blocks.insert(block_of_[face.cells[0]]);
+    }
+    for (const FluentFace& face : file_.faces()) {
+      if (is_inside(face) && !blocks.contains(block_of_[face.cells[0]])) zones.insert(face.zone);
+    }
+    zones.insert(rest.begin(), rest.end());
+    return zones;
+  }
+
+  /// Returns the zones of inner faces that a cell has more than two faces in. In a block with faces of such a
+  /// zone the other zones are inner lines.
+  std::set<std::int64_t> zones_round_cells() const {
+    std::set<std::int64_t> zones;
+    for (std::size_t cell = 1; cell < block_of_.size(); ++cell) {
+      std::array<std::int64_t, 4> of_faces{};
+      std::size_t count = 0;
+      for (const std::int32_t f : file_.faces_of(static_cast<std::int32_t>(cell))) {
+        if (is_interior(file_.faces()[f]) && count < of_faces.size())
+          of_faces[count++] = file_.faces()[f].zone;
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        if (std::count(of_faces.begin(), of_faces.begin() + count, of_faces[k]) > 2)
+          zones.insert(of_faces[k]);
+      }
     }
     return zones;
   }
 
   /// In a 3D mesh only faces with one cell, reversed such that their normals point outwards.
   void add_boundaries() {
-    const std::set<std::int64_t> inner = inner_zones();
+    const std::set<std::int64_t> inner = is_plane() ? inner_zones() : std::set<std::int64_t>{};
     for (const FluentFace& face : file_.faces()) {
       if (is_plane() ? is_interior(face) && inner.contains(face.zone) : face.is_inside()) continue;
       FileBoundary& boundary = mesh_.boundaries[mesh_.boundary_named(file_.zone_name(face.zone))];

@@ -3,8 +3,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <span>
 
 #include "io/cgns/cgns_file.hpp"
+#include "io/files/boundary_stream.hpp"
 #include "io/model/loaded_mesh.hpp"
 #include "io/native/native_file.hpp"
 #include "io/parts/part_cgns.hpp"
@@ -21,19 +23,35 @@ LoadedMesh loaded_part(const MeshPart& part, const std::vector<std::string>& blo
   LoadedMesh loaded;
   loaded.mesh = part.mesh;
   loaded.blocks = size32(blocks);
-  loaded.triangle_to_block = part.triangle_to_block;
-  loaded.quad_to_block = part.quad_to_block;
+  loaded.triangle_to_block = part.mesh.blocks.of_triangles;
+  loaded.quad_to_block = part.mesh.blocks.of_quads;
+  loaded.triangle_to_block.resize(part.mesh.triangles.size(), 0);
+  loaded.quad_to_block.resize(part.mesh.quads.size(), 0);
   loaded.block_names = blocks;
   loaded.solution = part.field;
   return loaded;
 }
 
+/// Returns the inner lines of the whole mesh on the root rank. *Collective.*
+std::vector<PartIndex::Line> lines_at_root(const Communicator& comm, const Mesh& mesh) {
+  const BoundaryStream stream(comm, mesh, EdgeChoice::inner_lines);
+  std::vector<PartIndex::Line> lines;
+  stream.run(
+      [&](std::size_t n) {
+        lines.push_back({stream.present()[n]->name, {}});
+      },
+      [&](std::span<const BoundaryStream::Edge> edges) {
+        lines.back().edges.insert(lines.back().edges.end(), edges.begin(), edges.end());
+      });
+  return lines;
+}
+
 }  // namespace
 
-std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::int32_t blocks) {
+std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::size_t blocks) {
   std::vector<std::string> with_place;
   for (const char* const format : {"mesh", "cgns", "vtu"}) {
-    if (std::ranges::find(formats, format) != formats.end() && (blocks == 1 || format != std::string("cgns")))
+    if (std::ranges::find(formats, format) != formats.end() && (blocks < 2 || format != std::string("cgns")))
       with_place.emplace_back(format);
   }
   return with_place;
@@ -63,7 +81,7 @@ void PartFiles::write(const std::string& prefix, const PartIndex& index, const s
 
 void PartFiles::write_part(const std::string& prefix, const PartIndex& index, const MeshPart& part) {
   const LoadedMesh loaded = loaded_part(part, index.blocks);
-  const MeshStream stream(outputs_.communicator(), loaded);
+  const MeshStream stream(outputs_.communicator(), loaded, EdgeChoice::all);
   for (const std::string& format : index.formats) {
     const std::string path = part_path(prefix, part.number, format);
     if (format == "mesh") write_native(outputs_, stream, path);
@@ -81,25 +99,28 @@ void PartFiles::commit(OutputSet& whole) { OutputSet::commit_together(comm_, {&w
 void PartFiles::commit() { OutputSet::commit_together(comm_, {&outputs_}); }
 
 PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t parts,
-                     const std::vector<std::string>& formats, const std::vector<std::string>& blocks) {
+                     const std::vector<std::string>& formats) {
   PartIndex index{.parts = parts,
                   .formats = formats,
                   .nodes = comm.sum(mesh.owned_nodes),
                   .triangles = comm.sum(std::ssize(mesh.triangles)),
                   .quads = comm.sum(std::ssize(mesh.quads)),
-                  .blocks = blocks,
+                  .blocks = mesh.blocks.names,
                   .boundaries = {},
                   .edges = {},
+                  .lines = lines_at_root(comm, mesh),
                   .pairs = mesh.pairs,
                   .strips = mesh.strips,
                   .warnings = {}};
+  if (index.blocks.empty()) index.blocks.push_back(usual_block_name(1, 0));
   std::vector<std::int64_t> own;
   for (const BoundaryEdges& boundary : mesh.boundaries) {
+    if (boundary.inner_line) continue;
     index.boundaries.push_back({boundary.name, boundary.condition, {}, boundary.layers});
     own.push_back(std::ssize(boundary.edges));
   }
   const std::vector<std::int64_t> all = gather_at_root(comm, own);
-  index.edges.assign(mesh.boundaries.size(), 0);
+  index.edges.assign(index.boundaries.size(), 0);
   for (std::size_t i = 0; i < all.size(); ++i) index.edges[i % index.edges.size()] += all[i];
   return index;
 }

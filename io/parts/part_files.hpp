@@ -11,7 +11,7 @@ namespace quadloop::io {
 
 /// Returns the formats, by suffix, in which partitions are written: those of `formats` that support it. CGNS
 /// files of partitions have one zone, so they are excluded if there are several blocks.
-std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::int32_t blocks = 1);
+std::vector<std::string> part_formats(const std::vector<std::string>& formats, std::size_t blocks = 1);
 
 /// Returns the names of all files of a set.
 std::vector<std::string> part_file_names(const std::string& prefix, std::int32_t parts,
@@ -42,9 +42,9 @@ class PartFiles {
   OutputSet outputs_;
 };
 
-/// Returns the index of a set on the root rank; on other ranks without the numbers of edges. `blocks` are the
-/// names of the whole mesh's blocks. *Collective.*
+/// Returns the index of a set on the root rank; on other ranks without the numbers of edges and the inner
+/// lines. *Collective.*
 PartIndex part_index(const Communicator& comm, const Mesh& mesh, std::int32_t parts,
-                     const std::vector<std::string>& formats, const std::vector<std::string>& blocks);
+                     const std::vector<std::string>& formats);
 
 }  // namespace quadloop::io

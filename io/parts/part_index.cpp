@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/model/line_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
@@ -37,8 +38,14 @@ void read_boundary(TextScanner& scan, PartIndex& index) {
   index.boundaries.push_back(std::move(boundary));
 }
 
-/// Invalid strips in comments are named in a warning.
-void read_strips(const TextScanner& scan, PartIndex& index) {
+/// Reads strips, inner lines and pairs. Invalid strips in comments are named in a warning.
+void read_comments(const TextScanner& scan, PartIndex& index) {
+  for (const BoundaryEdges& line :
+       lines_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes))) {
+    PartIndex::Line& of_whole =
+        index.lines.emplace_back(line.name, std::vector<std::array<std::int64_t, 2>>{});
+    for (const auto& [from, to] : line.edges) of_whole.edges.push_back({from.value(), to.value()});
+  }
   StripsInText found = strips_in_comments(scan.passed_over(), static_cast<std::int32_t>(index.nodes));
   index.strips = std::move(found.strips);
   index.pairs = pairs_in_comments(scan.passed_over());
@@ -73,6 +80,10 @@ void write_part_index(OutputSet& outputs, const PartIndex& index, const std::str
     text += fmt::format("{} {} {} {} {}\n", index.edges[b], boundary.layers.count, boundary.layers.thickness,
                         boundary.condition.word(), boundary.name);
   }
+  for (const PartIndex::Line& line : index.lines) {
+    text += line_comment(line.name, std::ssize(line.edges));
+    for (const auto& [from, to] : line.edges) text += fmt::format("# {} {}\n", from + 1, to + 1);
+  }
   for (const StripLayers& strip : index.strips) text += comments_of(strip);
   for (const PeriodicPair& pair : index.pairs) text += comment_of(pair);
   OutputFile file(outputs.stage(path));
@@ -104,7 +115,7 @@ PartIndex read_part_index(const std::string& path) {
     scan.token("");
     scan.refuse("text after the end");
   }
-  read_strips(scan, index);
+  read_comments(scan, index);
   return index;
 }
 

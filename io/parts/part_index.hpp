@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,12 +12,19 @@ namespace quadloop::io {
 
 /// Contents of PREFIX.parts: a set of partitions and the whole mesh.
 struct PartIndex {
+  /// An inner line, with the node numbers of the whole mesh.
+  struct Line {
+    std::string name;
+    std::vector<std::array<std::int64_t, 2>> edges;
+  };
+
   std::int32_t parts = 0;
   std::vector<std::string> formats;  ///< of the parts, by suffix
   std::int64_t nodes = 0, triangles = 0, quads = 0;
   std::vector<std::string> blocks;        ///< names
-  std::vector<BoundaryEdges> boundaries;  ///< without edges
+  std::vector<BoundaryEdges> boundaries;  ///< without edges and inner lines
   std::vector<std::int64_t> edges;        ///< number of edges of each boundary
+  std::vector<Line> lines;
   std::vector<PeriodicPair> pairs;
   std::vector<StripLayers> strips;    ///< with the node numbers of the whole mesh
   std::vector<std::string> warnings;  ///< of the reader

@@ -44,7 +44,7 @@ class PartReader {
       if (parts.back().edges.size() != index_.boundaries.size())
         throw InputError(links + ": it has other boundaries than " + path_);
     }
-    PartJoiner joiner(counts(parts), index_.boundaries);
+    PartJoiner joiner(counts(parts), index_.boundaries, index_.blocks);
     for (MeshPart& part : parts) {
       const std::string path = part_path(prefix_, part.number, format_);
       fill(part, path);
@@ -55,8 +55,10 @@ class PartReader {
     LoadedMesh whole;
     whole.mesh = std::move(joined.mesh);
     whole.blocks = size32(index_.blocks);
-    whole.triangle_to_block = std::move(joined.triangle_to_block);
-    whole.quad_to_block = std::move(joined.quad_to_block);
+    whole.triangle_to_block = whole.mesh.blocks.of_triangles;
+    whole.quad_to_block = whole.mesh.blocks.of_quads;
+    if (whole.blocks == 1) whole.mesh.blocks = {};
+    whole.inner_curves = inner_lines();
     whole.block_names = index_.blocks;
     whole.solution = std::move(joined.field);
     whole.mesh.strips = index_.strips;
@@ -91,6 +93,16 @@ class PartReader {
     return counts;
   }
 
+  std::vector<BoundaryEdges> inner_lines() const {
+    std::vector<BoundaryEdges> lines;
+    const auto node = [](std::int64_t number) { return NodeId{static_cast<std::int32_t>(number)}; };
+    for (const PartIndex::Line& line : index_.lines) {
+      BoundaryEdges& edges = lines.emplace_back(BoundaryEdges{line.name, {}, {}});
+      for (const auto& [from, to] : line.edges) edges.edges.push_back({node(from), node(to)});
+    }
+    return lines;
+  }
+
   /// Reads the part's mesh and values from its own file.
   void fill(MeshPart& part, const std::string& path) {
     LoadedMesh loaded = read_piece(path, format_);
@@ -104,8 +116,7 @@ class PartReader {
       const auto found = by_name.find(boundary.name);
       if (found != by_name.end()) boundary.edges = std::move(found->second->edges);
     }
-    part.triangle_to_block = std::move(loaded.triangle_to_block);
-    part.quad_to_block = std::move(loaded.quad_to_block);
+    part.mesh.blocks = {index_.blocks, std::move(loaded.triangle_to_block), std::move(loaded.quad_to_block)};
     part.field = std::move(loaded.solution);
     std::ranges::move(loaded.warnings, std::back_inserter(warnings_));
   }

@@ -139,17 +139,23 @@ std::vector<BoundaryEdges> broadcast_boundaries(const Communicator& comm, const 
   std::vector<std::string> names;
   std::vector<BoundaryCondition> conditions;
   std::vector<WallLayers> layers;
+  std::vector<char> between_blocks, inner_lines;
   for (const BoundaryEdges& boundary : whole.boundaries) {
     names.push_back(boundary.name);
     conditions.push_back(boundary.condition);
     layers.push_back(boundary.layers);
+    between_blocks.push_back(boundary.between_blocks ? 1 : 0);
+    inner_lines.push_back(boundary.inner_line ? 1 : 0);
   }
   names = broadcast_words(comm, names);
   comm.broadcast(conditions);
   comm.broadcast(layers);
+  comm.broadcast(between_blocks);
+  comm.broadcast(inner_lines);
   std::vector<BoundaryEdges> boundaries;
   for (std::size_t i = 0; i < layers.size(); ++i)
-    boundaries.push_back({names[i], conditions[i], {}, layers[i]});
+    boundaries.push_back(
+        {names[i], conditions[i], {}, layers[i], between_blocks[i] != 0, inner_lines[i] != 0});
   return boundaries;
 }
 

@@ -20,7 +20,8 @@ std::size_t checked(std::int64_t place, std::size_t places, const char* of, cons
 
 }  // namespace
 
-PartJoiner::PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> boundaries)
+PartJoiner::PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> boundaries,
+                       std::vector<std::string> blocks)
     : placed_(counts.nodes, 0), owned_(counts.nodes, 0) {
   Mesh& mesh = whole_.mesh;
   mesh.points.resize(counts.nodes);
@@ -33,8 +34,9 @@ PartJoiner::PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> bou
     mesh.boundaries[b].edges.resize(counts.edges[b]);
     rows_ += counts.edges[b];
   }
-  whole_.triangle_to_block.assign(counts.triangles, 0);
-  whole_.quad_to_block.assign(counts.quads, 0);
+  if (blocks.empty()) return;
+  mesh.blocks = {std::move(blocks), std::vector<std::int32_t>(counts.triangles, 0),
+                 std::vector<std::int32_t>(counts.quads, 0)};
 }
 
 template <std::size_t width>
@@ -105,6 +107,15 @@ void PartJoiner::put_cell_values(const MeshPart& part, CellValues& whole) const 
   for (const std::int64_t quad : part.quads) put(whole_.mesh.triangles.size() + quad);
 }
 
+void PartJoiner::put_blocks(const MeshPart& part) {
+  MeshBlocks& blocks = whole_.mesh.blocks;
+  if (blocks.names.empty()) return;
+  const MeshBlocks& own = part.mesh.blocks;
+  for (std::size_t i = 0; i < own.of_triangles.size(); ++i)
+    blocks.of_triangles[part.triangles[i]] = own.of_triangles[i];
+  for (std::size_t i = 0; i < own.of_quads.size(); ++i) blocks.of_quads[part.quads[i]] = own.of_quads[i];
+}
+
 void PartJoiner::put(const MeshPart& part, const std::string& shown) {
   Mesh& mesh = whole_.mesh;
   put_nodes(part, shown);
@@ -112,10 +123,7 @@ void PartJoiner::put(const MeshPart& part, const std::string& shown) {
   put_rows(part, part.mesh.quads, part.quads, mesh.quads, shown);
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b)
     put_rows(part, part.mesh.boundaries[b].edges, part.edges[b], mesh.boundaries[b].edges, shown);
-  for (std::size_t i = 0; i < part.triangle_to_block.size(); ++i)
-    whole_.triangle_to_block[part.triangles[i]] = part.triangle_to_block[i];
-  for (std::size_t i = 0; i < part.quad_to_block.size(); ++i)
-    whole_.quad_to_block[part.quads[i]] = part.quad_to_block[i];
+  put_blocks(part);
   put_values(part, shown);
   ++parts_;
 }

@@ -15,7 +15,6 @@ namespace quadloop {
 /// The whole mesh assembled from parts, on one rank.
 struct JoinedMesh {
   Mesh mesh;
-  std::vector<std::int32_t> triangle_to_block, quad_to_block;
   std::optional<Field> field;
 };
 
@@ -29,8 +28,9 @@ struct WholeCounts {
 /// that owns it; its positions in other parts must be bitwise identical.
 class PartJoiner {
  public:
-  /// `boundaries` are those of the whole mesh, without edges.
-  PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> boundaries);
+  /// `boundaries` are those of the whole mesh, without edges and inner lines; `blocks` its blocks' names.
+  PartJoiner(const WholeCounts& counts, std::vector<BoundaryEdges> boundaries,
+             std::vector<std::string> blocks);
 
   /// The first boundaries of the part must be those of the whole mesh; `shown` names the part in messages.
   /// Throws InputError if the part does not fit.
@@ -44,6 +44,7 @@ class PartJoiner {
                 const std::vector<std::int64_t>& places, std::vector<std::array<NodeId, width>>& whole,
                 const std::string& shown);
   void put_nodes(const MeshPart& part, const std::string& shown);
+  void put_blocks(const MeshPart& part);
   void put_values(const MeshPart& part, const std::string& shown);
   void put_cell_values(const MeshPart& part, CellValues& whole) const;
 

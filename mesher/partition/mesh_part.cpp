@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
@@ -17,9 +20,11 @@ namespace quadloop {
 
 namespace {
 
+/// A cell with its numbers in the distributed mesh and in the whole mesh, where cells are numbered block by
+/// block.
 template <std::size_t width>
 struct PartCell {
-  std::int64_t number = 0;
+  std::int64_t distributed = 0, whole = 0;
   std::int32_t part = 0, block = 0;
   std::array<GlobalNodeId, width> nodes;
 };
@@ -38,10 +43,31 @@ struct Sharing {
   friend auto operator<=>(const Sharing&, const Sharing&) = default;
 };
 
+/// Returns the numbers of this rank's cells of a kind if all ranks' cells are numbered block by block.
+std::vector<std::int64_t> numbers_by_block(const Communicator& comm, std::size_t cells,
+                                           const MeshBlocks& blocks,
+                                           const std::vector<std::int32_t>& block_of) {
+  std::vector<std::int64_t> numbers(cells);
+  if (blocks.names.size() < 2) {
+    std::iota(numbers.begin(), numbers.end(), comm.exclusive_sum(static_cast<std::int64_t>(cells)));
+    return numbers;
+  }
+  std::int64_t first = 0;
+  for (std::int32_t block = 0; block < std::ssize(blocks.names); ++block) {
+    const std::int64_t own = std::ranges::count(block_of, block);
+    std::int64_t next = first + comm.exclusive_sum(own);
+    for (std::size_t i = 0; i < cells; ++i) {
+      if (block_of[i] == block) numbers[i] = next++;
+    }
+    first += comm.sum(own);
+  }
+  return numbers;
+}
+
 class PartMaker {
  public:
-  PartMaker(const Communicator& comm, const Mesh& mesh, const CellParts& cells, const PartData& data)
-      : comm_{comm}, mesh_{mesh}, cells_{cells}, data_{data}, owners_(comm, mesh.first_node) {}
+  PartMaker(const Communicator& comm, const Mesh& mesh, const CellParts& cells, const Field* field)
+      : comm_{comm}, mesh_{mesh}, cells_{cells}, field_{field}, owners_(comm, mesh.first_node) {}
 
   std::vector<MeshPart> make() {
     refuse_names();
@@ -50,15 +76,17 @@ class PartMaker {
       index_of_[part] = parts_.size();
       parts_.emplace_back().number = part;
     }
-    const auto triangles = deliver_cells(mesh_.triangles, cells_.triangles, data_.triangle_to_block);
-    const auto quads = deliver_cells(mesh_.quads, cells_.quads, data_.quad_to_block);
+    stored_.resize(parts_.size());
+    const auto triangles = deliver_cells(mesh_.triangles, cells_.triangles, mesh_.blocks.of_triangles);
+    const auto quads = deliver_cells(mesh_.quads, cells_.quads, mesh_.blocks.of_quads);
     collect_nodes(triangles, quads);
-    put_cells(triangles, &Mesh::triangles, &MeshPart::triangles, &MeshPart::triangle_to_block);
-    put_cells(quads, &Mesh::quads, &MeshPart::quads, &MeshPart::quad_to_block);
+    put_cells(triangles, &Mesh::triangles, &MeshPart::triangles, &MeshBlocks::of_triangles);
+    put_cells(quads, &Mesh::quads, &MeshPart::quads, &MeshBlocks::of_quads);
     fetch_nodes();
     fetch_cell_values();
     put_sharings();
     put_sides();
+    for (MeshPart& part : parts_) put_lines_last(part);
     for (MeshPart& part : parts_) part.mesh.strips = strips_in_part(mesh_.strips, part.nodes);
     return std::move(parts_);
   }
@@ -76,20 +104,23 @@ class PartMaker {
     }
   }
 
-  /// Returns the cells of each part in the order of their numbers.
+  /// Returns the cells of this rank's parts in the order of their numbers in the whole mesh.
   template <std::size_t width>
   std::vector<PartCell<width>> deliver_cells(const std::vector<std::array<NodeId, width>>& cells,
                                              const std::vector<std::int32_t>& parts,
-                                             std::span<const std::int32_t> blocks) const {
+                                             const std::vector<std::int32_t>& blocks) const {
     Outbox<PartCell<width>> out;
     const std::int64_t first = comm_.exclusive_sum(std::ssize(cells));
+    const std::vector<std::int64_t> numbers = numbers_by_block(comm_, cells.size(), mesh_.blocks, blocks);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       PartCell<width> cell{
-          first + static_cast<std::int64_t>(i), parts[i], blocks.empty() ? 0 : blocks[i], {}};
+          first + static_cast<std::int64_t>(i), numbers[i], parts[i], blocks.empty() ? 0 : blocks[i], {}};
       for (std::size_t k = 0; k < width; ++k) cell.nodes[k] = mesh_.global(cells[i][k]);
       out.add(rank_of(cell.part), cell);
     }
-    return out.deliver(comm_);
+    std::vector<PartCell<width>> found = out.deliver(comm_);
+    std::ranges::sort(found, {}, &PartCell<width>::whole);
+    return found;
   }
 
   /// Collects the nodes of each part.
@@ -107,6 +138,7 @@ class PartMaker {
       part.nodes.erase(rest.begin(), rest.end());
       part.mesh.owned_nodes = size32(part.nodes);
       part.owners.assign(part.nodes.size(), part.number);
+      part.mesh.blocks.names = mesh_.blocks.names;
     }
   }
 
@@ -124,12 +156,15 @@ class PartMaker {
   template <std::size_t width>
   void put_cells(const std::vector<PartCell<width>>& cells,
                  std::vector<std::array<NodeId, width>> Mesh::*rows,
-                 std::vector<std::int64_t> MeshPart::*numbers, std::vector<std::int32_t> MeshPart::*blocks) {
+                 std::vector<std::int64_t> MeshPart::*numbers,
+                 std::vector<std::int32_t> MeshBlocks::*blocks) {
+    const std::int64_t first = width == 3 ? 0 : comm_.sum(std::ssize(mesh_.triangles));
     for (const PartCell<width>& cell : cells) {
       MeshPart& to = part(cell.part);
       (to.mesh.*rows).push_back(local(to, cell.nodes));
-      (to.*numbers).push_back(cell.number);
-      (to.*blocks).push_back(cell.block);
+      (to.*numbers).push_back(cell.whole);
+      if (!mesh_.blocks.names.empty()) (to.mesh.blocks.*blocks).push_back(cell.block);
+      stored_[index_of_.at(cell.part)].push_back(first + cell.distributed);
     }
   }
 
@@ -143,14 +178,14 @@ class PartMaker {
     for (const GlobalNodeId node : wanted) ranks.push_back(owners_.rank_of(node));
     const Exchange questions(comm_, ranks);
     const std::vector<GlobalNodeId> asked = questions.deliver(wanted);
-    const std::size_t width = data_.field == nullptr ? 0 : data_.field->width();
+    const std::size_t width = field_ == nullptr ? 0 : field_->width();
     std::vector<Point> points;
     std::vector<double> rows;
     for (const GlobalNodeId node : asked) {
       const NodeId here = owners_.local(node);
       points.push_back(mesh_.point(here));
       if (width == 0) continue;
-      const auto row = data_.field->row(here);
+      const auto row = field_->row(here);
       rows.insert(rows.end(), row.begin(), row.end());
     }
     points = questions.answer(points);
@@ -159,25 +194,21 @@ class PartMaker {
     for (MeshPart& part : parts_) {
       const std::size_t end = at + part.nodes.size();
       part.mesh.points.assign(points.begin() + at, points.begin() + end);
-      if (data_.field != nullptr)
-        part.field = Field{data_.field->names,
-                           {rows.begin() + at * width, rows.begin() + end * width},
-                           data_.field->constants};
+      if (field_ != nullptr)
+        part.field =
+            Field{field_->names, {rows.begin() + at * width, rows.begin() + end * width}, field_->constants};
       at = end;
     }
   }
 
   /// Fetches rows of triangles, then of quads, from the owners of the cells.
   void fetch_cell_values() {
-    if (data_.field == nullptr || data_.field->cells.width() == 0) return;
+    if (field_ == nullptr || field_->cells.width() == 0) return;
     const CellOwners owners(comm_, mesh_);
-    const std::int64_t all_triangles = comm_.sum(std::ssize(mesh_.triangles));
     std::vector<std::int64_t> wanted;
-    for (const MeshPart& part : parts_) {
-      wanted.insert(wanted.end(), part.triangles.begin(), part.triangles.end());
-      for (const std::int64_t quad : part.quads) wanted.push_back(all_triangles + quad);
-    }
-    const CellValues& whole = data_.field->cells;
+    for (const std::vector<std::int64_t>& of_part : stored_)
+      wanted.insert(wanted.end(), of_part.begin(), of_part.end());
+    const CellValues& whole = field_->cells;
     const std::vector<double> rows =
         rows_of_cells(comm_, owners, std::span<const std::int64_t>(wanted), whole.values, whole.width());
     auto at = rows.begin();
@@ -238,7 +269,12 @@ class PartMaker {
     });
     for (MeshPart& part : parts_) {
       for (const BoundaryEdges& boundary : mesh_.boundaries)
-        part.mesh.boundaries.push_back({boundary.name, boundary.condition, {}, boundary.layers});
+        part.mesh.boundaries.push_back({boundary.name,
+                                        boundary.condition,
+                                        {},
+                                        boundary.layers,
+                                        boundary.between_blocks,
+                                        boundary.inner_line});
       part.edges.resize(mesh_.boundaries.size());
     }
     for (const PartSide& side : sides) put_side(side, part(side.part));
@@ -258,20 +294,39 @@ class PartMaker {
     boundaries.back().edges.push_back(local(to, side.nodes));
   }
 
+  /// Moves inner lines behind the boundaries and drops those without edges in the part.
+  void put_lines_last(MeshPart& part) const {
+    std::vector<BoundaryEdges> lines, others;
+    std::vector<std::vector<std::int64_t>> edges;
+    for (std::size_t b = 0; b < part.mesh.boundaries.size(); ++b) {
+      BoundaryEdges& boundary = part.mesh.boundaries[b];
+      if (b < part.edges.size() && !boundary.inner_line) edges.push_back(std::move(part.edges[b]));
+      if (!boundary.inner_line)
+        others.push_back(std::move(boundary));
+      else if (!boundary.edges.empty())
+        lines.push_back(std::move(boundary));
+    }
+    part.edges = std::move(edges);
+    part.mesh.boundaries = std::move(others);
+    std::ranges::move(lines, std::back_inserter(part.mesh.boundaries));
+  }
+
   const Communicator& comm_;
   const Mesh& mesh_;
   const CellParts& cells_;
-  const PartData& data_;
+  const Field* field_;
   NodeOwners owners_;
   std::vector<MeshPart> parts_;
+  /// For each part the numbers of its cells in the distributed mesh, quads after all triangles.
+  std::vector<std::vector<std::int64_t>> stored_;
   std::map<std::int32_t, std::size_t> index_of_;
 };
 
 }  // namespace
 
 std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, const CellParts& cells,
-                                 const PartData& data) {
-  return PartMaker(comm, mesh, cells, data).make();
+                                 const Field* field) {
+  return PartMaker(comm, mesh, cells, field).make();
 }
 
 PartStatistics part_statistics(const Communicator& comm, std::span<const MeshPart> parts) {
@@ -280,7 +335,7 @@ PartStatistics part_statistics(const Communicator& comm, std::span<const MeshPar
   std::int64_t fewest = std::numeric_limits<std::int64_t>::max();
   for (const MeshPart& part : parts) {
     for (std::size_t b = part.edges.size(); b < part.mesh.boundaries.size(); ++b)
-      cut += std::ssize(part.mesh.boundaries[b].edges);
+      cut += part.mesh.boundaries[b].inner_line ? 0 : std::ssize(part.mesh.boundaries[b].edges);
     const std::int64_t triangles = std::ssize(part.triangles), quads = std::ssize(part.quads),
                        weighs = 3 * triangles + 4 * quads;
     weight += weighs;

@@ -18,8 +18,9 @@ namespace quadloop {
 /// of their numbers in the whole mesh. Its boundaries are those of the whole mesh, in its order, with the
 /// edges of this part, in its order; then one for each neighbour with shared edges, named
 /// part_name(neighbour), with condition "interface": both parts have the same edges in the same order, each
-/// with itself on the left. Of strips it has the complete columns in this part, each run of two or more as a
-/// strip of its own.
+/// with itself on the left, except that an edge between two blocks that is a boundary edge is a boundary edge
+/// of the part to its left; then the inner lines that have edges with both cells in this part. Of strips it
+/// has the complete columns in this part, each run of two or more as a strip of its own. It has no pairs.
 struct MeshPart {
   /// Another part that shares nodes with this one.
   struct Neighbour {
@@ -29,29 +30,23 @@ struct MeshPart {
     friend bool operator==(const Neighbour&, const Neighbour&) = default;
   };
 
-  std::int32_t number = 0;                            ///< from 0
-  Mesh mesh;                                          ///< all of its nodes count as owned
-  std::vector<std::int64_t> nodes, triangles, quads;  ///< numbers in the whole mesh, from 0
-  std::vector<std::int32_t> triangle_to_block, quad_to_block;
+  std::int32_t number = 0;  ///< from 0
+  Mesh mesh;                ///< all of its nodes count as owned
+  /// Numbers in the whole mesh, from 0. Its cells are numbered block by block, as files store them.
+  std::vector<std::int64_t> nodes, triangles, quads;
   std::vector<std::int32_t> owners;  ///< for each node: the lowest part that has it
-  /// For each boundary of the whole mesh: numbers of its edges there.
+  /// For each boundary of the whole mesh that is no inner line: numbers of its edges there.
   std::vector<std::vector<std::int64_t>> edges;
   std::vector<Neighbour> neighbours;  ///< ascending
   std::optional<Field> field;         ///< values of all nodes, and of all cells
 };
 
-/// Data to be partitioned with the mesh.
-struct PartData {
-  const Field* field = nullptr;  ///< rows of owned nodes; further rows are ignored
-  std::span<const std::int32_t> triangle_to_block = {},
-                                quad_to_block = {};  ///< of this rank's cells; empty: one block
-};
-
 /// Returns the parts held by this rank (rank_of_part), ascending; over all ranks each part occurs once. The
-/// parts do not depend on the number of ranks. Throws InputError if the mesh has a node without a cell, a
-/// boundary edge without a cell on its left, or a boundary with the name of a part interface. *Collective.*
+/// parts do not depend on the number of ranks. `field` has rows of owned nodes; further rows are ignored.
+/// Throws InputError if the mesh has a node without a cell, a boundary edge without a cell on its left, or a
+/// boundary with the name of a part interface. *Collective.*
 std::vector<MeshPart> make_parts(const Communicator& comm, const Mesh& mesh, const CellParts& cells,
-                                 const PartData& data = {});
+                                 const Field* field = nullptr);
 
 /// Quality of a partition.
 struct PartStatistics {

@@ -99,8 +99,10 @@ class SideFinder {
     };
     for (const bool forward : {true, false}) {
       const Side *const cell = on(forward, true), *const opposite = on(!forward, true),
-                        *const edge = on(forward, false);
+                        *edge = on(forward, false);
       if (cell == nullptr && edge != nullptr) refuse(*edge);
+      const bool between_parts = cell != nullptr && opposite != nullptr && cell->part != opposite->part;
+      if (between_parts && edge != nullptr && mesh_.boundaries[edge->boundary].inner_line) edge = nullptr;
       if (cell == nullptr || (edge == nullptr && (opposite == nullptr || opposite->part == cell->part)))
         continue;
       PartSide side{.part = cell->part, .nodes = {cell->low, cell->high}};

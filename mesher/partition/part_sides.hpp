@@ -26,7 +26,9 @@ inline int rank_of_part(const Communicator& comm, std::int32_t part, std::int32_
 
 /// Returns the boundary edges of this rank's parts and their edges to other parts, unordered. An edge between
 /// two blocks that is also a boundary edge goes to the part with the cell on its left; the other part has it
-/// as an edge to that part. Throws InputError if a boundary edge has no cell on its left. *Collective.*
+/// as an edge to that part. An edge of an inner line goes to the part with the cells on both sides; between
+/// two parts it is only an edge between these. Throws InputError if a boundary edge has no cell on its left.
+/// *Collective.*
 std::vector<PartSide> part_sides(const Communicator& comm, const Mesh& mesh, const CellParts& cells);
 
 }  // namespace quadloop

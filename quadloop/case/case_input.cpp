@@ -1,5 +1,8 @@
 #include "quadloop/case/case_input.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -7,6 +10,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "generate/digests.hpp"
 #include "io/input/geometry_file.hpp"
+#include "io/parts/part_files.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/free_memory.hpp"
 #include "mesher/base/suffix.hpp"
@@ -42,6 +46,22 @@ void replace_geometry(const std::string& path, Settings& settings, Warnings& war
   }
 }
 
+/// Returns the formats of the case in which partitions of a mesh with these blocks are written. Throws
+/// InputError if there is none; warns about CGNS if there are others.
+std::vector<std::string> formats_of_parts(const std::string& case_path, const Settings& settings,
+                                          std::size_t blocks, Warnings& warnings) {
+  if (settings.partitions == 0) return {};
+  std::vector<std::string> formats = io::part_formats(settings.formats, blocks);
+  if (formats == io::part_formats(settings.formats)) return formats;
+  const std::string reason = fmt::format(
+      "{}: 'output.partitions': a CGNS partition has one zone and cannot hold the {} blocks of this mesh; ",
+      case_path, blocks);
+  if (formats.empty()) throw InputError(reason + "add \"mesh\" or \"vtu\" to output.formats");
+  warnings.push_back(reason +
+                     fmt::format("the partitions are written as .{} only", fmt::join(formats, ", .")));
+  return formats;
+}
+
 }  // namespace
 
 CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
@@ -56,6 +76,8 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   warnings.insert(warnings.end(), settings.warnings.begin(), settings.warnings.end());
   Geometry geometry = load_geometry(settings, warnings, arguments.saved, &input.extents);
   require_layers_that_doubles_hold(geometry);
+  input.part_formats =
+      formats_of_parts(arguments.case_path, settings, geometry.block_names().size(), warnings);
   const MeshOptions options = mesh_options(settings, geometry);
   if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))
     geometry = std::move(*merged);

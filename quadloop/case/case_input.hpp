@@ -21,7 +21,8 @@ struct CaseArguments {
 struct CaseInput {
   Settings settings;
   std::optional<MeshInput> mesh;
-  std::vector<FileExtent> extents;  ///< of the geometry files
+  std::vector<FileExtent> extents;        ///< of the geometry files
+  std::vector<std::string> part_formats;  ///< of partitions, if the case requests them
 };
 
 /// Reads case and geometry on the calling rank only. Throws InputError; `warnings` then contains the warnings

@@ -15,6 +15,7 @@
 #include "io/mesh_file.hpp"
 #include "io/tree/tree_file.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 
 namespace quadloop {
 
@@ -94,15 +95,27 @@ FormerMesh files_of(const std::string& from) {
   return former;
 }
 
+/// Reads the geometry of the mesh. Chains that form no closed loops, as of a mesh with inner lines, are kept
+/// as they are.
+void read_outline(FormerMesh& former) {
+  std::vector<std::string> told_when_it_was_meshed;
+  former.chains = io::read_geometry(former.outline_file, told_when_it_was_meshed);
+  AssembleOptions options;
+  options.domain_is_known = true;
+  try {
+    former.outline = assemble(former.chains, options, told_when_it_was_meshed);
+  } catch (const InputError&) {
+    former.outline.reset();
+  }
+}
+
 }  // namespace
 
 FormerMesh find_former_mesh(const Communicator& comm, const std::string& from) {
   FormerMesh former;
   comm.together([&] {
     former = files_of(from);
-    std::vector<std::string> told_when_it_was_meshed;
-    if (!former.outline_file.empty())
-      former.outline = io::read_outline(former.outline_file, told_when_it_was_meshed);
+    if (!former.outline_file.empty()) read_outline(former);
   });
   former.tree = io::read_tree(comm, former.tree_file);
   return former;
@@ -114,6 +127,7 @@ adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std:
   comm.together([&] {
     if (!comm.is_root()) return;
     whole = io::read_mesh(former.mesh_file);
+    io::list_inner_curves(whole);
     const auto count = [](const auto& rows) { return std::ssize(rows); };
     adapt::require_counts({count(whole.mesh.points), count(whole.mesh.triangles), count(whole.mesh.quads), 0},
                           former.tree.attributes, former.mesh_file, former.tree_file);
@@ -123,8 +137,9 @@ adapt::DesignStart read_start(const Communicator& comm, FormerMesh& former, std:
   start.solved.file = former.mesh_file;
   adapt::require_untouched_mesh(comm, start.solved, former.mesh_file, former.tree_file);
   if (morph_to)
-    start.wish = adapt::MorphWish{*morph_to, file, former.outline ? &*former.outline : nullptr,
-                                  former.outline_file, changes_at_boundaries(former.settings, settings)};
+    start.wish = adapt::MorphWish{
+        *morph_to,           file,           former.outline ? &*former.outline : nullptr,
+        former.outline_file, &former.chains, changes_at_boundaries(former.settings, settings)};
   return start;
 }
 

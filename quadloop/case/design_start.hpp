@@ -13,9 +13,10 @@ namespace quadloop {
 /// Start of `adapt --from`: a solved mesh with its tree, and the geometry stored with them.
 struct FormerMesh {
   std::string mesh_file, tree_file;
-  std::string outline_file;           ///< empty if there is none
-  TreeRecord tree;                    ///< this rank's part
-  std::optional<Geometry> outline;    ///< on every rank
+  std::string outline_file;         ///< empty if there is none
+  TreeRecord tree;                  ///< this rank's part
+  std::vector<Chain> chains;        ///< of the geometry, on every rank
+  std::optional<Geometry> outline;  ///< their closed loops; none if they end on each other, as inner lines do
   adapt::CaseSettings settings = {};  ///< of the case that the mesh was made for; empty: not known
   std::vector<std::string> warnings = {};
 };

@@ -59,7 +59,6 @@ void require_plain_pairs(const Settings& settings) {
   refuse_with(settings.mesh.type == MeshType::metric, "mesh.type = \"metric\"");
   refuse_with(settings.stretch.has_value(), "smooth.targets = \"solution\"");
   refuse_with(settings.morph_to.has_value(), "design.morph_to");
-  refuse_with(settings.partitions > 0, "output.partitions");
   refuse_with(settings.outline.unite_islands, "geometry.overlap = \"union\"");
   refuse_with(!settings.outline.blocks.empty(), "[[block]]");
   refuse_with(!settings.outline.lines.empty(), "[[line]]");

@@ -128,8 +128,7 @@ void require_blocks_alone(const Settings& settings) {
        "the built-in solver in the loop; set solver.kind = \"command\""},
       {settings.adapt && settings.solver.kind != SolverSettings::Kind::command &&
            settings.solver.kind != SolverSettings::Kind::euler,
-       "OpenFOAM or SU2 in the loop; set solver.kind = \"command\""},
-      {settings.partitions > 0, "partitions; remove output.partitions"}};
+       "OpenFOAM or SU2 in the loop; set solver.kind = \"command\""}};
   for (const auto& [is_set, what] : others) {
     if (!is_set) continue;
     throw InputError(fmt::format("{}: a mesh {} cannot have {} or [[{}]]",

@@ -108,8 +108,7 @@ def check_commands(quadloop, prefix, work):
 
 
 def check_refusals(quadloop, case, work):
-    for assignment, part in (("mesh.mirror=\"x\"", "mesh.mirror"), ("output.partitions=2", "output.partitions"),
-                             ("adapt.variable=\"density\"", "solver.kind")):
+    for assignment, part in (("mesh.mirror=\"x\"", "mesh.mirror"), ("adapt.variable=\"density\"", "solver.kind")):
         done = subprocess.run([str(quadloop), "mesh", str(case), "-o", str(work / "refused"), "--set", assignment], capture_output=True,
                               text=True, check=False)
         lines = [line for line in done.stderr.splitlines() if "error" in line]

@@ -16,8 +16,8 @@ from pathlib import Path
 from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
 from run_case import check_cgns, compare, values_of, write_expected
 
-FORMATS = ("mesh", "qmesh", "vtu", "msh", "cgns")
-SAME_BYTES = ("mesh", "qmesh", "vtu", "msh", "tree.h5")  # libcgns writes the time into a file
+FORMATS = ("mesh", "qmesh", "vtu", "msh", "fluent.msh", "cgns")
+SAME_BYTES = ("mesh", "qmesh", "vtu", "msh", "fluent.msh", "tree.h5")  # libcgns writes the time into a file
 
 
 def points_and_lines(path):

@@ -223,6 +223,7 @@ def read_cgns(path):
         base = only_child(file, "CGNSBase_t", path)
         found = sorted(children(base, "Zone_t"), key=lambda zone: base.id.links.get_info(short_name(zone).encode()).corder)
         names = [short_name(zone) for zone in found]
+        blocks = [text_of(zone.get("FullName")) or short_name(zone) for zone in found]
         zones = [read_zone(zone, path) for zone in found]
     if not zones:
         raise Unreadable(f"{path} has no zone")
@@ -230,7 +231,7 @@ def read_cgns(path):
         checked(Mesh(zone[0], zone[1], zone[2], zone[3]), path)
     kept, numbers = glue(zones, names, path)
     mesh = Mesh(np.concatenate([zone[0] for zone in zones])[kept])
-    set_cells(mesh, [n[zone[1]] for n, zone in zip(numbers, zones)], [n[zone[2]] for n, zone in zip(numbers, zones)], names)
+    set_cells(mesh, [n[zone[1]] for n, zone in zip(numbers, zones)], [n[zone[2]] for n, zone in zip(numbers, zones)], blocks)
     taken = set()
     for own, zone in zip(numbers, zones):
         for name, edges in zone[3].items():

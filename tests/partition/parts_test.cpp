@@ -51,7 +51,7 @@ Field field_of(const Mesh& whole) {
 /// All parts of a mesh that one rank divides alone.
 std::vector<MeshPart> all_parts(const Mesh& whole, std::int32_t parts, const Field* field = nullptr) {
   const Communicator alone(MPI_COMM_SELF);
-  return make_parts(alone, whole, partition(alone, whole, parts), {.field = field});
+  return make_parts(alone, whole, partition(alone, whole, parts), field);
 }
 
 void expect_equal(const MeshPart& a, const MeshPart& b) {
@@ -77,7 +77,7 @@ JoinedMesh joined(const Mesh& whole, const std::vector<MeshPart>& parts) {
   std::vector<BoundaryEdges> boundaries = whole.boundaries;
   for (BoundaryEdges& boundary : boundaries) counts.edges.push_back(size32(boundary.edges));
   for (BoundaryEdges& boundary : boundaries) boundary.edges.clear();
-  PartJoiner fresh(counts, boundaries);
+  PartJoiner fresh(counts, boundaries, whole.blocks.names);
   for (const MeshPart& part : parts) fresh.put(part, part_name(part.number));
   return fresh.finish("the set");
 }
@@ -133,8 +133,7 @@ TEST(Parts, AreTheSameOnAnyNumberOfRanks) {
   const Field own_field = scatter_field(world(), field, own, order);
   for (const std::int32_t parts : {1, 2, 7, 64}) {
     const std::vector<MeshPart> expected = all_parts(whole, parts, &field);
-    const std::vector<MeshPart> made =
-        make_parts(world(), own, partition(world(), own, parts), {.field = &own_field});
+    const std::vector<MeshPart> made = make_parts(world(), own, partition(world(), own, parts), &own_field);
     EXPECT_EQ(world().sum(std::ssize(made)), parts);
     for (const MeshPart& part : made) expect_equal(part, expected.at(part.number));
     const Communicator alone(MPI_COMM_SELF);
@@ -290,23 +289,105 @@ TEST(Parts, AnEdgeBetweenBlocksStaysWithTheCellToItsLeft) {
   }
 }
 
-TEST(Parts, KeepTheBlocksOfCells) {
-  const Mesh whole = grid();
-  std::vector<std::int32_t> triangles(whole.triangles.size(), 0), quads(whole.quads.size(), 0);
-  std::fill(triangles.begin() + 20, triangles.end(), 1);
-  std::fill(quads.begin() + 30, quads.end(), 1);
-  const MeshOrder order = own_order(whole);
-  const Mesh own = scatter_mesh(world(), whole, order);
-  const auto own_triangles =
-      scatter_ordered(world(), std::span<const std::int32_t>(triangles), order.triangles);
-  const auto own_quads = scatter_ordered(world(), std::span<const std::int32_t>(quads), order.quads);
-  const auto made = make_parts(world(), own, partition(world(), own, 4),
-                               {.triangle_to_block = own_triangles, .quad_to_block = own_quads});
+/// The cells of a mesh in three blocks, which lie in turns along its order; sorted by block as in a file.
+struct MixedBlocks {
+  Mesh whole;   ///< block by block
+  Mesh own;     ///< a rank's share of the mesh in its own order
+  Field field;  ///< of the whole mesh
+  Field own_field;
+
+  explicit MixedBlocks(Mesh mesh) {
+    const auto mixed = [](std::size_t cells) {
+      std::vector<std::int32_t> blocks;
+      for (std::size_t i = 0; i < cells; ++i) blocks.push_back(static_cast<std::int32_t>(i / 5 % 3));
+      return blocks;
+    };
+    mesh.blocks = {{"gas", "solid", "skin"}, mixed(mesh.triangles.size()), mixed(mesh.quads.size())};
+    whole = mesh;
+    field = field_of(mesh);
+    const Field in_order = field;
+    std::size_t first = 0, row = 0;
+    const auto sort_kind = [&](const auto& cells, const std::vector<std::int32_t>& blocks, auto& sorted,
+                               std::vector<std::int32_t>& sorted_blocks) {
+      sorted.clear();
+      sorted_blocks.clear();
+      for (std::int32_t block = 0; block < 3; ++block) {
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+          if (blocks[i] != block) continue;
+          sorted.push_back(cells[i]);
+          sorted_blocks.push_back(block);
+          for (const std::size_t k : {0, 1})
+            field.cells.values[2 * row + k] = in_order.cells.values[2 * (first + i) + k];
+          ++row;
+        }
+      }
+      first += cells.size();
+    };
+    sort_kind(mesh.triangles, mesh.blocks.of_triangles, whole.triangles, whole.blocks.of_triangles);
+    sort_kind(mesh.quads, mesh.blocks.of_quads, whole.quads, whole.blocks.of_quads);
+    const MeshOrder order = own_order(mesh);
+    own = scatter_mesh(world(), mesh, order);
+    own_field = scatter_field(world(), in_order, own, order);
+    own.blocks = {
+        mesh.blocks.names,
+        scatter_ordered(world(), std::span<const std::int32_t>(mesh.blocks.of_triangles), order.triangles),
+        scatter_ordered(world(), std::span<const std::int32_t>(mesh.blocks.of_quads), order.quads)};
+  }
+};
+
+TEST(Parts, NumberCellsBlockByBlock) {
+  const MixedBlocks mesh(grid());
+  const std::vector<MeshPart> made =
+      make_parts(world(), mesh.own, partition(world(), mesh.own, 4), &mesh.own_field);
   for (const MeshPart& part : made) {
-    for (std::size_t i = 0; i < part.triangles.size(); ++i)
-      EXPECT_EQ(part.triangle_to_block[i], triangles[part.triangles[i]]);
-    for (std::size_t i = 0; i < part.quads.size(); ++i)
-      EXPECT_EQ(part.quad_to_block[i], quads[part.quads[i]]);
+    EXPECT_EQ(part.mesh.blocks.names, mesh.whole.blocks.names);
+    EXPECT_TRUE(std::ranges::is_sorted(part.triangles));
+    EXPECT_TRUE(std::ranges::is_sorted(part.quads));
+    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+      EXPECT_EQ(part.mesh.blocks.of_triangles[i], mesh.whole.blocks.of_triangles[part.triangles[i]]);
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(part.nodes[part.mesh.triangles[i][k].value()],
+                  mesh.whole.triangles[part.triangles[i]][k].value());
+      EXPECT_EQ(part.field->cells.values[2 * i], mesh.field.cells.values[2 * part.triangles[i]]);
+    }
+    const std::size_t triangles = part.triangles.size(), all = mesh.whole.triangles.size();
+    for (std::size_t i = 0; i < part.quads.size(); ++i) {
+      EXPECT_EQ(part.mesh.blocks.of_quads[i], mesh.whole.blocks.of_quads[part.quads[i]]);
+      EXPECT_EQ(part.nodes[part.mesh.quads[i][0].value()], mesh.whole.quads[part.quads[i]][0].value());
+      EXPECT_EQ(part.field->cells.values[2 * (triangles + i)],
+                mesh.field.cells.values[2 * (all + part.quads[i])]);
+    }
+  }
+}
+
+TEST(Parts, HaveTheEdgesOfAnInnerLineWithBothCells) {
+  constexpr std::int32_t n = 8;
+  Mesh whole = test::Grid{.n = n}.mesh();
+  BoundaryEdges line{"section", {}, {}, {}, false, true};
+  for (std::int32_t i = 1; i < n - 1; ++i)
+    line.edges.push_back({NodeId{4 * (n + 1) + i}, NodeId{4 * (n + 1) + i + 1}});
+  whole.boundaries.insert(whole.boundaries.begin() + 1, line);
+  const Mesh own = scatter_mesh(world(), whole, own_order(whole));
+  for (const std::int32_t parts : {1, 2, 5}) {
+    const std::vector<MeshPart> expected = all_parts(whole, parts);
+    for (const MeshPart& part : make_parts(world(), own, partition(world(), own, parts)))
+      expect_equal(part, expected.at(part.number));
+    std::size_t inside = 0, cut = 0;
+    for (const MeshPart& part : expected) {
+      EXPECT_TRUE(validate(without_empty_boundaries(part.mesh)).empty()) << part.number << " of " << parts;
+      EXPECT_EQ(part.edges.size(), whole.boundaries.size() - 1);
+      inside += edges_to(part, "section", false).size();
+      for (const MeshPart& other : expected) {
+        const auto forth = edges_to(part, part_name(other.number), false);
+        EXPECT_EQ(forth, edges_to(other, part_name(part.number), true));
+        cut += std::ranges::count_if(forth, [&](const std::array<std::int64_t, 2>& edge) {
+          return std::ranges::count(line.edges, std::array{NodeId{static_cast<std::int32_t>(edge[0])},
+                                                           NodeId{static_cast<std::int32_t>(edge[1])}}) > 0;
+        });
+      }
+    }
+    EXPECT_EQ(inside + cut, line.edges.size()) << parts;
+    EXPECT_GT(inside, 0U) << parts;
   }
 }
 

@@ -52,8 +52,8 @@ struct Share {
 void write_set(const Communicator& comm, const Mesh& mesh, const Field& field, const std::string& prefix,
                const std::vector<std::string>& formats, std::int32_t parts = 5) {
   PartFiles files(comm);
-  files.write(prefix, part_index(comm, mesh, parts, formats, {"domain"}),
-              make_parts(comm, mesh, partition(comm, mesh, parts), {.field = &field}));
+  files.write(prefix, part_index(comm, mesh, parts, formats),
+              make_parts(comm, mesh, partition(comm, mesh, parts), &field));
   files.commit();
 }
 

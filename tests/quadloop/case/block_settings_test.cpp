@@ -22,7 +22,7 @@ TEST_F(BlockSettings, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
   for (const auto& [more, what] : {std::pair{"[mesh]\nmirror = \"x\"\n", "mirror images"},
                                    {"[mesh]\nmirror = \"x\"\nhalf = \"axis\"\n", "mirror images"},
                                    {"[adapt]\nvariable = \"density\"\n", "the built-in solver"},
-                                   {"[output]\npartitions = 2\n", "partitions"}})
+                                   {"[smooth]\ntargets = \"solution\"\n", "r-adaptation"}})
     EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
 }
 

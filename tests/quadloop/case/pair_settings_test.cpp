@@ -59,7 +59,6 @@ TEST_F(PairSettings, WhatPairsDoNotSupportIsRefused) {
   expect_refused(moved_pair + "[boundary.right.layers]\nfirst = 0.1\ncount = 1\n", "has layers");
   expect_refused(moved_pair + "[mesh]\nmirror = \"x\"\n", "cannot have mesh.mirror");
   expect_refused(moved_pair + "[mesh]\ntype = \"metric\"\n", "cannot have mesh.type");
-  expect_refused(moved_pair + "[output]\npartitions = 2\n", "cannot have output.partitions");
   expect_refused(moved_pair + "[design]\nmorph_to = 0.5\n", "cannot have design.morph_to");
 }
 
