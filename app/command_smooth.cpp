@@ -26,6 +26,8 @@
 #include "mesher/mesh/box_over_ranks.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/solver_statistics.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/outline/outline_match.hpp"
@@ -85,6 +87,13 @@ void append(Warnings& warnings, const Warnings& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
+/// Nodes of periodic pairs move with their partners, and stay where these cannot be joined.
+void mark_pairs_that_stay(io::LoadedMesh& loaded) {
+  if (loaded.mesh.pairs.empty() || join_pairs_if_possible(Communicator(MPI_COMM_SELF), loaded.mesh)) return;
+  const std::vector<NodeId> nodes = nodes_on_sides(loaded.mesh);
+  loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), nodes.begin(), nodes.end());
+}
+
 /// The root reads the mesh, every rank the geometry (files are small compared with a mesh). *Collective.*
 Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
   Loaded loaded;
@@ -104,6 +113,7 @@ Loaded load(const CommandContext& context, const SmoothArguments& arguments) {
       append(warnings, smoother::require_match(*loaded.geometry, loaded.whole.mesh, arguments.geometry));
       turned = smoother::loops_against(*loaded.geometry, loaded.whole.mesh);
     }
+    mark_pairs_that_stay(loaded.whole);
     loaded.order = space_filling_order(loaded.whole.mesh);
     loaded.pinned = io::nodes_that_stay(loaded.whole);
     if (arguments.sweeps > 0)
@@ -241,8 +251,8 @@ void add_smooth_command(CommandLine& line, CommandContext& context) {
       .value_name("FILE.geom");
   command
       .add_option("--fix", arguments->fix,
-                  "boundaries, inner curves or blocks whose nodes are fixed; nodes of periodic sides and "
-                  "inner curves are always fixed")
+                  "boundaries, inner curves or blocks whose nodes are fixed; nodes of inner curves and of "
+                  "periodic sides other than pairs are always fixed")
       .value_name("NAME");
   command.set_work([&context, arguments] { run_smooth(context, *arguments); });
 }

@@ -98,8 +98,8 @@ std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, 
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
   const auto& [type, quads, size, snap, may_vanish, limit, mirror, pairs] = options;
   // may_vanish and limit do not affect the mesh
-  const auto& [min, max, aim, gradation, curvature, gap, sources, root] = size;
-  // aim follows from the case's other options and the geometry
+  const auto& [min, max, aim, gradation, curvature, gap, sources, root, periods] = size;
+  // aim and periods follow from the case's other options and the geometry
   WordDigest digest;
   digest.add(static_cast<std::uint64_t>(type));
   digest.add(static_cast<std::uint64_t>(quads));

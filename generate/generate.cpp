@@ -89,8 +89,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   if (input.smooth.sweeps == 0) return;
   const int finest = result.report.finest_allowed;
   smoother::SmoothOptions options = smooth_options_for(input, finest);
-  std::vector<GlobalNodeId> fixed = nodes_of_pairs(comm, input.mesh.pairs, result.mesh);
-  fixed.insert(fixed.end(), pinned.begin(), pinned.end());
+  std::vector<GlobalNodeId> fixed = pinned;
   const std::vector<GlobalNodeId> of_baffles = nodes_of_baffles(comm, input.geometry, result.mesh);
   fixed.insert(fixed.end(), of_baffles.begin(), of_baffles.end());
   std::ranges::sort(fixed);
@@ -171,6 +170,7 @@ GeneratedMesh build(const Communicator& comm, const MeshInput& input, const Dema
   require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
   NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, generated.result.mesh);
   place_images(comm, input.mesh.pairs, generated.result.mesh);
+  generated.result.mesh.pairs = input.mesh.pairs;
   restore_after(comm, input, moved, generated.result);
   return generated;
 }
@@ -354,7 +354,6 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   MeshResult& result = generated.result;
   generated.times.begin("check");
   place_images(comm, input.mesh.pairs, result.mesh);
-  result.mesh.pairs = input.mesh.pairs;
   require_sound(comm, result.mesh);
   generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);

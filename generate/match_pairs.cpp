@@ -372,21 +372,4 @@ void place_images(const Communicator& comm, const std::vector<PeriodicPair>& pai
   }
 }
 
-std::vector<GlobalNodeId> nodes_of_pairs(const Communicator& comm, const std::vector<PeriodicPair>& pairs,
-                                         const Mesh& mesh) {
-  if (pairs.empty()) return {};
-  std::vector<GlobalNodeId> own;
-  for (const PeriodicPair& pair : pairs) {
-    for (const BoundaryEdges& boundary : mesh.boundaries) {
-      if (boundary.name != pair.from && boundary.name != pair.to) continue;
-      for (const auto& edge : boundary.edges)
-        for (const NodeId node : edge) own.push_back(mesh.global(node));
-    }
-  }
-  std::vector<GlobalNodeId> all = comm.all_gather_values(std::span<const GlobalNodeId>(own));
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
-
 }  // namespace quadloop

@@ -23,8 +23,4 @@ NodeFlags match_pairs(const Communicator& comm, const Geometry& geometry,
 /// *Collective.*
 void place_images(const Communicator& comm, const std::vector<PeriodicPair>& pairs, Mesh& mesh);
 
-/// Returns the global numbers of all nodes of pairs, ascending. *Collective.*
-std::vector<GlobalNodeId> nodes_of_pairs(const Communicator& comm, const std::vector<PeriodicPair>& pairs,
-                                         const Mesh& mesh);
-
 }  // namespace quadloop

@@ -13,7 +13,6 @@
 
 #include "io/formats.hpp"
 #include "io/model/orient_mesh3d.hpp"
-#include "io/model/pair_text.hpp"
 #include "io/model/repeated_rows.hpp"
 #include "io/parts/part_index.hpp"
 #include "io/parts/part_reader.hpp"
@@ -23,6 +22,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
+#include "mesher/mesh/paired_nodes.hpp"
 #include "mesher/mesh/topology.hpp"
 
 namespace quadloop::io {
@@ -60,8 +60,9 @@ void finish_reading(LoadedMesh& loaded, const std::string& path) {
   for (BoundaryEdges& boundary : loaded.mesh.boundaries) names.push_back(&boundary.name);
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
-  const std::vector<NodeId> of_pairs = nodes_of_pairs(loaded.mesh);
-  loaded.periodic_nodes.insert(loaded.periodic_nodes.end(), of_pairs.begin(), of_pairs.end());
+  const std::vector<NodeId> of_pairs = nodes_on_sides(loaded.mesh);
+  std::erase_if(loaded.periodic_nodes,
+                [&](NodeId node) { return std::ranges::binary_search(of_pairs, node); });
   clean_up_names(std::move(names), loaded.solution, path, loaded.warnings);
   if (loaded.blocks > 1) loaded.mesh.blocks = plane_blocks(loaded);
 }

@@ -43,7 +43,7 @@ struct FrontEdge {
 IdVector<NodeId, FrontEdge> front_edges(const HaloMesh& mesh, BoundarySlide& slide,
                                         std::span<const double> heights) {
   IdVector<NodeId, FrontEdge> edges(mesh.points().size());
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
+  for (const HaloEdge& edge : mesh.edges_in_place()) {
     if (!mesh.owns(edge.from)) continue;
     const double height = slide.height_at(edge, heights);
     if (height > 0) edges[edge.from] = {mesh.global(edge.to), height};

@@ -13,6 +13,7 @@
 #include "smoother/even_widths.hpp"
 #include "smoother/fit_to_layers.hpp"
 #include "smoother/level_transitions/level_transitions.hpp"
+#include "smoother/movable_mesh.hpp"
 #include "smoother/objective/cost_limit.hpp"
 #include "smoother/smooth_mirrored.hpp"
 #include "smoother/sweeps/rings.hpp"
@@ -181,16 +182,6 @@ WorstCell worst_cell(const Communicator& comm, const HaloMesh& mesh, const std::
   return over_ranks(comm, worst);
 }
 
-/// Copies the present node positions to `to`; flags the nodes that have moved.
-NodeFlags take_positions(const HaloMesh& from, Mesh& to) {
-  NodeFlags moved(to.points.size(), 0);
-  for (const NodeId node : moved.ids()) {
-    moved[node] = to.point(node) != from.point(node) ? 1 : 0;
-    to.points[node.value()] = from.point(node);
-  }
-  return moved;
-}
-
 /// Whether a triangle is inverted or flat by the exact test; some that count as flat in smoothing are not.
 bool any_turns_right(const Mesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
@@ -276,11 +267,11 @@ void fit_front(const Communicator& comm, HaloMesh& halo, BoundarySlide& slide,
 /// Moves level lines, which reduces the number of bad nodes. Returns flags of nodes near edges that may have
 /// become non-Delaunay; may be empty. *Collective.*
 NodeFlags move_level_lines(const Communicator& comm, HaloMesh& halo, bool has_quads,
-                           const SmoothOptions& options, NodeFlags& bad) {
+                           const SmoothOptions& options, const NodeFlags& pinned, NodeFlags& bad) {
   halo.exchange().update(bad);
   NodeFlags doubtful;
-  if (has_quads) move_square_lines(comm, halo, options.pinned, options.bad);
-  if (!has_quads) doubtful = move_triangle_lines(comm, halo, bad, options.pinned, options.threshold);
+  if (has_quads) move_square_lines(comm, halo, pinned, options.bad);
+  if (!has_quads) doubtful = move_triangle_lines(comm, halo, bad, pinned, options.threshold);
   bad = nodes_of_bad_cells(halo, {}, bad, options.threshold);
   return doubtful;
 }
@@ -305,19 +296,23 @@ struct Moved {
 Moved move_nodes(const Communicator& comm, Mesh& mesh, const SmoothOptions& options, SmoothReport& report) {
   std::optional<OutlinePath> outline;
   if (options.geometry != nullptr) outline.emplace(*options.geometry);
-  HaloMesh halo(comm, mesh);
+  MovableMesh movable(comm, mesh, options.pinned);
+  HaloMesh& halo = movable.halo();
   const bool any_targets = comm.any(!options.targets.empty());  // a rank without cells has no targets
   const std::vector<CellTarget> targets =
       any_targets ? halo.spread(comm, options.targets) : std::vector<CellTarget>{};
-  BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, options.pinned);
+  BoundarySlide slide(comm, halo, mesh.boundaries, outline ? &*outline : nullptr, movable.pinned(),
+                      movable.joined());
   BadCells bad = find_bad_cells(comm, halo, targets, options.threshold);
   NodeFlags doubtful;
   if (options.level_transitions && options.sweeps > 0 && !any_targets)
-    doubtful = move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, bad.nodes);
-  take_positions(halo, mesh);
+    doubtful =
+        move_level_lines(comm, halo, comm.any(!mesh.quads.empty()), options, movable.pinned(), bad.nodes);
+  doubtful = movable.in_given(std::move(doubtful));
+  movable.take_positions();
   sweep_in_rounds(comm, halo, slide, targets, survey(halo, bad, any_targets), options, report);
   if (options.sweeps > 0) fit_front(comm, halo, slide, options.front_heights);
-  NodeFlags moved = take_positions(halo, mesh);
+  NodeFlags moved = movable.take_positions();
   if (!doubtful.empty()) flag_those_of(doubtful, moved);
   const bool any_moved = comm.any(std::ranges::find(moved, 1) != moved.end());
   const bool flips_follow = options.delaunay && any_moved && bad.worst.inverted == 0;
@@ -407,9 +402,15 @@ SmoothReport smooth_mesh(const Communicator& comm, Mesh& mesh, const SmoothOptio
     scaled_options.geometry = &scaled_geometry.emplace(unit.into(*options.geometry));
   for (double& height : scaled_options.front_heights) height = unit.into(Point{height, 0}).x;
   if (options.delaunay) scaled_options.delaunay = [&](Point p) { return options.delaunay(unit.out_of(p)); };
+  const std::vector<PeriodicPair> pairs = mesh.pairs;
   for (Point& p : mesh.points) p = unit.into(p);
+  for (PeriodicPair& pair : mesh.pairs) {
+    pair.translation = unit.into(pair.translation);
+    pair.centre = unit.into(pair.centre);
+  }
   const SmoothReport report = smooth_ordinary(comm, mesh, scaled_options);
   for (Point& p : mesh.points) p = unit.out_of(p);
+  mesh.pairs = pairs;
   return report;
 }
 

@@ -64,18 +64,4 @@ std::string comments_of(const Mesh& mesh) {
   return text;
 }
 
-std::vector<NodeId> nodes_of_pairs(const Mesh& mesh) {
-  std::vector<NodeId> nodes;
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    const bool is_of_pair = std::ranges::any_of(mesh.pairs, [&](const PeriodicPair& pair) {
-      return boundary.name == pair.from || boundary.name == pair.to;
-    });
-    if (!is_of_pair) continue;
-    for (const auto& edge : boundary.edges) nodes.insert(nodes.end(), edge.begin(), edge.end());
-  }
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
 }  // namespace quadloop::io

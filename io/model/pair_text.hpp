@@ -18,7 +18,4 @@ std::vector<PeriodicPair> pairs_in_comments(std::string_view comments);
 /// Returns the strips and the pairs of a mesh as comments.
 std::string comments_of(const Mesh& mesh);
 
-/// Returns the nodes of all pairs of a mesh that is whole on this rank.
-std::vector<NodeId> nodes_of_pairs(const Mesh& mesh);
-
 }  // namespace quadloop::io

@@ -62,6 +62,9 @@ struct SizeOptions {
   std::optional<double> gap;        ///< number of leaves across the gap between two boundaries
   std::vector<SizeSource> sources;
   std::optional<RootOptions> root;
+  /// Translations of the periodic pairs. The root is chosen such that one of them along an axis shifts the
+  /// grid by whole trees.
+  std::vector<Point> periods = {};
 };
 
 }  // namespace quadloop

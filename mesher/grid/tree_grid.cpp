@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/error.hpp"
@@ -73,26 +74,78 @@ double misfit(double tree_edge, const SizeOptions& sizes) {
   return std::max(reached / aim, aim / reached);
 }
 
-/// The trees that tile the box and meet the size best. More trees than necessary are used for a better fit if
-/// they create no leaves that are finer than by `max`, or if the fit would be bad without.
+constexpr double acceptable = 1.1;  ///< misfit of a size that counts as met
+
+/// A length divided into equal tree edges.
+struct Division {
+  int parts = 1;
+  double misfit = std::numeric_limits<double>::infinity();
+};
+
+/// The number of parts, at least `least`, for which leaves meet the size best. More than necessary are used
+/// for a better fit if they create no leaves that are finer than by `max`, or if the fit would be bad
+/// without. `trees_in_all(parts)`: the number of trees in the root.
+template <class TreesInAll>
+Division best_division(double whole, int least, const SizeOptions& sizes, const TreesInAll& trees_in_all) {
+  constexpr double good = 1 + 1.0 / 16;
+  constexpr int most_parts = 32, most_in_all = 16384, most_fine = 1024;
+  Division best;
+  for (int parts = least; parts <= most_parts; ++parts) {
+    const double edge = whole / parts;
+    const bool is_coarse = edge >= sizes.max * (1 - TreeGrid::rounding);
+    if (trees_in_all(parts) > (is_coarse ? most_in_all : most_fine)) break;
+    const double found = misfit(edge, sizes);
+    if (found >= best.misfit * (1 - TreeGrid::rounding) || (best.misfit <= good && !is_coarse)) continue;
+    best = {parts, found};
+  }
+  return best;
+}
+
+/// The trees that tile the box and meet the size best.
 std::optional<TreeGrid> framing_root(const Box& box, const SizeOptions& sizes) {
-  constexpr double good = 1 + 1.0 / 16, acceptable = 1.1;
-  constexpr int most_multiples = 32, most_in_all = 16384, most_fine = 1024;
   const auto trees = tiling(box);
   if (!trees) return std::nullopt;
-  double best = std::numeric_limits<double>::infinity();
-  int multiple = 1;
-  for (int m = 1; m <= most_multiples; ++m) {
-    const double edge = box.width() / (m * trees->first);
-    const bool is_coarse = edge >= sizes.max * (1 - TreeGrid::rounding);
-    if (m * m * trees->first * trees->second > (is_coarse ? most_in_all : most_fine)) break;
-    const double found = misfit(edge, sizes);
-    if (found >= best * (1 - TreeGrid::rounding) || (best <= good && !is_coarse)) continue;
-    best = found;
-    multiple = m;
-  }
-  if (best > acceptable) return std::nullopt;
-  return TreeGrid(box, multiple * trees->first, multiple * trees->second);
+  const int nx = trees->first, ny = trees->second;
+  const Division best = best_division(box.width() / nx, 1, sizes, [&](int m) { return m * m * nx * ny; });
+  if (best.misfit > acceptable) return std::nullopt;
+  return TreeGrid(box, best.parts * nx, best.parts * ny);
+}
+
+/// A range of coordinates divided into trees.
+struct TreeRange {
+  double low = 0, high = 0;
+  int trees = 1;
+};
+
+/// The fewest trees of this edge that hold a range with this much room on either side; with the same centre.
+TreeRange padded_range(double low, double high, double pad, double edge) {
+  const int trees = static_cast<int>(std::ceil((high - low + 2 * pad) / edge));
+  const double centre = 0.5 * (low + high), half = 0.5 * trees * edge;
+  return {centre - half, centre + half, trees};
+}
+
+/// A root whose tree edge divides a translation along an axis, so that the grid is the same on both sides of
+/// a pair. Where the box is as wide as the translation, so is the root.
+std::optional<TreeGrid> periodic_root(const Box& box, Point period, const SizeOptions& sizes) {
+  if ((period.x == 0) == (period.y == 0)) return std::nullopt;
+  const bool along_x = period.x != 0;
+  const double whole = std::abs(along_x ? period.x : period.y);
+  const double pad = std::max(box.width(), box.height()) / 64;
+  const double shorter = std::min(box.width(), box.height()) + 2 * pad;
+  const auto range = [&](double edge, bool in_x) {
+    const double low = in_x ? box.low.x : box.low.y, high = in_x ? box.high.x : box.high.y;
+    const bool spans = in_x == along_x && std::abs(high - low - whole) <= TreeGrid::rounding * whole;
+    return spans ? TreeRange{low, high, static_cast<int>(std::round(whole / edge))}
+                 : padded_range(low, high, pad, edge);
+  };
+  const double least = std::floor(whole / (2 * shorter)) + 1;  // trees are not much larger than the box
+  if (!(least <= most_trees)) return std::nullopt;
+  const Division best = best_division(whole, static_cast<int>(least), sizes, [&](int parts) {
+    return range(whole / parts, true).trees * range(whole / parts, false).trees;
+  });
+  if (best.misfit > acceptable) return std::nullopt;
+  const TreeRange x = range(whole / best.parts, true), y = range(whole / best.parts, false);
+  return TreeGrid({{x.low, y.low}, {x.high, y.high}}, x.trees, y.trees);
 }
 
 /// A root round the box, with the same centre, whose trees have the edge size * 2^k. It is less than twice as
@@ -194,6 +247,9 @@ TreeGrid choose_root(const Geometry& geometry, const SizeOptions& sizes) {
   if (sizes.root) return users_root(geometry, *sizes.root);
   if (is_own_root(geometry)) {
     if (const std::optional<TreeGrid> root = framing_root(geometry.box(), sizes)) return *root;
+  }
+  for (const Point period : sizes.periods) {
+    if (const std::optional<TreeGrid> root = periodic_root(geometry.box(), period, sizes)) return *root;
   }
   return padded_root(geometry.box(), sizes.aim.value_or(sizes.max));
 }

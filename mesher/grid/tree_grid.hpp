@@ -126,8 +126,9 @@ class TreeGrid {
 
 /// The root for a geometry: as specified by the user; the geometry's bounding box if all four of its sides
 /// are boundaries and square trees tile it such that leaves have nearly the size to meet (within a tenth);
-/// else a larger one, with leaves of exactly that size. Throws InputError if the geometry exceeds the user's
-/// root.
+/// else one in which the first possible of the `periods` is a number of whole trees, with leaves as near to
+/// that size; else a larger one, with leaves of exactly that size. Throws InputError if the geometry exceeds
+/// the user's root.
 TreeGrid choose_root(const Geometry& geometry, const SizeOptions& sizes);
 
 }  // namespace quadloop

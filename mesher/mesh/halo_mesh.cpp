@@ -101,21 +101,15 @@ Point HaloMesh::place(GlobalNodeId image, Point original) const {
 
 template <std::size_t width>
 void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
-                             NodeTable& nodes, const CellsOfOthers<width>& received, Sent& sent) {
-  std::vector<TravellingCell<width>> out;
-  Outbox<TravellingCell<width>> moved_out;
+                             NodeTable& nodes, const CellsOfOthers<width>& received, SentOfKind& sent) {
+  std::vector<TravellingCell<width>> out, moved_out;
   const auto send = [&](std::int32_t i) {
     for (const auto& [rank, shift] : destinations(*mesh_, owners, own[i])) {
       TravellingCell<width> cell;
       for (std::size_t k = 0; k < width; ++k)
         cell[k] = {shifted(mesh_->global(own[i][k]), shift), original(own[i][k])};
-      if (shift != 0) {
-        moved_out.add(rank, cell);
-        continue;
-      }
-      out.push_back(cell);
-      sent.cells.push_back(i);
-      sent.ranks.push_back(rank);
+      (shift == 0 ? out : moved_out).push_back(cell);
+      (shift == 0 ? sent.in_place : sent.moved).add(i, rank);
     }
   };
   const bool any_shared = !mesh_->ghosts.empty();  // otherwise no cell touches a node of another rank
@@ -125,28 +119,43 @@ void HaloMesh::receive_cells(const Communicator& comm, const NodeOwners& owners,
     for (std::size_t k = 0; k < width; ++k)
       to[k] = nodes.local(cell[k].image, place(cell[k].image, cell[k].original));
   };
-  const Exchange exchange(comm, sent.ranks);
+  const Exchange exchange(comm, sent.in_place.ranks);
   const std::size_t from_lower = exchange.arrivals_before(comm.rank());
   for (const TravellingCell<width>& cell : exchange.deliver(out))
     append(cell, received.before.size() < from_lower ? received.before : received.after);
   if (joined_ == nullptr) return;
-  for (const TravellingCell<width>& cell : moved_out.deliver(comm)) append(cell, received.moved);
+  for (const TravellingCell<width>& cell : Exchange(comm, sent.moved.ranks).deliver(moved_out))
+    append(cell, received.moved);
 }
 
 void HaloMesh::receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes) {
-  Outbox<TravellingEdge> out;
+  Outbox<TravellingEdge> out, moved_out;
   const std::int32_t boundaries = size32(mesh_->boundaries);
   for (std::int32_t boundary = 0; boundary < boundaries; ++boundary) {
+    const bool of_pair = joined_ != nullptr && joined_->opposite[boundary].exists();
     for (const auto& ends : mesh_->boundaries[boundary].edges) {
       edges_.push_back({ends[0], ends[1], boundary});
       for (const auto& [rank, shift] : destinations(*mesh_, owners, ends)) {
-        out.add(rank,
-                {shifted(mesh_->global(ends[0]), shift), shifted(mesh_->global(ends[1]), shift), boundary});
+        if (of_pair && shift != 0) continue;
+        (shift == 0 ? out : moved_out)
+            .add(rank,
+                 {shifted(mesh_->global(ends[0]), shift), shifted(mesh_->global(ends[1]), shift), boundary});
       }
     }
   }
-  for (const TravellingEdge& edge : out.deliver(comm))
+  const auto append = [&](const TravellingEdge& edge) {
     edges_.push_back({nodes.find(edge.from), nodes.find(edge.to), edge.boundary});
+  };
+  std::ranges::for_each(out.deliver(comm), append);
+  in_place_ = edges_.size();
+  if (joined_ != nullptr) std::ranges::for_each(moved_out.deliver(comm), append);
+}
+
+void HaloMesh::update_points() {
+  exchange_.update(points_);
+  if (joined_ == nullptr) return;
+  for (const NodeId node : ids_between(NodeId{owned_nodes()}, NodeId{size32(points_)}))
+    points_[node.value()] = place(node, points_[node.value()]);
 }
 
 }  // namespace quadloop

@@ -48,13 +48,21 @@ class HaloMesh {
     return owns(node) ? mesh_->global(node) : ghosts_[node.value() - owned_nodes()];
   }
   const NodeExchange& exchange() const { return exchange_; }
+  /// Where a node is if its original is at this position.
+  Point place(NodeId node, Point original) const {
+    return joined_ == nullptr ? original : place(image(node), original);
+  }
+  /// Sets the positions of ghosts to those of their owners, or to their images. *Collective.*
+  void update_points();
 
   /// Contains every boundary edge at an owned node, and some more. This rank's edges come first; the edges
   /// are not in global order.
   const std::vector<HaloEdge>& boundary_edges() const { return edges_; }
+  /// Those that were not moved to the other side of a pair. Edges on the sides of pairs never are.
+  std::span<const HaloEdge> edges_in_place() const { return std::span(edges_).first(in_place_); }
 
   /// `own` has a value for each cell of this rank's Mesh, triangles first, then quads. Returns the values of
-  /// all cells of the HaloMesh, in the order of for_each_cell(); not for a PeriodicMesh. *Collective.*
+  /// all cells of the HaloMesh, in the order of for_each_cell(). *Collective.*
   template <class T>
   std::vector<T> spread(const Communicator& comm, const std::vector<T>& own) const;
 
@@ -88,6 +96,20 @@ class HaloMesh {
   struct Sent {
     std::vector<std::int32_t> cells;
     std::vector<int> ranks;
+
+    void add(std::int32_t cell, int rank) {
+      cells.push_back(cell);
+      ranks.push_back(rank);
+    }
+    template <class T>
+    std::vector<T> deliver(const Communicator& comm, std::span<const T> own) const {
+      std::vector<T> out;
+      for (const std::int32_t cell : cells) out.push_back(own[cell]);
+      return Exchange(comm, ranks).deliver(out);
+    }
+  };
+  struct SentOfKind {
+    Sent in_place, moved;  ///< to where they are, and to the other sides of pairs
   };
   template <std::size_t width>
   struct CellsOfOthers {
@@ -100,11 +122,11 @@ class HaloMesh {
   Point place(GlobalNodeId image, Point original) const;
   template <std::size_t width>
   void receive_cells(const Communicator& comm, const NodeOwners& owners, const Cells<width>& own,
-                     NodeTable& nodes, const CellsOfOthers<width>& received, Sent& sent);
+                     NodeTable& nodes, const CellsOfOthers<width>& received, SentOfKind& sent);
   void receive_edges(const Communicator& comm, const NodeOwners& owners, const NodeTable& nodes);
   template <class T>
-  static void append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
-                            std::span<const T> own, std::vector<T>& all);
+  void append_spread(const Communicator& comm, const SentOfKind& sent, std::size_t before,
+                     std::span<const T> own, std::vector<T>& all) const;
 
   const Mesh* mesh_;
   const PeriodicMesh* joined_;  ///< null if no pairs are joined
@@ -114,26 +136,27 @@ class HaloMesh {
   Cells<4> quads_before_, quads_after_;
   Cells<3> triangles_moved_;  ///< of the other sides of pairs
   Cells<4> quads_moved_;
-  std::vector<HaloEdge> edges_;
-  Sent triangles_sent_, quads_sent_;
+  std::vector<HaloEdge> edges_;  ///< those in place come first
+  std::size_t in_place_ = 0;     ///< number of these
+  SentOfKind triangles_sent_, quads_sent_;
   NodeExchange exchange_;
 };
 
 template <class T>
-void HaloMesh::append_spread(const Communicator& comm, const Sent& sent, std::size_t before,
-                             std::span<const T> own, std::vector<T>& all) {
-  std::vector<T> out;
-  for (const std::int32_t cell : sent.cells) out.push_back(own[cell]);
-  out = Exchange(comm, sent.ranks).deliver(out);
-  const auto middle = out.begin() + before;
-  all.insert(all.end(), out.begin(), middle);
+void HaloMesh::append_spread(const Communicator& comm, const SentOfKind& sent, std::size_t before,
+                             std::span<const T> own, std::vector<T>& all) const {
+  const std::vector<T> others = sent.in_place.deliver(comm, own);
+  const auto middle = others.begin() + static_cast<std::ptrdiff_t>(before);
+  all.insert(all.end(), others.begin(), middle);
   all.insert(all.end(), own.begin(), own.end());
-  all.insert(all.end(), middle, out.end());
+  all.insert(all.end(), middle, others.end());
+  if (joined_ == nullptr) return;
+  const std::vector<T> moved = sent.moved.deliver(comm, own);
+  all.insert(all.end(), moved.begin(), moved.end());
 }
 
 template <class T>
 std::vector<T> HaloMesh::spread(const Communicator& comm, const std::vector<T>& own) const {
-  QUADLOOP_REQUIRE(joined_ == nullptr, "the values are spread over cells that are not moved");
   std::vector<T> all;
   const std::size_t triangles = mesh_->triangles.size();
   append_spread(comm, triangles_sent_, triangles_before_.size(), std::span(own).first(triangles), all);

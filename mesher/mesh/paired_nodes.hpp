@@ -43,4 +43,7 @@ std::optional<PairFault> fault_of_pair(const Communicator& comm, const Mesh& mes
 /// *Collective.*
 PairedNodes paired_nodes(const Communicator& comm, const Mesh& mesh, const PeriodicPair& pair);
 
+/// Returns this rank's nodes on the sides of all pairs, ghosts included, ascending.
+std::vector<NodeId> nodes_on_sides(const Mesh& mesh);
+
 }  // namespace quadloop

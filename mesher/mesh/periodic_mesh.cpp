@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <string>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/node_table.hpp"
@@ -15,7 +15,7 @@ namespace quadloop {
 
 namespace {
 
-/// What a node of a pair becomes: an image of the first node of those that belong together.
+/// What a node of a pair becomes: an image of one of the nodes that belong together.
 struct NodeImage {
   GlobalNodeId original;  ///< as numbered in the given mesh
   Point place;            ///< of the original
@@ -31,7 +31,11 @@ class NodesOfPairs {
       for (std::size_t i = 0; i < nodes.from.nodes.size(); ++i) {
         link(nodes.from.nodes[i], nodes.from.points[i], nodes.to.nodes[i], maps.of_pair(p));
         link(nodes.to.nodes[i], nodes.to.points[i], nodes.from.nodes[i], -maps.of_pair(p));
+        nodes_[nodes.to.nodes[i]].is_target = true;
       }
+    }
+    for (const auto& [node, links] : nodes_) {
+      if (!links.is_target) find_images_of(node);
     }
     for (const auto& [node, links] : nodes_) find_images_of(node);
     for (const auto& [node, image] : images_) {
@@ -52,6 +56,7 @@ class NodesOfPairs {
  private:
   struct Links {
     Point place;
+    bool is_target = false;  ///< on the side `to` of a pair
     std::vector<std::pair<GlobalNodeId, PeriodicShift>> partners;
   };
 
@@ -120,6 +125,20 @@ IdVector<NodeId, NodeId> join_nodes(const Mesh& given, const NodesOfPairs& nodes
   return news;
 }
 
+std::vector<OppositeSide> opposite_sides(const Mesh& mesh, const PeriodicMaps& maps) {
+  std::vector<OppositeSide> opposite(mesh.boundaries.size());
+  const auto of_name = [&](const std::string& name) {
+    return static_cast<std::int32_t>(std::ranges::find(mesh.boundaries, name, &BoundaryEdges::name) -
+                                     mesh.boundaries.begin());
+  };
+  for (std::size_t p = 0; p < mesh.pairs.size(); ++p) {
+    const std::int32_t from = of_name(mesh.pairs[p].from), to = of_name(mesh.pairs[p].to);
+    opposite[from] = {to, maps.of_pair(p)};
+    opposite[to] = {from, -maps.of_pair(p)};
+  }
+  return opposite;
+}
+
 template <class Cells>
 Cells renumbered(Cells cells, const IdVector<NodeId, NodeId>& news) {
   for (auto& nodes : cells) {
@@ -130,23 +149,35 @@ Cells renumbered(Cells cells, const IdVector<NodeId, NodeId>& news) {
 
 }  // namespace
 
-PeriodicMesh join_pairs(const Communicator& comm, const Mesh& mesh) {
+PeriodicMesh join_pairs(const Communicator& comm, const Mesh& mesh, SideEdges edges) {
   PeriodicMesh joined;
   joined.maps = PeriodicMaps(mesh.pairs);
   const NodesOfPairs nodes(comm, mesh, joined.maps);
   const IdVector<NodeId, NodeId> news = join_nodes(mesh, nodes, joined);
+  joined.opposite = opposite_sides(mesh, joined.maps);
   joined.mesh.triangles = renumbered(mesh.triangles, news);
   joined.mesh.quads = renumbered(mesh.quads, news);
-  std::set<std::string> of_pairs;
-  for (const PeriodicPair& pair : mesh.pairs) of_pairs.insert({pair.from, pair.to});
-  for (const BoundaryEdges& boundary : mesh.boundaries) {
-    BoundaryEdges& copy = joined.mesh.boundaries.emplace_back(boundary);
-    copy.edges = of_pairs.contains(boundary.name) ? decltype(copy.edges){} : renumbered(boundary.edges, news);
+  for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
+    BoundaryEdges& copy = joined.mesh.boundaries.emplace_back(mesh.boundaries[b]);
+    if (joined.opposite[b].exists() && edges == SideEdges::left_out)
+      copy.edges.clear();
+    else
+      copy.edges = renumbered(std::move(copy.edges), news);
   }
   joined.mesh.blocks = mesh.blocks;
   joined.node_of = news;
   joined.node_of.resize(mesh.owned_nodes);
   return joined;
+}
+
+std::optional<PeriodicMesh> join_pairs_if_possible(const Communicator& comm, const Mesh& mesh,
+                                                   SideEdges edges) {
+  if (mesh.pairs.empty()) return {};
+  try {
+    return join_pairs(comm, mesh, edges);
+  } catch (const InputError&) {  // the same on all ranks
+    return {};
+  }
 }
 
 }  // namespace quadloop

@@ -293,6 +293,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
   if (!settings.min && options.size.gap)
     options.size.min = size_of_gaps(geometry, *options.size.gap, options.size.min, floor);
   options.size.aim = std::clamp(aim, options.size.min, max);
+  for (const PeriodicPair& pair : options.pairs) options.size.periods.push_back(pair.translation);
   return options;
 }
 

@@ -30,7 +30,7 @@ double ideal_cost(const std::array<Point, width>& corners) {
 
 /// Updates ghost copies of the nodes and of the flags. *Collective.*
 void share(HaloMesh& mesh, NodeFlags& moved) {
-  mesh.exchange().update(mesh.points());
+  mesh.update_points();
   mesh.exchange().update(moved);
 }
 

@@ -48,7 +48,7 @@ SquareCorner square_at(Point p, Point next, Point opposite, Point previous) {
 SquareLines::SquareLines(const HaloMesh& mesh) : mesh_{mesh}, round_(mesh.owned_nodes()) {
   mesh.for_each_cell([&](const auto& nodes) { look_at_squares(nodes); });
   mesh.for_each_cell([&](const auto& nodes) { look_at_triangles(nodes); });
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
+  for (const HaloEdge& edge : mesh.edges_in_place()) {
     for (const NodeId node : {edge.from, edge.to}) exclude(node);
   }
 }

@@ -199,7 +199,7 @@ TriangleLines::TriangleLines(const HaloMesh& mesh, const NodeFlags& near)
   mesh.for_each_cell([&](const auto& nodes) {
     if constexpr (std::tuple_size_v<std::remove_cvref_t<decltype(nodes)>> == 3) look_at(nodes);
   });
-  for (const HaloEdge& edge : mesh.boundary_edges()) {
+  for (const HaloEdge& edge : mesh.edges_in_place()) {
     for (const NodeId node : {edge.from, edge.to}) {
       if (mesh.owns(node)) round_[node] = {};
     }

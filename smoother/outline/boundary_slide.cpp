@@ -30,13 +30,14 @@ constexpr double longest_way = 20;
 
 BoundarySlide::BoundarySlide(const Communicator& comm, const HaloMesh& mesh,
                              const std::vector<BoundaryEdges>& boundaries, const OutlinePath* outline,
-                             const NodeFlags& pinned)
+                             const NodeFlags& pinned, const PeriodicMesh* joined)
     : mesh_{mesh},
       boundaries_{boundaries},
       outline_{outline},
+      joined_{joined},
       freedom_(mesh.owned_nodes(), NodeFreedom::interior),
       slot_(mesh.points().size(), -1) {
-  for (const HaloEdge& edge : mesh.boundary_edges()) slot_[edge.from] = slot_[edge.to] = 0;
+  for (const HaloEdge& edge : mesh.edges_in_place()) slot_[edge.from] = slot_[edge.to] = 0;
   std::int32_t slots = 0;
   for (std::int32_t& slot : slot_) {
     if (slot >= 0) slot = slots++;
@@ -59,7 +60,7 @@ std::optional<OutlinePath::Chord> BoundarySlide::chord_of(const HaloEdge& edge) 
 void BoundarySlide::find_tight_segments(const Communicator& comm) {
   std::vector<std::int32_t> own;
   OutlinePath::Segments near;
-  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+  for (const HaloEdge& edge : mesh_.edges_in_place()) {
     if (!is_outlined(edge.boundary)) continue;
     outline_->find_segments_near(box_of(point(edge.from), point(edge.to)), near);
     for (const NodeId node : {edge.from, edge.to}) {
@@ -102,7 +103,7 @@ struct EdgesAt {
 
 void BoundarySlide::find_rails(const NodeFlags& pinned) {
   std::vector<EdgesAt> edges_at(nodes_.size());
-  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+  for (const HaloEdge& edge : mesh_.edges_in_place()) {
     EdgesAt &at_from = edges_at[slot_[edge.from]], &at_to = edges_at[slot_[edge.to]];
     at_from.out = edge;
     at_to.in = edge;
@@ -110,7 +111,7 @@ void BoundarySlide::find_rails(const NodeFlags& pinned) {
     ++at_to.ins;
   }
   NodeFlags pinched(mesh_.points().size(), 0);
-  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+  for (const HaloEdge& edge : mesh_.edges_in_place()) {
     for (const NodeId node : {edge.from, edge.to}) {
       if (!mesh_.owns(node)) continue;
       freedom_[node] = NodeFreedom::fixed;
@@ -119,7 +120,7 @@ void BoundarySlide::find_rails(const NodeFlags& pinned) {
   }
   mesh_.exchange().update(pinched);
   for_each_flagged(pinned, [&](NodeId node) { freedom_[node] = NodeFreedom::fixed; });
-  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+  for (const HaloEdge& edge : mesh_.edges_in_place()) {
     const NodeId node = edge.to;
     if (!mesh_.owns(node) || (!pinned.empty() && pinned[node] != 0)) continue;
     const EdgesAt& at = edges_at[slot_[node]];
@@ -131,8 +132,8 @@ void BoundarySlide::find_rails(const NodeFlags& pinned) {
   }
 }
 
-bool BoundarySlide::is_straight(const Rail& rail) const {
-  const Point in = point(rail.node) - point(rail.before), out = point(rail.after) - point(rail.node);
+bool BoundarySlide::is_straight(const Bend& bend) const {
+  const Point in = bend.at - bend.before, out = bend.after - bend.at;
   return dot(in, out) > 0 && std::abs(cross(in, out)) <= straight_sine * length(in) * length(out);
 }
 
@@ -142,6 +143,24 @@ BoundarySlide::Places BoundarySlide::locate(const Rail& rail) {
                 place_of(rail.after, rail.boundary)};
   if (places.at.kept) places.at = {};
   return places;
+}
+
+BoundarySlide::Places BoundarySlide::locate(const Bend& bend) const {
+  const std::string& name = boundaries_[bend.boundary].name;
+  Places places{outline_->locate(bend.before, name), outline_->locate(bend.at, name),
+                outline_->locate(bend.after, name)};
+  if (places.at.kept) places.at = {};
+  return places;
+}
+
+const OppositeSide* BoundarySlide::opposite_of(std::int32_t boundary) const {
+  return joined_ != nullptr && joined_->opposite[boundary].exists() ? &joined_->opposite[boundary] : nullptr;
+}
+
+/// The opposite side is walked in the other direction.
+BoundarySlide::Bend BoundarySlide::partner_of(const Bend& bend, const OppositeSide& opposite) const {
+  const auto image = [&](Point p) { return joined_->maps.image(opposite.shift, p); };
+  return {image(bend.after), image(bend.at), image(bend.before), opposite.boundary};
 }
 
 OutlinePlace BoundarySlide::place_of(NodeId node, std::int32_t boundary) {
@@ -158,12 +177,20 @@ void BoundarySlide::remember(NodeId node, Point p, std::int32_t boundary, const 
 }
 
 bool BoundarySlide::may_slide(const Rail& rail) {
-  if (!is_outlined(rail.boundary)) return is_straight(rail);
-  const Places places = locate(rail);
+  const Bend bend = bend_of(rail);
+  const OppositeSide* opposite = opposite_of(rail.boundary);
+  if (opposite != nullptr && is_outlined(opposite->boundary) != is_outlined(rail.boundary)) return false;
+  if (!is_outlined(rail.boundary)) return is_straight(bend);
+  if (!may_slide(bend, locate(rail))) return false;
+  if (opposite == nullptr) return true;
+  const Bend partner = partner_of(bend, *opposite);
+  return may_slide(partner, locate(partner));
+}
+
+bool BoundarySlide::may_slide(const Bend& bend, const Places& places) const {
   if (!places.at.valid() || places.before.loop != places.at.loop || places.after.loop != places.at.loop)
     return false;
-  const double chord =
-      length(point(rail.node) - point(rail.before)) + length(point(rail.after) - point(rail.node));
+  const double chord = length(bend.at - bend.before) + length(bend.after - bend.at);
   return outline_->way(places.before, places.at) + outline_->way(places.at, places.after) <=
              longest_way * chord &&
          !is_tight(places);
@@ -171,7 +198,17 @@ bool BoundarySlide::may_slide(const Rail& rail) {
 
 bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved,
                                   Point p) {
-  const Point a = point(rail.before), b = point(rail.after), now = point(rail.node);
+  const Bend bend = bend_of(rail);
+  const OutlinePath::Segments near = outline_->segments_near(box_round(bend, p));
+  if (!keeps_outline(bend, places, moved, p, near) || !partner_keeps_outline(bend, p)) return false;
+  remember(rail.node, p, rail.boundary, near);
+  return true;
+}
+
+/// For a move of the node to p, at the place `moved`; `near`: the segments near box_round().
+bool BoundarySlide::keeps_outline(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
+                                  const OutlinePath::Segments& near) const {
+  const Point a = bend.before, b = bend.after, now = bend.at;
   const auto deviation = [&](const OutlinePlace& at, Point middle) {
     return std::max(outline_->deviation(places.before, a, at, middle),
                     outline_->deviation(at, middle, places.after, b));
@@ -181,14 +218,19 @@ bool BoundarySlide::keeps_outline(const Rail& rail, const Places& places, const 
     return false;
   const OutlinePath::Chord before{places.before, moved, a, p}, after{moved, places.after, p, b},
       both{places.before, places.after, a, b};
-  Box around = OutlinePath::box_round(both, now);
-  around.include(p);
-  const OutlinePath::Segments near = outline_->segments_near(around);
-  if (!outline_->met_elsewhere(before, near).empty() || !outline_->met_elsewhere(after, near).empty() ||
-      outline_->sweeps_over(both, now, near) || outline_->sweeps_over(both, p, near))
-    return false;
-  remember(rail.node, p, rail.boundary, near);
-  return true;
+  return outline_->met_elsewhere(before, near).empty() && outline_->met_elsewhere(after, near).empty() &&
+         !outline_->sweeps_over(both, now, near) && !outline_->sweeps_over(both, p, near);
+}
+
+bool BoundarySlide::partner_keeps_outline(const Bend& bend, Point p) const {
+  const OppositeSide* opposite = opposite_of(bend.boundary);
+  if (opposite == nullptr) return true;
+  const Bend partner = partner_of(bend, *opposite);
+  const Point image = joined_->maps.image(opposite->shift, p);
+  const OutlinePath::Segments near = outline_->segments_near(box_round(partner, image));
+  const OutlinePlace moved = outline_->locate(image, boundaries_[partner.boundary].name, near);
+  const Places places = locate(partner);
+  return places.valid() && moved.valid() && keeps_outline(partner, places, moved, image, near);
 }
 
 /// `places` are used if the boundary is on the geometry.
@@ -283,7 +325,7 @@ double BoundarySlide::height_at(const HaloEdge& edge, std::span<const double> he
 
 std::vector<Point> BoundarySlide::widths_at_fixed(std::span<const double> heights) {
   std::vector<Point> widths(mesh_.points().size());
-  for (const HaloEdge& edge : mesh_.boundary_edges()) {
+  for (const HaloEdge& edge : mesh_.edges_in_place()) {
     const auto is_fixed = [&](NodeId n) { return mesh_.owns(n) && freedom_[n] == NodeFreedom::fixed; };
     if ((!is_fixed(edge.from) && !is_fixed(edge.to)) || !(height_at(edge, heights) > 0)) continue;
     const double width = length(point(edge.to) - point(edge.from));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesher/mesh/halo_mesh.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 #include "smoother/node/node_solver.hpp"
 #include "smoother/outline/outline_path.hpp"
 
@@ -18,13 +19,13 @@ enum class NodeFreedom : std::uint8_t { interior, sliding, fixed };
 /// Moves boundary nodes along the geometry or, where the geometry has no boundary of the name, along a
 /// straight mesh boundary. A node never passes its neighbours, never increases the deviation of the geometry
 /// from its two chords (beyond the tolerance of cutting), and never makes a chord cross another part of the
-/// geometry.
+/// geometry. On a side of a periodic pair the same holds for its partner on the other side.
 class BoundarySlide {
  public:
-  /// `outline` may be null. `pinned` flags owned nodes that stay. All arguments must outlive it.
-  /// *Collective.*
+  /// `outline` may be null, and `joined` is if `mesh` is not that of a PeriodicMesh. `pinned` flags owned
+  /// nodes that stay. All arguments must outlive it. *Collective.*
   BoundarySlide(const Communicator& comm, const HaloMesh& mesh, const std::vector<BoundaryEdges>& boundaries,
-                const OutlinePath* outline, const NodeFlags& pinned);
+                const OutlinePath* outline, const NodeFlags& pinned, const PeriodicMesh* joined = nullptr);
 
   /// Of an owned node.
   NodeFreedom freedom(NodeId node) const { return freedom_[node]; }
@@ -63,6 +64,12 @@ class BoundarySlide {
     NodeId node, before, after;
     std::int32_t boundary = -1;
   };
+  /// The positions of a rail's nodes, or of their partners on the other side of a pair, with the domain to
+  /// the left.
+  struct Bend {
+    Point before, at, after;
+    std::int32_t boundary = -1;
+  };
   /// The present positions of a rail's nodes on the geometry.
   struct Places {
     OutlinePlace before, at, after;
@@ -80,9 +87,22 @@ class BoundarySlide {
   bool is_tight(const Places& places) const;
   std::optional<OutlinePath::Chord> chord_of(const HaloEdge& edge);
   bool may_slide(const Rail& rail);
-  bool is_straight(const Rail& rail) const;
+  bool may_slide(const Bend& bend, const Places& places) const;
+  bool is_straight(const Bend& bend) const;
+  Bend bend_of(const Rail& rail) const {
+    return {point(rail.before), point(rail.node), point(rail.after), rail.boundary};
+  }
+  static Box box_round(const Bend& bend, Point p) {
+    Box box = box_of(bend.before, bend.after);
+    box.include(bend.at);
+    box.include(p);
+    return box;
+  }
+  const OppositeSide* opposite_of(std::int32_t boundary) const;
+  Bend partner_of(const Bend& bend, const OppositeSide& opposite) const;
   bool is_outlined(std::int32_t boundary) const { return outlined_[boundary] != 0; }
   Places locate(const Rail& rail);
+  Places locate(const Bend& bend) const;
   OutlinePlace place_of(NodeId node, std::int32_t boundary);
   void remember(NodeId node, Point p, std::int32_t boundary, const OutlinePath::Segments& near);
   const Point& point(NodeId node) const { return mesh_.point(node); }
@@ -91,10 +111,14 @@ class BoundarySlide {
   double unevenness(const Rail& rail, Point p) const;
   bool keeps_even(const Rail& rail, Point to) const;
   bool keeps_outline(const Rail& rail, const Places& places, const OutlinePlace& moved, Point p);
+  bool keeps_outline(const Bend& bend, const Places& places, const OutlinePlace& moved, Point p,
+                     const OutlinePath::Segments& near) const;
+  bool partner_keeps_outline(const Bend& bend, Point p) const;
 
   const HaloMesh& mesh_;
   const std::vector<BoundaryEdges>& boundaries_;
   const OutlinePath* outline_;
+  const PeriodicMesh* joined_;
   std::vector<char> outlined_;  ///< flags the boundaries that the geometry has
   IdVector<NodeId, NodeFreedom> freedom_;
   /// The last located point of a node and its place on the geometry, which depends on the point only.

@@ -51,7 +51,7 @@ void ColouredSweeps::share_moves() {
       },
       [&](std::int32_t n, const Place& place) {
         if (!place.is_new) return;
-        mesh_.points()[n] = place.point;
+        mesh_.points()[n] = mesh_.place(NodeId{n}, place.point);
         stars_.for_each_star_round(NodeId{n}, [&](std::int32_t star) { look_again(stars_.nodes()[star]); });
       });
   for (const NodeId node : own_moves_) moved_[node] = 0;

@@ -98,10 +98,8 @@ def faults_of(mesh, said, layers, limit):
         yield f"non-orthogonality {angle} is above {limit}"
 
 
-def own_figures_that_differ(quadloop, case, mesh, said):
-    """What `quadloop check` foretells of checkMesh, by its own figures. It takes the faces of periodic pairs for outer ones."""
-    if "pair" in tomllib.loads(case.read_text()):
-        return
+def own_figures_that_differ(quadloop, mesh, said):
+    """What `quadloop check` foretells of checkMesh, by its own figures."""
     record = json.loads(subprocess.run([quadloop, "check", mesh, "--json"], capture_output=True, text=True, check=False).stdout)
     for key, label in (("non_orthogonality", "Mesh non-orthogonality Max:"), ("skewness", "Max skewness =")):
         theirs = number_after(label, said)
@@ -121,7 +119,7 @@ def check(args, case, checkmesh, folder):
     said = done.stdout + done.stderr
     layers = has_layers(case)
     limit = 90 if args.fractal or (layers and args.type == "delaunay") else ORTHOGONALITY
-    faults = list(faults_of(mesh, said, layers, limit)) + list(own_figures_that_differ(args.quadloop, case, f"{prefix}.mesh", said)) + [f"exit status {done.returncode}"] * (done.returncode != 0)
+    faults = list(faults_of(mesh, said, layers, limit)) + list(own_figures_that_differ(args.quadloop, f"{prefix}.mesh", said)) + [f"exit status {done.returncode}"] * (done.returncode != 0)
     print(f"{case.parent.name}/{case.stem} {args.type}: {len(mesh.points)} nodes, {'layers, ' * layers}non-orthogonality "
           f"{number_after('Mesh non-orthogonality Max:', said)}, skewness {number_after('Max skewness =', said)}, "
           f"aspect ratio {number_after('Max aspect ratio =', said)}: {'; '.join(faults) or 'good'}", flush=True)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quadloop_runs import NativeMesh, fail, mesh_case, run
+from quadloop_runs import MPIRUN, NativeMesh, digest, fail, mesh_case, run
 from run_checkmesh import find_checkmesh, write_system
 
 TOLERANCE = 1e-11
@@ -139,6 +139,22 @@ def check_fault(quadloop, path, pair, mesh, work):
         fail(f"check does not see a node out of place: {said[-500:]}")
 
 
+def check_smoothing(args, pairs, work):
+    """`smooth` moves partners together, the same on any number of ranks."""
+    mesh_case(args.quadloop, args.case, work / "rough", 1, ["--type", args.type, "--set", "smooth.sweeps=0"])
+    results = {ranks: work / f"smooth_{ranks}.mesh" for ranks in (1, 3)}
+    for ranks, result in results.items():
+        run([MPIRUN, "-n", str(ranks), args.quadloop, "smooth", work / "rough.mesh", "-o", result])
+    if digest(results[1]) != digest(results[3]):
+        fail("smooth on 3 ranks gives another mesh")
+    before, after = read_mesh(work / "rough.mesh"), read_mesh(results[1])
+    for pair in pairs:
+        moved = [one for one, _ in partners(after, pair) if (before[0][one] != after[0][one]).any()]
+        print(pair["from"], len(moved), "of", len(partners(after, pair)), "nodes moved in smoothing")
+        if not moved:
+            fail(f"smooth moves no node of {pair['from']}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -163,10 +179,7 @@ def main():
             found = [row for row in back.read_text().splitlines() if row.startswith("# pair ")]
             if found != comments:
                 fail(f".{suffix} gives back {found}")
-        smooth = work / "smooth.mesh"
-        run([args.quadloop, "smooth", f"{prefix}.mesh", "-o", smooth])
-        for pair in pairs:
-            partners(read_mesh(smooth), pair)
+        check_smoothing(args, pairs, work)
         check_msh(f"{prefix}.msh", pairs, mesh)
         check_msh(f"{prefix}.msh41", pairs, mesh)
         check_su2(f"{prefix}.su2", pairs, mesh)

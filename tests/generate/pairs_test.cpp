@@ -1,8 +1,12 @@
 // Periodic pairs: the nodes on the two sides are images of each other, bit by bit, whatever the grid is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "generate/digests.hpp"
 #include "generate/generate.hpp"
@@ -55,6 +59,7 @@ MeshInput input_of(std::vector<Chain> chains, const PeriodicPair& pair, double s
   input.mesh.size.max = size;
   input.mesh.size.min = size / 8;
   input.mesh.pairs = {pair};
+  input.mesh.size.periods = {pair.translation};
   input.smooth.sweeps = 10;
   input.digest = case_digest(input.mesh);
   return input;
@@ -131,7 +136,11 @@ void expect_paired(const MeshInput& input, const char* what) {
 TEST(Pairs, NodesMatchAlongCurvedLinesBetweenGridLines) { expect_paired(passage(), "passage"); }
 TEST(Pairs, NodesMatchUnderARotation) { expect_paired(sector(), "sector"); }
 TEST(Pairs, NodesMatchOnSidesOfTheGrid) { expect_paired(channel(2), "channel"); }
-TEST(Pairs, NodesMatchOnOneGridLineOnly) { expect_paired(channel(2.137), "channel between grid lines"); }
+TEST(Pairs, NodesMatchOnOneGridLineOnly) {
+  MeshInput input = channel(2.137);
+  input.mesh.size.periods.clear();
+  expect_paired(input, "channel between grid lines");
+}
 
 TEST(Pairs, LayersEndAtThemAlike) {
   const LayerSpec layers{0.004, 1.3, 1.3, 7};
@@ -159,6 +168,82 @@ TEST(Pairs, SizesAreThoseOfThePartner) {
   const MeshResult made = generate_mesh(world(), input).result;
   EXPECT_FALSE(demand_sizes_of_partners(world(), input.geometry, input.mesh.pairs, made, splits));
   EXPECT_GE(nodes_on(made, "right"), nodes_on(once, "left"));
+}
+
+/// The quadtree cells of a mesh on one rank that have mesh cells, with their boxes.
+std::vector<std::pair<LeafRecord, Box>> leaves_with_cells(const MeshInput& input, const MeshResult& made) {
+  std::vector<std::pair<LeafRecord, Box>> leaves;
+  const TreeGrid grid = input.grid();
+  for (const LeafRecord& leaf : made.tree.leaves) {
+    const auto at = [](std::int32_t tree, std::int32_t in_tree) {
+      return (std::int64_t{tree} << Quadrant::unit_level) + in_tree;
+    };
+    if (has_cells(leaf))
+      leaves.emplace_back(leaf, grid.box_of({at(leaf.tree_x, leaf.x), at(leaf.tree_y, leaf.y), leaf.level}));
+  }
+  return leaves;
+}
+
+/// The largest ratio of a leaf's size to the growth limit from leaves with a wanted size that are moved by
+/// one of the shifts.
+double largest_growth(const MeshInput& input, const MeshResult& made, const std::vector<Point>& shifts) {
+  const auto leaves = leaves_with_cells(input, made);
+  const TreeGrid grid = input.grid();
+  double largest = 0;
+  for (const auto& [leaf, box] : leaves) {
+    for (const auto& [wanted, other] : leaves) {
+      const double size = grid.edge(wanted.wanted);
+      for (const Point shift : shifts) {
+        const Point low = other.low + shift, high = other.high + shift;
+        const double gap =
+            std::max({box.low.x - high.x, low.x - box.high.x, box.low.y - high.y, low.y - box.high.y});
+        if (gap > 0)
+          largest = std::max(largest, box.width() / (size + (input.mesh.size.gradation - 1) / 2 * gap));
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(Pairs, SizesGrowAcrossThemAsElsewhere) {
+  const double length = 2.137;
+  const MeshInput input = channel(length, {rule("disc", 0.02)});
+  const Communicator self(MPI_COMM_SELF);
+  const std::vector<Point> across{{length, 0}, {-length, 0}};
+  const MeshResult made = generate_mesh(self, input).result;
+  EXPECT_LE(largest_growth(input, made, {{0, 0}}), 1 + 1e-9);
+  EXPECT_LE(largest_growth(input, made, across), 1 + 1e-9);
+  EXPECT_GT(largest_growth(input, build_mesh(self, input.geometry, input.mesh), across), 1.1)
+      << "without the pair";
+}
+
+/// The quadtree cells at one side of a channel between curved walls are those at the other, moved.
+TEST(Pairs, TheTreeIsPeriodicAlongATranslationOnAnAxis) {
+  const double length = 2.137;
+  std::vector<Point> floor;
+  for (int i = 0; i <= 40; ++i)
+    floor.push_back({i * length / 40, 0.1 - 0.1 * std::cos(i * std::numbers::pi / 20)});
+  const MeshInput input = input_of({{"bottom", true, floor, "a"},
+                                    {"right", true, {{length, 0}, {length, 1}}, "b"},
+                                    {"top", true, {{length, 1}, {0, 1}}, "c"},
+                                    {"left", true, {{0, 1}, {0, 0}}, "d"},
+                                    circle("disc", {0.3, 0.55}, 0.1, "e")},
+                                   {"left", "right", {length, 0}}, 0.1);
+  expect_paired(input, "curved floor");
+  const MeshResult made = generate_mesh(Communicator(MPI_COMM_SELF), input).result;
+  std::vector<std::array<double, 3>> left, right;
+  for (const auto& [leaf, box] : leaves_with_cells(input, made)) {
+    if (box.low.x == 0) left.push_back({box.low.y, box.high.y, box.width()});
+    if (box.high.x == length) right.push_back({box.low.y, box.high.y, box.width()});
+  }
+  std::ranges::sort(left);
+  std::ranges::sort(right);
+  EXPECT_GT(left.size(), 9U);
+  EXPECT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+    EXPECT_EQ(left[i][0], right[i][0]);
+    EXPECT_EQ(left[i][1], right[i][1]);
+  }
 }
 
 TEST(Pairs, OutlinesThatDoNotMatchAreRefused) {

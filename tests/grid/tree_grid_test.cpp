@@ -88,6 +88,35 @@ TEST(TreeGrid, OtherShapesArePadded) {
   }
 }
 
+/// A channel with a curved floor, of which the translation is one period.
+TEST(TreeGrid, APeriodAlongAnAxisIsANumberOfTrees) {
+  for (const double size : {0.012, 0.07, 0.11, 0.3}) {
+    SizeOptions options = sizes(size / 3, size);
+    const Geometry channel = polygon({{0.1, 0}, {2, 0.4}, {4.6, 0}, {4.6, 2}, {0.1, 2}});
+    options.periods = {{4.5, 0}};
+    const TreeGrid root = choose_root(channel, options);
+    EXPECT_EQ(root.box().low.x, 0.1);
+    EXPECT_EQ(root.box().high.x, 4.6);
+    EXPECT_LT(root.box().low.y, 0);
+    EXPECT_GT(root.box().high.y, 2);
+    EXPECT_NEAR(reached(root, size, size / 3) / size, 1, 0.1);
+    EXPECT_NEAR(root.box_of({0, 0, 0}).height(), root.tree_edge(), 1e-12) << "trees are square";
+    // The sides are not straight: the grid has the same lines at both of them.
+    const Geometry skew = polygon({{0.1, 0}, {0.6, 1}, {0.1, 2}, {4.6, 2}, {5.1, 1}, {4.6, 0}});
+    const TreeGrid wider = choose_root(skew, options);
+    EXPECT_LT(wider.box().low.x, 0.1);
+    EXPECT_GT(wider.box().high.x, 5.1);
+    const double trees = 4.5 / wider.tree_edge();
+    EXPECT_NEAR(trees, std::round(trees), 1e-12);
+    EXPECT_NEAR(reached(wider, size, size / 3) / size, 1, 0.1);
+  }
+  SizeOptions slanted = sizes(0.1, 0.3);
+  const Geometry diamond = polygon({{0, -1}, {3, 0}, {0, 1}, {-3, 0}});
+  const Box box = choose_root(diamond, slanted).box();
+  slanted.periods = {{1, 2}, {0, 0}};
+  EXPECT_EQ(choose_root(diamond, slanted).box().low, box.low) << "no translation along an axis";
+}
+
 TEST(TreeGrid, MeetsRandomSizes) {
   std::mt19937 random(20261126);
   const auto between = [&](double low, double high) {

@@ -63,5 +63,15 @@ TEST(PairedNodes, AQuarterTurnIsExact) {
   EXPECT_EQ(pair.source({1, 3}), (Point{3, 1}));
 }
 
+TEST(PairedNodes, NodesOfBothSidesAreListedOnce) {
+  Mesh mesh;
+  const auto node = [](std::int32_t n) { return NodeId{n}; };
+  mesh.boundaries = {{"a", {}, {{node(4), node(2)}, {node(2), node(3)}}},
+                     {"b", {}, {{node(0), node(1)}}},
+                     {"c", {}, {{node(7), node(8)}}}};
+  mesh.pairs = {{"a", "b", {1, 0}}};
+  EXPECT_EQ(nodes_on_sides(mesh), (std::vector<NodeId>{node(0), node(1), node(2), node(3), node(4)}));
+}
+
 }  // namespace
 }  // namespace quadloop

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/base/error.hpp"
+#include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/periodic_images.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
@@ -60,7 +61,11 @@ TEST(PeriodicImages, ANumberTellsNodeAndShift) {
 
 /// A square of 4 x 4 cells with pairs in both directions, on all ranks.
 Mesh torus() {
-  Mesh whole = test::Grid{4, {4, 4}}.mesh();
+  const test::Grid grid{4, {4, 4}};
+  Mesh whole = grid.mesh();
+  for (std::int32_t node = 0; node < whole.owned_nodes; ++node) {
+    if (grid.inner(node)) whole.points[node].x += 0.2 * test::scattered(4, node, 0);
+  }
   std::vector<BoundaryEdges> sides;
   for (const char* name : {"south", "north", "west", "east"}) sides.push_back({name, {}, {}});
   for (const BoundaryEdges& boundary : whole.boundaries) {
@@ -93,6 +98,39 @@ TEST(PeriodicMesh, ImagesAreWhereTheirPartnersWere) {
     const PeriodicShift shift = shift_of(mesh.global(node));
     EXPECT_EQ(joined.maps.image(shift, joined.originals[i]), mesh.point(node));
   }
+}
+
+/// Twice the area by the diagonals, or of a triangle.
+template <class Corners>
+double extent_of(const Corners& p) {
+  return p.size() == 4 ? cross(p[2] - p[0], p.back() - p[1]) : cross(p[1] - p[0], p[2] - p[0]);
+}
+
+TEST(PeriodicMesh, ValuesOfCellsReachTheOtherSides) {
+  const PeriodicMesh joined = join_pairs(world(), torus());
+  std::vector<double> own, expected;
+  joined.mesh.for_each_cell(
+      [&](const auto& nodes) { own.push_back(extent_of(corners_of(joined.mesh, nodes))); });
+  const HaloMesh halo(world(), joined);
+  halo.for_each_cell([&](const auto& nodes) { expected.push_back(extent_of(corners_of(halo, nodes))); });
+  const std::vector<double> found = halo.spread(world(), own);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-12);
+}
+
+TEST(PeriodicMesh, SidesHaveTheirEdgesIfTheyAreKept) {
+  const PeriodicMesh joined = join_pairs(world(), torus(), SideEdges::kept);
+  const PeriodicShift east = joined.maps.of_pair(0);
+  EXPECT_EQ(joined.opposite[2].boundary, 3);
+  EXPECT_EQ(joined.opposite[2].shift, east);
+  EXPECT_EQ(joined.opposite[3].boundary, 2);
+  EXPECT_EQ(joined.opposite[3].shift, -east);
+  const HaloMesh halo(world(), joined);
+  std::int32_t leaving = 0;
+  for (const HaloEdge& edge : halo.edges_in_place()) {
+    if (edge.boundary == 2 && halo.owns(edge.from)) ++leaving;
+  }
+  EXPECT_EQ(world().sum(std::int64_t{leaving}), 3) << "the fourth leaves an image of the corner";
 }
 
 TEST(PeriodicMesh, RefusesNodesThatDoNotMatch) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "mesher/mesh/check/cell_pairs.hpp"
+#include "mesher/mesh/periodic_mesh.hpp"
 
 namespace quadloop {
 
@@ -111,13 +113,16 @@ FaceStatisticsByLayers face_statistics(const Communicator& comm, const Mesh& mes
   FaceStatisticsByLayers statistics;
   const std::vector<char> own_in_layers = cells_in_layers(mesh, places);
   include_aspect_ratios(mesh, own_in_layers, statistics);
-  const HaloMesh halo(comm, mesh);
+  const std::optional<PeriodicMesh> joined = join_pairs_if_possible(comm, mesh);
+  const HaloMesh halo = joined ? HaloMesh(comm, *joined) : HaloMesh(comm, mesh);
   const std::vector<char> in_layers = halo.spread(comm, own_in_layers);
   const auto group = [&](bool of_layers) -> FaceStatistics& {
     return of_layers ? statistics.layers : statistics.others;
   };
   const auto is_counted = [&](NodeId from, NodeId to) {
-    return halo.owns(halo.global(from) < halo.global(to) ? from : to);
+    const GlobalNodeId a = halo.global(from), b = halo.global(to);
+    if (a == b) return shift_of(halo.image(to)) > 0;  // from a node to its own image, seen from both
+    return halo.owns(a < b ? from : to);
   };
   CellPairs<FacedCell> pairs(halo, [](NodeId) { return true; });
   pairs.for_each(

@@ -9,7 +9,8 @@
 namespace quadloop {
 
 /// Quality measures for cell-centred finite volumes, as defined by OpenFOAM's checkMesh for the mesh extruded
-/// by one cell: faces are edges, cell centres are centroids.
+/// by one cell: faces are edges, cell centres are centroids. Edges on the sides of periodic pairs are faces
+/// of cyclic patches, between two cells; where join_pairs() is not possible they are outer edges.
 struct FaceStatistics {
   static constexpr double severe_degrees = 70, severe_skewness = 4, severe_aspect_ratio = 1000;
 

@@ -21,15 +21,5 @@ TEST(PairText, WhatIsNoPairIsPassedOver) {
     EXPECT_TRUE(pairs_in_comments(text).empty()) << text;
 }
 
-TEST(PairText, NodesOfBothSidesAreListedOnce) {
-  Mesh mesh;
-  const auto node = [](std::int32_t n) { return NodeId{n}; };
-  mesh.boundaries = {{"a", {}, {{node(4), node(2)}, {node(2), node(3)}}},
-                     {"b", {}, {{node(0), node(1)}}},
-                     {"c", {}, {{node(7), node(8)}}}};
-  mesh.pairs = {{"a", "b", {1, 0}}};
-  EXPECT_EQ(nodes_of_pairs(mesh), (std::vector<NodeId>{node(0), node(1), node(2), node(3), node(4)}));
-}
-
 }  // namespace
 }  // namespace quadloop::io
