@@ -40,8 +40,21 @@ class PointCapture {
     return p.x == box.low.x || p.x == box.high.x || p.y == box.low.y || p.y == box.high.y;
   }
 
+  /// The corner of the leaf, or hanging node on its sides, within reach.
   std::optional<CornerCapture> corner_near(LeafId leaf, Point p) {
-    return quadloop::corner_near(graph_, grid_, finder_, leaf, p, share_);
+    std::optional<CornerCapture> nearest;
+    bool contested = false;
+    for (const Site site : grid_sites) {
+      if (is_middle(site) && !graph_.has_hanging(leaf, side_of(site))) continue;
+      const GridPoint corner = graph_.leaf(leaf).at(site);
+      const double distance = length(grid_.corner(corner) - p);
+      if (distance >= share_ * corner_reach * shortest_edge_of(graph_, grid_, finder_.leaves_round(corner)) ||
+          (nearest && distance > nearest->distance))
+        continue;
+      contested = nearest && distance == nearest->distance;
+      nearest = CornerCapture{corner, distance, -1, -1, -1};
+    }
+    return contested ? std::nullopt : nearest;
   }
 
   /// The edge of the leaf within reach, with the crossings that the point absorbs.
@@ -218,23 +231,6 @@ double line_of(const TreeGrid& grid, const LeafEdge& edge) {
 }
 
 }  // namespace
-
-std::optional<CornerCapture> corner_near(const LeafGraph& graph, const TreeGrid& grid, LeafFinder& finder,
-                                         LeafId leaf, Point p, double share) {
-  std::optional<CornerCapture> nearest;
-  bool contested = false;
-  for (const Site site : grid_sites) {
-    if (is_middle(site) && !graph.has_hanging(leaf, side_of(site))) continue;
-    const GridPoint corner = graph.leaf(leaf).at(site);
-    const double distance = length(grid.corner(corner) - p);
-    if (distance >= share * corner_reach * shortest_edge_of(graph, grid, finder.leaves_round(corner)) ||
-        (nearest && distance > nearest->distance))
-      continue;
-    contested = nearest && distance == nearest->distance;
-    nearest = CornerCapture{corner, distance, -1, -1, -1};
-  }
-  return contested ? std::nullopt : nearest;
-}
 
 std::optional<LeafEdge> edge_near(const LeafGraph& graph, const TreeGrid& grid, LeafId leaf, Point p,
                                   double share) {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "mesher/forest/leaf_finder.hpp"
 #include "mesher/snap/leaf_edge.hpp"
 #include "mesher/snap/leaf_trace.hpp"
 #include "mesher/snap/snap.hpp"
@@ -22,11 +21,6 @@ struct CornerCapture {
   std::int32_t vertex = -1;
   std::int32_t trace = -1, piece = -1;  ///< trace and piece that contain the geometry vertex
 };
-
-/// The corner of the leaf, or hanging node on its sides, that is nearer to the point than `share` of
-/// `corner_reach`, relative to the shortest edge there. None if two are equally near. `finder` is of the graph.
-std::optional<CornerCapture> corner_near(const LeafGraph& graph, const TreeGrid& grid, LeafFinder& finder,
-                                         LeafId leaf, Point p, double share);
 
 /// The edge of the leaf nearest to the point, relative to the edge's length. None if none is within `share` of
 /// the reach of edges, or if two are equally near.

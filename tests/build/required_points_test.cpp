@@ -86,7 +86,7 @@ TEST(RequiredPoints, AreNodesWhereverTheyLieInACell) {
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j <= i; ++j) {
       options.required_points[0].position = {0.1875 + 0.0625 * i / steps, 0.1875 + 0.0625 * j / steps};
-      EXPECT_GT(expect_nodes(geometry, options), 18) << world().is_root() << i << " " << j;
+      EXPECT_GT(expect_nodes(geometry, options), 12) << i << " " << j;
     }
   }
 }
@@ -136,10 +136,10 @@ TEST(RequiredPoints, WithoutRoomAreRefused) {
   const Geometry geometry = square_with_circle();
   EXPECT_EQ(refusal(geometry, with_points({{0.2, 0.01}})),
             "case.toml:1: point 'p0' at (0.2, 0.01) is 0.01 away from boundary 'wall', but must be at least 1.5 "
-            "smallest cells of size 0.0156 away; move it, or reduce spacing.min to 0.00333");
+            "smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.00333");
   EXPECT_EQ(refusal(geometry, with_points({{0.2, 0.2}, {0.201, 0.2}})),
             "case.toml:1: point 'p0' at (0.2, 0.2) is 0.001 away from point 'p1' (case.toml:1), but must be at "
-            "least 1.5 smallest cells of size 0.0156 away; move it, or reduce spacing.min to 0.000333");
+            "least 1.5 smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.000333");
   EXPECT_EQ(refusal(geometry, with_points({{0.2, 0}})),
             "case.toml:1: point 'p0' at (0.2, 0) lies on boundary 'wall', at none of its feature points; move it "
             "off the boundary, or divide the boundary there into two of different names");
