@@ -87,7 +87,7 @@ struct MeshContent {
   const Field* solution = nullptr;
   bool has_layers = false, has_pairs = false;
   std::vector<std::string> nodes = {};  ///< names of named nodes
-  bool knows_walls = false;  ///< a case determines the conditions, also if all are "none"
+  bool knows_walls = false;             ///< a case determines the conditions, also if all are "none"
 
   bool knows_conditions() const {
     return knows_walls || std::ranges::any_of(conditions, [](BoundaryCondition condition) {
@@ -242,8 +242,8 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
     lose("this format cannot store periodic pairs, which are omitted");
   const bool divides_nodes = format.has_zones && content.blocks > 1;
   if (!content.nodes.empty() && (!format.holds(Content::nodes) || divides_nodes))
-    losses.push_back(fmt::format("{}: this format cannot store the names of nodes, which are omitted: {}", path,
-                                 some_names(content.nodes)));
+    losses.push_back(fmt::format("{}: this format cannot store the names of nodes, which are omitted: {}",
+                                 path, some_names(content.nodes)));
   append_block_losses(format, content, path, losses);
   if (format.unknown_boundary != nullptr && !content.knows_conditions() && !content.boundary_names.empty())
     losses.push_back(

@@ -25,7 +25,8 @@ void MshOutput::write_head(const Box& box) {
     ++of_dimension[groups_[n].dimension];
     if (groups_[n].dimension == 0) {
       const Point3 p = groups_[n].place;
-      points += number + " " + shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + " 1 " + number + "\n";
+      points +=
+          number + " " + shortest(p.x) + " " + shortest(p.y) + " " + shortest(p.z) + " 1 " + number + "\n";
       continue;
     }
     others += number;

@@ -134,9 +134,8 @@ class MshWriter {
   void write_named_nodes() {
     const std::int64_t first = std::ssize(stream_.patches()) + blocks_.count() + 1;
     for (std::int64_t i = 0; i < std::ssize(named_nodes()); ++i)
-      output_.write_elements<1>(
-          msh_point, first + i, stream_.communicator().is_root() ? 1 : 0,
-          [&](std::int64_t) { return std::array{named_nodes()[i].node.value()}; });
+      output_.write_elements<1>(msh_point, first + i, stream_.communicator().is_root() ? 1 : 0,
+                                [&](std::int64_t) { return std::array{named_nodes()[i].node.value()}; });
   }
 
   template <std::size_t width>

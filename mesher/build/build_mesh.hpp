@@ -68,8 +68,8 @@ struct MeshOptions {
   /// Pairs of boundaries of the geometry, each the exact image of the other. build_mesh() does not know them:
   /// generate_mesh() makes their nodes match.
   std::vector<PeriodicPair> pairs = {};
-  /// Points that must be nodes. build_mesh() makes them nodes, generate_mesh() names these nodes and checks that
-  /// there is one for each point.
+  /// Points that must be nodes. build_mesh() makes them nodes, generate_mesh() names these nodes and checks
+  /// that there is one for each point.
   std::vector<RequiredPoint> required_points = {};
 };
 

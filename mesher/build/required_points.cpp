@@ -51,8 +51,7 @@ class Surroundings {
       if (other != point && distance < nearest.distance) nearest = {distance, -1, other};
     }
     segments_.for_each_meeting({{p.x - reach, p.y - reach}, {p.x + reach, p.y + reach}}, [&](std::int32_t s) {
-      const double distance =
-          distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
+      const double distance = distance_to_segment(p, geometry_.point(s), geometry_.point(geometry_.next(s)));
       if (distance < nearest.distance) nearest = {distance, s, -1};
     });
     return nearest;
@@ -65,10 +64,11 @@ class Surroundings {
     if (nearest.segment >= 0) {
       const std::string& name = geometry_.boundary(geometry_.boundary_of(nearest.segment)).name;
       if (nearest.distance <= on_boundary * extent)
-        throw InputError(fmt::format(
-            "{} lies on boundary '{}', at none of its feature points; move it off the boundary, or divide the "
-            "boundary there into two of different names",
-            head, name));
+        throw InputError(
+            fmt::format("{} lies on boundary '{}', at none of its feature points; move it off the boundary, "
+                        "or divide the "
+                        "boundary there into two of different names",
+                        head, name));
       refuse_near(head, fmt::format("boundary '{}'", name), nearest.distance, finest);
     }
     const RequiredPoint& other = points_[nearest.point];
@@ -122,8 +122,7 @@ MeshOptions with_room_for_points(const Geometry& geometry, const MeshOptions& op
                                    point.where, text_of(point)));
     with_room.required_points.push_back(point);
     if (room < options.size.max)
-      with_room.size.sources.push_back(
-          {SizeSource::Line{point.position, point.position}, room, point.where});
+      with_room.size.sources.push_back({SizeSource::Line{point.position, point.position}, room, point.where});
   }
   return with_room;
 }
@@ -172,9 +171,10 @@ std::vector<NamedNode> nodes_at(const Communicator& comm, const std::vector<Requ
     first[found.point] = first[found.point] < 0 ? found.node : std::min(first[found.point], found.node);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (first[i] < 0)
-      throw InputError(fmt::format("{}: {} cannot be a node of the mesh with these cells; move it, or reduce "
-                                   "spacing.min",
-                                   points[i].where, text_of(points[i])));
+      throw InputError(
+          fmt::format("{}: {} cannot be a node of the mesh with these cells; move it, or reduce "
+                      "spacing.min",
+                      points[i].where, text_of(points[i])));
     nodes.push_back({points[i].name, GlobalNodeId{first[i]}});
   }
   return nodes;

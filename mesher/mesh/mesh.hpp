@@ -128,8 +128,8 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
   std::vector<StripLayers> strips;
-  std::vector<PeriodicPair> pairs = {};  ///< of boundaries whose nodes match: paired_nodes()
-  MeshBlocks blocks = {};                ///< without names there is one block, and the lists are empty
+  std::vector<PeriodicPair> pairs = {};     ///< of boundaries whose nodes match: paired_nodes()
+  MeshBlocks blocks = {};                   ///< without names there is one block, and the lists are empty
   std::vector<NamedNode> named_nodes = {};  ///< the same on every rank
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }

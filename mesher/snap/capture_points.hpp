@@ -22,8 +22,8 @@ struct CornerCapture {
   std::int32_t trace = -1, piece = -1;  ///< trace and piece that contain the geometry vertex
 };
 
-/// The edge of the leaf nearest to the point, relative to the edge's length. None if none is within `share` of
-/// the reach of edges, or if two are equally near.
+/// The edge of the leaf nearest to the point, relative to the edge's length. None if none is within `share`
+/// of the reach of edges, or if two are equally near.
 std::optional<LeafEdge> edge_near(const LeafGraph& graph, const TreeGrid& grid, LeafId leaf, Point p,
                                   double share);
 

@@ -117,8 +117,8 @@ void read_tables(const CaseTable& root, Settings& settings) {
 /// A setting that something else excludes: whether the case has it, and its name with the remedy.
 using Excluded = std::pair<bool, const char*>;
 
-/// Throws InputError for the first excluded setting of the case. `mesh` has what excludes it, the table of this
-/// name at `where`.
+/// Throws InputError for the first excluded setting of the case. `mesh` has what excludes it, the table of
+/// this name at `where`.
 void refuse_excluded(std::span<const Excluded> others, const std::string& where, const char* mesh,
                      const char* table) {
   for (const auto& [is_set, what] : others) {

@@ -1,5 +1,5 @@
-// Single points that must be nodes: exact, without refinement, in sound meshes that are the same on any number
-// of ranks; refused where there is no room for a node.
+// Single points that must be nodes: exact, without refinement, in sound meshes that are the same on any
+// number of ranks; refused where there is no room for a node.
 #include "mesher/build/required_points.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,8 @@ MeshOptions with_points(const std::vector<Point>& points, double min = 0.01, dou
   options.size.min = min;
   options.size.max = max;
   for (const Point p : points)
-    options.required_points.push_back({"p" + std::to_string(options.required_points.size()), p, "case.toml:1"});
+    options.required_points.push_back(
+        {"p" + std::to_string(options.required_points.size()), p, "case.toml:1"});
   return options;
 }
 
@@ -93,7 +94,8 @@ TEST(RequiredPoints, AreNodesWhereverTheyLieInACell) {
 
 TEST(RequiredPoints, AttractNoSmallerCells) {
   const Geometry geometry = square_with_circle();
-  EXPECT_EQ(leaves_of(geometry, with_points({{0.21, 0.77}, {0.2, 0.2}})), leaves_of(geometry, with_points({})));
+  EXPECT_EQ(leaves_of(geometry, with_points({{0.21, 0.77}, {0.2, 0.2}})),
+            leaves_of(geometry, with_points({})));
 }
 
 TEST(RequiredPoints, RandomOnesAtAllSizes) {
@@ -134,21 +136,25 @@ TEST(RequiredPoints, AFeaturePointIsANodeAnyway) {
 
 TEST(RequiredPoints, WithoutRoomAreRefused) {
   const Geometry geometry = square_with_circle();
-  EXPECT_EQ(refusal(geometry, with_points({{0.2, 0.01}})),
-            "case.toml:1: point 'p0' at (0.2, 0.01) is 0.01 away from boundary 'wall', but must be at least 1.5 "
-            "smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.00333");
-  EXPECT_EQ(refusal(geometry, with_points({{0.2, 0.2}, {0.201, 0.2}})),
-            "case.toml:1: point 'p0' at (0.2, 0.2) is 0.001 away from point 'p1' (case.toml:1), but must be at "
-            "least 1.5 smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.000333");
-  EXPECT_EQ(refusal(geometry, with_points({{0.2, 0}})),
-            "case.toml:1: point 'p0' at (0.2, 0) lies on boundary 'wall', at none of its feature points; move it "
-            "off the boundary, or divide the boundary there into two of different names");
+  EXPECT_EQ(
+      refusal(geometry, with_points({{0.2, 0.01}})),
+      "case.toml:1: point 'p0' at (0.2, 0.01) is 0.01 away from boundary 'wall', but must be at least 1.5 "
+      "smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.00333");
+  EXPECT_EQ(
+      refusal(geometry, with_points({{0.2, 0.2}, {0.201, 0.2}})),
+      "case.toml:1: point 'p0' at (0.2, 0.2) is 0.001 away from point 'p1' (case.toml:1), but must be at "
+      "least 1.5 smallest cells of size 0.0125 away; move it, or reduce spacing.min to 0.000333");
+  EXPECT_EQ(
+      refusal(geometry, with_points({{0.2, 0}})),
+      "case.toml:1: point 'p0' at (0.2, 0) lies on boundary 'wall', at none of its feature points; move it "
+      "off the boundary, or divide the boundary there into two of different names");
   EXPECT_EQ(refusal(geometry, with_points({{0.5, 0.5}})),
             "case.toml:1: point 'p0' at (0.5, 0.5) lies outside the domain; move it inside, or remove it");
   EXPECT_EQ(refusal(geometry, with_points({{7, 0.5}})),
             "case.toml:1: point 'p0' at (7, 0.5) lies outside the domain; move it inside, or remove it");
-  EXPECT_EQ(refusal(geometry, with_points({{1, 1}, {1, 1}})),
-            "case.toml:1: point 'p0' at (1, 1) and point 'p1' (case.toml:1) are the same; remove one of them");
+  EXPECT_EQ(
+      refusal(geometry, with_points({{1, 1}, {1, 1}})),
+      "case.toml:1: point 'p0' at (1, 1) and point 'p1' (case.toml:1) are the same; remove one of them");
 }
 
 /// Throws for a point without a node on every rank.
