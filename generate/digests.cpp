@@ -96,7 +96,7 @@ std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, 
 
 // Structured bindings, so that a new option does not compile before it is considered here.
 std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
-  const auto& [type, quads, size, snap, may_vanish, limit, mirror, pairs] = options;
+  const auto& [type, quads, size, snap, may_vanish, limit, mirror, pairs, points] = options;
   // may_vanish and limit do not affect the mesh
   const auto& [min, max, aim, gradation, curvature, gap, sources, root, periods] = size;
   // aim and periods follow from the case's other options and the geometry
@@ -128,6 +128,10 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
     digest.add(pair.translation);
     digest.add(pair.degrees);
     digest.add(pair.centre);
+  }
+  for (const RequiredPoint& point : points) {
+    digest.add(text_digest(point.name));
+    digest.add(point.position);
   }
   return digest.value();
 }

@@ -17,6 +17,7 @@
 #include "generate/refine_inverted.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/build/required_points.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/grid_rank.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
@@ -92,6 +93,7 @@ void smooth(const Communicator& comm, const MeshInput& input, const std::vector<
   std::vector<GlobalNodeId> fixed = pinned;
   const std::vector<GlobalNodeId> of_baffles = nodes_of_baffles(comm, input.geometry, result.mesh);
   fixed.insert(fixed.end(), of_baffles.begin(), of_baffles.end());
+  for (const NamedNode& named : result.mesh.named_nodes) fixed.push_back(named.node);
   std::ranges::sort(fixed);
   if (!fixed.empty()) options.pinned = owned_among(fixed, result.mesh);
   options.triangle_to_block = result.mesh.blocks.of_triangles;
@@ -172,6 +174,7 @@ GeneratedMesh build(const Communicator& comm, const MeshInput& input, const Dema
   place_images(comm, input.mesh.pairs, generated.result.mesh);
   generated.result.mesh.pairs = input.mesh.pairs;
   restore_after(comm, input, moved, generated.result);
+  generated.result.mesh.named_nodes = nodes_at(comm, input.mesh.required_points, generated.result.mesh);
   return generated;
 }
 
@@ -354,6 +357,7 @@ GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, co
   MeshResult& result = generated.result;
   generated.times.begin("check");
   place_images(comm, input.mesh.pairs, result.mesh);
+  result.mesh.named_nodes = nodes_at(comm, input.mesh.required_points, result.mesh);
   require_sound(comm, result.mesh);
   generated.times.end();
   if (input.mesh.mirror) require_mirror_images(comm, result.mesh, *input.mesh.mirror);

@@ -11,6 +11,7 @@
 #include "mesher/build/islands.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/build/required_points.hpp"
 
 namespace quadloop {
 
@@ -65,6 +66,7 @@ LayerFront front_of(const MeshInput& input, const Geometry& geometry, const Meas
 MeshInput outside(const MeshInput& input, const LayerFront& front) {
   MeshInput outer = input;
   outer.geometry = front.outer;
+  outer.mesh.required_points = points_outside_layers(input.geometry, front.outer, input.mesh.required_points);
   outer.smooth.front_heights = front.last_heights;
   const TreeGrid grid = input.grid();
   outer.mesh.size.root =

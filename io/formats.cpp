@@ -54,7 +54,8 @@ template <MshVersion version>
 FileFormat msh_row(const std::string& name) {
   return {.name = name,
           .program = "Gmsh",
-          .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
+          .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::nodes,
+                     Content::mesh3d},
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
@@ -102,13 +103,13 @@ FileFormat medit_row() {
 std::vector<FileFormat> native_rows() {
   using enum Content;
   return {{.name = "mesh",
-           .places = {mesh, solution, constants, blocks, block_names, layers, pairs},
+           .places = {mesh, solution, constants, blocks, block_names, layers, pairs, nodes},
            .by_default = true,
            .read = read_native_or_medit,
            .write = write_native,
            .stores_lines = true},
           {.name = "qmesh",
-           .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs},
+           .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs, nodes},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
            .write = write_binary,
            .stores_lines = true}};
@@ -117,7 +118,7 @@ std::vector<FileFormat> native_rows() {
 FileFormat cgns_row() {
   using enum Content;
   return {.name = "cgns",
-          .places = {mesh, solution, blocks, block_names, conditions, layers, pairs, mesh3d},
+          .places = {mesh, solution, blocks, block_names, conditions, layers, pairs, nodes, mesh3d},
           .by_default = true,
           .read = read_cgns,
           .write = write_cgns,
@@ -132,14 +133,14 @@ FileFormat cgns_row() {
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
-           .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},
+           .places = {mesh, solution, blocks, block_names, layers, pairs, nodes, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
            .write = write_vtu,
            .stores_lines = true},
           {.name = "pvtu",
            .program = "VTK",
-           .places = {mesh, solution, blocks, block_names, layers, pairs, mesh3d},
+           .places = {mesh, solution, blocks, block_names, layers, pairs, nodes, mesh3d},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
            .write = write_pvtu,

@@ -21,6 +21,7 @@ enum class Content {
   conditions,  ///< of boundaries
   layers,      ///< number of layers on boundaries
   pairs,       ///< periodic pairs of boundaries
+  nodes,       ///< named nodes
   mesh3d       ///< a 3D mesh
 };
 

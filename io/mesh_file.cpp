@@ -59,6 +59,7 @@ void finish_reading(LoadedMesh& loaded, const std::string& path) {
   std::vector<std::string*> names;
   for (BoundaryEdges& boundary : loaded.mesh.boundaries) names.push_back(&boundary.name);
   for (StripLayers& strip : loaded.mesh.strips) names.push_back(&strip.name);
+  for (NamedNode& node : loaded.mesh.named_nodes) names.push_back(&node.name);
   for (std::string& block : loaded.block_names) names.push_back(&block);
   const std::vector<NodeId> of_pairs = nodes_on_sides(loaded.mesh);
   std::erase_if(loaded.periodic_nodes,
@@ -86,7 +87,8 @@ struct MeshContent {
   std::int64_t blocks = 1;
   const Field* solution = nullptr;
   bool has_layers = false, has_pairs = false;
-  bool knows_walls = false;  ///< a case determines the conditions, also if all are "none"
+  std::vector<std::string> nodes = {};  ///< names of named nodes
+  bool knows_walls = false;             ///< a case determines the conditions, also if all are "none"
 
   bool knows_conditions() const {
     return knows_walls || std::ranges::any_of(conditions, [](BoundaryCondition condition) {
@@ -109,6 +111,7 @@ MeshContent content_of(const Mesh& mesh, const Field* solution) {
   MeshContent content = content_of(mesh.boundaries);
   content.has_layers = has_layers(mesh);
   content.has_pairs = !mesh.pairs.empty();
+  for (const NamedNode& named : mesh.named_nodes) content.nodes.push_back(named.name);
   content.solution = solution;
   return content;
 }
@@ -238,6 +241,10 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
     lose("this format cannot store the number of layers, which is omitted");
   if (content.has_pairs && !format.holds(Content::pairs))
     lose("this format cannot store periodic pairs, which are omitted");
+  const bool divides_nodes = format.has_zones && content.blocks > 1;
+  if (!content.nodes.empty() && (!format.holds(Content::nodes) || divides_nodes))
+    losses.push_back(fmt::format("{}: this format cannot store the names of nodes, which are omitted: {}",
+                                 path, some_names(content.nodes)));
   append_block_losses(format, content, path, losses);
   if (format.unknown_boundary != nullptr && !content.knows_conditions() && !content.boundary_names.empty())
     losses.push_back(
@@ -376,6 +383,8 @@ std::vector<std::string> losses_in(const ExtrudedMesh& mesh, const std::string& 
   std::ranges::move(losses_of(content, *row, path), std::back_inserter(losses));
   if (!mesh.plane.pairs.empty() && !row->is_folder)
     losses.push_back(path + ": periodic pairs are written to a polyMesh only, and are omitted");
+  if (!mesh.plane.named_nodes.empty())
+    losses.push_back(path + ": the names of nodes are not written to a 3D mesh, and are omitted");
   if (sides.size() < mesh.plane.boundaries.size() && !row->is_folder)
     losses.push_back(path + ": inner lines are written to a polyMesh only, and are omitted");
   return losses;

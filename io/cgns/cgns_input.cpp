@@ -16,6 +16,7 @@
 #include "io/cgns/cgns_values.hpp"
 #include "io/model/clean_up.hpp"
 #include "io/model/layers_text.hpp"
+#include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "mesher/base/error.hpp"
@@ -373,6 +374,7 @@ class ZoneReader {
     const std::string text = file_.descriptor_here(strips_descriptor).value_or("");
     mesh_.strips = strips_in_comments(text, static_cast<std::int32_t>(nodes_)).strips;
     mesh_.pairs = pairs_in_comments(text);
+    mesh_.named_nodes = nodes_in_comments(text, static_cast<std::int32_t>(nodes_));
   }
 
   void read_solution() {

@@ -128,6 +128,8 @@ void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
   for_each_named_node(mesh, [&](std::int32_t& node) { node = new_id[node]; });
   std::ranges::for_each(mesh.periodic_nodes, [&](std::int32_t& node) { node = new_id[node]; });
   std::erase(mesh.periodic_nodes, -1);
+  for (NamedNode& named : mesh.named_nodes) named.node = GlobalNodeId{new_id[named.node.value()]};
+  std::erase_if(mesh.named_nodes, [](const NamedNode& named) { return !named.node.valid(); });
 }
 
 [[noreturn]] void refuse_edge(const Mesh& mesh, const FileBoundary& boundary, std::size_t number,
@@ -190,6 +192,7 @@ LoadedMesh cells_and_points(FileMesh& file) {
   mesh.quads = with_ids(file.quads);
   mesh.strips = std::move(file.strips);
   mesh.pairs = std::move(file.pairs);
+  mesh.named_nodes = std::move(file.named_nodes);
   loaded.triangle_to_block = std::move(file.cell_to_block[0]);
   loaded.quad_to_block = std::move(file.cell_to_block[1]);
   loaded.block_names = std::move(file.block_names);
@@ -226,6 +229,7 @@ void require_consistent(const FileMesh& mesh, const std::string& path) {
   const auto visit = [&](std::int32_t node) { good = good && is_in(node, mesh.points); };
   for_each_named_node(mesh, visit);
   std::ranges::for_each(mesh.periodic_nodes, visit);
+  for (const NamedNode& named : mesh.named_nodes) good = good && is_in(named.node.value(), mesh.points);
   for_each_kind([&]<CellKind kind>() {
     const std::vector<std::int32_t>& blocks = mesh.cell_to_block[static_cast<std::size_t>(kind)];
     good = good && blocks.size() == cells_of<kind>(mesh).size();
@@ -435,6 +439,7 @@ FileMesh file_mesh_of(const LoadedMesh& loaded) {
   file.solution = loaded.solution;
   file.strips = loaded.mesh.strips;
   file.pairs = loaded.mesh.pairs;
+  file.named_nodes = loaded.mesh.named_nodes;
   file.warnings = loaded.warnings;
   return file;
 }

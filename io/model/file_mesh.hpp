@@ -52,6 +52,7 @@ struct FileMesh {
   std::vector<std::int32_t> periodic_nodes;  ///< on sides that a plane file marks as periodic
   std::vector<StripLayers> strips;           ///< of a plane mesh
   std::vector<PeriodicPair> pairs;           ///< of a plane mesh
+  std::vector<NamedNode> named_nodes;        ///< of a plane mesh
   std::vector<std::string> warnings;         ///< what the reader changed or omitted, with the file's name
 
   /// Return the index of the boundary, or block, of this name, which is added if necessary.

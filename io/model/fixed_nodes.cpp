@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "mesher/base/error.hpp"
@@ -91,6 +92,13 @@ std::vector<std::string> fix_nodes(const LoadedMesh& loaded, std::span<const std
         fmt::format("{}: the nodes of {} are fixed, because these sides are periodic or match node by node",
                     path, quoted(periodic_boundaries(loaded))));
   }
+  std::vector<std::string> names_of_nodes;
+  for (const NamedNode& named : loaded.mesh.named_nodes) {
+    fixed.fix(std::array{NodeId{static_cast<std::int32_t>(named.node.value())}});
+    names_of_nodes.push_back(named.name);
+  }
+  if (!names_of_nodes.empty())
+    notes.push_back(fmt::format("{}: the named nodes {} are fixed", path, quoted(names_of_nodes)));
   std::vector<std::string> curves;
   for (const BoundaryEdges& curve : loaded.inner_curves) {
     fixed.fix(curve);

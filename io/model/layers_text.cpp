@@ -1,5 +1,6 @@
 #include "io/model/layers_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -14,6 +15,20 @@ std::string_view next_word(std::string_view& text) {
   const std::string_view word = text.substr(0, text.find_first_of(" \t\r"));
   text.remove_prefix(word.size());
   return word;
+}
+
+std::string_view first_line(std::string_view& text) {
+  std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  return line;
+}
+
+std::optional<std::int32_t> counted_number(std::string_view word, std::int32_t most) {
+  std::int32_t number = 0;
+  const auto [stopped, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc{} || stopped != word.data() + word.size() || number < 1 || number > most) return {};
+  return number;
 }
 
 std::string text_of_layers(const WallLayers& layers) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include "io/model/layers_text.hpp"
@@ -14,22 +12,6 @@ namespace quadloop::io {
 namespace {
 
 constexpr std::string_view line_head = "# inner line ";
-
-/// A whole number from 1 to `most`, which must be all of the word.
-std::optional<std::int32_t> counted_number(std::string_view word, std::int32_t most) {
-  std::int32_t number = 0;
-  const auto [stopped, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc{} || stopped != word.data() + word.size() || number < 1 || number > most) return {};
-  return number;
-}
-
-/// Takes the first line off the text, without blanks before it.
-std::string_view first_line(std::string_view& text) {
-  std::string_view line = text.substr(0, text.find('\n'));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
-  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-  return line;
-}
 
 std::optional<std::array<NodeId, 2>> edge_of(std::string_view line, std::int32_t nodes_of_mesh) {
   if (!line.starts_with("# ")) return {};

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "io/model/layers_text.hpp"
+#include "io/model/node_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/text/text_scanner.hpp"
 
@@ -48,9 +49,7 @@ std::string comment_of(const PeriodicPair& pair) {
 std::vector<PeriodicPair> pairs_in_comments(std::string_view comments) {
   std::vector<PeriodicPair> pairs;
   while (!comments.empty()) {
-    std::string_view line = comments.substr(0, comments.find('\n'));
-    comments.remove_prefix(std::min(line.size() + 1, comments.size()));
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::string_view line = first_line(comments);
     if (!line.starts_with(pair_head)) continue;
     if (const auto pair = pair_of(line.substr(pair_head.size()))) pairs.push_back(*pair);
   }
@@ -61,6 +60,7 @@ std::string comments_of(const Mesh& mesh) {
   std::string text;
   for (const StripLayers& strip : mesh.strips) text += comments_of(strip);
   for (const PeriodicPair& pair : mesh.pairs) text += comment_of(pair);
+  for (const NamedNode& node : mesh.named_nodes) text += comment_of(node);
   return text;
 }
 

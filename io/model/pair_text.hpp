@@ -15,7 +15,7 @@ std::string comment_of(const PeriodicPair& pair);
 /// Reads the pairs from a text that consists of comments; lines that are no pair are passed over.
 std::vector<PeriodicPair> pairs_in_comments(std::string_view comments);
 
-/// Returns the strips and the pairs of a mesh as comments.
+/// Returns the strips, the pairs and the named nodes of a mesh as comments.
 std::string comments_of(const Mesh& mesh);
 
 }  // namespace quadloop::io

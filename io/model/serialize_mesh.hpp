@@ -18,6 +18,11 @@ void pass_fields(Pipe& pipe, PeriodicPair& pair) {
 }
 
 template <class Pipe>
+void pass_fields(Pipe& pipe, NamedNode& named) {
+  pass(pipe, named.name, named.node);
+}
+
+template <class Pipe>
 void pass_fields(Pipe& pipe, Field& solution) {
   pass(pipe, solution.constants, solution.names, solution.values, solution.cells.names,
        solution.cells.values);
@@ -33,7 +38,7 @@ template <class Pipe>
 void pass_fields(Pipe& pipe, FileMesh& mesh) {
   pass(pipe, mesh.dimension, mesh.points, mesh.triangles, mesh.quads, mesh.tetrahedra, mesh.pyramids,
        mesh.prisms, mesh.hexahedra, mesh.boundaries, mesh.solution, mesh.block_names, mesh.periodic_nodes,
-       mesh.strips, mesh.pairs, mesh.warnings);
+       mesh.strips, mesh.pairs, mesh.named_nodes, mesh.warnings);
   for (std::vector<std::int32_t>& blocks : mesh.cell_to_block) pass(pipe, blocks);
 }
 

@@ -41,6 +41,13 @@ void renumber_strips(const IdVector<NodeId, NodeId>& new_id, std::vector<StripLa
   }
 }
 
+/// Renumbers named nodes; those without cells are removed.
+void renumber_named_nodes(const IdVector<NodeId, NodeId>& new_id, std::vector<NamedNode>& nodes) {
+  for (NamedNode& named : nodes)
+    named.node = GlobalNodeId{new_id[NodeId{static_cast<std::int32_t>(named.node.value())}].value()};
+  std::erase_if(nodes, [](const NamedNode& named) { return !named.node.valid(); });
+}
+
 /// Inner curves consist of cell edges, but a periodic node may have lost its cells.
 void renumber_flags(const IdVector<NodeId, NodeId>& new_id, LoadedMesh& loaded) {
   for (BoundaryEdges& curve : loaded.inner_curves) {
@@ -66,6 +73,7 @@ std::size_t drop_unused_nodes(LoadedMesh& loaded) {
   if (dropped == 0) return 0;
   for_each_named_node(mesh, [&](NodeId& node) { node = new_id[node]; });
   renumber_strips(new_id, mesh.strips);
+  renumber_named_nodes(new_id, mesh.named_nodes);
   renumber_flags(new_id, loaded);
   mesh.points.resize(kept);
   mesh.owned_nodes = kept;

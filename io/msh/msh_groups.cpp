@@ -56,7 +56,8 @@ std::vector<std::string> MshGroups::overlaps(int lowest) const {
 std::vector<std::string> MshGroups::dropped(int lowest) const {
   std::vector<std::string> names;
   for (const auto& [key, name] : names_) {
-    if (key.first < lowest && !name.empty()) names.push_back(name);
+    const bool is_kept = lowest == 1 && members_of(0, key.second) > 0;  // as named nodes
+    if (key.first < lowest && !name.empty() && !is_kept) names.push_back(name);
   }
   if (names.empty()) return {};
   return {"physical groups of " + std::string(lowest == 1 ? "points" : "points and curves") +

@@ -24,7 +24,7 @@ class MshGroups {
   std::int64_t members_of(int dimension, std::int64_t physical) const;
 
   /// Return warnings, without the file's name: entities of at least that dimension in several groups, and
-  /// named groups of lower dimension, which are omitted.
+  /// named groups of lower dimension, which are omitted, unless they are nodes of a plane mesh.
   std::vector<std::string> overlaps(int lowest) const;
   std::vector<std::string> dropped(int lowest) const;
 

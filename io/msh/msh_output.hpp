@@ -14,10 +14,11 @@
 
 namespace quadloop::io {
 
-/// A physical group with its only curve, surface or volume, which has the same number.
+/// A physical group with its only point, curve, surface or volume, which has the same number.
 struct MshOutputGroup {
   int dimension;
   std::string name;
+  Point3 place = {};  ///< of a point
 };
 
 /// An MSH file being written, in either version. Groups are numbered 1, 2, ... over all dimensions, as some
@@ -31,7 +32,7 @@ class MshOutput {
   const Communicator& communicator() const { return file_.communicator(); }
 
   /// Writes this rank's nodes, `point(i)` each; their numbers follow those of lower ranks. In version 4.1
-  /// they are nodes of the last group.
+  /// they are nodes of the last surface or volume.
   template <class PointOf>
   void write_nodes(std::int64_t rows, const PointOf& point) {
     const std::int64_t first = communicator().exclusive_sum(rows) + 1, all = communicator().sum(rows);

@@ -52,6 +52,7 @@ class MshReader {
     if (is_plane()) require_plane();
     name_groups();
     is_plane() ? take_plane_elements() : take_elements();
+    if (!is_plane()) mesh_.named_nodes.clear();
     if (is_plane()) mesh_.periodic_nodes = text_.periodic_nodes();
     keep_used_tags();
     read_solution();
@@ -86,6 +87,7 @@ class MshReader {
 
   void put_element(const MshElement& element) {
     switch (element.type) {
+      case msh_point: return put_named_node(element);
       case msh_line: return lines_.add(element, group_of(1, element));
       case msh_triangle: return triangles_.add(element, group_of(2, element));
       case msh_quad: return quads_.add(element, group_of(2, element));
@@ -95,6 +97,13 @@ class MshReader {
       case msh_hexahedron: return hexahedra_.add(element, group_of(3, element));
       default: return;
     }
+  }
+
+  /// Points in no physical group are corners of the geometry, for example.
+  void put_named_node(const MshElement& element) {
+    const std::int64_t physical = std::abs(element.physical);
+    if (physical != 0)
+      mesh_.named_nodes.push_back({text_.groups().name_of(0, physical), GlobalNodeId{element.nodes[0]}});
   }
 
   /// Groups are numbered in the order of their first elements.

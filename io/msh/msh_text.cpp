@@ -162,13 +162,17 @@ void MshText::read_entities() {
   if (!go_to_section("Entities")) return;
   const std::size_t points = scan_.count("points", 5), curves = scan_.count("curves", 9),
                     surfaces = scan_.count("surfaces", 9), volumes = scan_.count("volumes", 9);
-  for (std::size_t i = 0; i < points; ++i) {
-    scan_.integer("the tag of a point");
-    scan_.rest_of_line();
-  }
+  for (std::size_t i = 0; i < points; ++i) read_point_entity();
   for (std::size_t i = 0; i < curves; ++i) read_entity(1, "the tag of a curve");
   for (std::size_t i = 0; i < surfaces; ++i) read_entity(2, "the tag of a surface");
   for (std::size_t i = 0; i < volumes; ++i) read_entity(3, "the tag of a volume");
+}
+
+void MshText::read_point_entity() {
+  const std::int64_t entity = scan_.integer("the tag of a point");
+  for (int k = 0; k < 3; ++k) scan_.token("a coordinate of a point");
+  const std::size_t groups = scan_.count("physical groups", 1);
+  for (std::size_t k = 0; k < groups; ++k) groups_.put_in_physical(0, entity, physical_tag());
 }
 
 void MshText::read_entity(int dimension, const char* expected) {

@@ -81,6 +81,8 @@ class MshText {
   std::int64_t physical_tag();
   void read_names();
   void read_entities();
+  /// Tag, coordinates and the physical groups.
+  void read_point_entity();
   /// Tag, six numbers of a box, the physical groups, and bounding entities.
   void read_entity(int dimension, const char* expected);
   void read_point(std::int64_t tag);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "io/msh/msh_file.hpp"
 #include "io/msh/msh_output.hpp"
@@ -26,13 +27,35 @@ std::string affine_of(const PeriodicPair& pair) {
   return fmt::format("{} {} 0 {} {} {} 0 {} 0 0 1 0 0 0 0 1", x.x, -x.y, origin.x, x.y, x.x, origin.y);
 }
 
-/// The boundaries, then the blocks.
+/// The places of the named nodes of a plane mesh, on all ranks. *Collective.*
+std::vector<Point> places_of_named(const Communicator& comm, const Mesh& mesh) {
+  struct Place {
+    std::int64_t index;
+    Point point;
+  };
+  std::vector<Place> own;
+  for (std::size_t i = 0; i < mesh.named_nodes.size(); ++i) {
+    const NodeId node{static_cast<std::int32_t>(mesh.named_nodes[i].node.value() - mesh.first_node)};
+    if (node.valid() && mesh.owns(node)) own.push_back({static_cast<std::int64_t>(i), mesh.point(node)});
+  }
+  std::vector<Point> places(mesh.named_nodes.size());
+  for (const Place& place : comm.all_gather_values(std::span<const Place>(own)))
+    places[place.index] = place.point;
+  return places;
+}
+
+/// The boundaries, then the blocks, then the named nodes of a plane mesh. *Collective.*
 std::vector<MshOutputGroup> groups_of(const MeshStream& stream) {
   const int dimension = stream.is_plane() ? 2 : 3;
   std::vector<MshOutputGroup> groups;
   for (const std::string& name : stream.patch_names()) groups.push_back({dimension - 1, name});
   const StreamBlocks blocks(stream);
   for (const std::string& name : blocks.names()) groups.push_back({dimension, name});
+  if (!stream.is_plane()) return groups;
+  const Mesh& mesh = stream.extruded()->plane;
+  const std::vector<Point> places = places_of_named(stream.communicator(), mesh);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    groups.push_back({0, mesh.named_nodes[i].name, {places[i].x, places[i].y, 0}});
   return groups;
 }
 
@@ -45,6 +68,7 @@ class MshWriter {
     output_.write_nodes(stream_.point_rows(), [&](std::int64_t i) { return stream_.point(i); });
     std::int64_t elements = stream_.counts().cells();
     for (const StreamedPatch& patch : stream_.patches()) elements += patch.faces();
+    elements += std::ssize(named_nodes());
     output_.begin_elements(runs(), elements);
     write_sides();
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
@@ -53,15 +77,20 @@ class MshWriter {
     }
     for (std::int32_t block = 0; block < blocks_.count(); ++block)
       for_each_kind([&]<CellKind kind>() { write_cells<kind>(block); });
+    write_named_nodes();
     output_.end_elements();
     output_.write_periodic(links());
     output_.close();
   }
 
  private:
+  std::span<const NamedNode> named_nodes() const {
+    return stream_.is_plane() ? stream_.extruded()->plane.named_nodes : std::span<const NamedNode>();
+  }
+
   /// Number of runs of elements of one type in one group.
   std::int64_t runs() const {
-    std::int64_t count = 0;
+    std::int64_t count = std::ssize(named_nodes());
     for (const StreamedPatch& patch : stream_.patches())
       count += (patch.edges > 0 ? 1 : 0) + (patch.triangles > 0 ? 1 : 0) + (patch.quads > 0 ? 1 : 0);
     for (std::int32_t block = 0; block < blocks_.count(); ++block)
@@ -99,6 +128,14 @@ class MshWriter {
           *stream_.boundaries(), msh_quad, stream_.layers(),
           [&](const BoundaryStream::Edge& edge, std::int64_t layer) { return stream_.side(edge, layer); });
     }
+  }
+
+  /// Writes each as an element of one node.
+  void write_named_nodes() {
+    const std::int64_t first = std::ssize(stream_.patches()) + blocks_.count() + 1;
+    for (std::int64_t i = 0; i < std::ssize(named_nodes()); ++i)
+      output_.write_elements<1>(msh_point, first + i, stream_.communicator().is_root() ? 1 : 0,
+                                [&](std::int64_t) { return std::array{named_nodes()[i].node.value()}; });
   }
 
   template <std::size_t width>

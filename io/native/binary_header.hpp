@@ -29,7 +29,7 @@ struct BinaryHeader {
   std::vector<BoundaryHead> boundaries;
   std::int64_t constants = 0;
   std::vector<std::string> variables, cell_variables;
-  std::string comments = {};  ///< strips and pairs as in a .mesh file
+  std::string comments = {};  ///< strips, pairs and named nodes as in a .mesh file
 
   std::int64_t triangles() const;
   std::int64_t quads() const;

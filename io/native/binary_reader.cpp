@@ -10,6 +10,7 @@
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
+#include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/binary_file.hpp"
@@ -171,6 +172,7 @@ class BinaryReader {
     const StripsInText found = strips_in_comments(header_.comments, loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
     loaded_.mesh.pairs = pairs_in_comments(header_.comments);
+    loaded_.mesh.named_nodes = nodes_in_comments(header_.comments, loaded_.mesh.owned_nodes);
     for (const std::string& name : found.damaged)
       loaded_.warnings.push_back(
           path_ + ": the comment '# strip " + name +

@@ -3,6 +3,7 @@
 
 #include "io/model/layers_text.hpp"
 #include "io/model/line_text.hpp"
+#include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/native/native_file.hpp"
@@ -117,7 +118,7 @@ class NativeReader {
     return comment.starts_with(head) ? layers_of_text(comment.substr(head.size())) : WallLayers{};
   }
 
-  /// Reads strips and inner lines from comments after the boundaries.
+  /// Reads strips, pairs, inner lines and named nodes from comments after the boundaries.
   void read_strips() {
     scan_.forget_comments();
     scan_.at_end();
@@ -126,6 +127,7 @@ class NativeReader {
     const StripsInText found = strips_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
     loaded_.mesh.strips = found.strips;
     loaded_.mesh.pairs = pairs_in_comments(scan_.passed_over());
+    loaded_.mesh.named_nodes = nodes_in_comments(scan_.passed_over(), loaded_.mesh.owned_nodes);
     for (const std::string& name : found.damaged)
       loaded_.warnings.push_back(
           scan_.path() + ": the comment '# strip " + name +

@@ -111,6 +111,8 @@ class PvtuReader {
       own.layers = boundary.layers;
       for (const Face& face : boundary.faces) own.faces.push_back(moved(face));
     }
+    for (const NamedNode& named : piece.named_nodes)
+      whole_.named_nodes.push_back({named.name, GlobalNodeId{named.node.value() + first}});
     has_strips_ = has_strips_ || !piece.strips.empty();
     whole_.warnings.insert(whole_.warnings.end(), piece.warnings.begin(), piece.warnings.end());
   }

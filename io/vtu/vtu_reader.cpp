@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/model/clean_up.hpp"
+#include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/stream/vtk_cell.hpp"
@@ -138,6 +139,7 @@ class VtuReader {
     for (const std::string& text : numbers_.texts(array)) texts += text + "\n";
     mesh_.strips = strips_in_comments(texts, static_cast<std::int32_t>(document_.points)).strips;
     mesh_.pairs = pairs_in_comments(texts);
+    mesh_.named_nodes = nodes_in_comments(texts, static_cast<std::int32_t>(document_.points));
   }
 
   /// In our own files; invalid counts are ignored.

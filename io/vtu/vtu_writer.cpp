@@ -1,3 +1,4 @@
+#include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
 #include "io/stream/mesh_stream.hpp"
@@ -116,12 +117,14 @@ class VtuWriter {
            "</DataArray>\n";
   }
 
-  /// Strips and pairs of a plane mesh.
+  /// Strips, pairs and named nodes of a plane mesh.
   std::string comment_array() const {
     if (!stream_.is_plane()) return {};
     std::vector<std::string> comments;
-    for (const StripLayers& strip : stream_.extruded()->plane.strips) comments.push_back(comments_of(strip));
-    for (const PeriodicPair& pair : stream_.extruded()->plane.pairs) comments.push_back(comment_of(pair));
+    const Mesh& mesh = stream_.extruded()->plane;
+    for (const StripLayers& strip : mesh.strips) comments.push_back(comments_of(strip));
+    for (const PeriodicPair& pair : mesh.pairs) comments.push_back(comment_of(pair));
+    for (const NamedNode& node : mesh.named_nodes) comments.push_back(comment_of(node));
     return comments.empty() ? std::string() : vtu_text_array(vtu_strips, comments);
   }
 

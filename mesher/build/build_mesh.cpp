@@ -12,6 +12,7 @@
 #include "mesher/build/make_delaunay.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
+#include "mesher/build/required_points.hpp"
 #include "mesher/build/split_baffles.hpp"
 #include "mesher/build/split_quads.hpp"
 #include "mesher/cut/grid_rank.hpp"
@@ -78,17 +79,18 @@ void count_entries(const Communicator& comm, MeshResult& result) {
   a.quads = comm.sum(std::ssize(result.mesh.quads));
 }
 
-MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& options,
+MeshResult build_mesh(const Communicator& comm, const Geometry& given, const MeshOptions& wanted,
                       const DemandedSplits& demanded) {
   MeshResult result;
   StageTimes& times = result.report.times;
   times.begin("geometry");
-  const std::optional<Geometry> fewer = small_islands_dropped(given, options.size.min, result.report);
+  const std::optional<Geometry> fewer = small_islands_dropped(given, wanted.size.min, result.report);
   const Geometry& geometry = fewer ? *fewer : given;
-  if (!options.may_vanish && !result.report.boundaries_vanished.empty()) {
+  if (!wanted.may_vanish && !result.report.boundaries_vanished.empty()) {
     refuse_vanished(given, result.report.boundaries_vanished,
-                    fmt::format("is smaller than spacing.min = {}", options.size.min));
+                    fmt::format("is smaller than spacing.min = {}", wanted.size.min));
   }
+  const MeshOptions options = with_room_for_points(geometry, wanted);
   SizedDomain domain(geometry, options.size, demanded);
   SizeTree& sizes = domain.sizes;
   result.report.regions = regions_of(geometry);
@@ -104,7 +106,8 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   const LeafGraph graph = refine_forest(comm, sizes, leaves);
 
   times.begin("cutting");
-  CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror);
+  CutForest cut = cut_forest(comm, graph, sizes, domain.outline, domain.inside, options.snap, options.mirror,
+                             positions_of(options.required_points));
 
   times.begin("mesh");
   sizes.forget();  // frees the size tree before the mesh is allocated

@@ -11,6 +11,7 @@
 #include "mesher/geometry/geometry.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/geometry/periodic_pair.hpp"
+#include "mesher/geometry/required_point.hpp"
 #include "mesher/grid/size_options.hpp"
 #include "mesher/mesh/mesh.hpp"
 #include "mesher/mesh/tree_record.hpp"
@@ -67,6 +68,9 @@ struct MeshOptions {
   /// Pairs of boundaries of the geometry, each the exact image of the other. build_mesh() does not know them:
   /// generate_mesh() makes their nodes match.
   std::vector<PeriodicPair> pairs = {};
+  /// Points that must be nodes. build_mesh() makes them nodes, generate_mesh() names these nodes and checks
+  /// that there is one for each point.
+  std::vector<RequiredPoint> required_points = {};
 };
 
 /// Report of mesh generation for the user. Numbers are over all ranks, the same on each.

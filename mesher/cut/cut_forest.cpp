@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 
@@ -12,6 +13,7 @@
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/forest/leaf_finder.hpp"
 #include "mesher/sizes/size_cursor.hpp"
+#include "mesher/snap/required_snaps.hpp"
 #include "mesher/snap/snap_corners.hpp"
 
 namespace quadloop {
@@ -283,11 +285,12 @@ class ForestCutter {
 
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
-                     std::optional<MirrorAxis> mirror) {
+                     std::optional<MirrorAxis> mirror, std::span<const Point> required) {
   std::vector<std::int8_t> target_levels;
   const TracedForest traced = trace_forest(graph, sizes, outline, target_levels);
-  const std::vector<Snap> snaps =
+  std::vector<Snap> snaps =
       choose_snaps(graph, sizes.grid(), outline.geometry(), traced, std::max(snap, least_snap), mirror);
+  std::ranges::move(required_snaps(comm, graph, sizes.grid(), required), std::back_inserter(snaps));
   std::vector<const Snap*> standing;  // snaps that have not been revoked
   standing.reserve(snaps.size());
   for (const Snap& s : snaps) standing.push_back(&s);
@@ -317,7 +320,7 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   result.moved.reserve(standing.size());
   result.target_levels = std::move(target_levels);
   for (const Snap* s : standing) {
-    if (!s->on_edge) result.moved.push_back({s->corner, s->position});
+    if (!s->on_edge && !s->in_leaf) result.moved.push_back({s->corner, s->position});
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "mesher/base/parallel/communicator.hpp"
@@ -62,12 +63,13 @@ struct CutForest {
 /// Cuts the local leaves and determines inside and outside. No rank waits for another: an uncut leaf takes
 /// its state from a local neighbour, or from an exact count of crossings. A snap that makes a leaf invalid is
 /// revoked. `snap` is the snap tolerance: maximum distance of a crossing from a grid vertex that moves
-/// onto it, relative to the local edge; at least 1e-9. With a mirror axis corners on it stay on it. Throws
-/// InputError on all ranks if boundaries are closer to each other than double precision can resolve.
-/// *Collective.*
+/// onto it, relative to the local edge; at least 1e-9. With a mirror axis corners on it stay on it. The
+/// points `required`, which must be away from the geometry and from each other, become nodes
+/// (required_snaps). Throws InputError on all ranks if boundaries are closer to each other than double
+/// precision can resolve. *Collective.*
 CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree& sizes,
                      const ShiftedOutline& outline, const Interior& inside, double snap,
-                     std::optional<MirrorAxis> mirror = {});
+                     std::optional<MirrorAxis> mirror = {}, std::span<const Point> required = {});
 
 /// Whether a quadrant must be refined before it can be cut: it contains a complete loop, or chords that would
 /// cross each other or deviate too far from the boundary.

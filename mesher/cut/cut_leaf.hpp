@@ -32,7 +32,8 @@ struct CutLeaf {
   /// blocks, and along inner lines, there are two in opposite directions; those along a side may be in two
   /// leaves.
   std::vector<Edge> outline;
-  /// Concatenated loops; those of two nodes are parts of inner lines with the same region on both sides.
+  /// Concatenated loops; those of two nodes are parts of inner lines with the same region on both sides,
+  /// those of one node are nodes that the cells must have.
   std::vector<std::int32_t> loop_nodes;
   std::vector<std::int32_t> loop_starts;  ///< one more entry than there are loops
   std::vector<std::int32_t> loop_blocks;  ///< of each loop

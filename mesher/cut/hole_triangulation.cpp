@@ -63,7 +63,8 @@ void triangulate_region(std::span<const Point> points, std::span<const std::span
   };
   std::set<std::pair<std::int32_t, std::int32_t>> passed_once;
   for (const auto loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (loop.size() == 1) vertex(loop[0]);
+    for (std::size_t i = 0; loop.size() > 1 && i < loop.size(); ++i) {
       const auto [passed, is_new] = passed_once.insert(std::minmax({loop[i], loop[(i + 1) % loop.size()]}));
       if (!is_new) passed_once.erase(passed);
       const auto from = vertex(loop[i]), to = vertex(loop[(i + 1) % loop.size()]);

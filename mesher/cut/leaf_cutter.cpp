@@ -320,6 +320,17 @@ bool cancel_opposites(const Geometry& geometry, const CutLeaf& leaf, std::pmr::v
   return true;
 }
 
+/// Adds a node for each snap inside the leaf, with a loop of this node alone, in the leaf's only block.
+void add_lone_nodes(std::span<const LeafSnap> snaps, CutLeaf& leaf) {
+  for (const LeafSnap& s : snaps) {
+    if (s.site != Site::inside || leaf.loop_blocks.empty()) continue;
+    leaf.loop_nodes.push_back(size32(leaf.nodes));
+    leaf.loop_starts.push_back(size32(leaf.loop_nodes));
+    leaf.loop_blocks.push_back(leaf.loop_blocks.front());
+    leaf.nodes.push_back({s.snap->position, Site::inside});
+  }
+}
+
 /// Whether the chords need no checks: one part of the boundary was merged into one chord between two sides.
 bool is_simple(const Input& input, const CutLeaf& leaf) {
   const auto& crossings = input.trace.crossings;
@@ -347,6 +358,7 @@ bool LeafCutter::cut(const Input& input, Detail detail) {
   std::pmr::vector<CutLeaf::Edge>& edges = sides->inside;
   const bool simple = is_simple(input, leaf_);
   if (!cancel_opposites(geometry, leaf_, edges) || !trace_loops(edges, leaf_)) return false;
+  add_lone_nodes(input.snaps, leaf_);
   const bool sides_bend = std::ranges::any_of(input.snaps, [](const LeafSnap& s) { return moves(*s.snap); });
   return simple ||
          (loops_are_sound(edges, leaf_) && (!sides_bend || sides_are_sound(edges, sides->outside, leaf_)));

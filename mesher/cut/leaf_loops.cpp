@@ -209,6 +209,13 @@ bool nesting_is_sound(const CutLeaf& leaf) {
   return true;
 }
 
+/// Whether a node lies on no edge, not even at its ends.
+bool stands_alone(const CutLeaf& leaf, Edges edges, std::int32_t node) {
+  return std::ranges::none_of(edges, [&](const CutLeaf::Edge& e) {
+    return on_segment(at(leaf, node), at(leaf, e.from), at(leaf, e.to));
+  });
+}
+
 /// Whether a chord that ends at a node on the sides points into the leaf, or along a side.
 bool starts_inwards(const CutLeaf& leaf, std::int32_t node, std::int32_t towards) {
   const std::int32_t before = (node + leaf.side_nodes - 1) % leaf.side_nodes,
@@ -262,7 +269,8 @@ int winding_of(const CutLeaf& leaf, std::span<const std::int32_t> loop) {
 bool loops_are_sound(Edges edges, const CutLeaf& leaf) {
   if (any_conflict(leaf, edges)) return false;
   for (std::size_t i = 0; i < leaf.loop_count(); ++i) {
-    if (leaf.loop(i).size() < 2) return false;
+    const auto loop = leaf.loop(i);
+    if (loop.size() < 2 && !stands_alone(leaf, edges, loop[0])) return false;
   }
   return nesting_is_sound(leaf);
 }

@@ -90,7 +90,7 @@ std::pmr::vector<Stop> stops_round(const Geometry& geometry, const Input& input,
   }
   for (std::int32_t s = 0; s < std::ssize(input.snaps); ++s) {
     const Site site = input.snaps[s].site;
-    if (is_on_grid(site)) continue;
+    if (is_on_grid(site) || site == Site::inside) continue;
     const Side side = side_of(site);
     const Point p = input.snaps[s].snap->position, from = corner[index_of(start_of(side))];
     add(side, is_vertical(side) ? Point{from.x, p.y} : Point{p.x, from.y}, site, -1, s);
@@ -143,7 +143,7 @@ std::int32_t absorbing_snap(const Geometry& geometry, std::span<const LeafSnap> 
 }
 
 /// Adds a node for each position with a stop that no snap absorbs. Returns the node that each snap moves:
-/// that of its grid site, or of its stop on a side.
+/// that of its grid site, or of its stop on a side; -1 for a snap inside the leaf.
 std::pmr::vector<std::int32_t> add_side_nodes(std::span<const LeafSnap> snaps,
                                               std::span<const NamedCrossing> crossings,
                                               std::pmr::vector<Stop>& stops,
@@ -180,8 +180,10 @@ std::pmr::vector<NamedCrossing> name_stops(const Geometry& geometry, const Input
     if (stop.node < 0) stop.node = snap_nodes[crossing.snap];
     crossing.node = stop.node;
   }
-  for (std::size_t s = 0; s < input.snaps.size(); ++s)
-    leaf.nodes[snap_nodes[s]].position = input.snaps[s].snap->position;
+  for (std::size_t s = 0; s < input.snaps.size(); ++s) {
+    if (input.snaps[s].site != Site::inside)
+      leaf.nodes[snap_nodes[s]].position = input.snaps[s].snap->position;
+  }
   leaf.side_nodes = size32(leaf.nodes);
   return crossings;
 }

@@ -64,6 +64,14 @@ struct StripLayers {
   friend bool operator==(const StripLayers&, const StripLayers&) = default;
 };
 
+/// A node with a name: at a point that must be one.
+struct NamedNode {
+  std::string name;
+  GlobalNodeId node;
+
+  friend bool operator==(const NamedNode&, const NamedNode&) = default;
+};
+
 /// The blocks of a mesh: the block of each of this rank's cells, as index into the names, which are the same
 /// on all ranks.
 struct MeshBlocks {
@@ -120,8 +128,9 @@ struct Mesh {
   std::vector<std::array<NodeId, 4>> quads;
   std::vector<BoundaryEdges> boundaries;
   std::vector<StripLayers> strips;
-  std::vector<PeriodicPair> pairs = {};  ///< of boundaries whose nodes match: paired_nodes()
-  MeshBlocks blocks = {};                ///< without names there is one block, and the lists are empty
+  std::vector<PeriodicPair> pairs = {};     ///< of boundaries whose nodes match: paired_nodes()
+  MeshBlocks blocks = {};                   ///< without names there is one block, and the lists are empty
+  std::vector<NamedNode> named_nodes = {};  ///< the same on every rank
 
   bool owns(NodeId node) const { return node.value() < owned_nodes; }
   const Point& point(NodeId node) const { return points[node.value()]; }

@@ -188,6 +188,22 @@ std::vector<StripLayers> broadcast_strips(const Communicator& comm, const Mesh& 
   return strips;
 }
 
+/// Broadcasts the root's named nodes, renumbered by the order.
+std::vector<NamedNode> broadcast_named_nodes(const Communicator& comm, const Mesh& whole,
+                                             const NodeNumbers& numbers) {
+  std::vector<std::string> names;
+  std::vector<GlobalNodeId> nodes;
+  for (const NamedNode& named : whole.named_nodes) {
+    names.push_back(named.name);
+    nodes.push_back(numbers[NodeId{static_cast<std::int32_t>(named.node.value())}]);
+  }
+  names = broadcast_words(comm, names);
+  comm.broadcast(nodes);
+  std::vector<NamedNode> result;
+  for (std::size_t i = 0; i < nodes.size(); ++i) result.push_back({names[i], nodes[i]});
+  return result;
+}
+
 /// Broadcasts the root's pairs.
 std::vector<PeriodicPair> broadcast_pairs(const Communicator& comm, const Mesh& whole) {
   struct Map {
@@ -359,6 +375,7 @@ Mesh scatter_mesh(const Communicator& comm, const Mesh& whole, const MeshOrder& 
   builder.add_edges(scatter_edges(comm, whole, numbers));
   builder.part().strips = broadcast_strips(comm, whole, numbers);
   builder.part().pairs = broadcast_pairs(comm, whole);
+  builder.part().named_nodes = broadcast_named_nodes(comm, whole, numbers);
   return builder.finish(comm);
 }
 
@@ -411,6 +428,7 @@ Mesh gather_whole(const Communicator& comm, const Mesh& part) {
   whole.blocks = {part.blocks.names, gather_at_root(comm, part.blocks.of_triangles),
                   gather_at_root(comm, part.blocks.of_quads)};
   whole.pairs = part.pairs;
+  whole.named_nodes = part.named_nodes;
   return whole;
 }
 

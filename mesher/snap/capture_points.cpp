@@ -60,33 +60,19 @@ class PointCapture {
   /// The edge of the leaf within reach, with the crossings that the point absorbs.
   std::optional<Snap> edge_near(LeafId leaf, std::int32_t vertex, const LeafTrace& view, const Piece& piece) {
     const Point p = geometry_.point(vertex);
-    LeafEdge nearest;
-    bool contested = false;
-    double least = share_ * edge_reach;
-    for (const Side side : all_sides) {
-      const LeafEdge edge = leaf_edge_near(graph_, grid_, leaf, side, p);
-      const double distance = std::abs(edge.across(p) - line_of(edge)) / edge.length(grid_);
-      if (distance > least) continue;
-      contested = distance == least;
-      nearest = edge;
-      least = distance;
-    }
-    if (contested || least == share_ * edge_reach || across(nearest) == LeafGraph::none) return std::nullopt;
+    const std::optional<LeafEdge> nearest = quadloop::edge_near(graph_, grid_, leaf, p, share_);
+    if (!nearest || across(*nearest) == LeafGraph::none) return std::nullopt;
     Snap snap;
-    snap.corner = nearest.point((nearest.from + nearest.to) / 2);
+    snap.corner = nearest->point((nearest->from + nearest->to) / 2);
     snap.position = snap.centre = p;
-    snap.radius = share_ * edge_reach * nearest.length(grid_);
+    snap.radius = share_ * edge_reach * nearest->length(grid_);
     snap.on_edge = true;
-    snap.vertical = nearest.vertical();
-    if (!take_crossings(nearest, vertex, view, piece, snap)) return std::nullopt;
+    snap.vertical = nearest->vertical();
+    if (!take_crossings(*nearest, vertex, view, piece, snap)) return std::nullopt;
     return snap;
   }
 
  private:
-  double line_of(const LeafEdge& edge) const {
-    return edge.vertical() ? grid_.x(edge.line) : grid_.y(edge.line);
-  }
-
   LeafId across(const LeafEdge& edge) {
     const bool ahead = edge.side == Side::right || edge.side == Side::top;
     const std::int64_t beyond = ahead ? edge.line : edge.line - 1;
@@ -240,7 +226,28 @@ std::vector<Snap> settle_edges(const Geometry& geometry, std::vector<Snap> claim
   return settled;
 }
 
+double line_of(const TreeGrid& grid, const LeafEdge& edge) {
+  return edge.vertical() ? grid.x(edge.line) : grid.y(edge.line);
+}
+
 }  // namespace
+
+std::optional<LeafEdge> edge_near(const LeafGraph& graph, const TreeGrid& grid, LeafId leaf, Point p,
+                                  double share) {
+  LeafEdge nearest;
+  bool contested = false;
+  double least = share * edge_reach;
+  for (const Side side : all_sides) {
+    const LeafEdge edge = leaf_edge_near(graph, grid, leaf, side, p);
+    const double distance = std::abs(edge.across(p) - line_of(grid, edge)) / edge.length(grid);
+    if (distance > least) continue;
+    contested = distance == least;
+    nearest = edge;
+    least = distance;
+  }
+  if (contested || least == share * edge_reach) return std::nullopt;
+  return nearest;
+}
 
 Captures capture_points(const LeafGraph& graph, const TreeGrid& grid, const Geometry& geometry,
                         const TracedForest& traced, double snap) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "mesher/snap/leaf_edge.hpp"
 #include "mesher/snap/leaf_trace.hpp"
 #include "mesher/snap/snap.hpp"
 
@@ -19,6 +21,11 @@ struct CornerCapture {
   std::int32_t vertex = -1;
   std::int32_t trace = -1, piece = -1;  ///< trace and piece that contain the geometry vertex
 };
+
+/// The edge of the leaf nearest to the point, relative to the edge's length. None if none is within `share`
+/// of the reach of edges, or if two are equally near.
+std::optional<LeafEdge> edge_near(const LeafGraph& graph, const TreeGrid& grid, LeafId leaf, Point p,
+                                  double share);
 
 /// The grid vertices and edges captured by kept points and other points with sharp turns: each captures the
 /// nearest grid vertex, or else the nearest grid edge, which then bends through the point. So no slivers

@@ -12,6 +12,7 @@ namespace {
 /// The site of the snap in the leaf that lies in this direction from it. A leaf that lies in two directions
 /// has the vertex in the middle of a side.
 Site site_in(const Snap& snap, Corner direction) {
+  if (snap.in_leaf) return Site::inside;
   const Halves towards = halves_of(site_of(direction));
   if (snap.on_edge && snap.vertical) return elsewhere_on(towards.x == 0 ? Side::right : Side::left);
   if (snap.on_edge) return elsewhere_on(towards.y == 0 ? Side::top : Side::bottom);

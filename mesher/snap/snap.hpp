@@ -11,9 +11,9 @@
 namespace quadloop {
 
 /// A grid vertex that moves onto the boundary, where it replaces the crossings near it by one node; or a grid
-/// edge that bends through a kept point, which becomes a node of the edge.
+/// edge that bends through a kept point, which becomes a node of the edge; or a node inside a leaf.
 struct Snap {
-  GridPoint corner;  ///< for an edge: its middle
+  GridPoint corner;  ///< for an edge or a leaf: its middle
   Point position;  ///< new position: the nearest point of the boundary's run past the vertex, or a kept point
   Point centre;    ///< vertices next to an absorbed crossing and within `radius` of this point vanish
   double radius = 0;
@@ -27,6 +27,7 @@ struct Snap {
   std::int32_t segment = -1;
   bool on_edge = false;                     ///< for an edge, not a vertex
   bool vertical = false;                    ///< the edge is vertical
+  bool in_leaf = false;                     ///< for a node inside a leaf that contains no geometry
   std::array<LeafId, 4> leaves_round = {};  ///< LeafFinder::leaves_round() of `corner`
 };
 
@@ -47,7 +48,7 @@ void settle_absorbed(const Geometry& geometry, Snap& snap);
 /// Sets `leaves_round` of the snaps; fast if consecutive snaps are near each other.
 void find_leaves_round(const LeafGraph& graph, std::span<Snap> snaps);
 
-/// A snap as seen by one leaf: at a corner, a hanging node, or elsewhere on a side.
+/// A snap as seen by one leaf: at a corner, a hanging node, elsewhere on a side, or inside.
 struct LeafSnap {
   LeafId leaf;
   Site site = Site::south_west;

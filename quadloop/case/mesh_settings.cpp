@@ -248,8 +248,9 @@ const KeyTable<LineRule>& line_keys() {
            "Name of the line. `[boundary.NAME]` sets its `spacing` and `corner`. Required with `path`.",
            {.fallback = "the name in `boundary`", .example = "\"screen\""}),
        key<&LineRule::path>("path", path_of_line(),
-                            "The points of the line, which is closed if it ends where it begins. A line has "
-                            "either `path` or `boundary`."),
+                            "The points of the line, which is closed if it ends where it begins; a single "
+                            "point becomes [a node](#single-points). A line has either `path` or "
+                            "`boundary`."),
        key<&LineRule::boundary>("boundary", text(),
                                 "A chain of the geometry that is an inner line, not a part of the outline."),
        key<&LineRule::baffle>("kind", choice<bool>({{"line", false}, {"baffle", true}}),
@@ -374,7 +375,7 @@ BlockRule read_block(const io::CaseTable& table) {
   return rule;
 }
 
-LineRule read_line(const io::CaseTable& table) {
+void read_line(const io::CaseTable& table, Settings& settings) {
   LineRule rule;
   line_keys().read(table, rule);
   rule.where = table.place();
@@ -383,12 +384,15 @@ LineRule read_line(const io::CaseTable& table) {
   if (rule.name.empty()) rule.name = rule.boundary;
   if (rule.name.empty()) table.refuse("name", "is missing; give the line one, as in name = \"screen\"");
   if (table.has("name")) rule.name = boundary_name().read(table, "name");
-  if (rule.path.size() == 1)
-    table.refuse("path", "has one point; a single node is not possible yet, so give the line two points");
-  if (!rule.path.empty() && std::ranges::count(rule.path, rule.path.front()) == std::ssize(rule.path))
+  if (rule.path.size() == 1 && rule.baffle)
+    table.refuse("kind", "is \"baffle\", but the path has one point; give the baffle two points");
+  if (rule.path.size() > 1 && std::ranges::count(rule.path, rule.path.front()) == std::ssize(rule.path))
     table.refuse("path", fmt::format("has no length: all its points are ({}, {}); give two different points",
                                      rule.path.front().x, rule.path.front().y));
-  return rule;
+  if (rule.path.size() == 1)
+    settings.mesh.required_points.push_back({rule.name, rule.path.front(), rule.where});
+  else
+    settings.outline.lines.push_back(rule);
 }
 
 void read_mesh_table(const io::CaseTable& table, Settings& settings) {

@@ -28,7 +28,8 @@ void read_geometry_table(const io::CaseTable& table, const std::string& case_pat
 void read_spacing_table(const io::CaseTable& table, Settings& settings);
 SizeSource read_source(const io::CaseTable& table);
 BlockRule read_block(const io::CaseTable& table);
-LineRule read_line(const io::CaseTable& table);
+/// Adds a line, or the point that must be a node, if the path has one point.
+void read_line(const io::CaseTable& table, Settings& settings);
 void read_mesh_table(const io::CaseTable& table, Settings& settings);
 
 }  // namespace quadloop

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "flow/postprocess/flow_quantities.hpp"
 #include "io/formats.hpp"
@@ -96,7 +98,7 @@ void read_tables(const CaseTable& root, Settings& settings) {
   for (const CaseTable& source : root.tables("source"))
     settings.mesh.size.sources.push_back(read_source(source));
   for (const CaseTable& block : root.tables("block")) settings.outline.blocks.push_back(read_block(block));
-  for (const CaseTable& line : root.tables("line")) settings.outline.lines.push_back(read_line(line));
+  for (const CaseTable& line : root.tables("line")) read_line(line, settings);
   for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
@@ -112,12 +114,38 @@ void read_tables(const CaseTable& root, Settings& settings) {
   read_table(root, "output", [&](const CaseTable& table) { read_output_table(table, settings); });
 }
 
+/// A setting that something else excludes: whether the case has it, and its name with the remedy.
+using Excluded = std::pair<bool, const char*>;
+
+/// Throws InputError for the first excluded setting of the case. `mesh` has what excludes it, the table of
+/// this name at `where`.
+void refuse_excluded(std::span<const Excluded> others, const std::string& where, const char* mesh,
+                     const char* table) {
+  for (const auto& [is_set, what] : others) {
+    if (is_set)
+      throw InputError(fmt::format("{}: a mesh {} cannot have {} or [[{}]]", where, mesh, what, table));
+  }
+}
+
+/// Throws InputError for settings with which single points cannot stay nodes.
+void require_fixed_points(const Settings& settings) {
+  const std::vector<RequiredPoint>& points = settings.mesh.required_points;
+  if (points.empty()) return;
+  const Excluded others[] = {
+      {settings.mesh.mirror.has_value(), "mirror images; remove mesh.mirror"},
+      {settings.stretch.has_value(), "r-adaptation; remove it from [smooth]"},
+      {settings.mesh.type == MeshType::metric, "anisotropic adaptation; set mesh.type to delaunay"},
+      {settings.morph_to.has_value(), "morphing; remove design.morph_to"},
+      {settings.partitions > 0, "partitions; remove output.partitions"}};
+  refuse_excluded(others, points.front().where, "with single points as nodes", "line");
+}
+
 /// Throws InputError for settings that do not work with several blocks or inner lines yet.
 void require_blocks_alone(const Settings& settings) {
   const AssembleOptions& outline = settings.outline;
   if (outline.blocks.empty() && outline.lines.empty()) return;
   const bool lines = !outline.lines.empty();
-  const std::pair<bool, const char*> others[] = {
+  const Excluded others[] = {
       {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value() || (!outline.blocks.empty() && settings.half),
        "mirror images; remove mesh.mirror"},
@@ -129,13 +157,8 @@ void require_blocks_alone(const Settings& settings) {
       {settings.adapt && settings.solver.kind != SolverSettings::Kind::command &&
            settings.solver.kind != SolverSettings::Kind::euler,
        "OpenFOAM or SU2 in the loop; set solver.kind = \"command\""}};
-  for (const auto& [is_set, what] : others) {
-    if (!is_set) continue;
-    throw InputError(fmt::format("{}: a mesh {} cannot have {} or [[{}]]",
-                                 lines ? outline.lines.front().where : outline.blocks.front().where,
-                                 lines ? "with inner lines" : "of several blocks", what,
-                                 lines ? "line" : "block"));
-  }
+  refuse_excluded(others, lines ? outline.lines.front().where : outline.blocks.front().where,
+                  lines ? "with inner lines" : "of several blocks", lines ? "line" : "block");
 }
 
 /// Returns warnings about keys of the case that have no effect.
@@ -212,6 +235,7 @@ Settings read_settings(const std::string& case_path, const std::vector<std::stri
   }
   read_tables(root, settings);
   require_blocks_alone(settings);
+  require_fixed_points(settings);
   require_plain_pairs(settings);
   settings.solver.euler.mirror = settings.mesh.mirror;
   const bool is_built_in = settings.solver.kind == SolverSettings::Kind::euler;

@@ -71,6 +71,68 @@ TEST(Generate, WithoutSweepsTheMeshIsAsItWasCut) {
             build_mesh(world(), input.geometry, input.mesh).mesh.points);
 }
 
+/// Points away from the disc and from each other, one on grid lines, and a corner.
+std::vector<RequiredPoint> required_points() {
+  std::vector<RequiredPoint> points;
+  for (const Point p :
+       {Point{0.75, -0.5}, Point{-0.61, 0.13}, Point{0.1, 0.71}, Point{-0.5, -0.5}, Point{1, 1}})
+    points.push_back({"p" + std::to_string(points.size()), p, "case"});
+  return points;
+}
+
+/// Expects each point exactly at the node of its name in a mesh of each type, the same as on one rank.
+void expect_named_nodes(MeshInput input) {
+  input.mesh.required_points = required_points();
+  const Communicator self(MPI_COMM_SELF);
+  for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
+    for (const QuadChoice quads : {QuadChoice::all, QuadChoice::parallel}) {
+      input.mesh.type = type;
+      input.mesh.quads = quads;
+      const Mesh whole = gather_whole(world(), generate_mesh(world(), input).result.mesh);
+      const Mesh alone = generate_mesh(self, input).result.mesh;
+      if (!world().is_root()) continue;
+      EXPECT_EQ(whole.points, alone.points);
+      EXPECT_EQ(whole.triangles, alone.triangles);
+      EXPECT_EQ(whole.quads, alone.quads);
+      EXPECT_EQ(whole.named_nodes, alone.named_nodes);
+      EXPECT_TRUE(validate(whole).empty());
+      ASSERT_EQ(whole.named_nodes.size(), input.mesh.required_points.size());
+      for (std::size_t i = 0; i < whole.named_nodes.size(); ++i) {
+        const auto& [name, position, where] = input.mesh.required_points[i];
+        EXPECT_EQ(whole.named_nodes[i].name, name);
+        EXPECT_EQ(whole.points[whole.named_nodes[i].node.value()], position);
+      }
+    }
+  }
+}
+
+TEST(Generate, SinglePointsStayNodesInSmoothing) {
+  MeshInput input = disc_in_box();
+  input.smooth.sweeps = 20;
+  expect_named_nodes(input);
+}
+
+TEST(Generate, SinglePointsAreNodesOutsideLayers) {
+  MeshInput input = disc_in_box();
+  std::vector<Boundary> boundaries(input.geometry.boundaries().begin(), input.geometry.boundaries().end());
+  boundaries[1].layers = LayerSpec{0.01, 1.2, 1.2, 5};
+  GeometryBuilder builder;
+  for (std::int32_t loop = 0; loop < input.geometry.loop_count(); ++loop)
+    builder.add_loop(input.geometry, loop);
+  input.geometry = std::move(builder).geometry(boundaries);
+  expect_named_nodes(input);
+  input.mesh.required_points = {{"inner", {0.53, 0.05}, "case"}};
+  try {
+    generate_mesh(world(), input);
+    ADD_FAILURE() << "a point in layers is accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "case: point 'inner' at (0.53, 0.05) lies in boundary layers, whose nodes follow from the wall; move "
+        "it out of them, or make the layers thinner");
+  }
+}
+
 TEST(Generate, WhatSmoothingKeepsFollowsFromTheCase) {
   MeshInput input = disc_in_box();
   EXPECT_EQ(smooth_options_for(input, 6).geometry, &input.geometry);

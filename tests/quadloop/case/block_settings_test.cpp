@@ -1,4 +1,5 @@
-// Tables [[block]]: what they describe, what they exclude, conditions and layers between blocks.
+// Tables [[block]], and single points: what they describe, what they exclude, conditions and layers between
+// blocks.
 #include <gtest/gtest.h>
 
 #include "tests/quadloop/case/settings_fixture.hpp"
@@ -24,6 +25,21 @@ TEST_F(BlockSettings, ReadsBlocksAndRefusesWhatTheyDoNotGoWith) {
                                    {"[adapt]\nvariable = \"density\"\n", "the built-in solver"},
                                    {"[smooth]\ntargets = \"solution\"\n", "r-adaptation"}})
     EXPECT_EQ(refused(gas + more).find(start + what), 0u) << refused(gas + more);
+}
+
+TEST_F(BlockSettings, APathOfOnePointIsANode) {
+  const std::string probe = "[[line]]\nname = \"probe\"\npath = [[1, 2]]\n";
+  const Settings settings = read(probe);
+  EXPECT_TRUE(settings.outline.lines.empty());
+  ASSERT_EQ(settings.mesh.required_points.size(), 1U);
+  EXPECT_EQ(settings.mesh.required_points[0].name, "probe");
+  EXPECT_EQ(settings.mesh.required_points[0].position, (Point{1, 2}));
+  EXPECT_EQ(refused(probe + "kind = \"baffle\"\n").find("case.toml:6: 'line.0.kind' is \"baffle\""), 0U);
+  const std::string start = "case.toml:3: a mesh with single points as nodes cannot have ";
+  for (const auto& [more, what] : {std::pair{"[mesh]\nmirror = \"x\"\n", "mirror images"},
+                                   {"[design]\nmorph_to = 0.5\n", "morphing"},
+                                   {"[output]\npartitions = 2\n", "partitions"}})
+    EXPECT_EQ(refused(probe + more).find(start + what), 0U) << refused(probe + more);
 }
 
 TEST_F(BlockSettings, LayersAreInABlockBesideTheirBoundary) {
