@@ -91,9 +91,9 @@ class LayerBuilder {
   void add_edge(std::size_t b, const std::array<NodeId, 2>& edge, std::int32_t leaf);
   void add_strip(NodeId from, NodeId to, std::int32_t leaf);
   void add_sector(NodeId from, std::int32_t fan, std::int32_t leaf);
-  void add_ends(NodeId node, bool first, std::int32_t leaf);
-  bool is_front(const std::array<NodeId, 2>& edge) const {
-    return places_on_.follows(place_[edge[0]], place_[edge[1]]);
+  void add_ends(NodeId node, std::int32_t station, bool first, std::int32_t leaf);
+  std::array<FrontPlace, 2> places_of(const std::array<NodeId, 2>& edge) const {
+    return places_of_edge(line_, {place_[edge[0]], place_[edge[1]]});
   }
   int layers_of(const FrontPlace& place) const { return line_.spec(place.station).count; }
   std::int32_t fan_of(const FrontPlace& place) const { return fans_.fan_of(line_, place); }
@@ -228,23 +228,25 @@ void LayerBuilder::add_boundary(std::size_t b) {
 
 void LayerBuilder::add_edge(std::size_t b, const std::array<NodeId, 2>& edge, std::int32_t leaf) {
   const auto [from, to] = edge;
-  if (!is_front(edge)) {
+  const auto [first, last] = places_of(edge);
+  if (!places_on_.follows(first, last)) {
     grown_->keep_edge(b, leaf, edge);
     return;
   }
-  grown_->begin_block(line_.geometry().block_of(line_[place_[from].station].segment));
-  const std::int32_t fan = fan_of(place_[from]);
-  if (fan != WallLine::none && fan == fan_of(place_[to])) {
+  grown_->begin_block(line_.geometry().block_of(line_[first.station].segment));
+  const std::int32_t fan = fan_of(first);
+  if (fan != WallLine::none && fan == fan_of(last)) {
     add_sector(from, fan, leaf);
     return;
   }
   add_strip(from, to, leaf);
   grown_->add_edge(b, leaf, columns_[from].front(), columns_[to].front());
-  const auto ends = [&](NodeId node) {
-    return place_[node].at_station() && !line_[place_[node].station].at_wake;
+  const auto ends = [&](const FrontPlace& place) {
+    return place.at_station() && !line_[place.station].at_wake;
   };
-  if (line_.previous(place_[from].station) == WallLine::none && ends(from)) add_ends(from, true, leaf);
-  if (line_.next(place_[to].station) == WallLine::none && ends(to)) add_ends(to, false, leaf);
+  if (line_.previous(first.station) == WallLine::none && ends(first))
+    add_ends(from, first.station, true, leaf);
+  if (line_.next(last.station) == WallLine::none && ends(last)) add_ends(to, last.station, false, leaf);
 }
 
 /// Adds the cells between two columns.
@@ -272,11 +274,13 @@ void LayerBuilder::add_sector(NodeId from, std::int32_t fan, std::int32_t leaf) 
   }
 }
 
-/// Adds the edges of the boundary on which the last column of a run lies.
-void LayerBuilder::add_ends(NodeId node, bool first, std::int32_t leaf) {
+/// Adds the edges of the boundary on which the last column of a run lies. Of two runs that end on both sides
+/// of it, one adds them.
+void LayerBuilder::add_ends(NodeId node, std::int32_t station, bool first, std::int32_t leaf) {
   const Geometry& g = line_.geometry();
-  const std::int32_t s = line_[place_[node].station].segment;
-  const BoundaryId boundary = g.boundary_of(first ? g.previous(s) : g.next(s));
+  const std::int32_t s = line_[station].segment, on = first ? g.previous(s) : g.next(s);
+  const BoundaryId boundary = g.boundary_of(on);
+  if (g.is_second(on) && !g.boundary(boundary).baffle) return;
   const std::vector<GrownNode>& nodes = columns_[node];
   for (std::size_t ring = 1; ring < nodes.size(); ++ring) {
     const std::size_t k = first ? nodes.size() - ring : ring;

@@ -1,6 +1,5 @@
 #include "mesher/layers/front_places.hpp"
 
-#include <array>
 #include <limits>
 
 #include "mesher/base/parallel/exchange.hpp"
@@ -42,6 +41,17 @@ FrontPlace FrontPlaces::locate(Point node, BoundaryId boundary) const {
   return {i, share, share == 0 ? 1 : place_on_segment(node, to, from).parameter};
 }
 
+FrontPlace place_of_column(const WallLine& line, const FrontPlace& place) {
+  return place.valid() && place.at_station() ? FrontPlace{line.column_at(place.station)} : place;
+}
+
+std::array<FrontPlace, 2> places_of_edge(const WallLine& line, const std::array<FrontPlace, 2>& ends) {
+  auto [from, to] = ends;
+  if (from.valid() && from.at_station()) from.station = line.beginning_at(from.station);
+  if (to.valid() && to.at_station()) to.station = line.ending_at(to.station);
+  return {from, to};
+}
+
 bool FrontPlaces::follows(const FrontPlace& first, const FrontPlace& second) const {
   if (!first.valid() || !second.valid()) return false;
   const WallLine& line = front_->line;
@@ -62,11 +72,10 @@ IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const Fro
   for (std::size_t b = 0; b < mesh.boundaries.size(); ++b) {
     const BoundaryId boundary{static_cast<std::int32_t>(b)};
     for (const auto& edge : mesh.boundaries[b].edges) {
-      const std::array ends{places.locate(mesh.point(edge[0]), boundary),
-                            places.locate(mesh.point(edge[1]), boundary)};
+      const auto ends = places.locate_edge(mesh.point(edge[0]), mesh.point(edge[1]), boundary);
       if (!places.follows(ends[0], ends[1])) continue;
       for (const std::size_t k : {0, 1}) {
-        found[edge[k]] = ends[k];
+        found[edge[k]] = place_of_column(places.line(), ends[k]);
         const GlobalNodeId node = mesh.global(edge[k]);
         if (!mesh.owns(edge[k])) asked.add(owners.rank_of(node), {node, boundary});
       }
@@ -74,7 +83,7 @@ IdVector<NodeId, FrontPlace> places_of_nodes(const Communicator& comm, const Fro
   }
   for (const Asked& a : asked.deliver(comm)) {
     const NodeId node = owners.local(a.node);
-    found[node] = places.locate(mesh.point(node), a.boundary);
+    found[node] = place_of_column(places.line(), places.locate(mesh.point(node), a.boundary));
   }
   return found;
 }

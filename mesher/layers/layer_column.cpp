@@ -54,8 +54,9 @@ const EndPath* path_at(const WallLine& line, const FrontPlace& place) {
 
 }  // namespace
 
-LayerColumn column_at(const LayerFront& front, const FrontPlace& place, Point node) {
+LayerColumn column_at(const LayerFront& front, const FrontPlace& given, Point node) {
   const WallLine& line = front.line;
+  const FrontPlace place = place_of_column(line, given);
   const Point foot = foot_of(line, place), way = node - foot;
   const EndPath* const path = path_at(line, place);
   const double whole = path ? front.columns.length[place.station] : length(way);
@@ -88,7 +89,8 @@ std::vector<Point> nodes_between(const ColumnHeights& heights, const EndPath* pa
 
 std::vector<Point> layer_column(const LayerFront& front, const FrontPlace& place, Point node) {
   const LayerColumn column = column_at(front, place, node);
-  return nodes_between(column.heights, path_at(front.line, place), column.foot, node);
+  const EndPath* const path = path_at(front.line, place_of_column(front.line, place));
+  return nodes_between(column.heights, path, column.foot, node);
 }
 
 Point point_of_front(const LayerFront& front, const FrontPlace& place) {

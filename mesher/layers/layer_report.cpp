@@ -46,8 +46,7 @@ void add_columns(const LayerFront& front, const FrontPlaces& places, const Mesh&
                  std::vector<Column>& columns) {
   for (const auto& [from, to] : outer.boundaries[boundary.value()].edges) {
     const std::array nodes{from, to};
-    const std::array ends{places.locate(outer.point(from), boundary),
-                          places.locate(outer.point(to), boundary)};
+    const auto ends = places.locate_edge(outer.point(from), outer.point(to), boundary);
     if (!places.follows(ends[0], ends[1])) continue;
     for (const std::size_t k : {0, 1}) {
       const LayerColumn column = column_at(front, ends[k], outer.point(nodes[k]));

@@ -49,6 +49,7 @@ bool in_one_fan(const WallLine& line, const FrontPlace& first, const FrontPlace&
 struct Chord {
   Point from, to;
   GlobalNodeId first, second;
+  bool two_sided = false;  ///< on an inner line or between two blocks
 };
 
 class Survey {
@@ -87,7 +88,9 @@ class Survey {
 
   void mark_pinched(const std::vector<Chord>& all) {
     std::vector<GlobalNodeId> begins, twice;
-    for (const Chord& chord : all) begins.push_back(chord.first);
+    for (const Chord& chord : all) {
+      if (!chord.two_sided) begins.push_back(chord.first);
+    }
     std::ranges::sort(begins);
     for (std::size_t k = 1; k < begins.size(); ++k) {
       if (begins[k] == begins[k - 1]) twice.push_back(begins[k]);
@@ -129,13 +132,13 @@ void Survey::look_at(std::size_t b) {
   for (std::size_t e = 0; e < outer_.boundaries[b].edges.size(); ++e) {
     const std::array<NodeId, 2> edge = outer_.boundaries[b].edges[e];
     const std::array<Point, 2> ends{outer_.point(edge[0]), outer_.point(edge[1])};
-    const std::array<FrontPlace, 2> places{places_.locate(ends[0], boundary),
-                                           places_.locate(ends[1], boundary)};
+    const std::array<FrontPlace, 2> places = places_.locate_edge(ends[0], ends[1], boundary);
     const bool on_front = places_.follows(places[0], places[1]);
     // Inner lines and interfaces may begin at any node.
     if (!on_front && outer_.boundaries[b].two_sided()) continue;
     UnsoundStrip strip{edge, edge_leaves_[b][e], {}};
-    Chord chord{ends[0], ends[1], outer_.global(edge[0]), outer_.global(edge[1])};
+    Chord chord{ends[0], ends[1], outer_.global(edge[0]), outer_.global(edge[1]),
+                outer_.boundaries[b].two_sided()};
     bool sound = true;
     if (on_front && !in_one_fan(front_.line, places[0], places[1])) {
       strip.stations = stations_between(front_.line, places[0], places[1]);

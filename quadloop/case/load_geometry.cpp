@@ -15,6 +15,8 @@
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "mesher/geometry/assemble/mirrored_outline.hpp"
+#include "mesher/layers/front/layer_end_error.hpp"
+#include "mesher/layers/front/wall_runs.hpp"
 #include "quadloop/case/pair_settings.hpp"
 #include "quadloop/case/settings.hpp"
 
@@ -108,6 +110,26 @@ void require_blocks_of_layers(const Settings& settings, const Geometry& geometry
   }
 }
 
+/// Throws InputError, with the table that gives the layers, where they cannot end on an inner line or on a
+/// boundary between two blocks.
+void require_ends_of_layers(const Settings& settings, const Geometry& geometry) {
+  if (!geometry.has_twins()) return;
+  try {
+    wall_runs(geometry);
+  } catch (const LayerEndError& error) {
+    const auto gives = [&](const BoundaryRule& rule) {
+      return rule.layers && matches(rule.pattern, error.boundary());
+    };
+    const auto named = [&](const BoundaryRule& rule) {
+      return rule.layers && rule.pattern == error.boundary();
+    };
+    const auto& rules = settings.outline.rules;
+    auto rule = std::ranges::find_if(rules, named);
+    if (rule == rules.end()) rule = std::ranges::find_if(rules, gives);
+    throw InputError(fmt::format("{}: {}", rule->where, error.what()));
+  }
+}
+
 /// The blocks on the two sides of a boundary, if it lies between two.
 std::optional<std::array<std::string, 2>> blocks_of_interface(const Geometry& geometry,
                                                               const Boundary& boundary) {
@@ -191,6 +213,7 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
   Geometry geometry = assemble(std::move(chains), options, warnings);
   require_no_conditions(settings, geometry);
   require_blocks_of_layers(settings, geometry);
+  require_ends_of_layers(settings, geometry);
   check_conditions_of_interfaces(settings, geometry, warnings);
   if (!axis) return geometry;
   const IdVector<BoundaryId, BoundaryId> images = require_mirror_images(geometry, *axis);

@@ -23,7 +23,7 @@ EndPath::EndPath(const Geometry& g, std::int32_t wall, bool first) : geometry_{&
   direction_ = (1 / quadloop::length(tangent)) * tangent;
   for (std::int32_t s = on; g.boundary_of(s) == g.boundary_of(on); s = first ? g.previous(s) : g.next(s)) {
     const std::int32_t near = first ? g.next(s) : s, vertex = first ? s : g.next(s);
-    if (vertex == wall) return;
+    if (vertex == wall || (s != on && g.is_tip(near))) return;
     if (is_curved_) {
       const Point leaving = first ? -1.0 * g.direction_out_of(s) : g.direction_into(vertex);
       if (s != on && (g.kept(near) || !about_parallel(tangent, leaving))) return;

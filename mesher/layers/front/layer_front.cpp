@@ -217,7 +217,8 @@ void OuterOutline::add_front(std::int32_t first, std::int32_t s) {
   if (i == WallLine::none || line_[i].segment != s) return;
   if (line_[i].opens_wake) return add_wake(i);
   const std::int32_t on = segment_of_end(i);
-  add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0, rest_of(on));
+  add_vertex(fitting_.front[i], g_.boundary_of(on), WallLine::none, g_.spacing_of(on), true, 0, rest_of(on),
+             g_.returns(on));
 }
 
 /// Adds a wake's front, from the column on its left to the column on its right.
@@ -334,7 +335,7 @@ WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& plac
   return line;
 }
 
-/// The stations at which runs end on the two sides of a pair.
+/// The stations at which runs end on the two sides of a pair, or of an inner line.
 StationPairs partners_at(const WallLine& line, const std::vector<PeriodicPair>& pairs) {
   constexpr double rounding = 1e-9;
   const Box& box = line.geometry().box();
@@ -343,6 +344,9 @@ StationPairs partners_at(const WallLine& line, const std::vector<PeriodicPair>& 
   std::vector<std::int32_t> ends;
   for (std::int32_t i = 0; i < line.size(); ++i) {
     if (line[i].shape == Station::Shape::end && !line[i].at_wake) ends.push_back(i);
+  }
+  for (const std::int32_t i : ends) {
+    if (line.across(i) > i) partners.emplace_back(i, line.across(i));
   }
   for (const PeriodicPair& pair : pairs) {
     for (const std::int32_t i : ends) {

@@ -38,28 +38,45 @@ class Vicinity {
     ++stamp_;
     place(i);
     if (line_.previous(i) != WallLine::none) place(line_.previous(i));
-    double on = 0, back = 0;
-    std::int32_t last = i, first = i;
-    line_.walk_on(i, reach, [&](std::int32_t j, double distance) { place(j), last = j, on = distance; });
-    line_.walk_back(i, reach, [&](std::int32_t j, double distance) {
-      place(j), first = j, back = distance;
-      if (line_.previous(j) != WallLine::none) place(line_.previous(j));
-    });
-    if (line_.next(last) == WallLine::none) beyond_end(last, reach - on, true);
-    if (line_.previous(first) == WallLine::none) beyond_end(first, reach - back, false);
+    onwards(i, reach);
+    backwards(i, reach);
   }
   /// Whether the wall between the station and the next one is in the vicinity.
   bool has_station(std::int32_t i) const { return station_[i] == stamp_; }
-  bool has_segment(std::int32_t s) const { return segment_[s] == stamp_; }
+  bool has_segment(std::int32_t s) const {
+    const std::int32_t twin = line_.geometry().twin(s);
+    return segment_[s] == stamp_ || (twin >= 0 && segment_[twin] == stamp_);
+  }
 
  private:
   void place(std::int32_t i) { station_[i] = stamp_; }
 
-  void beyond_end(std::int32_t end, double reach, bool onwards) {
+  void onwards(std::int32_t i, double reach) {
+    double passed = 0;
+    std::int32_t last = i;
+    line_.walk_on(i, reach, [&](std::int32_t j, double distance) { place(j), last = j, passed = distance; });
+    if (line_.next(last) == WallLine::none) beyond_end(last, reach - passed, true);
+  }
+  void backwards(std::int32_t i, double reach) {
+    double passed = 0;
+    std::int32_t first = i;
+    line_.walk_back(i, reach, [&](std::int32_t j, double distance) {
+      place(j), first = j, passed = distance;
+      if (line_.previous(j) != WallLine::none) place(line_.previous(j));
+    });
+    if (line_.previous(first) == WallLine::none) beyond_end(first, reach - passed, false);
+  }
+
+  /// Goes on along the boundary on which the run ends, and on the other side of an inner line along the wall.
+  void beyond_end(std::int32_t end, double reach, bool on) {
     const Geometry& g = line_.geometry();
+    if (const std::int32_t across = line_.across(end); across != WallLine::none && !has_station(across)) {
+      place(across);
+      on ? onwards(across, reach) : backwards(across, reach);
+    }
     std::int32_t s = line_[end].segment;
     for (double distance = 0; distance <= reach;) {
-      s = onwards ? g.next(s) : g.previous(s);
+      s = on ? g.next(s) : g.previous(s);
       if (segment_[s] == stamp_) return;
       segment_[s] = stamp_;
       distance += length(g.point(g.next(s)) - g.point(s));
@@ -171,6 +188,8 @@ class Fitting {
   Point wall(std::int32_t i) const { return line_[i].wall; }
   Point front(std::int32_t i) const { return front_[i]; }
   bool place_exists(std::int32_t i) const { return line_.goes_on(i); }
+  /// Whether both have the same column.
+  bool is_same_foot(std::int32_t i, std::int32_t j) const { return i == j || line_.across(i) == j; }
 
   /// Collects the wall segments at the stations, then the segments without layers.
   void gather_walls() {
@@ -292,7 +311,7 @@ class Fitting {
       vicinity_.move_to(i, own_reach * h_[i]);
       if (moved_[i]) mark_walls_met(i, end, box);
       const auto look_at = [&](std::int32_t j) {
-        if (j == i || line_.next(j) == i || !fronts_in_one_block(i, j)) return;
+        if (is_same_foot(i, j) || is_same_foot(i, line_.next(j)) || !fronts_in_one_block(i, j)) return;
         const Point top = vicinity_.has_station(j) ? front(i) : end;
         if (!segments_meet(wall(i), top, front(j), front(line_.next(j)))) return;
         meets_[i] = meets_[j] = meets_[line_.next(j)] = 1;
@@ -416,12 +435,15 @@ bool Fitting::is_beside_ends(std::int32_t i) const {
   return true;
 }
 
-/// Whether the front at a station lies on a segment of a boundary without layers, on which the run ends.
+/// Whether the front at a station lies on a segment of a boundary without layers, on which the run ends, or
+/// on its twin.
 bool Fitting::ends_on(std::int32_t i, std::int32_t segment) const {
   if (line_[i].shape != Station::Shape::end) return false;
   if (line_[i].at_wake) return true;
-  return std::ranges::find(line_.end_path(i).pieces(), segment, &EndPath::Piece::segment) !=
-         line_.end_path(i).pieces().end();
+  const std::int32_t twin = line_.geometry().twin(segment);
+  return std::ranges::any_of(line_.end_path(i).pieces(), [&](const EndPath::Piece& piece) {
+    return piece.segment == segment || piece.segment == twin;
+  });
 }
 
 /// Tests fronts against each other and against boundaries without layers; a front that ends on one may touch
@@ -448,8 +470,10 @@ void Fitting::mark_crossing_fronts() {
 /// Whether the front segments after two stations meet; neighbours outside their common point.
 bool Fitting::fronts_meet(std::int32_t i, std::int32_t k) const {
   const std::int32_t j = line_.next(i), l = line_.next(k);
-  if (l == i) return on_segment(front(k), front(j), front(i)) || on_segment(front(j), front(k), front(i));
-  if (j == k) return on_segment(front(l), front(i), front(j)) || on_segment(front(i), front(l), front(j));
+  if (is_same_foot(l, i))
+    return on_segment(front(k), front(j), front(i)) || on_segment(front(j), front(k), front(i));
+  if (is_same_foot(j, k))
+    return on_segment(front(l), front(i), front(j)) || on_segment(front(i), front(l), front(j));
   return segments_meet(front(i), front(j), front(k), front(l));
 }
 

@@ -110,6 +110,7 @@ WallLine::WallLine(const Geometry& geometry, const std::vector<WallRun>& runs,
     wakes_to_.emplace(wake.last, wake);
   }
   for (const WallRun& run : runs) add_run(run);
+  find_across();
   for (std::int32_t i = 0; i < size(); ++i) {
     width_.push_back(next_[i] == none ? 0 : length(stations_[next_[i]].wall - stations_[i].wall));
     asked_.push_back(layers_thickness(spec(i)));
@@ -231,6 +232,23 @@ void WallLine::add_end(const WallRun& run, bool first) {
   if (!station.at_wake) ends_.emplace(size(), path);
   station.slope = slope_over(station.direction, station.after, first);
   stations_.push_back(station);
+}
+
+/// Two stations lie across from each other if the runs end on twins.
+void WallLine::find_across() {
+  const Geometry& g = *geometry_;
+  across_.assign(stations_.size(), none);
+  std::map<std::int32_t, std::int32_t> begins;  // of runs, by their first segments
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (previous_[i] == none) begins.emplace(stations_[i].segment, i);
+  }
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const std::int32_t twin = next_[i] == none ? g.twin(g.next(stations_[i].segment)) : -1;
+    const auto found = twin < 0 ? begins.end() : begins.find(g.next(twin));
+    if (found == begins.end()) continue;
+    across_[i] = found->second;
+    across_[found->second] = i;
+  }
 }
 
 std::int32_t WallLine::steps(std::int32_t i, std::int32_t j) const {

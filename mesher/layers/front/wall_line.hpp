@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -71,6 +72,18 @@ class WallLine {
   std::int32_t steps(std::int32_t i, std::int32_t j) const;
   /// Whether the layers continue to the next station.
   bool goes_on(std::int32_t i) const { return next_[i] != none && !stations_[i].opens_wake; }
+  /// The station on the other side of the inner line, or of the boundary between two blocks, on which the run
+  /// ends at station i: the run on that side ends there too, at the same foot. `none` elsewhere.
+  std::int32_t across(std::int32_t i) const { return across_[i]; }
+  /// Of the stations at a foot the one at which a run begins, or ends; i elsewhere.
+  std::int32_t beginning_at(std::int32_t i) const {
+    return next_[i] == none && across_[i] != none ? across_[i] : i;
+  }
+  std::int32_t ending_at(std::int32_t i) const {
+    return previous_[i] == none && across_[i] != none ? across_[i] : i;
+  }
+  /// The station whose column stands at station i: both sides of an inner line have the same one.
+  std::int32_t column_at(std::int32_t i) const { return across_[i] == none ? i : std::min(i, across_[i]); }
   /// The length of the wall to the next station; 0 within a fan and where there is no next station.
   double width(std::int32_t i) const { return width_[i]; }
   /// The requested thickness.
@@ -133,13 +146,14 @@ class WallLine {
   void add_between(const WallRun& run, std::size_t k);
   void add_end(const WallRun& run, bool first);
   void link(std::int32_t begin, bool closed);
+  void find_across();
 
   const Geometry* geometry_;
   std::vector<char> has_layers_;                             ///< flags of segments
   std::map<std::int32_t, WakeStart> wakes_from_, wakes_to_;  ///< by their first and last vertices
   std::vector<Station> stations_;
   std::map<std::int32_t, EndPath> ends_;  ///< by station
-  std::vector<std::int32_t> next_, previous_;
+  std::vector<std::int32_t> next_, previous_, across_;
   struct Run {
     std::int32_t begin = 0, end = 0;
     bool closed = false;

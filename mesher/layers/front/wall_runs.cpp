@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <string>
 
-#include "mesher/base/error.hpp"
+#include "mesher/layers/front/layer_end_error.hpp"
 
 namespace quadloop {
 
@@ -30,9 +30,8 @@ class Runs {
     for (std::int32_t s = 0; s < g_.size(); ++s) {
       if (asks(s)) extend(s);
     }
-    require_clear_of_lines();
+    require_layers_across();
     require_one_count();
-    require_own_layers();
     std::vector<WallRun> runs;
     for (std::int32_t loop = 0; loop < g_.loop_count(); ++loop) add_runs_of(loop, runs);
     return runs;
@@ -58,49 +57,66 @@ class Runs {
 
   void require_one_count() const {
     for (std::int32_t s = 0; s < g_.size(); ++s) {
-      const std::int32_t t = g_.next(s);
-      if (!carries(s) || !carries(t)) continue;
+      if (!carries(s)) continue;
+      const std::int32_t next = g_.next(s),
+                         t = carries(next) || g_.twin(next) < 0 ? next : g_.next(g_.twin(next));
+      if (!carries(t)) continue;
       const Boundary &a = g_.boundary(layers_[s]), &b = g_.boundary(layers_[t]);
       if (a.layers->count == b.layers->count) continue;
       throw InputError(fmt::format(
           "boundaries {} and {} meet at ({:.6g}, {:.6g}), but one has {} layers and the other {}; give "
           "both the same count",
-          a.name, b.name, g_.point(t).x, g_.point(t).y, a.layers->count, b.layers->count));
+          a.name, b.name, g_.point(next).x, g_.point(next).y, a.layers->count, b.layers->count));
     }
   }
 
-  /// Throws InputError if an inner line begins or ends on a wall with layers.
-  void require_clear_of_lines() const {
-    for (std::int32_t s = 0; s < g_.size(); ++s) {
-      const std::int32_t next = g_.next(s);
-      if (g_.is_inner_line(s) == g_.is_inner_line(next)) continue;
-      const auto [line, wall] = g_.is_inner_line(s) ? std::pair(s, next) : std::pair(next, s);
-      if (!carries(wall)) continue;
-      const std::string& with_layers = g_.boundary(layers_[wall]).name;
-      throw InputError(fmt::format(
-          "inner line '{}' meets boundary {} at ({:.6g}, {:.6g}), where the layers of boundary {} lie; end "
-          "the line outside the layers, or remove layers from [boundary.{}]",
-          g_.boundary(g_.boundary_of(line)).name, g_.boundary(g_.boundary_of(wall)).name, g_.point(next).x,
-          g_.point(next).y, with_layers, with_layers));
-    }
-  }
-
-  /// Throws InputError if layers continue along, or end on, a boundary between two blocks that has none in
-  /// their block: the nodes of the other block would not match.
-  void require_own_layers() const {
+  /// Throws LayerEndError where layers end on an inner line, or on a boundary between two blocks without
+  /// layers in their block, but no layers end on its other side.
+  void require_layers_across() const {
     for (std::int32_t s = 0; s < g_.size(); ++s) {
       if (g_.twin(s) < 0 || asks(s)) continue;
-      const bool at_start = carries(g_.previous(s));
-      if (!at_start && !carries(g_.next(s))) continue;
-      const std::int32_t wall = at_start ? g_.previous(s) : g_.next(s);
-      const Point at = g_.point(at_start ? s : wall);
-      const std::string& block = g_.block_names()[g_.block_of(s)];
-      throw InputError(fmt::format(
-          "boundary {}: its layers in block '{}' end at ({:.6g}, {:.6g}) on boundary {} between two blocks, "
-          "which has none there; add [boundary.{}] layers with the same count and layers_in = \"{}\"",
-          g_.boundary(layers_[wall]).name, block, at.x, at.y, g_.boundary(g_.boundary_of(s)).name,
-          g_.boundary(g_.boundary_of(s)).name, block));
+      if (carries(g_.previous(s))) require_layers_across(g_.previous(s), s, g_.point(s));
+      if (carries(g_.next(s))) require_layers_across(g_.next(s), s, g_.point(g_.next(s)));
     }
+  }
+
+  /// `wall` has layers and meets segment `line` at `foot`.
+  void require_layers_across(std::int32_t wall, std::int32_t line, Point foot) const {
+    const std::int32_t twin = g_.twin(line),
+                       across = g_.next(wall) == line ? g_.next(twin) : g_.previous(twin);
+    const Boundary &own = g_.boundary(layers_[wall]), &other = g_.boundary(g_.boundary_of(across));
+    const auto refuse = [&](const std::string& why) {
+      throw LayerEndError(own.name,
+                          fmt::format("boundary {}: its layers{} end at ({:.6g}, {:.6g}) on {}, {}", own.name,
+                                      in_block(wall), foot.x, foot.y, name_of(line), why));
+    };
+    if (carries(line) || carries(twin))
+      refuse("to which they must have an angle of 45 to 135 degrees; turn this line, or remove the layers");
+    if (g_.twin(wall) >= 0)
+      refuse("which must not end on a boundary between two blocks with layers; remove the layers");
+    if (g_.twin(across) >= 0)
+      refuse(
+          fmt::format("and {} ends there too; separate the two ends by more than the thickness of the "
+                      "layers, or remove the layers",
+                      name_of(across)));
+    if (!carries(across))
+      refuse(
+          fmt::format("on the other side of which boundary {} has none{}; add layers with the same count {}",
+                      other.name, in_block(across), cure_of(line)));
+  }
+
+  std::string in_block(std::int32_t s) const {
+    return g_.has_blocks() ? " in block '" + g_.block_names()[g_.block_of(s)] + "'" : "";
+  }
+  std::string cure_of(std::int32_t line) const {
+    if (g_.is_inner_line(line)) return "there, or end the line outside the layers";
+    return fmt::format("there, or to [boundary.{}] with layers_in = \"{}\"",
+                       g_.boundary(g_.boundary_of(line)).name, g_.block_names()[g_.block_of(line)]);
+  }
+
+  std::string name_of(std::int32_t line) const {
+    const std::string& name = g_.boundary(g_.boundary_of(line)).name;
+    return g_.is_inner_line(line) ? "inner line '" + name + "'" : "boundary " + name + " between two blocks";
   }
 
   void add_runs_of(std::int32_t loop, std::vector<WallRun>& runs) const {

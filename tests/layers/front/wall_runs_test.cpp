@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/base/error.hpp"
+#include "mesher/layers/front/wall_line.hpp"
 #include "tests/geometry/outlines.hpp"
 #include "tests/layers/walls.hpp"
 
@@ -107,25 +107,16 @@ TEST(WallRuns, ADirectionTurnsRoundToTheLastBit) {
   EXPECT_NEAR(length(direction_of(a, b)), 1, 1e-15);
 }
 
-/// A box from (0, 0) to (4, 4) with layers on its floor, and an inner line that begins in the middle of the
-/// floor or of the lid.
-Geometry box_with_line(bool on_floor) {
+/// A box from (0, 0) to (4, 4) with layers on its floor, and an inner line from the middle of the floor to
+/// `tip`; the floor beyond it is boundary `beyond`: 0 the floor, 1 the rest, which has no layers.
+Geometry box_with_line(Point tip, std::int32_t beyond) {
   GeometryBuilder builder;
-  const auto add_line = [&](Point from, Point to) {
-    builder.add(from, BoundaryId{2});
-    builder.add(to, BoundaryId{2}, {}, true);
-  };
   builder.add({0, 0}, BoundaryId{0});
-  if (on_floor) {
-    add_line({2, 0}, {2, 1});
-    builder.add({2, 0}, BoundaryId{0});
-  }
+  builder.add({2, 0}, BoundaryId{2});
+  builder.add(tip, BoundaryId{2}, {}, true);
+  builder.add({2, 0}, BoundaryId{beyond});
   builder.add({4, 0}, BoundaryId{1});
   builder.add({4, 4}, BoundaryId{1});
-  if (!on_floor) {
-    add_line({2, 4}, {2, 3});
-    builder.add({2, 4}, BoundaryId{1});
-  }
   builder.add({0, 4}, BoundaryId{1});
   builder.end_loop();
   std::vector<Boundary> boundaries{{.name = "floor"}, {.name = "rest"}, {.name = "screen"}};
@@ -133,16 +124,43 @@ Geometry box_with_line(bool on_floor) {
   return std::move(builder).geometry(std::move(boundaries));
 }
 
-TEST(WallRuns, AnInnerLineOnAWallWithLayersIsRefused) {
-  EXPECT_EQ(wall_runs(box_with_line(false))[0].segments, (std::vector<std::int32_t>{0}));
-  try {
-    wall_runs(box_with_line(true));
-    FAIL();
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    for (const char* part : {"'screen'", "boundary floor", "(2, 0)", "; end the line"})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
+TEST(WallRuns, EndOnBothSidesOfAnInnerLine) {
+  for (const double x : {1.1, 2., 2.9}) {
+    const Geometry g = box_with_line({x, 1}, 0);
+    const auto runs = wall_runs(g);
+    ASSERT_EQ(runs.size(), 2U);
+    EXPECT_EQ(runs[0].segments, (std::vector<std::int32_t>{0}));
+    EXPECT_EQ(runs[1].segments, (std::vector<std::int32_t>{3}));
+    const WallLine line(g, runs);
+    const std::int32_t begins = line.across(line.size() - 1), ends = line.size() - 1;
+    EXPECT_EQ(begins, WallLine::none) << "the box has no layers there";
+    std::int32_t feet = 0;
+    for (std::int32_t i = 0; i < ends; ++i) {
+      const std::int32_t other = line.across(i);
+      if (other == WallLine::none) continue;
+      ++feet;
+      EXPECT_EQ(line.across(other), i);
+      EXPECT_EQ(line[i].wall, (Point{2, 0}));
+      EXPECT_EQ(line[i].direction, line[other].direction) << "to the last bit";
+      EXPECT_EQ(line.column_at(i), line.column_at(other));
+      EXPECT_EQ(line.beginning_at(i), line.beginning_at(other));
+      EXPECT_EQ(line.ending_at(i) + 1, line.beginning_at(i));
+    }
+    EXPECT_EQ(feet, 2);
   }
+}
+
+TEST(WallRuns, AnInnerLineWithoutLayersBeyondOrAtAFlatAngleIsRefused) {
+  const auto said = [](Point tip, std::int32_t beyond) {
+    return test::refusal([&] { wall_runs(box_with_line(tip, beyond)); });
+  };
+  EXPECT_EQ(
+      said({2, 1}, 1),
+      "boundary floor: its layers end at (2, 0) on inner line 'screen', on the "
+      "other side of which boundary rest has none; add layers with the same count there, or end the line "
+      "outside the layers");
+  for (const double x : {0.9, 3.1})
+    EXPECT_NE(said({x, 1}, 0).find("an angle of 45 to 135 degrees"), std::string::npos) << said({x, 1}, 0);
 }
 
 }  // namespace
