@@ -252,6 +252,10 @@ const KeyTable<LineRule>& line_keys() {
                             "either `path` or `boundary`."),
        key<&LineRule::boundary>("boundary", text(),
                                 "A chain of the geometry that is an inner line, not a part of the outline."),
+       key<&LineRule::spline>("spline", flag(),
+                              "Join the points of `path` by cubic splines from corner to corner instead of "
+                              "straight lines ([splines](#splines)).",
+                              {.fallback = "`false`"}),
        key<&LineRule::baffle>("kind", choice<bool>({{"line", false}, {"baffle", true}}),
                               "`line`: a named row of edges. `baffle`: a wall of no thickness with nodes of "
                               "its own on each side.")}};
@@ -383,6 +387,9 @@ LineRule read_line(const io::CaseTable& table) {
   if (rule.name.empty()) rule.name = rule.boundary;
   if (rule.name.empty()) table.refuse("name", "is missing; give the line one, as in name = \"screen\"");
   if (table.has("name")) rule.name = boundary_name().read(table, "name");
+  if (rule.spline && rule.path.empty())
+    table.refuse("spline", "needs a path; the curves of boundary = \"" + rule.boundary +
+                               "\" are those of its file or shape");
   if (rule.path.size() == 1)
     table.refuse("path", "has one point; a single node is not possible yet, so give the line two points");
   if (!rule.path.empty() && std::ranges::count(rule.path, rule.path.front()) == std::ssize(rule.path))
