@@ -5,10 +5,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "generate/digests.hpp"
 #include "generate/generate.hpp"
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 #include "tests/build/sound_meshes.hpp"
@@ -48,7 +50,7 @@ MeshInput square_round(std::vector<Chain> chains, std::vector<LineRule> lines) {
   options.lines = std::move(lines);
   Warnings warnings;
   MeshInput input{assemble(std::move(chains), options, warnings), {}, {}, 0};
-  input.mesh.size.min = 0.03;
+  input.mesh.size.min = 0.06;
   input.mesh.size.max = 0.25;
   input.digest = case_digest(input.mesh);
   return input;
@@ -71,7 +73,7 @@ void expect_nodes_on_lines(MeshInput input, const Check& check) {
   const Communicator self(MPI_COMM_SELF);
   const Geometry& g = input.geometry;
   for (const MeshType type : {MeshType::hybrid, MeshType::delaunay}) {
-    for (const int sweeps : {0, 8}) {
+    for (const int sweeps : {0, 5}) {
       input.mesh.type = type;
       input.smooth.sweeps = sweeps;
       const Mesh whole = gather_whole(world(), generate_mesh(world(), input).result.mesh);
@@ -159,6 +161,65 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
       EXPECT_GT(copies.size(), 6U);
     }
   });
+}
+
+/// Straight lines, splines, circles, arcs and ellipses at random places round a circle, some of them baffles.
+MeshInput random_arrangement(std::mt19937& random) {
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const auto place = [&] { return Point{number(-2.1, 2.1), number(-2.1, 2.1)}; };
+  std::vector<Chain> chains;
+  if (random() % 2 == 0) chains.push_back(arc_chain("body", round_arc({number(-1, 1), number(-1, 1)}, 0.6)));
+  std::vector<LineRule> rules;
+  const std::size_t count = 1 + random() % 4;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = "line" + std::to_string(i);
+    if (random() % 2 == 0) {
+      std::vector<Point> path(2 + random() % 4);
+      for (Point& p : path) p = place();
+      rules.push_back(path_rule(name, path, random() % 3 != 0));
+    } else {
+      EllipticArc arc = round_arc(place(), number(0.3, 1.2));
+      if (random() % 2 == 0) arc.end = arc.begin + number(1, 5);
+      if (random() % 3 == 0) arc.minor = number(0.2, 0.8) * arc.minor + number(-0.2, 0.2) * arc.major;
+      chains.push_back(arc_chain(name, arc));
+      rules.push_back(chain_rule(name));
+    }
+    rules.back().baffle = random() % 4 == 0;
+  }
+  return square_round(std::move(chains), std::move(rules));
+}
+
+TEST(CurvedLines, RandomArrangementsAreValidOrRefusedWithAPlace) {
+  std::mt19937 random(43);
+  constexpr int trials = 6;
+  int made = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    SCOPED_TRACE(trial);
+    try {
+      MeshInput input = random_arrangement(random);
+      input.mesh.type = trial % 2 == 0 ? MeshType::hybrid : MeshType::delaunay;
+      input.mesh.size.min = 0.008;
+      input.smooth.sweeps = 3;
+      const GeneratedMesh generated = generate_mesh(world(), input);
+      const Mesh whole = gather_whole(world(), generated.result.mesh);
+      ++made;
+      if (!world().is_root()) continue;
+      EXPECT_TRUE(validate(whole).empty());
+      const bool all_points_are_nodes = generated.result.report.corners_lost == 0;
+      for (const BoundaryEdges& boundary : whole.boundaries) {
+        for (const auto& edge : boundary.edges)
+          EXPECT_LT(off(input.geometry, boundary.name, whole.point(edge[0])),
+                    all_points_are_nodes ? 1e-14 : input.mesh.size.min)
+              << boundary.name << " " << whole.point(edge[0]).x << " " << whole.point(edge[0]).y;
+      }
+    } catch (const InputError& error) {
+      for (const char* const part : {"(", ";"})
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_EQ(made, trials);
 }
 
 }  // namespace
