@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "generate/digests.hpp"
 #include "generate/match_pairs.hpp"
+#include "generate/nearer_chords.hpp"
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
 #include "mesher/base/log.hpp"
@@ -162,15 +164,34 @@ MeshResult build_with_partners(const Communicator& comm, const MeshInput& input,
   return result;
 }
 
-/// Builds a mesh without smoothing, with its boundary nodes on the geometry's curves. *Collective.*
+/// Builds a mesh without smoothing, with its boundary nodes on the geometry's curves. Where cells would be
+/// inverted, the chords that the mesh is built on are made shorter. *Collective.*
 GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
-  GeneratedMesh generated{build_with_partners(comm, input, demanded), {}, {}};
-  const MeshReport& report = generated.result.report;
-  generated.times.append(report.times);
-  require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
-  NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, generated.result.mesh);
-  place_images(comm, input.mesh.pairs, generated.result.mesh);
-  restore_after(comm, input, moved, generated.result);
+  constexpr int most_halvings = 8;
+  GeneratedMesh generated;
+  MeshResult& result = generated.result;
+  NodeFlags moved;
+  StageTimes trials;
+  std::optional<MeshInput> shorter;
+  std::uint64_t digest = 0;
+  for (int halvings = 0;; ++halvings) {
+    const MeshInput& used = shorter ? *shorter : input;
+    result = build_with_partners(comm, used, demanded);
+    if (halvings == 0) digest = result.tree.attributes.geometry_digest;
+    require_area(comm, used.geometry, result.report.area_dropped, result.mesh);
+    moved = smoother::move_nodes_to_curves(comm, used.geometry, result.mesh);
+    if (moved.empty() || !input.mesh.pairs.empty() || halvings == most_halvings) break;
+    std::optional<Geometry> nearer = nearer_chords(comm, used.geometry, result.mesh);
+    if (!nearer) break;
+    trials.append(result.report.times);
+    if (!shorter) shorter = input;
+    shorter->geometry = *std::move(nearer);
+  }
+  result.tree.attributes.geometry_digest = digest;
+  if (!trials.stages().empty()) generated.times.append_as("trials", trials);
+  generated.times.append(result.report.times);
+  place_images(comm, input.mesh.pairs, result.mesh);
+  restore_after(comm, input, moved, result);
   return generated;
 }
 
