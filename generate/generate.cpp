@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -12,9 +13,9 @@
 
 #include "generate/digests.hpp"
 #include "generate/match_pairs.hpp"
+#include "generate/nearer_chords.hpp"
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
-#include "generate/refine_inverted.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/required_points.hpp"
@@ -164,17 +165,36 @@ MeshResult build_with_partners(const Communicator& comm, const MeshInput& input,
   return result;
 }
 
-/// Builds a mesh without smoothing, with its boundary nodes on the geometry's curves. *Collective.*
+/// Builds a mesh without smoothing, with its boundary nodes on the geometry's curves. Where cells would be
+/// inverted, the chords that the mesh is built on are made shorter. *Collective.*
 GeneratedMesh build(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded) {
-  GeneratedMesh generated{build_with_partners(comm, input, demanded), {}, {}};
-  const MeshReport& report = generated.result.report;
-  generated.times.append(report.times);
-  require_area(comm, input.geometry, report.area_dropped, generated.result.mesh);
-  NodeFlags moved = smoother::move_nodes_to_curves(comm, input.geometry, generated.result.mesh);
-  place_images(comm, input.mesh.pairs, generated.result.mesh);
-  generated.result.mesh.pairs = input.mesh.pairs;
-  restore_after(comm, input, moved, generated.result);
-  generated.result.mesh.named_nodes = nodes_at(comm, input.mesh.required_points, generated.result.mesh);
+  constexpr int most_halvings = 8;
+  GeneratedMesh generated;
+  MeshResult& result = generated.result;
+  NodeFlags moved;
+  StageTimes trials;
+  std::optional<MeshInput> shorter;
+  std::uint64_t digest = 0;
+  for (int halvings = 0;; ++halvings) {
+    const MeshInput& used = shorter ? *shorter : input;
+    result = build_with_partners(comm, used, demanded);
+    if (halvings == 0) digest = result.tree.attributes.geometry_digest;
+    require_area(comm, used.geometry, result.report.area_dropped, result.mesh);
+    moved = smoother::move_nodes_to_curves(comm, used.geometry, result.mesh);
+    if (moved.empty() || !input.mesh.pairs.empty() || halvings == most_halvings) break;
+    std::optional<Geometry> nearer = nearer_chords(comm, used.geometry, result.mesh);
+    if (!nearer) break;
+    trials.append(result.report.times);
+    if (!shorter) shorter = input;
+    shorter->geometry = *std::move(nearer);
+  }
+  result.tree.attributes.geometry_digest = digest;
+  if (!trials.stages().empty()) generated.times.append_as("trials", trials);
+  generated.times.append(result.report.times);
+  place_images(comm, input.mesh.pairs, result.mesh);
+  result.mesh.pairs = input.mesh.pairs;
+  restore_after(comm, input, moved, result);
+  result.mesh.named_nodes = nodes_at(comm, input.mesh.required_points, result.mesh);
   return generated;
 }
 
@@ -214,7 +234,7 @@ class OutsideMesh {
 
   GeneratedMesh made(const MeshChange& wanted) {
     cut();
-    for (int attempt = 0; !stands_when_smooth() && attempt < most_attempts; ++attempt) {
+    for (int attempt = 0; !columns_stand_when_smooth() && attempt < most_attempts; ++attempt) {
       discard();
       mesh_ = build(comm_, outer_, splits_);
     }
@@ -241,13 +261,8 @@ class OutsideMesh {
     }
   }
 
-  bool stands_when_smooth() {
+  bool columns_stand_when_smooth() {
     smooth(comm_, outer_, pinned_, mesh_);
-    if (refined_curves_ < most_refined_curves &&
-        refine_inverted(comm_, outer_.geometry, mesh_.result, splits_)) {
-      ++refined_curves_;
-      return false;
-    }
     const std::vector<GlobalNodeId> unsound = unsound_nodes(comm_, front_, mesh_.result);
     pinned_.insert(pinned_.end(), unsound.begin(), unsound.end());
     std::ranges::sort(pinned_);
@@ -265,7 +280,6 @@ class OutsideMesh {
   MeshInput outer_;
   GeneratedMesh mesh_;
   std::vector<GlobalNodeId> pinned_;
-  int refined_curves_ = 0;
   StageTimes trials_;
 };
 
@@ -317,23 +331,10 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   return generated;
 }
 
-/// Where cells at curves are inverted, the mesh is made again from smaller quadtree cells there.
 GeneratedMesh generate_plain(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
                              const MeshChange& wanted) {
-  DemandedSplits splits = demanded;
-  GeneratedMesh generated = build(comm, input, splits);
+  GeneratedMesh generated = build(comm, input, demanded);
   smooth(comm, input, {}, generated);
-  for (int attempt = 0;
-       attempt < most_refined_curves && refine_inverted(comm, input.geometry, generated.result, splits);
-       ++attempt) {
-    StageTimes times;
-    times.append_as("trials", std::exchange(generated, {}).times);
-    generated = build(comm, input, splits);
-    smooth(comm, input, {}, generated);
-    times.append(generated.times);
-    generated.times = times;
-    forget_splits(demanded, generated.result.tree);
-  }
   require_not_inverted(comm, input.geometry, generated.result.mesh);
   change(comm, input, wanted, generated);
   return generated;

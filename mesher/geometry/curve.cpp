@@ -112,7 +112,8 @@ PointAndDerivative above_chord_from_start(const CurvedSegment& segment, Point p)
   return at;
 }
 
-/// The parts of the curve before and after a parameter.
+}  // namespace
+
 std::pair<CurvedSegment, CurvedSegment> parts_at_parameter(const CurvedSegment& segment, double t) {
   Poles of_segment(segment);
   const std::span<Pole> poles = of_segment.all();
@@ -127,8 +128,6 @@ std::pair<CurvedSegment, CurvedSegment> parts_at_parameter(const CurvedSegment& 
   return {segment_of(first, segment.from, middle, origin, segment.curve),
           segment_of(second, middle, segment.to, origin, segment.curve)};
 }
-
-}  // namespace
 
 Curve reversed(Curve curve) {
   std::ranges::reverse(curve.inner);

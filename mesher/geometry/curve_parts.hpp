@@ -10,4 +10,7 @@ namespace quadloop {
 /// the spacing of the whole.
 std::pair<CurvedSegment, CurvedSegment> parts_at(const CurvedSegment& segment, Point p);
 
+/// Same for a parameter from 0 to 1.
+std::pair<CurvedSegment, CurvedSegment> parts_at_parameter(const CurvedSegment& segment, double t);
+
 }  // namespace quadloop

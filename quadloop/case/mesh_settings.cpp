@@ -253,6 +253,10 @@ const KeyTable<LineRule>& line_keys() {
                             "`boundary`."),
        key<&LineRule::boundary>("boundary", text(),
                                 "A chain of the geometry that is an inner line, not a part of the outline."),
+       key<&LineRule::spline>("spline", flag(),
+                              "Join the points of `path` by cubic splines from corner to corner instead of "
+                              "straight lines ([splines](#splines)).",
+                              {.fallback = "`false`"}),
        key<&LineRule::baffle>("kind", choice<bool>({{"line", false}, {"baffle", true}}),
                               "`line`: a named row of edges. `baffle`: a wall of no thickness with nodes of "
                               "its own on each side.")}};
@@ -384,6 +388,9 @@ void read_line(const io::CaseTable& table, Settings& settings) {
   if (rule.name.empty()) rule.name = rule.boundary;
   if (rule.name.empty()) table.refuse("name", "is missing; give the line one, as in name = \"screen\"");
   if (table.has("name")) rule.name = boundary_name().read(table, "name");
+  if (rule.spline && rule.path.empty())
+    table.refuse("spline", "needs a path; the curves of boundary = \"" + rule.boundary +
+                               "\" are those of its file or shape");
   if (rule.path.size() == 1 && rule.baffle)
     table.refuse("kind", "is \"baffle\", but the path has one point; give the baffle two points");
   if (rule.path.size() > 1 && std::ranges::count(rule.path, rule.path.front()) == std::ssize(rule.path))

@@ -1,5 +1,8 @@
 #include "smoother/outline/nodes_on_curves.hpp"
 
+#include <map>
+#include <string>
+
 #include "mesher/mesh/halo_mesh.hpp"
 #include "smoother/outline/outline_path.hpp"
 
@@ -15,17 +18,35 @@ Geometry chords_of(const Geometry& geometry) {
   return std::move(builder).geometry(geometry.boundaries());
 }
 
+namespace {
+
+/// For the right side of each baffle its left side, on which the nodes of both are located, so that they move
+/// to the same points, bit by bit.
+std::map<std::string, std::string> left_sides(const Geometry& geometry) {
+  const auto name_of = [&](std::int32_t s) { return geometry.boundary(geometry.boundary_of(s)).name; };
+  std::map<std::string, std::string> found;
+  for (std::int32_t s = 0; geometry.has_inner_lines() && s < geometry.size(); ++s) {
+    if (geometry.returns(s)) found[name_of(s)] = name_of(geometry.twin(s));
+  }
+  return found;
+}
+
+}  // namespace
+
 NodeFlags move_nodes_to_curves(const Communicator& comm, const Geometry& geometry, Mesh& mesh) {
   if (!geometry.has_curves()) return {};
   const Geometry chords = chords_of(geometry);
   const OutlinePath path(chords);
+  const std::map<std::string, std::string> left_of = left_sides(geometry);
   const std::vector<Point> before = mesh.points;
   const HaloMesh halo(comm, mesh);
   for (const HaloEdge& edge : halo.boundary_edges()) {
+    const std::string& name = mesh.boundaries[edge.boundary].name;
+    const auto left = left_of.find(name);
     for (const NodeId node : {edge.from, edge.to}) {
       if (!halo.owns(node)) continue;
       const Point p = before[node.value()];
-      const OutlinePlace place = path.locate(p, mesh.boundaries[edge.boundary].name);
+      const OutlinePlace place = path.locate(p, left == left_of.end() ? name : left->second);
       if (place.valid()) mesh.points[node.value()] = geometry.on_curve(place.segment, p);
     }
   }

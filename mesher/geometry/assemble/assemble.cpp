@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <span>
 
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
@@ -209,29 +210,47 @@ AssembleOptions without_required_rules(AssembleOptions options) {
   return options;
 }
 
+/// The tolerance `join` as a length.
+double join_length(std::span<const Chain> chains, const AssembleOptions& options) {
+  const Box box = box_of(chains);
+  return options.join * std::max(box.width(), box.height());
+}
+
 /// The loops of blocks and inner lines, which are chains of their own.
 BlockOutline loops_with_lines(const std::vector<Chain>& chains, const std::vector<BlockRule>& blocks,
                               const AssembleOptions& options, Warnings& warnings) {
   require_countable(chains);
-  const Box box = box_of(chains);
-  return block_loops(chains, blocks, options.join * std::max(box.width(), box.height()), warnings);
+  return block_loops(chains, blocks, join_length(chains, options), warnings);
+}
+
+/// Splits curves at crossings and subdivides them, together with those of inner lines.
+void divide_curves(std::vector<Chain>& chains, std::vector<Chain>& lines, SplitChains which,
+                   const AssembleOptions& options, Warnings& warnings) {
+  const std::size_t count = chains.size();
+  std::ranges::move(lines, std::back_inserter(chains));
+  split_curves_at_crossings(chains, join_length(chains, options), which);
+  subdivide_curves(chains, options, warnings);
+  lines.assign(std::make_move_iterator(chains.begin() + std::ptrdiff_t(count)),
+               std::make_move_iterator(chains.end()));
+  chains.resize(count);
 }
 
 BlockOutline outline_of_blocks(std::vector<Chain> chains, std::vector<Chain> lines,
                                const AssembleOptions& options, Warnings& warnings) {
   Warnings of_twins;  // a line between two blocks may be given for each of them
   join_rounded_ends(chains, options.join, of_twins);
-  split_curves_at_crossings(chains);
-  subdivide_curves(chains, without_required_rules(options), warnings);
+  divide_curves(chains, lines, SplitChains::all, without_required_rules(options), warnings);
   std::ranges::move(lines, std::back_inserter(chains));
   return loops_with_lines(chains, options.blocks, options, warnings);
 }
 
-Outline outline_of_domain(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
+/// The outline of a domain of one block; curves of inner lines are divided with those of the outline.
+Outline outline_of_domain(std::vector<Chain> chains, std::vector<Chain>& lines,
+                          const AssembleOptions& options, Warnings& warnings) {
   join_rounded_ends(chains, options.join, warnings);
   leave_out_strays(chains, options.far_field, warnings);
-  if (options.unite_islands) split_curves_at_crossings(chains);
-  subdivide_curves(chains, options.lines.empty() ? options : without_required_rules(options), warnings);
+  divide_curves(chains, lines, options.unite_islands ? SplitChains::all : SplitChains::inner_lines,
+                options.lines.empty() ? options : without_required_rules(options), warnings);
   require_countable(chains);
   Outline outline = join_chains(std::move(chains));
   if (options.unite_islands) outline = united_islands(outline, options.join, warnings);
@@ -246,10 +265,20 @@ Outline outline_of_domain(std::vector<Chain> chains, const AssembleOptions& opti
   return outline;
 }
 
+Chain chain_of_path(const LineRule& rule, double corner_degrees) {
+  Chain chain{rule.name, true, rule.path, rule.where};
+  if (rule.path.size() > 1 && rule.path.front() == rule.path.back()) {
+    chain.open = false;
+    chain.points.pop_back();
+  }
+  if (rule.spline) join_by_splines(chain, corner_degrees);
+  return chain;
+}
+
 /// Moves the chains of inner lines out of `chains`, and adds those of paths.
-std::vector<Chain> take_lines(std::vector<Chain>& chains, const std::vector<LineRule>& rules) {
+std::vector<Chain> take_lines(std::vector<Chain>& chains, const AssembleOptions& options) {
   std::vector<Chain> lines;
-  for (const LineRule& rule : rules) {
+  for (const LineRule& rule : options.lines) {
     const std::size_t before = lines.size();
     std::erase_if(chains, [&](Chain& chain) {
       if (chain.name != rule.name && chain.name != rule.boundary) return false;
@@ -264,19 +293,8 @@ std::vector<Chain> take_lines(std::vector<Chain>& chains, const std::vector<Line
     if (!rule.boundary.empty() && lines.size() == before)
       throw InputError(fmt::format("{}: line '{}': the geometry has no boundary '{}'", rule.where, rule.name,
                                    rule.boundary));
-    if (rule.boundary.empty()) {
-      lines.push_back({rule.name, true, rule.path, rule.where});
-      if (rule.path.size() > 1 && rule.path.front() == rule.path.back()) {
-        lines.back().open = false;
-        lines.back().points.pop_back();
-      }
-    }
+    if (rule.boundary.empty()) lines.push_back(chain_of_path(rule, options.default_corner_degrees));
     for (std::size_t l = before; l < lines.size(); ++l) {
-      if (rule.baffle && !lines[l].curves.empty())
-        throw InputError(
-            fmt::format("{}: baffle '{}' near ({}, {}) has curves, which is not possible yet; give it by "
-                        "straight lines",
-                        rule.where, rule.name, lines[l].points.front().x, lines[l].points.front().y));
       lines[l].name = rule.name;
       lines[l].inner_line = true;
     }
@@ -322,15 +340,14 @@ BlockOutline with_lines(const Outline& outline, std::vector<Chain> lines, const 
 }  // namespace
 
 Geometry assemble(std::vector<Chain> chains, const AssembleOptions& options, Warnings& warnings) {
-  std::vector<Chain> lines = take_lines(chains, options.lines);
+  std::vector<Chain> lines = take_lines(chains, options);
   clean_chains(chains, warnings);
   clean_chains(lines, warnings);
-  subdivide_curves(lines, without_required_rules(options), warnings);
   BlockOutline outline;
   if (!options.blocks.empty()) {
     outline = outline_of_blocks(std::move(chains), std::move(lines), options, warnings);
   } else {
-    outline.outline = outline_of_domain(std::move(chains), options, warnings);
+    outline.outline = outline_of_domain(std::move(chains), lines, options, warnings);
     if (!lines.empty()) outline = with_lines(outline.outline, std::move(lines), options, warnings);
   }
   Geometry geometry = to_geometry(std::move(outline), options);

@@ -21,6 +21,7 @@ struct LineRule {
   std::vector<Point> path;  ///< closed if it ends where it begins
   bool baffle = false;      ///< each side has nodes of its own
   std::string where;        ///< where the rule stands, for messages
+  bool spline = false;      ///< the points of the path are joined by cubic splines from corner to corner
 };
 
 struct AssembleOptions {

@@ -38,7 +38,7 @@ class LineGraph {
  public:
   LineGraph(const std::vector<Chain>& chains, double near) : chains_{chains} {
     const std::vector<SplitLoop> lines = split_lines(chains, near);
-    for (std::int32_t c = 0; c < size32(chains); ++c) add(c, lines[c]);
+    for (std::int32_t c = 0; c < size32(chains); ++c) add(c, lines);
     graph_.link();
   }
 
@@ -70,8 +70,9 @@ class LineGraph {
   Point end(std::int32_t h) const { return graph_.point(graph_.head(h)); }
 
  private:
-  void add(std::int32_t c, const SplitLoop& line) {
+  void add(std::int32_t c, const std::vector<SplitLoop>& lines) {
     const Chain& chain = chains_[c];
+    const SplitLoop& line = lines[c];
     const std::size_t points = line.points.size();
     for (std::size_t i = 0; i < line.segment.size(); ++i) {
       const Point from = line.points[i], to = line.points[(i + 1) % points];
@@ -83,17 +84,27 @@ class LineGraph {
       if (is_new) edge.against = h % 2 != 0;
       if (!is_new || chain.curves.empty() || chain.curves[segment].straight()) continue;
       const bool whole = std::ranges::count(line.segment, segment) == 1;
-      if (!whole) refuse_split_curve(chain, from);
+      if (!whole) refuse_split_curve(chain, to, lines);
       const Curve& curve = chain.curves[segment];
       edge.along = h % 2 == 0 ? curve : reversed(std::vector<Curve>{curve}).front();
     }
   }
 
-  [[noreturn]] static void refuse_split_curve(const Chain& chain, Point p) {
+  /// For a point on a piece of a curve that is not its end: split_curves_at_crossings() makes crossings and
+  /// ends on curves ends of pieces, so that two curves are closer than the tolerance there.
+  [[noreturn]] void refuse_split_curve(const Chain& chain, Point p,
+                                       const std::vector<SplitLoop>& lines) const {
+    const auto text_of = [](const Chain& c) {
+      return fmt::format("{} '{}'", c.inner_line ? "inner line" : "boundary", c.name);
+    };
+    std::string other = "itself";
+    for (std::size_t c = 0; c < lines.size(); ++c) {
+      if (&chains_[c] != &chain && std::ranges::count(lines[c].points, p) > 0) other = text_of(chains_[c]);
+    }
     throw InputError(
-        fmt::format("{}: boundary '{}': another boundary meets it at {} in the middle of a curve; make that "
-                    "point an end of two of its curves",
-                    chain.source, chain.name, coordinates(p)));
+        fmt::format("{}: {} is closer than geometry.join to {} at {}, in the middle of a curve; move them "
+                    "apart, let both have a point there, or make geometry.join smaller",
+                    chain.source, text_of(chain), other, coordinates(p)));
   }
 
   const std::vector<Chain>& chains_;

@@ -2,225 +2,248 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
+#include "mesher/geometry/assemble/chain_segments.hpp"
+#include "mesher/geometry/assemble/curve_meetings.hpp"
+#include "mesher/geometry/assemble/subdivide_curves.hpp"
 #include "mesher/geometry/box_tree.hpp"
+#include "mesher/geometry/curve_parts.hpp"
 
 namespace quadloop {
 
 namespace {
 
-constexpr int deepest = 26;               // halvings of an interval; then a curve is its chord to rounding
-constexpr double beyond_chord = 1e-3;     // of these chords: tolerance of their intersection
-constexpr double least_sine = 1e-6;       // of the angle between chords that intersect
-constexpr double at_end = 0x1p-36;        // parameters this near to an end count as the end
-constexpr std::size_t most_pairs = 4096;  // of one crossing: more if curves touch over a length
+constexpr double rounding_share = 1e-5;  // of `near`: ends this near to a curve stay
 
-/// A part of a segment, with its interval of the parameter.
-struct Part {
-  CurvedSegment segment;
-  double low = 0, high = 1;
+bool is_start(double parameter) { return parameter < nearest_to_end; }
+bool is_end(double parameter) { return parameter > 1 - nearest_to_end; }
 
-  double middle() const { return 0.5 * (low + high); }
-  Box box() const {
-    Box box = box_of(segment.from, segment.to);
-    for (const Point p : segment.curve.inner) box.include(p);
-    return box;
-  }
-  std::pair<Part, Part> halves() const {
-    const auto [first, second] = quadloop::halves(segment);
-    return {{first, low, middle()}, {second, middle(), high}};
-  }
+/// A place where a segment is split.
+struct SplitPlace {
+  double parameter = 0;
+  std::optional<Point> point = {};  ///< none: the point of the curve
 };
 
-/// Parameters on two segments where they meet.
-struct Meeting {
-  double on_first = 0, on_second = 0;
-  Point point;
-};
+/// The pieces of a curve of which each turns by one cell, with the ends of their parameters.
+struct CellPieces {
+  std::vector<double> ends;
+  std::vector<double> spacings;
 
-/// Where the chords of two small parts intersect.
-std::optional<Meeting> intersection_of(const Part& a, const Part& b) {
-  const Point along = a.segment.to - a.segment.from, other = b.segment.to - b.segment.from,
-              between = b.segment.from - a.segment.from;
-  const double area = cross(along, other);
-  if (std::abs(area) <= least_sine * length(along) * length(other)) return {};
-  const double s = cross(between, other) / area, t = cross(between, along) / area;
-  if (std::min(s, t) < -beyond_chord || std::max(s, t) > 1 + beyond_chord) return {};
-  return Meeting{a.low + s * (a.high - a.low), b.low + t * (b.high - b.low), a.segment.from + s * along};
-}
+  explicit CellPieces(const CurvedSegment& whole) { add(whole, 0, 1); }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
+  double spacing_at(double parameter) const {
+    const auto end = std::ranges::upper_bound(ends, parameter);
+    return spacings[std::min<std::size_t>(end - ends.begin(), ends.size() - 1)];
+  }
 
-/// Where two segments meet: both are halved as long as the boxes of their control points overlap. None if
-/// they touch over a length.
-std::vector<Meeting> meetings_of(const CurvedSegment& first, const CurvedSegment& second) {
-  std::vector<std::pair<Part, Part>> pairs{{{first}, {second}}};
-  for (int depth = 0; depth < deepest && !pairs.empty(); ++depth) {
-    std::vector<std::pair<Part, Part>> finer;
-    for (const auto& [a, b] : pairs) {
-      const auto halves_of_a = a.halves(), halves_of_b = b.halves();
-      for (const Part* const x : {&halves_of_a.first, &halves_of_a.second}) {
-        for (const Part* const y : {&halves_of_b.first, &halves_of_b.second}) {
-          if (overlap(x->box(), y->box())) finer.emplace_back(*x, *y);
-        }
-      }
+ private:
+  void add(const CurvedSegment& piece, double low, double high) {
+    if (piece.curve.spacing == 0 && turning_of_hull(piece) > degrees_of_cell) {
+      const auto [first, second] = halves(piece);
+      const double middle = 0.5 * (low + high);
+      add(first, low, middle);
+      add(second, middle, high);
+      return;
     }
-    if (finer.size() > most_pairs) return {};
-    pairs = std::move(finer);
+    ends.push_back(high);
+    const Curve& curve = piece.curve;
+    spacings.push_back(curve.straight() || curve.spacing > 0 ? curve.spacing : length(piece.to - piece.from));
   }
-  std::vector<Meeting> meetings;
-  for (const auto& [a, b] : pairs) {
-    const std::optional<Meeting> here = intersection_of(a, b);
-    const auto is_known = [&](const Meeting& m) {
-      return std::abs(m.on_first - here->on_first) < at_end &&
-             std::abs(m.on_second - here->on_second) < at_end;
+};
+
+/// A segment with the places where others meet it.
+class MetSegment {
+ public:
+  explicit MetSegment(CurvedSegment segment) : segment_{std::move(segment)} {}
+
+  const CurvedSegment& segment() const { return segment_; }
+  bool is_met() const { return !places_.empty(); }
+  /// The end at a parameter or within `near` of a point, if there is one.
+  std::optional<Point> end_at(double parameter, Point p, double near) const {
+    if (is_start(parameter) || length(p - segment_.from) <= near) return segment_.from;
+    if (is_end(parameter) || length(p - segment_.to) <= near) return segment_.to;
+    return {};
+  }
+
+  void add(double parameter, Point point, double near) {
+    const auto is_near = [&](const SplitPlace& p) {
+      return std::abs(p.parameter - parameter) < nearest_to_end || length(*p.point - point) <= near;
     };
-    if (here && std::ranges::none_of(meetings, is_known)) meetings.push_back(*here);
-  }
-  return meetings;
-}
-
-bool is_start(double parameter) { return parameter < at_end; }
-bool is_end(double parameter) { return parameter > 1 - at_end; }
-bool is_inner(double parameter) { return !is_start(parameter) && !is_end(parameter); }
-
-/// The two parts of a segment at a parameter, which meet in a given point (de Casteljau).
-std::pair<CurvedSegment, CurvedSegment> parts_at(const CurvedSegment& segment, double t, Point at) {
-  struct WeightedPoint {
-    double x = 0, y = 0, weight = 1;
-  };
-  const Curve& curve = segment.curve;
-  std::vector<Point> control{segment.from};
-  control.insert(control.end(), curve.inner.begin(), curve.inner.end());
-  control.push_back(segment.to);
-  std::vector<WeightedPoint> poles;
-  for (std::size_t i = 0; i < control.size(); ++i) {
-    const double weight = curve.weights.empty() ? 1 : curve.weights[i];
-    poles.push_back({weight * control[i].x, weight * control[i].y, weight});
-  }
-  std::vector<WeightedPoint> before{poles.front()}, after{poles.back()};
-  for (std::size_t round = poles.size() - 1; round > 0; --round) {
-    for (std::size_t i = 0; i < round; ++i) {
-      const WeightedPoint &a = poles[i], &b = poles[i + 1];
-      poles[i] = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.weight + t * (b.weight - a.weight)};
-    }
-    before.push_back(poles.front());
-    after.push_back(poles[round - 1]);
-  }
-  std::ranges::reverse(after);
-  const auto part = [&](const std::vector<WeightedPoint>& of, Point from, Point to) {
-    CurvedSegment made{from, {{}, {}, curve.spacing, curve.interpolates}, to};
-    for (std::size_t i = 1; i + 1 < of.size(); ++i)
-      made.curve.inner.push_back({of[i].x / of[i].weight, of[i].y / of[i].weight});
-    for (std::size_t i = 0; !curve.weights.empty() && i < of.size(); ++i)
-      made.curve.weights.push_back(of[i].weight);
-    return made;
-  };
-  return {part(before, segment.from, at), part(after, at, segment.to)};
-}
-
-/// A segment of a chain, with the places where others meet it.
-struct MetSegment {
-  std::size_t chain = 0;
-  CurvedSegment segment;
-  struct Place {
-    double parameter = 0;
-    Point point;
-  };
-  std::vector<Place> places = {};
-
-  void add(double parameter, Point point) {
-    const auto near = [&](const Place& p) { return std::abs(p.parameter - parameter) < at_end; };
-    if (std::ranges::none_of(places, near)) places.push_back({parameter, point});
+    if (std::ranges::none_of(places_, is_near)) places_.push_back({parameter, point});
   }
 
-  std::vector<CurvedSegment> split() const {
-    std::vector<Place> ordered = places;
-    std::ranges::sort(ordered, {}, &Place::parameter);
+  /// The pieces between its places; `moved`: other coordinates of points.
+  std::vector<CurvedSegment> split(const std::map<Point, Point>& moved, double near) const {
+    const CellPieces cells(segment_);
+    const auto placed = [&](Point p) {
+      const auto found = moved.find(p);
+      return found == moved.end() ? p : found->second;
+    };
     std::vector<CurvedSegment> pieces;
-    CurvedSegment rest = segment;
+    CurvedSegment rest = segment_;
+    rest.from = placed(rest.from);
+    rest.to = placed(rest.to);
     double reached = 0;
-    for (const Place& place : ordered) {
-      auto [before, after] = parts_at(rest, (place.parameter - reached) / (1 - reached), place.point);
-      pieces.push_back(std::move(before));
+    const auto take = [&](const CurvedSegment& piece, double end) {
+      pieces.push_back(piece);
+      pieces.back().curve.spacing = cells.spacing_at(0.5 * (reached + end));
+      reached = end;
+    };
+    for (const SplitPlace& place : places_and_ends(cells, near)) {
+      auto [before, after] = parts_at_parameter(rest, (place.parameter - reached) / (1 - reached));
+      if (place.point) before.to = after.from = placed(*place.point);
+      take(before, place.parameter);
       rest = std::move(after);
-      reached = place.parameter;
     }
-    pieces.push_back(std::move(rest));
+    take(rest, 1);
     return pieces;
   }
+
+ private:
+  /// The places and those ends of cells that are not near them, in order.
+  std::vector<SplitPlace> places_and_ends(const CellPieces& cells, double near) const {
+    std::vector<SplitPlace> all = places_;
+    for (std::size_t i = 0; i + 1 < cells.ends.size(); ++i) {
+      const double parameter = cells.ends[i];
+      const Point end = quadloop::point_at(segment_, parameter);
+      const auto is_near = [&](const SplitPlace& p) {
+        return std::abs(p.parameter - parameter) < nearest_to_end || length(*p.point - end) <= 2 * near;
+      };
+      if (std::ranges::none_of(places_, is_near)) all.push_back({parameter});
+    }
+    std::ranges::sort(all, {}, &SplitPlace::parameter);
+    return all;
+  }
+
+  CurvedSegment segment_;
+  std::vector<SplitPlace> places_;
 };
 
-Point end_at(const CurvedSegment& segment, double parameter) {
-  return is_start(parameter) ? segment.from : segment.to;
-}
-
-/// Adds the common points of two segments, of which one at least is a curve.
-void meet(MetSegment& first, MetSegment& second) {
-  for (const Meeting& m : meetings_of(first.segment, second.segment)) {
-    const bool inner_first = is_inner(m.on_first), inner_second = is_inner(m.on_second);
-    if (!inner_first && !inner_second) continue;
-    const Point at = !inner_first    ? end_at(first.segment, m.on_first)
-                     : !inner_second ? end_at(second.segment, m.on_second)
-                                     : m.point;
-    if (inner_first) first.add(m.on_first, at);
-    if (inner_second) second.add(m.on_second, at);
+/// The segments of chains while they are split.
+class Splitting {
+ public:
+  Splitting(const std::vector<Chain>& chains, double near, SplitChains which)
+      : chains_{chains}, segments_{segments_of(chains)}, near_{near}, which_{which} {
+    for (const ChainSegment& s : segments_) met_.emplace_back(s.segment);
   }
-}
 
-std::vector<MetSegment> segments_of(const std::vector<Chain>& chains) {
-  std::vector<MetSegment> segments;
-  for (std::size_t c = 0; c < chains.size(); ++c) {
-    const Chain& chain = chains[c];
-    const std::size_t count = chain.points.size() - (chain.open ? 1 : 0);
-    for (std::size_t s = 0; s < count; ++s)
-      segments.push_back({c,
-                          {chain.points[s], chain.curves.empty() ? Curve{} : chain.curves[s],
-                           chain.points[(s + 1) % chain.points.size()]}});
+  /// Finds all places. Returns whether there are any.
+  bool find() {
+    const auto box_at = [&](std::int32_t i) { return box_of_control(segments_[i].segment); };
+    const BoxTree tree(size32(segments_), box_at);
+    for (std::int32_t i = 0; i < size32(segments_); ++i) {
+      if (segments_[i].first_equal != i) continue;
+      const Box box = box_at(i);
+      const Point margin{near_, near_};
+      tree.for_each_meeting({box.low - margin, box.high + margin}, [&](std::int32_t j) {
+        if (j > i && segments_[j].first_equal == j && may_meet(i, j)) meet(i, j);
+      });
+    }
+    return !moved_.empty() || std::ranges::any_of(met_, &MetSegment::is_met);
   }
-  return segments;
+
+  void apply_to(std::vector<Chain>& chains) const {
+    std::vector<std::vector<CurvedSegment>> pieces(segments_.size());
+    for (std::int32_t i = 0; i < size32(segments_); ++i) {
+      if (segments_[i].first_equal != i) continue;
+      if (met_[i].is_met())
+        pieces[i] = met_[i].split(moved_, near_);
+      else
+        pieces[i] = {with_moved_ends(segments_[i].segment)};
+    }
+    replace_segments(chains, segments_, pieces);
+  }
+
+ private:
+  bool is_inner_line(std::int32_t i) const { return chains_[segments_[i].chain].inner_line; }
+
+  bool may_meet(std::int32_t i, std::int32_t j) const {
+    const ChainSegment &a = segments_[i], &b = segments_[j];
+    if (a.segment.curve.straight() && b.segment.curve.straight()) return false;
+    if (a.chain == b.chain) return is_inner_line(i);
+    return which_ == SplitChains::all || is_inner_line(i) || is_inner_line(j);
+  }
+
+  /// Adds the common points of two segments, of which one at least is a curve.
+  void meet(std::int32_t i, std::int32_t j) {
+    for (const CurveMeeting& m : meetings_of(segments_[i].segment, segments_[j].segment, near_)) {
+      const std::optional<Point> end_of_first = met_[i].end_at(m.on_first, m.point, near_),
+                                 end_of_second = met_[j].end_at(m.on_second, m.point, near_);
+      if (end_of_first && end_of_second) continue;
+      const Point at = end_of_first    ? end_on(*end_of_first, i, j, m.point)
+                       : end_of_second ? end_on(*end_of_second, j, i, m.point)
+                                       : m.point;
+      if (!end_of_first) met_[i].add(m.on_first, at, near_);
+      if (!end_of_second) met_[j].add(m.on_second, at, near_);
+    }
+  }
+
+  /// The point that an end of segment i has on segment j.
+  Point end_on(Point end, std::int32_t i, std::int32_t j, Point on_both) {
+    if (!is_inner_line(i) || segments_[j].segment.curve.straight() ||
+        length(end - on_both) <= rounding_share * near_)
+      return end;
+    return moved_.try_emplace(end, on_both).first->second;
+  }
+
+  CurvedSegment with_moved_ends(CurvedSegment segment) const {
+    for (Point* const end : {&segment.from, &segment.to}) {
+      if (const auto found = moved_.find(*end); found != moved_.end()) *end = found->second;
+    }
+    return segment;
+  }
+
+  const std::vector<Chain>& chains_;
+  std::vector<ChainSegment> segments_;
+  std::vector<MetSegment> met_;
+  std::map<Point, Point> moved_;  ///< ends of inner lines that lie on curves
+  double near_;
+  SplitChains which_;
+};
+
+/// Appends the pieces of a curve of which none turns by more than one cell: they cannot meet themselves.
+void append_short_turns(const CurvedSegment& segment, std::vector<CurvedSegment>& pieces) {
+  if (turning_of_hull(segment) <= degrees_of_cell) {
+    pieces.push_back(segment);
+    Curve& curve = pieces.back().curve;
+    if (!curve.straight() && curve.spacing == 0) curve.spacing = length(segment.to - segment.from);
+    return;
+  }
+  const auto [first, second] = halves(segment);
+  append_short_turns(first, pieces);
+  append_short_turns(second, pieces);
 }
 
-bool is_same(const CurvedSegment& a, const CurvedSegment& b) {
-  return a.from == b.from && a.to == b.to && a.curve == b.curve;
+/// Divides the curves of inner lines, which may cross themselves, into pieces that cannot.
+void divide_inner_lines(std::vector<Chain>& chains) {
+  const auto is_curved_line = [](const Chain& chain) { return chain.inner_line && !chain.curves.empty(); };
+  if (std::ranges::none_of(chains, is_curved_line)) return;
+  const std::vector<ChainSegment> segments = segments_of(chains);
+  std::vector<char> of_line(segments.size(), 0);
+  for (const ChainSegment& s : segments) {
+    if (chains[s.chain].inner_line) of_line[s.first_equal] = 1;
+  }
+  std::vector<std::vector<CurvedSegment>> pieces(segments.size());
+  for (std::int32_t i = 0; i < size32(segments); ++i) {
+    if (segments[i].first_equal != i) continue;
+    if (of_line[i] != 0)
+      append_short_turns(segments[i].segment, pieces[i]);
+    else
+      pieces[i] = {segments[i].segment};
+  }
+  replace_segments(chains, segments, pieces);
 }
 
 }  // namespace
 
-void split_curves_at_crossings(std::vector<Chain>& chains) {
+void split_curves_at_crossings(std::vector<Chain>& chains, double near, SplitChains which) {
   if (std::ranges::all_of(chains, [](const Chain& chain) { return chain.curves.empty(); })) return;
-  std::vector<MetSegment> segments = segments_of(chains);
-  const auto box_at = [&](std::int32_t i) { return Part{segments[i].segment}.box(); };
-  const BoxTree tree(size32(segments), box_at);
-  for (std::int32_t i = 0; i < size32(segments); ++i) {
-    tree.for_each_meeting(box_at(i), [&](std::int32_t j) {
-      MetSegment &a = segments[i], &b = segments[j];
-      if (j <= i || a.chain == b.chain || (a.segment.curve.straight() && b.segment.curve.straight())) return;
-      if (is_same(a.segment, b.segment) || is_same(a.segment, reversed(b.segment))) return;
-      meet(a, b);
-    });
-  }
-  if (std::ranges::all_of(segments, [](const MetSegment& met) { return met.places.empty(); })) return;
-  for (Chain& chain : chains) {
-    if (chain.open && chain.points.size() > 1)
-      chain.points.erase(chain.points.begin(), chain.points.end() - 1);
-    if (!chain.open) chain.points.clear();
-    chain.curves.clear();
-  }
-  for (const MetSegment& met : segments) {
-    Chain& chain = chains[met.chain];
-    for (const CurvedSegment& piece : met.split()) {
-      chain.points.insert(chain.points.end() - (chain.open ? 1 : 0), piece.from);
-      chain.curves.push_back(piece.curve);
-    }
-  }
-  for (Chain& chain : chains) {
-    if (std::ranges::all_of(chain.curves, &Curve::straight)) chain.curves.clear();
-  }
+  divide_inner_lines(chains);
+  Splitting splitting(chains, near, which);
+  if (splitting.find()) splitting.apply_to(chains);
 }
 
 }  // namespace quadloop

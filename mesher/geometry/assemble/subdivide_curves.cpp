@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +13,7 @@
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/assemble/chain_segments.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 
@@ -20,8 +21,6 @@ namespace quadloop {
 
 namespace {
 
-/// Turning angle of a curve that requests no spacing, per cell: it requests the length of such a piece.
-constexpr double degrees_of_cell = 15;
 /// Largest turning angle of a curve over its chord, as a fraction of the turning angle per cell.
 constexpr double turn_share = 0.25;
 /// Largest distance of a curve from its chord, as a fraction of the requested cell size (by default cells are
@@ -32,17 +31,26 @@ constexpr double shortest_share = 1e-12;
 /// Pieces that may be added to separate curves. Those that run along each other double at each step.
 constexpr std::size_t most_added = 20000;
 
-/// A segment of a chain, while it is subdivided.
+/// A segment, while it is subdivided.
 struct Piece {
   CurvedSegment segment;
-  std::size_t chain = 0, part = 0;  ///< number of its chain, and of the segment in it
+  std::int32_t whole = 0;  ///< number of the segment that it is a part of
 
-  Piece with(CurvedSegment half) const { return {std::move(half), chain, part}; }
+  Piece with(CurvedSegment half) const { return {std::move(half), whole}; }
 };
 
 /// The largest turning angle of a curve over its chord, and its largest height above it.
 struct ChordLimits {
-  double degrees = 0, height = 0;
+  double degrees = std::numeric_limits<double>::infinity(), height = degrees;
+
+  void tighten(const ChordLimits& other) {
+    degrees = std::min(degrees, other.degrees);
+    height = std::min(height, other.height);
+  }
+  bool hold(const CurvedSegment& segment) const {
+    return turning_of_hull(segment) <= degrees &&
+           height_of_hull(segment) <= std::min(height, height_share * segment.curve.spacing);
+  }
 };
 
 /// The chord limits of the boundaries.
@@ -57,11 +65,7 @@ class ChordLimitsByName {
       limits_.at(b.name) = limits_of(b, options);
   }
 
-  bool hold(const Piece& piece, const std::string& name) const {
-    const ChordLimits& limits = limits_.at(name);
-    const double height = std::min(limits.height, height_share * piece.segment.curve.spacing);
-    return turning_of_hull(piece.segment) <= limits.degrees && height_of_hull(piece.segment) <= height;
-  }
+  const ChordLimits& at(const std::string& name) const { return limits_.at(name); }
 
  private:
   static ChordLimits limits_of(const Boundary& b, const AssembleOptions& options) {
@@ -153,16 +157,15 @@ std::optional<Point> common_end(const CurvedSegment& a, const CurvedSegment& b) 
 class Subdivision {
  public:
   Subdivision(const std::vector<Chain>& chains, const AssembleOptions& options)
-      : chains_{chains}, limits_{chains, options} {
+      : chains_{chains}, segments_{segments_of(chains)}, limits_(segments_.size()) {
+    const ChordLimitsByName limits(chains, options);
     Box box;
-    for (std::size_t c = 0; c < chains.size(); ++c) {
-      const Chain& chain = chains[c];
-      for (const Point p : chain.points) box.include(p);
-      const std::size_t segments = chain.points.size() - (chain.open ? 1 : 0);
-      for (std::size_t s = 0; s < segments; ++s) {
-        const Curve curve = chain.curves.empty() ? Curve{} : chain.curves[s];
-        pieces_.push_back({{chain.points[s], curve, chain.points[(s + 1) % chain.points.size()]}, c, s});
-      }
+    for (std::int32_t i = 0; i < size32(segments_); ++i) {
+      const ChainSegment& s = segments_[i];
+      box.include(s.segment.from);
+      box.include(s.segment.to);
+      if (s.first_equal == i) pieces_.push_back({s.segment, i});
+      limits_[s.first_equal].tighten(limits.at(chains[s.chain].name));
     }
     shortest_ = shortest_share * std::max(box.width(), box.height());
   }
@@ -175,29 +178,27 @@ class Subdivision {
       Curve& curve = piece.segment.curve;
       if (!curve.straight() && curve.spacing == 0) curve.spacing = chord_of(piece);
     }
-    halve_while([&](const Piece& piece) { return !limits_.hold(piece, chains_[piece.chain].name); });
+    halve_while([&](const Piece& piece) { return !limits_[piece.whole].hold(piece.segment); });
     most_pieces_ = pieces_.size() + most_added;
     while (separate()) {
     }
   }
 
   /// The interpolating curves that touch another one: number of the chain and of the segment in it.
-  const std::set<std::pair<std::size_t, std::size_t>>& touching() const { return touching_; }
+  std::set<std::pair<std::size_t, std::size_t>> touching() const {
+    std::set<std::pair<std::size_t, std::size_t>> found;
+    for (const ChainSegment& s : segments_) {
+      if (touching_.contains(s.first_equal)) found.emplace(s.chain, s.part);
+    }
+    return found;
+  }
 
   /// The chains with the pieces as their segments.
   std::vector<Chain> chains() const {
+    std::vector<std::vector<CurvedSegment>> pieces(segments_.size());
+    for (const Piece& piece : pieces_) pieces[piece.whole].push_back(piece.segment);
     std::vector<Chain> chains = chains_;
-    for (Chain& chain : chains) {
-      if (chain.open && chain.points.size() > 1)
-        chain.points.erase(chain.points.begin(), chain.points.end() - 1);
-      if (!chain.open) chain.points.clear();
-      chain.curves.clear();
-    }
-    for (const Piece& piece : pieces_) {
-      Chain& chain = chains[piece.chain];
-      chain.points.insert(chain.points.end() - (chain.open ? 1 : 0), piece.segment.from);
-      chain.curves.push_back(piece.segment.curve);
-    }
+    replace_segments(chains, segments_, pieces);
     return chains;
   }
 
@@ -266,20 +267,22 @@ class Subdivision {
         corner ? Cone(*corner, hulls[i]).meets(Cone(*corner, hulls[j])) : hulls_meet(hulls[i], hulls[j]);
     if (!meet) return false;
     if (pieces_.size() <= most_pieces_ && (corner || can_be_halved(a) || can_be_halved(b))) return true;
-    if (a.segment.curve.interpolates) touching_.emplace(a.chain, a.part);
-    if (b.segment.curve.interpolates) touching_.emplace(b.chain, b.part);
+    if (a.segment.curve.interpolates) touching_.insert(a.whole);
+    if (b.segment.curve.interpolates) touching_.insert(b.whole);
     if (!touching_.empty()) return false;
     const Point at = a.segment.from;
+    const Chain &of_a = chains_[segments_[a.whole].chain], &of_b = chains_[segments_[b.whole].chain];
     throw InputError(
         fmt::format("{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move "
                     "them apart, remove one, or let both have a point there",
-                    chains_[a.chain].source, chains_[a.chain].name, chains_[b.chain].name, at.x, at.y));
+                    of_a.source, of_a.name, of_b.name, at.x, at.y));
   }
 
   const std::vector<Chain>& chains_;
-  ChordLimitsByName limits_;
-  std::vector<Piece> pieces_;
-  std::set<std::pair<std::size_t, std::size_t>> touching_;
+  std::vector<ChainSegment> segments_;
+  std::vector<ChordLimits> limits_;  ///< of each segment, for all that are equal to it
+  std::vector<Piece> pieces_;        ///< of the segments without an earlier equal one
+  std::set<std::int32_t> touching_;
   double shortest_ = 0;
   std::size_t most_pieces_ = 0;
 };

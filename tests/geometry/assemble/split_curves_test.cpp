@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 
@@ -110,14 +113,120 @@ TEST(SplitCurves, CommonEndsAndEqualCurvesAreNoCrossings) {
 TEST(SplitCurves, BothPiecesOfACurveFollowIt) {
   std::vector<Chain> chains{true_circle("ring", {0.2, 0.1}, 2), open_line("cut", {{0.2, 0.1}, {3.2, 2.1}})};
   split_curves_at_crossings(chains);
-  ASSERT_EQ(chains[0].points.size(), 5U);
   EXPECT_EQ(chains[1].points.size(), 3U);
-  EXPECT_EQ(chains[1].points[1], chains[0].points[1]);
-  for (std::size_t s = 0; s < 5; ++s) {
-    const CurvedSegment segment{chains[0].points[s], chains[0].curves[s], chains[0].points[(s + 1) % 5]};
+  const std::vector<Point>& ring = chains[0].points;
+  EXPECT_EQ(std::ranges::count(ring, chains[1].points[1]), 1);
+  EXPECT_GE(ring.size(), 5U);  // the quarter that is cut consists of pieces for one cell each
+  for (std::size_t s = 0; s < ring.size(); ++s) {
+    const CurvedSegment segment{ring[s], chains[0].curves[s], ring[(s + 1) % ring.size()]};
     for (const double t : {0.1, 0.5, 0.8})
       EXPECT_NEAR(length(point_at(segment, t) - Point{0.2, 0.1}), 2, 1e-14);
   }
+}
+
+Chain inner_line(Chain chain) {
+  chain.inner_line = true;
+  return chain;
+}
+
+/// The largest distance of points from a circle.
+double off_circle(const std::vector<Point>& points, Point centre, double radius) {
+  double off = 0;
+  for (const Point p : points) off = std::max(off, std::abs(length(p - centre) - radius));
+  return off;
+}
+
+TEST(SplitCurves, AnEndOfAnInnerLineMovesOntoTheCurve) {
+  constexpr double near = 1e-9;
+  for (const double beyond : {-8e-10, -1e-15, 0.0, 6e-10}) {
+    SCOPED_TRACE(beyond);
+    const double angle = 0.4, reach = 2 + beyond;
+    const Point end{0.2 + reach * std::cos(angle), 0.1 + reach * std::sin(angle)};
+    std::vector<Chain> chains{true_circle("ring", {0.2, 0.1}, 2),
+                              inner_line(open_line("line", {end, {4, 1.5}}))};
+    split_curves_at_crossings(chains, near, SplitChains::inner_lines);
+    const std::vector<Point>& ring = chains[0].points;
+    EXPECT_EQ(std::ranges::count(ring, chains[1].points.front()), 1);
+    EXPECT_LT(off_circle(ring, {0.2, 0.1}, 2), 1e-14);
+    EXPECT_LT(length(chains[1].points.front() - end), near);
+    EXPECT_EQ(chains[1].points.size(), 2U);
+  }
+}
+
+TEST(SplitCurves, AFarEndStays) {
+  std::vector<Chain> chains{true_circle("ring", {0, 0}, 2),
+                            inner_line(open_line("line", {{1.9, 0}, {1, 0.5}}))};
+  split_curves_at_crossings(chains, 1e-9, SplitChains::inner_lines);
+  EXPECT_EQ(chains[0].points.size(), 4U);
+  EXPECT_EQ(chains[1].points.front(), (Point{1.9, 0}));
+}
+
+TEST(SplitCurves, InnerLinesCrossThemselves) {
+  Curve cubic;  // symmetric about x = 0.5, where it crosses itself
+  cubic.inner = {{3, 2}, {-2, 2}};
+  Chain loop = inner_line(open_line("loop", {{0, 0}}));
+  append_segment(loop, cubic, {1, 0});
+  std::vector<Chain> chains{loop};
+  split_curves_at_crossings(chains, 1e-9, SplitChains::inner_lines);
+  std::vector<Point> twice;
+  for (const Point p : chains[0].points) {
+    if (std::ranges::count(chains[0].points, p) == 2) twice.push_back(p);
+  }
+  ASSERT_EQ(twice.size(), 2U);
+  // x = 9 t (1 - t)^2 - 6 t^2 (1 - t) + t^3 is 0.5 where 16 t^2 - 16 t + 1 = 0; y = 6 t (1 - t).
+  EXPECT_NEAR(twice[0].x, 0.5, 1e-15);
+  EXPECT_NEAR(twice[0].y, 6.0 / 16, 1e-15);
+}
+
+TEST(SplitCurves, ThePiecesRequestTheCellsOfTheWhole) {
+  const double turn = 0.002;  // of the first piece
+  std::vector<Chain> chains{
+      true_circle("ring", {0, 0}, 2),
+      inner_line(open_line("line", {{2 * std::cos(turn), 2 * std::sin(turn)}, {3, 0.1}}))};
+  split_curves_at_crossings(chains, 1e-9, SplitChains::inner_lines);
+  double least = 1;
+  for (const Curve& curve : chains[0].curves) {
+    if (curve.spacing > 0) least = std::min(least, curve.spacing);
+  }
+  EXPECT_LT(length(chains[0].points[1] - chains[0].points[0]), 0.01);
+  EXPECT_GT(least, 0.35);
+  EXPECT_LT(least, 0.55);
+}
+
+TEST(SplitCurves, EqualCurvesAreSplitAlike) {
+  const Chain ring = true_circle("ring", {0.3, 0.1}, 2);
+  Chain back = ring;
+  back.name = "back";
+  std::reverse(back.points.begin() + 1, back.points.end());
+  back.curves = reversed(back.curves);
+  std::vector<Chain> chains{ring, inner_line(back), inner_line(open_line("cut", {{-5, 0.3}, {5, 0.7}}))};
+  split_curves_at_crossings(chains, 1e-9, SplitChains::inner_lines);
+  ASSERT_EQ(chains[0].points.size(), chains[1].points.size());
+  std::reverse(chains[1].points.begin() + 1, chains[1].points.end());
+  EXPECT_EQ(chains[0].points, chains[1].points);
+  EXPECT_EQ(chains[0].curves, reversed(chains[1].curves));
+  EXPECT_EQ(chains[2].points.size(), 4U);
+}
+
+/// The message with which a domain with inner lines is refused; empty if it is not.
+std::string refusal_of(std::vector<Chain> chains, std::vector<LineRule> lines) {
+  AssembleOptions options;
+  options.lines = std::move(lines);
+  Warnings warnings;
+  try {
+    assemble(std::move(chains), options, warnings);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SplitCurves, ATangentIsRefusedWithBothNames) {
+  const std::vector<Chain> chains{outline_box("sea", -5, 5, -5, 5), true_circle("body", {0, 0}, 1)};
+  const std::string text = refusal_of(chains, {{"touch", {}, {{-2, 1}, {2, 1}}, false, "case"}});
+  for (const char* const part : {"'body'", "'touch'", "(", "move them apart"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  EXPECT_EQ(refusal_of(chains, {{"clear", {}, {{-2, 1.001}, {2, 1.001}}, false, "case"}}), "");
 }
 
 }  // namespace

@@ -111,11 +111,13 @@ TEST(SubdivideCurves, CurvesThatRunAlongEachOtherAreRefused) {
   };
   for (const std::vector<Chain>& twice :
        {std::vector{circle({0, 0}, 1), arc(0, 3), arc(3, 2 * std::numbers::pi)},
-        {circle({0, 0}, 1), circle({0, 0}, 1, "rim")},
         {arc(0, 3), arc(1, 4), arc(4, 2 * std::numbers::pi)}}) {
     const std::string said = refusal_of_curves(twice);
     EXPECT_NE(said.find("run along each other at ("), std::string::npos) << said;
   }
+  const std::string equal = refusal_of_curves({circle({0, 0}, 1), circle({0, 0}, 1, "rim")});
+  for (const char* const part : {"'circle'", "'rim'", "at (1, 0)", "overlap = \"union\""})
+    EXPECT_NE(equal.find(part), std::string::npos) << equal;
 }
 
 TEST(SubdivideCurves, ASplineThatWouldCrossItselfIsStraightThere) {
