@@ -43,10 +43,11 @@ PairOutline::PairOutline(const Geometry& geometry, const PeriodicPair& pair)
     const Point p = geometry.point(from_.vertices[i]), q = geometry.point(to_.vertices[i]);
     const bool is_last = i + 1 == from_.vertices.size(), of_other = i + 1 == to_.vertices.size();
     if (quadloop::length(pair.image(p) - q) <= rounding * length() && is_last == of_other) continue;
-    throw InputError(
-        fmt::format("boundary '{}' of a [[pair]] has a point at ({:.6g}, {:.6g}) whose image is "
-                    "not on '{}'; reduce spacing.min, or move the points nearby apart",
-                    pair.from, p.x, p.y, pair.to));
+    throw InputError(fmt::format(
+        "boundary '{}' of a [[pair]] has a point at ({:.6g}, {:.6g}) whose image is "
+        "not on '{}'; reduce spacing.min, move the points nearby apart, or remove layers that end on "
+        "curved sides",
+        pair.from, p.x, p.y, pair.to));
   }
 }
 

@@ -85,8 +85,8 @@ void add_shape(Statistics& statistics, const CheckReport& report, bool verbose) 
   statistics.add_member("corners", json_of(shape.corners));
   add_count(statistics, "corners below 15 degrees", shape.corners_below_15, "corners_below_15");
   statistics.add_member("corners_below_25", json_of(shape.corners_below_25));
-  statistics.add("corners below 26", shape.corners_below_26);
-  statistics.add("corners above 150", shape.corners_above_150);
+  add_count(statistics, "corners below 26 degrees", shape.corners_below_26, "corners_below_26");
+  add_count(statistics, "corners above 150 degrees", shape.corners_above_150, "corners_above_150");
   add_outline_corners(statistics, shape, report.fit.has_value(), verbose);
   statistics.add_member("min_angle_made", json_of(shape.smallest_degrees));
   statistics.add_member("max_angle_made", json_of(shape.largest_degrees));

@@ -168,7 +168,8 @@ const KeyTable<Settings>& spacing_keys() {
            "min", number(io::Range::positive()),
            "No quadtree cell is split into cells smaller than this; see [available sizes](#available-sizes).",
            {.unit = "length",
-            .fallback = "half the smallest requested size; smaller where `gap` requires it"}),
+            .fallback = "half the smallest requested size, where `curvature` does not count; smaller where "
+                        "`gap` requires it"}),
        key<&Settings::max>("max", number(io::Range::positive()), "Largest cell size.",
                            {.unit = "length", .fallback = "a sixteenth of the domain"}),
        key<&Settings::mesh, &MeshOptions::size, &SizeOptions::gradation>(

@@ -19,8 +19,9 @@ namespace {
 /// Warns of a requested size that `min` limits, if it does. `what`: "boundary 'a' requests a spacing".
 void warn_if_limited(const std::string& what, double wanted, Point at, double min, Warnings& warnings) {
   if (wanted >= min) return;
-  warnings.push_back(fmt::format("{} of {:.6g} at ({:.6g}, {:.6g}), but spacing.min = {} is larger", what,
-                                 wanted, at.x, at.y, min));
+  warnings.push_back(fmt::format(
+      "{} of {:.6g} at ({:.6g}, {:.6g}), but spacing.min = {} is larger; set a smaller spacing.min", what,
+      wanted, at.x, at.y, min));
 }
 
 /// Warns of sizes of boundaries and of their corners that cannot be reached, and of a boundary without a
@@ -145,7 +146,8 @@ void warn_of_facets(const MeshOptions& options, const Geometry& geometry, Warnin
         "boundary '{}' turns by up to {:.3g} degrees at {} points that are not corners, the first "
         "at ({:.6g}, {:.6g}). Cells smaller than {:.3g} resolve the straight facets between its points, and "
         "the "
-        "pressure of a flow has a peak at each point; give the outline more points",
+        "pressure of a flow has a peak at each point; give the outline more points, or join them by splines "
+        "(geometry.spline = true)",
         geometry.boundary(b).name, turn, points, first.x, first.y, shortest));
   }
 }

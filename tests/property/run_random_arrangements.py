@@ -5,6 +5,7 @@ the same bytes, valid for `quadloop check`, the tests' own judge and, where it i
     run_random_arrangements.py --quadloop PROGRAM --count 12 [--first 0] [--ranks 3] [--keep FOLDER] [--list-refusals]
 """
 import argparse
+import os
 import re
 import subprocess
 import sys
@@ -16,7 +17,7 @@ sys.path += [str(ROOT / "tests" / "judge"), str(ROOT / "tests" / "cases")]
 from arrangements import Arrangement  # noqa: E402
 from quadloop_runs import JUDGE, MPIRUN, beside_the_checkout  # noqa: E402
 
-SECONDS = 120
+SECONDS = 300
 PLACE = re.compile(r"\(-?[0-9.e+-]+, ?-?[0-9.e+-]+\)|\.(toml|geom|dat):\d+")
 
 
@@ -25,7 +26,8 @@ def mesh(program, ranks, folder):
     launcher = [str(MPIRUN), "-n", str(ranks)] if ranks > 1 else []
     command = [*launcher, program, "mesh", "case.toml", "-o", f"on_{ranks}", "--quiet", "--geometry-out", f"on_{ranks}.geom"]
     try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=SECONDS, check=False)
+        at_once = dict(os.environ, OMPI_MCA_odls_base_sigkill_timeout="0")
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=SECONDS, env=at_once, check=False)
     except subprocess.TimeoutExpired:
         return None, "no end"
     return done.returncode, [line for line in done.stderr.splitlines() if line.startswith("quadloop")]

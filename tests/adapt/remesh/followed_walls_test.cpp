@@ -107,6 +107,40 @@ TEST(FollowedWalls, PreferAFrictionCoefficientToYPlus) {
   expect_friction_of_the_floor(wall_to_follow(world(), input, with_pressure, flow));
 }
 
+TEST(FollowedWalls, UseYPlusWithoutTheDynamicPressureOfACoefficient) {
+  const MeshInput input = channel();
+  SolvedMesh flow = solved(world(), input, "y_plus", y_plus);
+  std::vector<double> values;
+  for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i) {
+    const auto row = flow.solution.row(NodeId{i});
+    values.insert(values.end(), {row[0], row[1], 0.001, 0.001});
+  }
+  flow.solution = {
+      {"density", "y_plus", "Skin_Friction_Coefficient_x", "Skin_Friction_Coefficient_y"}, values, {}};
+  expect_friction_of_the_floor(wall_to_follow(world(), input, options(), flow));
+}
+
+/// Of the cells at a wall node the thinnest one counts: triangles have the height of a node beside it.
+TEST(FollowedWalls, TakeTheSmallestHeightAtANode) {
+  MeshInput input = channel();
+  input.mesh.type = MeshType::delaunay;
+  for (const double slope : {0.1, -0.1}) {
+    const auto first_height = [&](double x) { return 0.01 * (1 + slope * (x - 2)); };
+    SolvedMesh flow = solved(world(), input, "y_plus", y_plus);
+    for (Point& p : flow.mesh.points) {
+      if (std::abs(p.y - 0.01) < 1e-6) p.y = first_height(p.x);
+    }
+    for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i) {
+      const Point p = flow.mesh.point(NodeId{i});
+      if (p.y == 0) flow.solution.row(NodeId{i})[1] = first_height(p.x) * wall_units(p.x);
+    }
+    for (const MeasuredEdge& edge : wall_to_follow(world(), input, options(), flow)) {
+      EXPECT_GE(edge.wall_units_from, wall_units(edge.from.x) - 1e-6) << edge.from.x;
+      EXPECT_GE(edge.wall_units_to, wall_units(edge.to.x) - 1e-6) << edge.to.x;
+    }
+  }
+}
+
 /// The flow of a solver that keeps its values in cells, 0 where they touch no wall, as OpenFOAM's function
 /// objects do; of an edge at the floor by the place of its middle.
 SolvedMesh solved_in_cells(const MeshInput& input, const std::vector<std::string>& names,

@@ -14,9 +14,8 @@ namespace {
 constexpr double radius = 4;
 
 /// A floor of a length of 4 with layers between two parts of circles around (0, 0) and (4, 0) of radius 4,
-/// which bulge out of the domain at its right end and into it at its left end. Each has four pieces.
-Geometry floor_between_arcs() {
-  constexpr int pieces = 4;
+/// which bulge out of the domain at its right end and into it at its left end.
+Geometry floor_between_arcs(int pieces = 4) {
   constexpr double angle = 0.125;  // of a piece, in radians
   GeometryBuilder builder;
   const Curve arc_out{{}, {1, std::cos(angle / 2), 1}, 0};
@@ -62,6 +61,31 @@ TEST(EndPath, FollowsACurveUpToATurnOf30Degrees) {
       EXPECT_LT(distance_from_arc(path.point_at(distance), !first), 1e-14);
       EXPECT_NEAR(path.point_at(distance).y, radius * std::sin(0.5 * k / 32), 1e-3);
     }
+  }
+}
+
+TEST(EndPath, EndsWhereACurveTurnsByMore) {
+  const Geometry g = floor_between_arcs(7);
+  for (const bool first : {false, true}) {
+    const EndPath path(g, first ? 0 : 1, first);
+    EXPECT_EQ(path.pieces().size(), 4U);  // a fifth one would reach 35.8 degrees
+  }
+}
+
+TEST(EndPath, EndsAtAKeptPointOfACurve) {
+  for (const double corner : {10.0, 30.0}) {  // degrees
+    GeometryBuilder builder;
+    builder.add({0, 0}, BoundaryId{0});
+    builder.add({4, 0}, BoundaryId{1}, {{{4, 0.5}}, {}, 0});
+    builder.add({4.05, 1}, BoundaryId{1}, {{{4.25, 1.5}}, {}, 0});  // turns by 16 degrees
+    builder.add({4.4, 2}, BoundaryId{2});
+    builder.add({0, 2}, BoundaryId{2});
+    builder.end_loop();
+    const Geometry g = std::move(builder).geometry(
+        std::vector<Boundary>{{.name = "floor", .spacing = 0.25, .layers = test::four_layers},
+                              {.name = "right", .spacing = 0.25, .corner_degrees = corner},
+                              {.name = "rest", .spacing = 0.25}});
+    EXPECT_EQ(EndPath(g, 1, false).pieces().size(), corner == 10 ? 1U : 2U);
   }
 }
 
