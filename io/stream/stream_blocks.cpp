@@ -1,8 +1,17 @@
 #include "io/stream/stream_blocks.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace quadloop::io {
+
+CellsByBlock::CellsByBlock(std::span<const std::int32_t> block_of, std::int32_t blocks)
+    : first_(blocks + 1), cells_(block_of.size()) {
+  for (const std::int32_t block : block_of) ++first_[block + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::int64_t> next = first_;
+  for (std::int32_t cell = 0; cell < std::ssize(block_of); ++cell) cells_[next[block_of[cell]]++] = cell;
+}
 
 StreamBlocks::StreamBlocks(const MeshStream& stream)
     : stream_{stream}, layers_{std::max<std::int64_t>(1, stream.layers())} {
@@ -16,6 +25,8 @@ StreamBlocks::StreamBlocks(const MeshStream& stream)
     of_[static_cast<std::size_t>(first) + 1] = blocks->of_quads;  // quads, or hexahedra
   }
   if (names_.empty()) names_ = {"domain"};
+  if (!several()) return;
+  std::ranges::transform(of_, cells_.begin(), [&](const auto& of) { return CellsByBlock(of, count()); });
 }
 
 PlaneBlocks plane_blocks(const LoadedMesh& whole) {
@@ -27,17 +38,17 @@ PlaneBlocks plane_blocks(const LoadedMesh& whole) {
 
 std::vector<std::int64_t> numbers_by_block(const Communicator& comm, const PlaneBlocks& blocks) {
   std::vector<std::int64_t> numbers(blocks.of_triangles.size() + blocks.of_quads.size());
+  const auto count = static_cast<std::int32_t>(blocks.names.size());
+  const CellsByBlock triangles(blocks.of_triangles, count), quads(blocks.of_quads, count);
   std::int64_t next = 0;
-  for (std::int32_t block = 0; block < std::ssize(blocks.names); ++block) {
-    auto number = numbers.begin();
-    for (const auto* cells : {&blocks.of_triangles, &blocks.of_quads}) {
-      const std::int64_t own = std::ranges::count(*cells, block);
-      std::int64_t mine = next + comm.exclusive_sum(own);
-      for (const std::int32_t of_cell : *cells) {
-        if (of_cell == block) *number = mine++;
-        ++number;
-      }
-      next += comm.sum(own);
+  for (std::int32_t block = 0; block < count; ++block) {
+    std::int64_t before = 0;  // this rank's cells of earlier kinds
+    for (const CellsByBlock* cells : {&triangles, &quads}) {
+      const std::span<const std::int32_t> own = (*cells)[block];
+      std::int64_t mine = next + comm.exclusive_sum(std::ssize(own));
+      for (const std::int32_t cell : own) numbers[before + cell] = mine++;
+      next += comm.sum(std::ssize(own));
+      before = std::ssize(blocks.of_triangles);
     }
   }
   return numbers;

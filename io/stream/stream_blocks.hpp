@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/model/loaded_mesh.hpp"
@@ -11,18 +11,40 @@
 
 namespace quadloop::io {
 
-/// Rows of a stream's cells.
-class BlockRows {
+/// Cells grouped by block, in each block in their order.
+class CellsByBlock {
  public:
-  BlockRows(std::vector<std::int32_t> cells, std::int64_t layers)
-      : cells_{std::move(cells)}, layers_{layers} {}
+  CellsByBlock() = default;
+  /// `block_of`: the block of each cell, from 0.
+  CellsByBlock(std::span<const std::int32_t> block_of, std::int32_t blocks);
 
-  std::int64_t size() const { return std::ssize(cells_) * layers_; }
-  std::int64_t operator[](std::int64_t i) const { return cells_[i / layers_] * layers_ + i % layers_; }
+  std::span<const std::int32_t> operator[](std::int32_t block) const {
+    return std::span(cells_).subspan(first_[block], first_[block + 1] - first_[block]);
+  }
 
  private:
-  std::vector<std::int32_t> cells_;  ///< of the plane, or of the stored mesh
-  std::int64_t layers_;
+  std::vector<std::int64_t> first_;  ///< for each block its first entry of `cells_`, then their number
+  std::vector<std::int32_t> cells_;
+};
+
+/// Rows of a stream's cells in one block.
+class BlockRows {
+ public:
+  /// `cells`: cells of the plane, or of the stored mesh; must outlive the object.
+  BlockRows(std::span<const std::int32_t> cells, std::int64_t layers)
+      : cells_{cells}, size_{std::ssize(cells) * layers}, layers_{layers} {}
+  /// All rows, from 0.
+  explicit BlockRows(std::int64_t rows) : size_{rows} {}
+
+  std::int64_t size() const { return size_; }
+  std::int64_t operator[](std::int64_t i) const {
+    return cells_.empty() ? i : cells_[i / layers_] * layers_ + i % layers_;
+  }
+
+ private:
+  std::span<const std::int32_t> cells_;
+  std::int64_t size_;
+  std::int64_t layers_ = 1;
 };
 
 /// The blocks of a mesh that is written to a file. A mesh without blocks is one block, "domain".
@@ -41,15 +63,11 @@ class StreamBlocks {
   std::int32_t of(std::int64_t row) const {
     return several() ? of_[static_cast<std::size_t>(kind)][row / layers_] : 0;
   }
-  /// Returns this rank's cells of a kind in a block, in the stream's order.
+  /// Returns this rank's cells of a kind in a block, in the stream's order; the object must outlive them.
   template <CellKind kind>
   BlockRows rows(std::int32_t block) const {
-    std::vector<std::int32_t> cells;
-    const std::int64_t all = stream_.cell_rows<kind>() / layers_;
-    for (std::int32_t cell = 0; cell < all; ++cell) {
-      if (of<kind>(cell * layers_) == block) cells.push_back(cell);
-    }
-    return {std::move(cells), layers_};
+    if (!several()) return BlockRows(stream_.cell_rows<kind>());
+    return {cells_[static_cast<std::size_t>(kind)][block], layers_};
   }
 
  private:
@@ -58,6 +76,7 @@ class StreamBlocks {
   std::vector<std::string> names_;
   /// For the cells of each kind, one entry per `layers_` rows.
   std::array<std::vector<std::int32_t>, cell_kinds> of_;
+  std::array<CellsByBlock, cell_kinds> cells_;  ///< if there are several blocks
 };
 
 /// Returns the blocks of a whole mesh; unnamed ones are named "block_2", ... by their number.
