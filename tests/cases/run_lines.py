@@ -13,8 +13,11 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-from quadloop_runs import beside_the_checkout, digest, fail, mesh_case, run
+from quadloop_runs import JUDGE, NativeMesh, beside_the_checkout, digest, fail, mesh_case, run
 from run_case import check_cgns, compare, values_of, write_expected
+
+sys.path.append(str(Path(JUDGE).parent))
+from mesh_files import distances_from  # noqa: E402
 
 FORMATS = ("mesh", "qmesh", "vtu", "msh", "fluent.msh", "cgns")
 SAME_BYTES = ("mesh", "qmesh", "vtu", "msh", "fluent.msh", "tree.h5")  # libcgns writes the time into a file
@@ -37,27 +40,22 @@ def points_and_lines(path):
     return points, lines
 
 
-def distance(p, a, b):
-    ab, ap = (b[0] - a[0], b[1] - a[1]), (p[0] - a[0], p[1] - a[1])
-    t = max(0, min(1, (ab[0] * ap[0] + ab[1] * ap[1]) / (ab[0] ** 2 + ab[1] ** 2)))
-    return math.dist(p, (a[0] + t * ab[0], a[1] + t * ab[1]))
-
-
 def check_line(name, path, points, edges):
-    follows = {start: end for start, end in edges}
+    """A line is one row of edges from the first point of its path to the last; without a path it is a closed row. Nodes where it crosses a baffle
+    are doubled."""
+    follows = {points[start]: points[end] for start, end in edges}
     starts = set(follows) - set(follows.values())
-    if len(follows) != len(edges) or len(starts) != 1:
+    if path is None and len(follows) == len(edges) and not starts:
+        return
+    if path is None or len(follows) != len(edges) or len(starts) != 1:
         fail(f"line {name} is not one row of edges in its direction")
-    node = starts.pop()
-    if math.dist(points[node], path[0]) > 1e-9:
-        fail(f"line {name} begins at {points[node]}, not at {path[0]}")
-    while node in follows:
-        off = min(distance(points[node], a, b) for a, b in zip(path, path[1:]))
-        if off > 1e-9:
-            fail(f"a node of line {name} at {points[node]} is {off} off")
-        node = follows[node]
-    if math.dist(points[node], path[-1]) > 1e-9:
-        fail(f"line {name} ends at {points[node]}, not at {path[-1]}")
+    place = starts.pop()
+    if math.dist(place, path[0]) > 1e-9:
+        fail(f"line {name} begins at {place}, not at {path[0]}")
+    while place in follows:
+        place = follows[place]
+    if math.dist(place, path[-1]) > 1e-9:
+        fail(f"line {name} ends at {place}, not at {path[-1]}")
 
 
 def foam_lists(path):
@@ -67,40 +65,64 @@ def foam_lists(path):
 
 def check_face_zones(mesh, folder):
     """The face zones of a polyMesh are the inner lines of the .mesh file, flipped where the owner is on the right."""
-    lines = points_and_lines(mesh)[1]
+    points, lines = points_and_lines(mesh)
     names = re.findall(r"\n(\w+)\n\{\n    type faceZone", (folder / "faceZones").read_text())
     lists = foam_lists(folder / "faceZones")
     if names != list(lines) or len(lists) != 2 * len(names):
         fail(f"the face zones are {names}")
     rows = re.findall(r"^4\(([0-9 ]+)\)$", (folder / "faces").read_text(), re.MULTILINE)
     places = [tuple(map(float, row.split())) for row in re.findall(r"^\(([^()]+)\)$", (folder / "points").read_text(), re.MULTILINE)]
-    at = {(x, y): i for i, (x, y) in enumerate(points_and_lines(mesh)[0])}
     for name, labels, flips in zip(names, lists[::2], lists[1::2]):
         found = []
         for label, flip in zip(map(int, labels), flips, strict=True):
             nodes = list(map(int, rows[label].split()))
             while places[nodes[0]][2] != 0 or places[nodes[1]][2] != 0:
                 nodes = nodes[1:] + nodes[:1]
-            edge = tuple(at[places[node][:2]] for node in nodes[:2])
+            edge = tuple(places[node][:2] for node in nodes[:2])
             found.append(edge if flip == "0" else edge[::-1])
-        if sorted(found) != sorted(lines[name]):
+        if sorted(found) != sorted((points[start], points[end]) for start, end in lines[name]):
             fail(f"the faces of zone {name} are others than the edges of the line")
 
 
+def check_nodes(mesh, geometry):
+    """All nodes of boundaries and lines lie on those of the geometry, to 1e-12 of its extent."""
+    points, lines = points_and_lines(mesh)
+    extent = max(max(column) - min(column) for column in zip(*points))
+    rows = {**NativeMesh(mesh).boundaries, **lines}
+    for name, edges in rows.items():
+        nodes = sorted({node for edge in edges for node in edge})
+        off = distances_from(geometry, name, [points[node] for node in nodes])
+        if not off.max() <= 1e-12 * extent:
+            fail(f"a node of {name} at {points[nodes[off.argmax()]]} is {off.max()} off")
+
+
+def moved(row, by):
+    """The row of a point of a `.geom` file, moved with the control points of its curve."""
+    coordinates, *rest = re.split(r" (?=weights|spacing)", row, maxsplit=1)
+    words = coordinates.split()
+    numbers = [i for i, word in enumerate(words) if word != "curve"]
+    for k, i in enumerate(numbers):
+        words[i] = repr(float(words[i]) + by[k % 2])
+    return " ".join([*words, *rest])
+
+
 def check_geometry(quadloop, case, work):
-    """The lines of a mesh lie on those of its geometry, and not on one with a moved point."""
+    """The lines of a mesh lie on those of its geometry, and not on one with a moved line."""
     mesh, geometry = work / "fits.mesh", work / "fits.geom"
     run([quadloop, "mesh", case, "-o", work / "fits", "--geometry-out", geometry])
     run([quadloop, "check", mesh, "--geometry", geometry])
     rows = geometry.read_text().splitlines()
     line = next(iter(points_and_lines(mesh)[1]))
-    first = rows.index(f"{line} open") + 2
-    x, y = map(float, rows[first].split())
-    moved = f"{x + 0.01} {y + 0.02}"  # in both directions of the line
-    geometry.write_text("\n".join(moved if row == rows[first] else row for row in rows) + "\n")
-    said = run([quadloop, "check", mesh, "--geometry", geometry, "--verbose"], accept=range(1, 5))
+    heads = [i for i, row in enumerate(rows) if row.split() in ([line], [line, "open"])]  # a line is written in both directions
+    for head in heads:
+        for row in range(head + 2, head + 2 + int(rows[head + 1])):
+            rows[row] = moved(rows[row], (0.01, 0.02))  # in both directions of the line
+    other = work / "moved.geom"
+    other.write_text("\n".join(rows) + "\n")
+    said = run([quadloop, "check", mesh, "--geometry", other, "--verbose"], accept=range(1, 5))
     if f"a node of boundary {line} lies off it" not in said:
-        fail(f"a moved point of line {line} is not noticed: {said}")
+        fail(f"it is not noticed that line {line} is moved: {said}")
+    return geometry
 
 
 def main():
@@ -113,6 +135,7 @@ def main():
     options = ["--set", "output.formats=[" + ",".join(f'"{name}"' for name in (*FORMATS, "polyMesh")) + "]"]
     with tempfile.TemporaryDirectory(prefix="quadloop_lines_") as folder:
         work = Path(folder)
+        geometry = check_geometry(args.quadloop, args.case, work)
         for mesh_type in ("hybrid", "delaunay"):
             prefix = work / mesh_type
             for ranks in (1, 2, 3, 5):
@@ -131,16 +154,16 @@ def main():
                     if digest(again) != digest(of_ranks):
                         fail("cgns differs on 5 ranks")
                 points, lines = points_and_lines(again)
-                wanted = {t["name"]: t["path"] for t in tables if t.get("kind", "line") == "line"}
+                wanted = {t.get("name", t.get("boundary")): t.get("path") for t in tables if t.get("kind", "line") == "line"}
                 if set(lines) != set(wanted):
                     fail(f"{name} has the lines {sorted(lines)}")
                 for line, path in wanted.items():
                     check_line(line, path, points, lines[line])
+                check_nodes(again, geometry)
             script = beside_the_checkout("QUADLOOP_MESHCHECK", "tools/meshcheck.py")
             if script is not None and len(wanted) == len(tables):
                 run([sys.executable, script, f"{prefix}.mesh"])
             check_cgns(prefix)
-            check_geometry(args.quadloop, args.case, work)
             for file in ("points", "faces", "owner", "neighbour", "boundary", "faceZones"):
                 if (work / f"{mesh_type}.polyMesh" / file).read_bytes() != (work / "other.polyMesh" / file).read_bytes():
                     fail(f"{file} of the polyMesh differs on 5 ranks")

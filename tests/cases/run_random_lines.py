@@ -2,7 +2,9 @@
 """Random arrangements of inner lines and baffles, some with a hole or two blocks: each mesh, smoothed, is valid for `quadloop check` and has the
 same bytes on 1, 2 and 3 ranks, or the arrangement is refused with a place and a remedy.
 
-    run_random_lines.py --quadloop PROGRAM [--first N] [--count N]
+    run_random_lines.py --quadloop PROGRAM [--first N] [--count N] [--curves]
+
+With --curves the lines are splines, and the hole or second block is a circle.
 """
 import argparse
 import random
@@ -16,7 +18,7 @@ from quadloop_runs import MPIRUN, beside_the_checkout, digest, fail, run
 BOX = '[[shape]]\nname = "wall"\nkind = "rectangle"\nbox = [0, 1, 0, 1]\n\n[spacing]\nmin = 0.005\nmax = 0.12\n\n[output]\nformats = ["mesh"]\n'
 
 
-def arrangement(number):
+def arrangement(number, curves):
     """The text of a case."""
     chance = random.Random(number)
 
@@ -31,9 +33,15 @@ def arrangement(number):
             path.append(path[0])
         kind = "baffle" if chance.random() < 0.25 else "line"
         text += f'\n[[line]]\nname = "line{line}"\nkind = "{kind}"\npath = {path}\n'
+        if curves:
+            text += "spline = true\n"
     if chance.random() < 0.5:
         x, y, size = place(0.2, 0.5), place(0.2, 0.5), chance.uniform(0.1, 0.4)
-        text += f'\n[[shape]]\nname = "ring"\nkind = "rectangle"\nbox = {[x, x + size, y, y + size]}\n'
+        text += '\n[[shape]]\nname = "ring"\n'
+        if curves:
+            text += f'kind = "circle"\ncentre = {[x + size / 2, y + size / 2]}\nradius = {size / 2}\n'
+        else:
+            text += f'kind = "rectangle"\nbox = {[x, x + size, y, y + size]}\n'
         if chance.random() < 0.5:
             text += '\n[[block]]\nname = "outer"\nloop = "wall"\n\n[[block]]\nname = "inner"\nloop = "ring"\n'
     return text
@@ -44,12 +52,13 @@ def main():
     parser.add_argument("--quadloop", required=True)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=6)
+    parser.add_argument("--curves", action="store_true")
     args = parser.parse_args()
     refused = []
     with tempfile.TemporaryDirectory(prefix="quadloop_random_lines_") as name:
         case = Path(name) / "case.toml"
         for number in range(args.first, args.first + args.count):
-            case.write_text(arrangement(number))
+            case.write_text(arrangement(number, args.curves))
             found = []
             for ranks in (1, 2, 3):
                 prefix = Path(name) / f"on_{ranks}"

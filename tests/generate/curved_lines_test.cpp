@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <set>
 
 #include "generate/digests.hpp"
 #include "generate/generate.hpp"
+#include "generate/nearer_chords.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
@@ -161,6 +163,22 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
       EXPECT_GT(copies.size(), 6U);
     }
   });
+}
+
+TEST(CurvedLines, ChordsAreShorterAtInvertedCells) {
+  const MeshInput input = square_round({arc_chain("body", round_arc({0.1, 0.05}, 0.8))}, {});
+  const Geometry& g = input.geometry;
+  Mesh mesh = build_mesh(world(), g, input.mesh).mesh;
+  EXPECT_FALSE(nearer_chords(world(), g, mesh));
+  for (Point& p : mesh.points) {
+    if (length(p - Point{0.9, 0.05}) < 0.2 && length(p - Point{0.1, 0.05}) < 0.81) p = p + Point{0.3, 0};
+  }
+  const std::optional<Geometry> nearer = nearer_chords(world(), g, mesh);
+  ASSERT_TRUE(nearer);
+  EXPECT_GT(nearer->size(), g.size());
+  EXPECT_LT(nearer->size(), 2 * g.size());  // far curves stay
+  for (std::int32_t v = 4; v < nearer->size(); ++v)
+    EXPECT_NEAR(length(nearer->point(v) - Point{0.1, 0.05}), 0.8, 1e-14);
 }
 
 /// Straight lines, splines, circles, arcs and ellipses at random places round a circle, some of them baffles.

@@ -282,6 +282,36 @@ def read_geometry(path):
     return found
 
 
+def distances_from(path, name, points):
+    """The distances of points from the boundaries of one name in a `.geom` file, to rounding; infinite for points far from them. No curve turns
+    by 90 degrees, so that each has one point above a point of its chord."""
+    rows = Rows(path)
+    points = np.asarray(points, float)
+    nearest = np.full(len(points), np.inf)
+    for _ in range(rows.count()):
+        chain, *kind = rows.next()
+        segments = [segment(rows.next(), path) for _ in range(rows.count())]
+        if chain != name:
+            continue
+        for (poles, weights), (end, _) in list(zip(segments, segments[1:] + segments[:1]))[:-1 if kind == ["open"] else None]:
+            poles = np.vstack([poles, end[:1]])
+            margin = np.ptp(poles, axis=0).max()
+            near = np.all((points >= poles.min(axis=0) - margin) & (points <= poles.max(axis=0) + margin), axis=1)
+            nearest[near] = np.minimum(nearest[near], distances_from_curve(poles, weights, points[near]))
+    return nearest
+
+
+def distances_from_curve(poles, weights, points):
+    """The distances of points from the points of a curve above the same points of its chord, which bisection finds."""
+    chord = poles[-1] - poles[0]
+    low, high = np.zeros(len(points)), np.ones(len(points))
+    for _ in range(60):
+        middle = (low + high) / 2
+        beyond = (points_at(poles, weights, middle) - points) @ chord > 0
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return np.linalg.norm(points_at(poles, weights, high) - points, axis=1)
+
+
 def segment(row, path):
     """A point of a chain with the control points of the curve to the next point, if it is one, and their weights."""
     try:
@@ -297,14 +327,19 @@ def segment(row, path):
 
 
 def points_of(poles, weights, tolerance):
-    """Points of a rational Bezier curve (its Bernstein form), without the last one."""
+    """Points of a rational Bezier curve, without the last one."""
     degree = len(poles) - 1
     if degree == 1:
         return poles[:1]
     weights = np.ones(len(poles)) if weights is None else weights
     bend = degree * (degree - 1) / 8 * np.abs(np.diff(poles, 2, axis=0)).max() * (weights.max() / weights.min()) ** 2
     count = max(1, int(np.ceil(np.sqrt(2 * bend / tolerance))))
-    t = np.arange(count)[:, None] / count
+    return points_at(poles, weights, np.arange(count) / count)
+
+
+def points_at(poles, weights, t):
+    """The points of a rational Bezier curve at parameters (its Bernstein form)."""
+    degree, t = len(poles) - 1, t[:, None]
     bernstein = np.array([comb(degree, i) for i in range(degree + 1)]) * t ** np.arange(degree + 1) * (1 - t) ** (degree - np.arange(degree + 1))
-    shares = bernstein * weights
+    shares = bernstein * (1 if weights is None else weights)
     return (shares @ poles) / shares.sum(axis=1)[:, None]

@@ -10,6 +10,8 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
+#include "mesher/geometry/assemble/chain_segments.hpp"
+#include "mesher/geometry/assemble/curve_meetings.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 
 namespace quadloop {
@@ -206,6 +208,43 @@ TEST(SplitCurves, EqualCurvesAreSplitAlike) {
   EXPECT_EQ(chains[0].points, chains[1].points);
   EXPECT_EQ(chains[0].curves, reversed(chains[1].curves));
   EXPECT_EQ(chains[2].points.size(), 4U);
+}
+
+TEST(ChainSegments, FindEqualCurvesInEitherDirection) {
+  const Chain ring = true_circle("ring", {0.3, 0.1}, 2);
+  Chain arc = open_line("arc", {ring.points[1], ring.points[0]});
+  arc.curves = {reversed(ring.curves[0])};
+  std::vector<Chain> chains{ring, open_line("line", {{0, 0}, {1, 0}}), arc};
+  const std::vector<ChainSegment> segments = segments_of(chains);
+  ASSERT_EQ(segments.size(), 6U);
+  EXPECT_EQ(segments[5].first_equal, 0);
+  EXPECT_TRUE(segments[5].is_reverse);
+  EXPECT_EQ(segments[4].first_equal, 4);
+  std::vector<std::vector<CurvedSegment>> pieces(6);
+  for (std::size_t i = 0; i < 5; ++i) pieces[i] = {segments[i].segment};
+  const auto [first, second] = halves(segments[0].segment);
+  pieces[0] = {first, second};
+  replace_segments(chains, segments, pieces);
+  EXPECT_EQ(chains[0].points.size(), 5U);
+  EXPECT_EQ(chains[2].points, (std::vector{ring.points[1], first.to, ring.points[0]}));
+  EXPECT_EQ(chains[2].curves, (std::vector{reversed(second.curve), reversed(first.curve)}));
+  EXPECT_TRUE(chains[1].curves.empty());
+}
+
+TEST(CurveMeetings, OfAnArcAndLines) {
+  const Chain ring = true_circle("ring", {0, 0}, 1);
+  const CurvedSegment quarter{ring.points[0], ring.curves[0], ring.points[1]};
+  const std::vector<CurveMeeting> crossing = meetings_of(quarter, {{0, 0}, {}, {1.6, 1.2}}, 0);
+  ASSERT_EQ(crossing.size(), 1U);
+  EXPECT_LT(length(crossing[0].point - Point{0.8, 0.6}), 1e-15);
+  EXPECT_LT(length(point_at(quarter, crossing[0].on_first) - Point{0.8, 0.6}), 1e-15);
+  EXPECT_NEAR(crossing[0].on_second, 0.5, 1e-15);
+  EXPECT_EQ(meetings_of(quarter, {{0.1, 1.1}, {}, {1.1, 0.1}}, 0).size(), 2U);
+  EXPECT_TRUE(meetings_of(quarter, {{0, 0}, {}, {0.79, 0.59}}, 0).empty());
+  EXPECT_TRUE(meetings_of(quarter, quarter, 0).empty());
+  for (const double share : {1 - 5e-10, 1 + 5e-10})
+    EXPECT_EQ(meetings_of(quarter, {{0, 0}, {}, share * Point{0.8, 0.6}}, 1e-9).size(), 1U);
+  EXPECT_TRUE(meetings_of(quarter, {{0, 0}, {}, (1 - 2e-9) * Point{0.8, 0.6}}, 1e-9).empty());
 }
 
 /// The message with which a domain with inner lines is refused; empty if it is not.

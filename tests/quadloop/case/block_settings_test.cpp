@@ -88,5 +88,12 @@ TEST_F(BlockSettings, ALineHasALength) {
             "case.toml:5: 'line.0.path' has no length: all its points are (1, 1); give two different points");
 }
 
+TEST_F(BlockSettings, ASplineOfALineNeedsAPath) {
+  EXPECT_EQ(
+      refused("[[line]]\nboundary = \"core\"\nspline = true\n"),
+      "case.toml:5: 'line.0.spline' needs a path; the curves of boundary = \"core\" are those of its file or "
+      "shape");
+}
+
 }  // namespace
 }  // namespace quadloop
