@@ -46,7 +46,7 @@ indicator = "difference"
 threshold = "fraction"
 refine = 0.1
 coarsen = 0.0
-min = 0.01
+min = 0.004
 
 [solver]
 kind = "command"
@@ -127,7 +127,7 @@ def check_formats(args, work, points):
     said = said_by([args.quadloop, "convert", work / "hybrid.mesh", work / "other.su2"])
     if "cannot store the names of nodes, which are omitted" not in said:
         fail(f"lost names of nodes are not reported: {said}")
-    run([args.quadloop, "smooth", work / "unsmoothed.mesh", work / "smoothed.mesh"])
+    run([args.quadloop, "smooth", work / "unsmoothed.mesh", "-o", work / "smoothed.mesh"])
     expect_nodes(work / "smoothed.mesh", points)
 
 

@@ -69,7 +69,7 @@ class Dump {
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }
-  void add_one(const LineRule& l) { add(l.name, l.boundary, l.path, l.baffle); }
+  void add_one(const LineRule& l) { add(l.name, l.boundary, l.path, l.spline, l.baffle); }
   void add_one(const BlockRule& b) { add(b.name, b.boundaries, b.loop, b.inside, b.spacing); }
   void add_one(const SizeSource& s) {
     std::visit([&](const auto& shape) { add_one(shape); }, s.shape);
@@ -202,7 +202,8 @@ class CaseKeys : public ::testing::Test {
     if (name == "source.spacing") accepted.set(table.text(), "box");
     if (name == "block.name" || name == "block.spacing") accepted.set(table.text(), "inside");
     if (name == "line.name" || name == "line.kind") accepted.set(table.text(), "boundary");
-    if (name == "line.kind" || name == "line.path") accepted.set(table.text(), "name");
+    if (name == "line.spline") accepted.set(table.text(), "path");
+    if (name == "line.kind" || name == "line.path" || name == "line.spline") accepted.set(table.text(), "name");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
     std::string tables;
