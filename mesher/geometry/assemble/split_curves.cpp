@@ -172,13 +172,26 @@ class Splitting {
     for (const CurveMeeting& m : meetings_of(segments_[i].segment, segments_[j].segment, near_)) {
       const std::optional<Point> end_of_first = met_[i].end_at(m.on_first, m.point, near_),
                                  end_of_second = met_[j].end_at(m.on_second, m.point, near_);
-      if (end_of_first && end_of_second) continue;
+      if (end_of_first && end_of_second) {
+        make_equal(*end_of_first, i, *end_of_second, j);
+        continue;
+      }
       const Point at = end_of_first    ? end_on(*end_of_first, i, j, m.point)
                        : end_of_second ? end_on(*end_of_second, j, i, m.point)
                                        : m.point;
       if (!end_of_first) met_[i].add(m.on_first, at, near_);
       if (!end_of_second) met_[j].add(m.on_second, at, near_);
     }
+  }
+
+  /// Moves the end of an inner line onto that of another segment, from which it differs by no more than
+  /// `near`.
+  void make_equal(Point of_first, std::int32_t i, Point of_second, std::int32_t j) {
+    if (of_first == of_second) return;
+    if (is_inner_line(i))
+      moved_.try_emplace(of_first, of_second);
+    else if (is_inner_line(j))
+      moved_.try_emplace(of_second, of_first);
   }
 
   /// The point that an end of segment i has on segment j.

@@ -155,6 +155,17 @@ TEST(SplitCurves, AnEndOfAnInnerLineMovesOntoTheCurve) {
   }
 }
 
+TEST(SplitCurves, AnEndOfAnInnerLineMovesOntoThePointBetweenTwoCurves) {
+  // The ends of the circle's quarters differ from (0, 0.5) and (-0.5, 0) by rounding.
+  std::vector<Chain> chains{true_circle("ring", {0, 0}, 0.5), open_line("up", {{0, 0.5}, {0.6, 0.7}}),
+                            open_line("left", {{-0.9, 0.3}, {-0.5, 0}})};
+  for (Chain& chain : chains) chain.inner_line = chain.name != "ring";
+  const std::vector<Point> ring = chains[0].points;
+  split_curves_at_crossings(chains, 1e-9, SplitChains::inner_lines);
+  EXPECT_EQ(std::ranges::count(ring, chains[1].points.front()), 1);
+  EXPECT_EQ(std::ranges::count(ring, chains[2].points.back()), 1);
+}
+
 TEST(SplitCurves, AFarEndStays) {
   std::vector<Chain> chains{true_circle("ring", {0, 0}, 2),
                             inner_line(open_line("line", {{1.9, 0}, {1, 0.5}}))};
