@@ -158,10 +158,11 @@ TEST(SpacingWarnings, GiveThePlaceOfSizesThatMinLimits) {
   const Warnings limited = warnings_of(polygon(4), settings);
   ASSERT_EQ(limited.size(), 2u);
   EXPECT_EQ(limited[0],
-            "boundary 'ring' requests a spacing of 0.125 at (1, 0), but spacing.min = 0.25 is larger");
-  EXPECT_EQ(
-      limited[1],
-      "boundary 'ring' requests a corner_spacing of 0.0625 at (1, 0), but spacing.min = 0.25 is larger");
+            "boundary 'ring' requests a spacing of 0.125 at (1, 0), but spacing.min = 0.25 is larger; "
+            "set a smaller spacing.min");
+  EXPECT_EQ(limited[1],
+            "boundary 'ring' requests a corner_spacing of 0.0625 at (1, 0), but spacing.min = 0.25 is "
+            "larger; set a smaller spacing.min");
 }
 
 TEST(MeshOptions, WithoutAMinimumSizesGoDownToGaps) {
