@@ -32,12 +32,6 @@ std::vector<Box> boxes_of_inverted_cells(const Communicator& comm, const Mesh& m
   return comm.all_gather_values(std::span<const Box>(own));
 }
 
-Box box_of_curve(const CurvedSegment& segment) {
-  Box box = box_of(segment.from, segment.to);
-  for (const Point p : segment.curve.inner) box.include(p);
-  return box;
-}
-
 }  // namespace
 
 std::optional<Geometry> nearer_chords(const Communicator& comm, const Geometry& geometry, const Mesh& mesh) {
@@ -46,7 +40,7 @@ std::optional<Geometry> nearer_chords(const Communicator& comm, const Geometry& 
   std::vector<char> flagged(geometry.size(), 0);
   for (std::int32_t s = 0; s < geometry.size(); ++s) {
     if (!geometry.is_curved(s)) continue;
-    const Box box = box_of_curve(geometry.segment(s));
+    const Box box = box_of(geometry.segment(s));
     flagged[s] = std::ranges::any_of(inverted, [&](const Box& cell) { return cell.meets(box); }) ? 1 : 0;
   }
   if (std::ranges::count(flagged, 1) == 0) return {};
@@ -59,9 +53,9 @@ void require_not_inverted(const Communicator& comm, const Geometry& geometry, co
   if (inverted.empty()) return;
   const Point place = std::ranges::min_element(inverted, {}, &Box::low)->low;
   throw InputError(fmt::format(
-      "near ({:.6g}, {:.6g}): cells at a curve are thinner than the curve is off its chords; reduce "
-      "spacing.min, move curves and points that nearly touch there apart, or increase "
-      "smooth.sweeps",
+      "near ({:.6g}, {:.6g}): a cell at a curve is inverted, as its nodes move from the chord onto the "
+      "curve; "
+      "reduce spacing.min, move curves and points that nearly touch there apart, or increase smooth.sweeps",
       place.x, place.y));
 }
 

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/model/layers_text.hpp"
+#include "mesher/base/trimmed.hpp"
 
 namespace quadloop::io {
 
@@ -25,9 +24,8 @@ std::vector<NamedNode> nodes_in_comments(std::string_view comments, std::int32_t
     if (!line.starts_with(node_head)) continue;
     line.remove_prefix(node_head.size());
     const auto number = counted_number(next_word(line), nodes_of_mesh);
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-    if (number && !line.empty()) nodes.push_back({std::string(line), GlobalNodeId{*number - 1}});
+    const std::string_view name = trimmed(line);
+    if (number && !name.empty()) nodes.push_back({std::string(name), GlobalNodeId{*number - 1}});
   }
   return nodes;
 }

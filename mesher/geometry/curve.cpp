@@ -139,6 +139,12 @@ CurvedSegment reversed(CurvedSegment segment) {
   return {segment.to, reversed(std::move(segment.curve)), segment.from};
 }
 
+Box box_of(const CurvedSegment& segment) {
+  Box box = box_of(segment.from, segment.to);
+  for (const Point p : segment.curve.inner) box.include(p);
+  return box;
+}
+
 std::pair<CurvedSegment, CurvedSegment> halves(const CurvedSegment& segment) {
   return parts_at_parameter(segment, 0.5);
 }

@@ -8,8 +8,8 @@
 namespace quadloop {
 
 /// The shape of a segment between its two ends: a straight line or a rational Bézier curve, whose degree is
-/// at most `largest_degree`. The first and the
-/// last control point are the ends of the segment, which are stored with the segment.
+/// at most `largest_degree`. The first and the last control point are the ends of the segment, which are
+/// stored with the segment.
 struct Curve {
   static constexpr int largest_degree = 15;
   std::vector<Point> inner;     ///< control points between the ends; none: a straight line
@@ -35,6 +35,9 @@ struct CurvedSegment {
 /// The same curve, from its other end.
 Curve reversed(Curve curve);
 CurvedSegment reversed(CurvedSegment segment);
+
+/// The box of the control points, which contains the curve.
+Box box_of(const CurvedSegment& segment);
 
 /// The two halves of the curve at parameter 0.5. Halves of the reversed curve are the reversed halves, bit by
 /// bit. Both request the spacing of the whole.

@@ -24,7 +24,7 @@ struct Part {
   double chord() const { return length(segment.to - segment.from); }
   /// Its halves, or the part itself if it is smaller than `near`.
   std::vector<Part> parts(double near) const {
-    const Box box = box_of_control(segment);
+    const Box box = box_of(segment);
     if (std::max(box.width(), box.height()) <= near) return {*this};
     const auto [first, second] = quadloop::halves(segment);
     return {{first, low, middle()}, {second, middle(), high}};
@@ -61,12 +61,6 @@ bool is_same(const CurveMeeting& a, const CurveMeeting& b, double near) {
 
 }  // namespace
 
-Box box_of_control(const CurvedSegment& segment) {
-  Box box = box_of(segment.from, segment.to);
-  for (const Point p : segment.curve.inner) box.include(p);
-  return box;
-}
-
 std::vector<CurveMeeting> meetings_of(const CurvedSegment& first, const CurvedSegment& second, double near) {
   std::vector<std::pair<Part, Part>> pairs{{{first}, {second}}};
   for (int depth = 0; depth < deepest && !pairs.empty(); ++depth) {
@@ -74,9 +68,9 @@ std::vector<CurveMeeting> meetings_of(const CurvedSegment& first, const CurvedSe
     for (const auto& [a, b] : pairs) {
       const std::vector<Part> parts_of_b = b.parts(near);
       for (const Part& x : a.parts(near)) {
-        const Box box = box_of_control(x.segment);
+        const Box box = box_of(x.segment);
         for (const Part& y : parts_of_b) {
-          if (overlap(box, box_of_control(y.segment), near)) finer.emplace_back(x, y);
+          if (overlap(box, box_of(y.segment), near)) finer.emplace_back(x, y);
         }
       }
     }

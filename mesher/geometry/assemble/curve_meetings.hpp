@@ -15,9 +15,6 @@ struct CurveMeeting {
 /// Parameters this near to an end count as the end.
 constexpr double nearest_to_end = 0x1p-36;
 
-/// The box of a segment's control points, which contains the segment.
-Box box_of_control(const CurvedSegment& segment);
-
 /// Where two segments cross, or where an end of one lies on the other, up to a distance `near`. None if they
 /// touch over a length. Two meetings are farther apart than `near`. The segments are halved as long as the
 /// boxes of their control points overlap.

@@ -132,7 +132,7 @@ class Splitting {
 
   /// Finds all places. Returns whether there are any.
   bool find() {
-    const auto box_at = [&](std::int32_t i) { return box_of_control(segments_[i].segment); };
+    const auto box_at = [&](std::int32_t i) { return box_of(segments_[i].segment); };
     const BoxTree tree(size32(segments_), box_at);
     for (std::int32_t i = 0; i < size32(segments_); ++i) {
       if (segments_[i].first_equal != i) continue;
