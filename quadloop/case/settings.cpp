@@ -270,6 +270,16 @@ double size_of_gaps(const Geometry& geometry, double gap, double start, double f
   return size;
 }
 
+/// The cells of a mesh with a round far field, over the requested size. A circle cuts cells along their edges
+/// and along their diagonals, so that the median edge on it is 1 / cos(22.5 degrees) = 1.08 cells long. With
+/// smaller cells both the cells and the edges on the circle have the requested size within 4 %.
+double cells_of_far_field(const Settings& settings) {
+  constexpr double in_round_ones = 0.961;  // sqrt(cos(22.5 degrees))
+  const bool is_round = settings.far_field && (settings.far_field->shape == FarFieldShape::circle ||
+                                               settings.far_field->shape == FarFieldShape::rounded_front);
+  return is_round ? in_round_ones : 1;
+}
+
 /// The size that the root of the quadtrees is to meet: the smallest that the case specifies for a boundary,
 /// by its spacing or by its last layer, else spacing.max, else `smallest`.
 double size_to_meet(const Settings& settings, const Geometry& geometry, double smallest) {
@@ -307,7 +317,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
       smallest = std::min(smallest, at_corner);
   }
   for (const SizeSource& source : options.size.sources) smallest = std::min(smallest, source.spacing);
-  const double aim = size_to_meet(settings, geometry, smallest);
+  const double aim = cells_of_far_field(settings) * size_to_meet(settings, geometry, smallest);
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));
   options.size.max = max;

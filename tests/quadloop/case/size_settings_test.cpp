@@ -44,6 +44,16 @@ TEST_F(SizeSettings, TheRootMeetsTheSmallestRequestOfABoundaryElseMax) {
   EXPECT_EQ(aim("[[source]]\ndisc = [9, 9, 1]\nspacing = 0.11\n"), 0.11) << "the smallest of all";
 }
 
+TEST_F(SizeSettings, CellsOfARoundFarFieldAreBetweenTheRequestAndTheEdgesOnTheCircle) {
+  for (const std::string shape : {"circle", "c"}) {
+    const Settings settings =
+        read("far_field = { shape = \"" + shape + "\", radius = 16 }\n[boundary.box]\nspacing = 0.3\n");
+    const double cells = mesh_options(settings, load(settings)).size.aim.value() / 0.3;
+    const double edges = cells / std::cos(std::numbers::pi / 8);
+    EXPECT_NEAR(cells * edges, 1, 1e-3) << shape;
+  }
+}
+
 TEST_F(SizeSettings, TheDefaultOfMinPermitsCellsOfMax) {
   for (double max = 0.011; max < 9; max *= 1.37) {
     for (const char* const rest : {"", "gap = 2\n", "curvature = 10\n", "[boundary.box]\nspacing = 7\n"}) {
