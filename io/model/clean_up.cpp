@@ -122,6 +122,12 @@ void unite(std::vector<std::int32_t>& first_of, std::int32_t a, std::int32_t b) 
   first_of[std::max(first, second)] = std::min(first, second);
 }
 
+/// Whether two of the nodes at one position, which are ascending, belong to one zone.
+template <class ZoneOf>
+bool has_twice(std::span<const std::int32_t> nodes, const ZoneOf& zone_of) {
+  return std::ranges::adjacent_find(nodes, {}, zone_of) != nodes.end();
+}
+
 /// Keeps the nodes whose `new_id` is not negative, and renumbers all references. The new numbers must be
 /// ascending.
 void renumber_nodes(FileMesh& mesh, const std::vector<std::int32_t>& new_id) {
@@ -276,14 +282,14 @@ void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes, const
   const auto zone_of = [&](std::size_t node) -> std::size_t {
     return std::ranges::upper_bound(first_nodes, node) - first_nodes.begin() - 1;
   };
-  for (std::size_t k = 0, first = 0; k < order.size(); ++k) {
-    if (place(order[k]) != place(order[first])) first = k;
-    if (first_nodes.empty()) {
-      unite(first_of, order[first], order[k]);
-      continue;
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    while (last < order.size() && place(order[last]) == place(order[first])) ++last;
+    const std::span here = std::span(order).subspan(first, last - first);
+    if (!first_nodes.empty() && has_twice(here, zone_of)) continue;
+    for (const std::int32_t node : here.subspan(1)) {
+      const auto [low, high] = std::minmax({zone_of(here[0]), zone_of(node)});
+      if (first_nodes.empty() || !links.zones.contains({low, high})) unite(first_of, here[0], node);
     }
-    const auto [low, high] = std::minmax({zone_of(order[k]), zone_of(order[first])});
-    if (low != high && !links.zones.contains({low, high})) unite(first_of, order[first], order[k]);
   }
   Field none;
   Field& solution = mesh.solution ? *mesh.solution : none;

@@ -39,8 +39,8 @@ struct NodeLinks {
 };
 
 /// Merges all nodes that are linked, or at the same position, to the first of them, with its values.
-/// `first_nodes` gives the first node of each zone of a file: nodes in the same zone as the first, or in one
-/// that is linked to it, are not merged by their positions.
+/// `first_nodes` gives the first node of each zone of a file: nodes in zones that are linked are not merged
+/// by their positions, nor are those at a position where one zone has several, as at a baffle.
 void unite_nodes(FileMesh& mesh, std::span<const std::size_t> first_nodes = {}, const NodeLinks& links = {});
 
 /// Removes boundary faces that occur twice: in a 3D mesh these lie between two of its zones.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -31,7 +32,7 @@ class Su2Reader {
       read_zone(!name.empty() ? name : text_.zones() == 1 ? "domain" : "zone_" + std::to_string(zone + 1));
     }
     const bool conforming = has_common_faces();
-    if (conforming) unite_nodes(mesh_, first_nodes_);
+    if (conforming) unite_nodes(mesh_, first_nodes_, links_of_common_faces());
     if (conforming && !is_plane()) drop_inner_faces(mesh_);
     mesh_.warnings = text_.warnings();
     if (is_plane()) return read_plane();
@@ -62,15 +63,38 @@ class Su2Reader {
     });
   }
 
+  /// Links the nodes of each face that a marker has in two zones. At the sides of a baffle that crosses the
+  /// boundary between two zones, positions alone do not tell which nodes are equal.
+  NodeLinks links_of_common_faces() const {
+    NodeLinks links;
+    for (const FileBoundary& boundary : mesh_.boundaries) {
+      std::map<std::vector<Place>, std::vector<std::int32_t>> first_at;
+      for (const FileBoundary::Face& face : boundary.faces) {
+        const std::vector<std::int32_t> nodes = nodes_by_place(face);
+        const std::vector<std::int32_t>& first = first_at.emplace(places_of(face), nodes).first->second;
+        if (zone_of(first[0]) == zone_of(nodes[0])) continue;
+        for (std::size_t k = 0; k < nodes.size(); ++k) links.nodes.push_back({first[k], nodes[k]});
+      }
+    }
+    return links;
+  }
+
   using Place = std::tuple<double, double, double>;
+  Place place_of(std::int32_t node) const {
+    const Point3 p = mesh_.points[node];
+    return {p.x, p.y, p.z};
+  }
+  /// The nodes of a face in the order of their places.
+  std::vector<std::int32_t> nodes_by_place(const FileBoundary::Face& face) const {
+    std::vector<std::int32_t> nodes;
+    std::ranges::copy_if(face, std::back_inserter(nodes),
+                         [](std::int32_t node) { return node != FileBoundary::no_node; });
+    std::ranges::sort(nodes, {}, [&](std::int32_t node) { return place_of(node); });
+    return nodes;
+  }
   std::vector<Place> places_of(const FileBoundary::Face& face) const {
     std::vector<Place> places;
-    for (const std::int32_t node : face) {
-      if (node == FileBoundary::no_node) continue;
-      const Point3 p = mesh_.points[node];
-      places.emplace_back(p.x, p.y, p.z);
-    }
-    std::ranges::sort(places);
+    for (const std::int32_t node : nodes_by_place(face)) places.push_back(place_of(node));
     return places;
   }
   std::size_t zone_of(std::size_t node) const {

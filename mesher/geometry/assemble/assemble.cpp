@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <span>
 
 #include "mesher/base/counted.hpp"
@@ -275,6 +276,29 @@ Chain chain_of_path(const LineRule& rule, double corner_degrees) {
   return chain;
 }
 
+/// Refuses names that would stand for a baffle, or for its right side, and for something else as well.
+void require_own_names(const std::vector<Chain>& chains, const std::vector<LineRule>& lines) {
+  std::map<std::string, const LineRule*> first_of, baffle_of_right_side;
+  for (const LineRule& line : lines) {
+    const LineRule& first = *first_of.emplace(line.name, &line).first->second;
+    if (line.baffle != first.baffle)
+      throw InputError(fmt::format(
+          "{}: line '{}' has the name of a line of another kind ({}); give one of them another name",
+          line.where, line.name, first.where));
+    if (line.baffle) baffle_of_right_side.emplace(right_side_of(line), &line);
+  }
+  const auto require_other = [&](const std::string& where, const std::string& name) {
+    const auto found = baffle_of_right_side.find(name);
+    if (found == baffle_of_right_side.end()) return;
+    throw InputError(
+        fmt::format("{}: '{}' is also the name of the right side of baffle '{}' ({}); give one of "
+                    "them another name",
+                    where, name, found->second->name, found->second->where));
+  };
+  for (const LineRule& line : lines) require_other(line.where, line.name);
+  for (const Chain& chain : chains) require_other(chain.source, chain.name);
+}
+
 /// Moves the chains of inner lines out of `chains`, and adds those of paths.
 std::vector<Chain> take_lines(std::vector<Chain>& chains, const AssembleOptions& options) {
   std::vector<Chain> lines;
@@ -299,6 +323,7 @@ std::vector<Chain> take_lines(std::vector<Chain>& chains, const AssembleOptions&
       lines[l].inner_line = true;
     }
   }
+  require_own_names(chains, options.lines);
   return lines;
 }
 

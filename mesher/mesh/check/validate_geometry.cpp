@@ -137,6 +137,7 @@ class Comparison {
         continue;
       }
       compare_nodes(boundary, outline->second);
+      meet_single_edges(boundary, outline->second);
       compare_points(boundary, outline->second);
     }
     for (const auto& [name, outline] : outlines_) fit_.boundaries_dropped += present.contains(name) ? 0 : 1;
@@ -149,6 +150,8 @@ class Comparison {
   }
 
  private:
+  using Ends = std::pair<Point, Point>;
+
   void fault(const std::string& what, Point place) {
     fit_.faults.push_back({MeshRule::geometry, what, place});
   }
@@ -162,6 +165,20 @@ class Comparison {
           fault("a node of boundary " + boundary.name + " lies off it", mesh_.point(node));
         if (segment < outline.segment_chain.size()) met_[outline.segment_chain[segment]] = 1;
       }
+    }
+  }
+
+  /// Flags open chains between whose ends the mesh has a single edge: both nodes may belong to other chains
+  /// too.
+  void meet_single_edges(const BoundaryEdges& boundary, const NamedOutline& outline) {
+    std::set<Ends> edges;
+    for (const auto& edge : boundary.edges)
+      edges.insert(std::minmax(mesh_.point(edge[0]), mesh_.point(edge[1])));
+    for (const std::size_t c : outline.chains) {
+      const Chain& chain = geometry_[c];
+      if (chain.open && !chain.points.empty() &&
+          edges.contains(std::minmax(chain.points.front(), chain.points.back())))
+        met_[c] = 1;
     }
   }
 
@@ -321,8 +338,6 @@ class Comparison {
     if (!(fit_.area_error <= largest_area_error))
       fault("the area differs from the geometry's by more than 5 percent", centre_);
   }
-
-  using Ends = std::pair<Point, Point>;
 
   const Mesh& mesh_;
   const CellBlocks& blocks_;

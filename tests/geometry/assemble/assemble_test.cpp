@@ -188,5 +188,30 @@ TEST(Assemble, ClosesAChainWhoseEndsDifferByRounding) {
   EXPECT_EQ(warnings.size(), 1u);
 }
 
+TEST(Assemble, NoNameStandsForABaffleAndSomethingElse) {
+  const auto refused_lines = [](std::vector<LineRule> lines, const std::string& box = "box") {
+    AssembleOptions options;
+    options.lines = std::move(lines);
+    Warnings warnings;
+    return refusal([&] { assemble({square(box, {0, 0}, 1)}, options, warnings); });
+  };
+  const LineRule baffle{"plate", {}, {{-0.5, 0}, {0.5, 0}}, true, "case:3"};
+  LineRule other{"plate__right", {}, {{-0.5, 0.5}, {0.5, 0.5}}, false, "case:8"};
+  const std::string rest = "the right side of baffle 'plate' (case:3); give one of them another name";
+  EXPECT_EQ(refused_lines({baffle, other}), "case:8: 'plate__right' is also the name of " + rest);
+  EXPECT_EQ(refused_lines({other, baffle}), "case:8: 'plate__right' is also the name of " + rest);
+  EXPECT_NE(refused_lines({baffle}, "plate__right").find("'plate__right' is also the name of " + rest),
+            std::string::npos);
+  other.name = "plate";
+  EXPECT_EQ(
+      refused_lines({baffle, other}),
+      "case:8: line 'plate' has the name of a line of another kind (case:3); give one of them another name");
+  other.baffle = true;
+  AssembleOptions options;
+  options.lines = {baffle, other};
+  Warnings warnings;
+  EXPECT_NO_THROW(assemble({square("box", {0, 0}, 1)}, options, warnings));
+}
+
 }  // namespace
 }  // namespace quadloop

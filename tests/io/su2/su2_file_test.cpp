@@ -192,6 +192,33 @@ TEST(Su2Reader, UnitesZonesWithCommonEdges) {
             9U);
 }
 
+/// A baffle from (1, 1) to (1, -1) crosses the edges that both zones have in common. In the second zone the
+/// nodes of its right side come first.
+TEST(Su2Reader, UnitesNodesOnEachSideOfABaffle) {
+  const std::string upper =
+      "NDIME= 2\nNELEM= 2\n9 0 1 2 3\n9 4 5 6 7\nNPOIN= 8\n0 0\n1 0\n1 1\n0 1\n1 0\n2 0\n2 1\n1 1\nNMARK= 4\n"
+      "MARKER_TAG= interface\nMARKER_ELEMS= 2\n3 0 1\n3 4 5\nMARKER_TAG= walls\nMARKER_ELEMS= 4\n3 5 6\n3 6 "
+      "7\n"
+      "3 2 3\n3 3 0\nMARKER_TAG= plate\nMARKER_ELEMS= 1\n3 1 2\nMARKER_TAG= plate__right\nMARKER_ELEMS= 1\n3 "
+      "7 4\n";
+  const std::string lower =
+      "NDIME= 2\nNELEM= 2\n9 3 2 1 0\n9 7 6 5 4\nNPOIN= 8\n1 0\n2 0\n2 -1\n1 -1\n0 0\n1 0\n1 -1\n0 "
+      "-1\nNMARK= 4\n"
+      "MARKER_TAG= interface\nMARKER_ELEMS= 2\n3 1 0\n3 5 4\nMARKER_TAG= walls\nMARKER_ELEMS= 4\n3 3 2\n3 2 "
+      "1\n"
+      "3 7 6\n3 4 7\nMARKER_TAG= plate\nMARKER_ELEMS= 1\n3 6 5\nMARKER_TAG= plate__right\nMARKER_ELEMS= 1\n3 "
+      "0 3\n";
+  const LoadedMesh loaded = check.of("NZONE= 2\nIZONE= 1\n" + upper + "IZONE= 2\n" + lower);
+  EXPECT_EQ(loaded.mesh.points.size(), 12U);
+  ASSERT_EQ(loaded.mesh.quads.size(), 4U);
+  EXPECT_EQ(loaded.mesh.quads[2][2], node(5));
+  EXPECT_EQ(loaded.mesh.quads[2][3], node(4)) << "on the right of the baffle";
+  EXPECT_EQ(loaded.mesh.quads[3][2], node(1)) << "on its left";
+  EXPECT_EQ(loaded.mesh.quads[3][3], node(0));
+  EXPECT_EQ(loaded.mesh.boundaries[0].edges.size(), 2U);
+  EXPECT_TRUE(validate(loaded.mesh, {2, loaded.triangle_to_block, loaded.quad_to_block}).empty());
+}
+
 TEST(Su2Reader, RefusesEarlyEnd) {
   const std::size_t markers = house.find("NMARK");
   check.expect_early_ends_refused(house.substr(0, markers));

@@ -250,6 +250,17 @@ TEST(ValidateGeometry, ComparesTheAreaOfEachBlock) {
   EXPECT_NEAR(other.block_area_errors[1], 0.4 / 2.4, 1e-12);
 }
 
+TEST(ValidateGeometry, AChainOfOneEdgeBetweenOthersIsInTheMesh) {
+  TwoBlocks two;
+  two.geometry[0].points = {{0, 0}, {2, 0}};
+  two.geometry.push_back({"wall", true, {{2, 1}, {2, 2}}, ""});
+  two.geometry.push_back({"wall", true, {{2, 0}, {2, 1}}, ""});  // its ends belong to the others
+  const GeometryFit fit = validate_geometry(two.mesh, two.geometry, two.blocks());
+  for (const MeshFault& fault : fit.faults) ADD_FAILURE() << fault.what;
+  EXPECT_EQ(fit.loops_dropped, 0);
+  for (const double error : fit.block_area_errors) EXPECT_NEAR(error, 0, 1e-15);
+}
+
 TEST(ValidateGeometry, AnInterfaceHasCellsOnBothSides) {
   TwoBlocks two;
   two.mesh.triangles.clear();
