@@ -202,9 +202,10 @@ void append_block_losses(const FileFormat& format, const MeshContent& content, c
   if (content.blocks > 1 && !format.holds(Content::blocks))
     losses.push_back(path + ": the blocks are written as one");
   if (!content.interfaces.empty() && !format.stores_interfaces)
-    losses.push_back(
-        fmt::format("{}: edges between two blocks are no patch in this format and are omitted: {}", path,
-                    some_names(content.interfaces)));
+    losses.push_back(fmt::format(
+        "{}: edges between two blocks are no patch in this format and are omitted: {}; OpenFOAM's "
+        "'splitMeshRegions -cellZonesOnly' makes patches of them",
+        path, some_names(content.interfaces)));
   if (!content.lines.empty() && !format.stores_lines)
     losses.push_back(fmt::format("{}: this format cannot store inner lines, which are omitted: {}", path,
                                  some_names(content.lines)));
@@ -265,6 +266,10 @@ void require_readable_suffix(const std::string& path) {
   if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::mesh3d))
     throw InputError(path + ": contains a 3D mesh, but a 2D mesh is required; give a " +
                      suffixes_for({Content::mesh}) + " file");
+  if (std::filesystem::is_directory(path, no_such_file))
+    throw InputError(path +
+                     ": is a folder, not a mesh; name a mesh in it, such as cycle_00/mesh.mesh in the "
+                     "folder of an adaptive run");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
                    suffixes_for({Content::mesh}) + " file");
 }

@@ -141,15 +141,16 @@ std::string reason_for_no_change(const Communicator& comm, const AdaptOptions& o
            "adapt.coarsen";
   const std::string bound = held          ? "adapt.facets = false"
                             : options.min ? fmt::format("adapt.min = {}", *options.min)
-                                          : "spacing.min, as adapt.min is not set,";
+                                          : "spacing.min, the default of adapt.min,";
+  const char* const remedy = held ? "set adapt.facets = true" : "set a smaller adapt.min";
   std::int8_t coarsest = Quadrant::unit_level;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if (flags[i] == RefinementFlag::refine) coarsest = std::min(coarsest, solved.tree.leaves[i].level);
   }
   const double edge = solved.tree.attributes.tree_edge /
                       static_cast<double>(std::int64_t{1} << comm.minimum(std::int64_t{coarsest}));
-  return fmt::format("{} prevents refinement of the {} above the threshold, with edges up to {:.6g}", bound,
-                     counted(wanted, "cell"), edge);
+  return fmt::format("{} prevents refinement of the {} above the threshold, with edges up to {:.6g}; {}",
+                     bound, counted(wanted, "cell"), edge, remedy);
 }
 
 /// Constructs the object; errors of the field are reported with its file. *Collective.*

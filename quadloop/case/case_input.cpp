@@ -81,6 +81,8 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   const MeshOptions options = mesh_options(settings, geometry);
   if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))
     geometry = std::move(*merged);
+  if (std::optional<std::string> warning = unit_warning(input.extents, options, geometry))
+    warnings.push_back(std::move(*warning));
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
   input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
                                case_digest(options, settings.lines), settings.lines, settings.stretch});

@@ -116,7 +116,8 @@ const KeyTable<Settings>& geometry_keys() {
            "joints."),
        key<&Settings::placement, &Placement::unit>(
            "unit", texts(unit_words()),
-           "Unit of the coordinates, which are converted to metres; see [units](#units).",
+           "Unit of the coordinates. They are converted to metres, and all lengths of the case are then in "
+           "metres; see [units](#units).",
            {.fallback = "`\"none\"`", .needs = of_files}),
        key<&Settings::placement, &Placement::spline>(
            "spline", flag(),
@@ -178,7 +179,8 @@ const KeyTable<Settings>& spacing_keys() {
            "(g-1)d/2."),
        key<&Settings::mesh, &MeshOptions::size, &SizeOptions::curvature>(
            "curvature", number({0, 180, true, false}),
-           "Largest turning angle of the boundary per cell; feature points are excluded.",
+           "Largest turning angle of the boundary per cell, down to the size `min`, which should then be "
+           "given; feature points are excluded.",
            {.unit = "degrees", .fallback = "off"}),
        key<&Settings::mesh, &MeshOptions::size, &SizeOptions::gap>(
            "gap", number({0, 1000, true, false}),

@@ -143,4 +143,10 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 /// the root of the quadtrees.
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry);
 
+/// Returns a line if the coordinates of a file are converted to metres, and spacing.max or the spacing of a
+/// boundary is larger than the longer side of the geometry's bounding box: the lengths of the case may be in
+/// the unit of the file.
+std::optional<std::string> unit_warning(const std::vector<FileExtent>& files, const MeshOptions& options,
+                                        const Geometry& geometry);
+
 }  // namespace quadloop

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "mesher/base/counted.hpp"
 #include "mesher/base/id_vector.hpp"
@@ -173,7 +176,31 @@ void warn_of_sources(const MeshOptions& options, const Box& root, Warnings& warn
   }
 }
 
+/// Returns the largest size that the case requests for all cells or for a boundary, and its source.
+std::pair<double, std::string> largest_request(const MeshOptions& options, const Geometry& geometry) {
+  std::pair<double, std::string> largest = {options.size.max, "spacing.max"};
+  for (const Boundary& boundary : geometry.boundaries()) {
+    if (boundary.spacing > largest.first)
+      largest = {boundary.spacing, fmt::format("the spacing of boundary '{}'", boundary.name)};
+  }
+  return largest;
+}
+
 }  // namespace
+
+std::optional<std::string> unit_warning(const std::vector<FileExtent>& files, const MeshOptions& options,
+                                        const Geometry& geometry) {
+  const bool is_converted =
+      std::ranges::any_of(files, [](const FileExtent& file) { return file.metres != 0 && file.metres != 1; });
+  const Point size = geometry.box().high - geometry.box().low;
+  const double longest = std::max(size.x, size.y);
+  const auto [largest, source] = largest_request(options, geometry);
+  if (!is_converted || largest <= longest) return std::nullopt;
+  return fmt::format(
+      "{} = {} is larger than the whole domain, whose longer side is {:.6g}: geometry.unit converts the "
+      "coordinates to metres; give all lengths of the case in metres",
+      source, largest, longest);
+}
 
 Warnings spacing_warnings(const MeshOptions& options, const Geometry& geometry) {
   Warnings warnings;

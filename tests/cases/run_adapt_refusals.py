@@ -154,7 +154,7 @@ def check_small_cap(program, folder, ranks):
 
 def check_standing(program, folder, ranks):
     """A cycle that changes nothing says why, once, and ends the run: its mesh is not solved on again, by --resume neither."""
-    for name, words, parts in (("constant", ["adapt.variable=flat"], ["flat is constant"]), ("min", ["adapt.min=0.6"], ["adapt.min = 0.6", "edges up to 0.5"]),
+    for name, words, parts in (("constant", ["adapt.variable=flat"], ["flat is constant"]), ("min", ["adapt.min=0.6"], ["adapt.min = 0.6", "edges up to 0.5; set a smaller adapt.min"]),
                                ("room", ["adapt.max_nodes=25"], ["adapt.max_nodes = 25 is reached"]),
                                ("threshold", ["adapt.refine=90", "adapt.coarsen=90"], ["above the threshold adapt.refine"])):
         solver = SOLVER.replace('"1", "#names: " + name, *map(repr, values)', '"2", "#names: height flat", *(f"{value!r} 1" for value in values)')

@@ -29,6 +29,24 @@ TEST_F(GeometrySettings, CoordinatesInAUnitBecomeMetres) {
   EXPECT_EQ(extents[0].metres, 1e-3);
 }
 
+TEST_F(GeometrySettings, WarnsOfSizesThatAreNotInMetres) {
+  const auto warning = [&](const std::string& text) {
+    const Settings settings = read(text);
+    Warnings warnings;
+    std::vector<FileExtent> extents;
+    const Geometry geometry = load_geometry(settings, warnings, {}, &extents);
+    return unit_warning(extents, mesh_options(settings, geometry), geometry).value_or("none");
+  };
+  EXPECT_EQ(warning("unit = \"mm\"\n[spacing]\nmax = 0.5\n"),
+            "spacing.max = 0.5 is larger than the whole domain, whose longer side is 0.004: geometry.unit "
+            "converts the coordinates to metres; give all lengths of the case in metres");
+  EXPECT_EQ(warning("unit = \"mm\"\n[spacing]\nmax = 0.001\n[boundary.box]\nspacing = 1\n")
+                .find("the spacing of boundary 'box' = 1 is larger"),
+            0u);
+  EXPECT_EQ(warning("unit = \"mm\"\n[spacing]\nmax = 0.004\n[boundary.box]\nspacing = 0.001\n"), "none");
+  EXPECT_EQ(warning("[spacing]\nmax = 8\n"), "none") << "no conversion";
+}
+
 TEST_F(GeometrySettings, EachEntryOfLayersMatchesALayer) {
   folder_.write("map.geojson",
                 R"({"type":"FeatureCollection","name":"shore","features":[{"type":"Feature","properties":{},)"
