@@ -165,6 +165,31 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
   });
 }
 
+/// Baffles with free ends that the mesh would represent by one edge: straight ones, a bent one, and an arc.
+TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
+  std::vector<LineRule> rules{
+      path_rule("cut", {{-0.8456043135315514, 0.2233964741103911}, {-0.5200819086046253, 0.527802490498356}}),
+      path_rule("bent", {{-1.645712753744809, 0.7676541082285802},
+                         {-1.5836728, 0.6586846},
+                         {-1.5196328629768199, 0.5471150604219108}}),
+      path_rule("along", {{0.25, -1}, {0.5, -1}}), chain_rule("arc")};
+  for (LineRule& rule : rules) rule.baffle = true;
+  const std::vector<Chain> chains{arc_chain("arc", round_arc({1, 0.75}, 0.5, 4.32, 4.82))};
+  MeshInput input = square_round(chains, rules);
+  std::set<std::string> of_two_edges;
+  expect_nodes_on_lines(input, [&](const Mesh& whole) {
+    for (const LineRule& rule : rules) {
+      const std::map<Point, int> copies = copies_on(whole, rule.name);
+      EXPECT_EQ(copies, copies_on(whole, rule.name + "__right"));
+      const auto on_both_sides = std::ranges::count_if(copies, [](const auto& c) { return c.second == 2; });
+      EXPECT_EQ(on_both_sides, std::ssize(copies) - 2) << rule.name;
+      EXPECT_GE(on_both_sides, 1) << rule.name;
+      if (on_both_sides == 1) of_two_edges.insert(rule.name);
+    }
+    EXPECT_EQ(of_two_edges.size(), rules.size());
+  });
+}
+
 TEST(CurvedLines, ChordsAreShorterAtInvertedCells) {
   const MeshInput input = square_round({arc_chain("body", round_arc({0.1, 0.05}, 0.8))}, {});
   const Geometry& g = input.geometry;
