@@ -165,7 +165,7 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
   });
 }
 
-/// Baffles with free ends that the mesh would represent by one edge: straight ones, a bent one, and an arc.
+/// Baffles with free ends, three of which the mesh would represent by one edge; an arc has more.
 TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
   std::vector<LineRule> rules{
       path_rule("cut", {{-0.8456043135315514, 0.2233964741103911}, {-0.5200819086046253, 0.527802490498356}}),
@@ -186,7 +186,7 @@ TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
       EXPECT_GE(on_both_sides, 1) << rule.name;
       if (on_both_sides == 1) of_two_edges.insert(rule.name);
     }
-    EXPECT_EQ(of_two_edges.size(), rules.size());
+    EXPECT_EQ(of_two_edges, (std::set<std::string>{"along", "bent", "cut"}));
   });
 }
 
