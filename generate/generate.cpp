@@ -142,7 +142,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
 /// Makes a mesh Delaunay again after nodes have moved, if it is to be. *Collective.*
 void restore_after(const Communicator& comm, const MeshInput& input, const NodeFlags& moved,
                    MeshResult& result) {
-  if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
+  if (!has_triangles_alone(input.mesh.type) || !comm.any(!moved.empty())) return;  // a rank may have no nodes
   const auto order = order_of_nodes(input, result.report.finest_allowed);
   if (input.geometry.has_blocks())
     restore_delaunay(comm, result.mesh, moved, order, result.mesh.blocks.of_triangles);

@@ -10,6 +10,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
+#include "mesher/build/near_ends.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -227,6 +228,8 @@ TEST(Lines, EndsNextToABoundaryAreNamedWithARemedy) {
   ASSERT_EQ(several.size(), 1U);
   EXPECT_NE(several[0].find("'line2'"), std::string::npos) << several[0];
   EXPECT_NE(several[0].find("(3 such ends)"), std::string::npos) << several[0];
+  const Geometry bare = square_with({});
+  EXPECT_FALSE(warning_of_near_ends(world(), bare, build_mesh(world(), bare, sizes(0.01, 0.1)).mesh));
   EXPECT_TRUE(warnings_with({{{0.3, 0.31}, {0.301, 0.311}, {0.302, 0.311}, {0.6, 0.6}}}, usual).empty());
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "generate/digests.hpp"
+#include "generate/free_baffles.hpp"
 #include "generate/generate.hpp"
 #include "generate/nearer_chords.hpp"
 #include "mesher/base/error.hpp"
@@ -165,7 +166,7 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
   });
 }
 
-/// Baffles with free ends, three of which the mesh would represent by one edge; an arc has more.
+/// Baffles with free ends, two of which the mesh would represent by one edge: "cut" and "along".
 TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
   std::vector<LineRule> rules{
       path_rule("cut", {{-0.8456043135315514, 0.2233964741103911}, {-0.5200819086046253, 0.527802490498356}}),
@@ -188,6 +189,13 @@ TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
     }
     EXPECT_EQ(of_two_edges, (std::set<std::string>{"along", "bent", "cut"}));
   });
+  MeshResult built = build_mesh(world(), input.geometry, input.mesh);
+  for (const std::int64_t added : {4, 0}) {  // both edges are divided the first time, on both sides
+    const NodeFlags flags = divide_free_baffles(world(), input.geometry, built);
+    std::int64_t own = 0;
+    for (const NodeId node : flags.ids()) own += node.value() < built.mesh.owned_nodes ? flags[node] : 0;
+    EXPECT_EQ(world().sum(own), added);
+  }
 }
 
 TEST(CurvedLines, ChordsAreShorterAtInvertedCells) {
