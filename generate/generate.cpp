@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "generate/digests.hpp"
+#include "generate/free_baffles.hpp"
 #include "generate/match_pairs.hpp"
 #include "generate/nearer_chords.hpp"
 #include "generate/outside_layers.hpp"
@@ -141,7 +142,7 @@ void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFr
 /// Makes a mesh Delaunay again after nodes have moved, if it is to be. *Collective.*
 void restore_after(const Communicator& comm, const MeshInput& input, const NodeFlags& moved,
                    MeshResult& result) {
-  if (moved.empty() || !has_triangles_alone(input.mesh.type)) return;
+  if (!has_triangles_alone(input.mesh.type) || !comm.any(!moved.empty())) return;  // a rank may have no nodes
   const auto order = order_of_nodes(input, result.report.finest_allowed);
   if (input.geometry.has_blocks())
     restore_delaunay(comm, result.mesh, moved, order, result.mesh.blocks.of_triangles);
@@ -149,15 +150,17 @@ void restore_after(const Communicator& comm, const MeshInput& input, const NodeF
     count_triangles(restore_delaunay_nearby(comm, result.mesh, moved, order), result.tree.leaves);
 }
 
-/// Builds a mesh whose quadtree cells have the same sizes on both sides of periodic pairs. *Collective.*
+/// Builds a mesh whose quadtree cells have the same sizes on both sides of periodic pairs, and whose baffles
+/// have separate nodes on both sides. *Collective.*
 MeshResult build_with_partners(const Communicator& comm, const MeshInput& input,
                                const DemandedSplits& demanded) {
   const std::vector<PeriodicPair>& pairs = input.mesh.pairs;
   MeshResult result = build_mesh(comm, input.geometry, input.mesh, demanded);
-  if (pairs.empty()) return result;
   DemandedSplits splits = demanded;
   while (demand_sizes_of_partners(comm, input.geometry, pairs, result, splits))
     result = build_mesh(comm, input.geometry, input.mesh, splits);
+  restore_after(comm, input, divide_free_baffles(comm, input.geometry, result), result);
+  if (pairs.empty()) return result;
   forget_splits(demanded, result.tree);
   restore_after(comm, input, match_pairs(comm, input.geometry, pairs, result), result);
   if (keeps_parallelograms(input.mesh))

@@ -122,8 +122,8 @@ class EdgeSplitter {
     const auto triangles = triangles_in(std::move(polygon));
     if (triangles.empty())
       throw InputError(
-          fmt::format("near ({:.6g}, {:.6g}): a cell at a boundary of a [[pair]] cannot be "
-                      "divided; use a smaller spacing there",
+          fmt::format("near ({:.6g}, {:.6g}): a cell at a [[pair]] or a baffle cannot be divided; use a "
+                      "smaller spacing there",
                       place.x, place.y));
     for (const auto& triangle : triangles) grown_->add_cell(leaf, triangle);
     return true;

@@ -11,6 +11,7 @@
 #include "mesher/build/islands.hpp"
 #include "mesher/build/make_delaunay.hpp"
 #include "mesher/build/mesh_estimate.hpp"
+#include "mesher/build/near_ends.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/required_points.hpp"
 #include "mesher/build/split_baffles.hpp"
@@ -114,6 +115,8 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   assemble_mesh(comm, geometry, sizes, graph, cut, has_triangles_alone(options.type), result);
   cut.drop_lists();
   report_losses(comm, geometry, result.mesh, options.may_vanish, result.report);
+  if (const auto warning = warning_of_near_ends(comm, geometry, result.mesh))
+    result.report.warnings.push_back(*warning);
 
   const auto rank_of = [&](Point p) {
     return tie_rank(domain.grid, sizes.finest_level(), p, options.mirror);

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <string>
 
 #include "mesher/base/error.hpp"
 #include "mesher/build/build_mesh.hpp"
+#include "mesher/build/near_ends.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
@@ -198,6 +200,37 @@ TEST(Lines, BafflesHaveNodesOnBothSides) {
   expect_two_sides({{{0.3, 0.3}, {0.7, 0.33}, {0.55, 0.74}, {0.3, 0.3}}}, 0);
   // Three copies beside the one where they cross, none at the four ends.
   expect_two_sides({{{0.2, 0.25}, {0.8, 0.7}}, {{0.2, 0.8}, {0.75, 0.2}}}, -4 + 3);
+}
+
+std::vector<std::string> warnings_with(const std::vector<Path>& paths, double join) {
+  AssembleOptions options = with_lines(paths);
+  options.join = join;
+  return build_mesh(world(), square_with(options), sizes(0.01, 0.1)).report.warnings;
+}
+
+TEST(Lines, EndsNextToABoundaryAreNamedWithARemedy) {
+  const double usual = AssembleOptions{}.join;
+  const std::vector<Path> off_the_wall{{{0.41, 0.0012}, {0.43, 0.37}}};
+  const std::vector<std::string> said = warnings_with(off_the_wall, usual);
+  ASSERT_EQ(said.size(), 1U);
+  for (const char* const part :
+       {"'line0'", "(0.41, 0.0012)", "0.0012 away from boundary 'wall'", "set join = 0.0013 in [geometry]"})
+    EXPECT_NE(said[0].find(part), std::string::npos) << said[0];
+  EXPECT_TRUE(warnings_with(off_the_wall, 0.0013).empty());
+  EXPECT_TRUE(warnings_with({{{0.41, 0}, {0.43, 0.37}}}, usual).empty());
+  EXPECT_TRUE(warnings_with({{{0.41, 0.03}, {0.43, 0.37}}}, usual).empty());
+  // Next to another line, and both ends of a line that nearly closes; not one with points close to its end.
+  const std::vector<std::string> several =
+      warnings_with({{{0.2, 0.5}, {0.8, 0.5}},
+                     {{0.5, 0.501}, {0.5, 0.9}},
+                     {{0.6, 0.2}, {0.8, 0.2}, {0.7, 0.4}, {0.602, 0.2005}}},
+                    usual);
+  ASSERT_EQ(several.size(), 1U);
+  EXPECT_NE(several[0].find("'line2'"), std::string::npos) << several[0];
+  EXPECT_NE(several[0].find("(3 such ends)"), std::string::npos) << several[0];
+  const Geometry bare = square_with({});
+  EXPECT_FALSE(warning_of_near_ends(world(), bare, build_mesh(world(), bare, sizes(0.01, 0.1)).mesh));
+  EXPECT_TRUE(warnings_with({{{0.3, 0.31}, {0.301, 0.311}, {0.302, 0.311}, {0.6, 0.6}}}, usual).empty());
 }
 
 TEST(Lines, OutsideTheDomainAreRefused) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "generate/digests.hpp"
+#include "generate/free_baffles.hpp"
 #include "generate/generate.hpp"
 #include "generate/nearer_chords.hpp"
 #include "mesher/base/error.hpp"
@@ -163,6 +164,38 @@ TEST(CurvedLines, BafflesHaveEqualNodesOnBothSidesOfACurve) {
       EXPECT_GT(copies.size(), 6U);
     }
   });
+}
+
+/// Baffles with free ends, two of which the mesh would represent by one edge: "cut" and "along".
+TEST(CurvedLines, ShortBafflesHaveANodeOnEachSideBetweenTheirEnds) {
+  std::vector<LineRule> rules{
+      path_rule("cut", {{-0.8456043135315514, 0.2233964741103911}, {-0.5200819086046253, 0.527802490498356}}),
+      path_rule("bent", {{-1.645712753744809, 0.7676541082285802},
+                         {-1.5836728, 0.6586846},
+                         {-1.5196328629768199, 0.5471150604219108}}),
+      path_rule("along", {{0.25, -1}, {0.5, -1}}), chain_rule("arc")};
+  for (LineRule& rule : rules) rule.baffle = true;
+  const std::vector<Chain> chains{arc_chain("arc", round_arc({1, 0.75}, 0.5, 4.32, 4.82))};
+  MeshInput input = square_round(chains, rules);
+  std::set<std::string> of_two_edges;
+  expect_nodes_on_lines(input, [&](const Mesh& whole) {
+    for (const LineRule& rule : rules) {
+      const std::map<Point, int> copies = copies_on(whole, rule.name);
+      EXPECT_EQ(copies, copies_on(whole, rule.name + "__right"));
+      const auto on_both_sides = std::ranges::count_if(copies, [](const auto& c) { return c.second == 2; });
+      EXPECT_EQ(on_both_sides, std::ssize(copies) - 2) << rule.name;
+      EXPECT_GE(on_both_sides, 1) << rule.name;
+      if (on_both_sides == 1) of_two_edges.insert(rule.name);
+    }
+    EXPECT_EQ(of_two_edges, (std::set<std::string>{"along", "bent", "cut"}));
+  });
+  MeshResult built = build_mesh(world(), input.geometry, input.mesh);
+  for (const std::int64_t added : {4, 0}) {  // both edges are divided the first time, on both sides
+    const NodeFlags flags = divide_free_baffles(world(), input.geometry, built);
+    std::int64_t own = 0;
+    for (const NodeId node : flags.ids()) own += node.value() < built.mesh.owned_nodes ? flags[node] : 0;
+    EXPECT_EQ(world().sum(own), added);
+  }
 }
 
 TEST(CurvedLines, ChordsAreShorterAtInvertedCells) {

@@ -28,6 +28,8 @@ constexpr double turn_share = 0.25;
 constexpr double height_share = 1.0 / 32, height_in_layers = 1.0 / 500;
 /// Curves shorter than this fraction of the extent are not subdivided.
 constexpr double shortest_share = 1e-12;
+/// Curves that touch are separated by a move of this multiple of the length below which points are joined.
+constexpr double clear_of_join = 100;
 /// Pieces that may be added to separate curves. Those that run along each other double at each step.
 constexpr std::size_t most_added = 20000;
 
@@ -167,7 +169,9 @@ class Subdivision {
       if (s.first_equal == i) pieces_.push_back({s.segment, i});
       limits_[s.first_equal].tighten(limits.at(chains[s.chain].name));
     }
-    shortest_ = shortest_share * std::max(box.width(), box.height());
+    const double extent = std::max(box.width(), box.height());
+    shortest_ = shortest_share * extent;
+    clear_ = clear_of_join * options.join * extent;
   }
 
   void run() {
@@ -274,8 +278,8 @@ class Subdivision {
     const Chain &of_a = chains_[segments_[a.whole].chain], &of_b = chains_[segments_[b.whole].chain];
     throw InputError(
         fmt::format("{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move "
-                    "them apart, remove one, or let both have a point there",
-                    of_a.source, of_a.name, of_b.name, at.x, at.y));
+                    "them apart by {:.1g} or more, or remove one",
+                    of_a.source, of_a.name, of_b.name, at.x, at.y, clear_));
   }
 
   const std::vector<Chain>& chains_;
@@ -284,6 +288,7 @@ class Subdivision {
   std::vector<Piece> pieces_;        ///< of the segments without an earlier equal one
   std::set<std::int32_t> touching_;
   double shortest_ = 0;
+  double clear_ = 0;  ///< a distance that separates curves that touch
   std::size_t most_pieces_ = 0;
 };
 

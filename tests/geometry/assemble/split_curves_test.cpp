@@ -274,8 +274,15 @@ std::string refusal_of(std::vector<Chain> chains, std::vector<LineRule> lines) {
 TEST(SplitCurves, ATangentIsRefusedWithBothNames) {
   const std::vector<Chain> chains{outline_box("sea", -5, 5, -5, 5), true_circle("body", {0, 0}, 1)};
   const std::string text = refusal_of(chains, {{"touch", {}, {{-2, 1}, {2, 1}}, false, "case"}});
-  for (const char* const part : {"'body'", "'touch'", "(", "move them apart"})
+  for (const char* const part : {"'body'", "'touch'", "(", "move them apart by 1e-06 or more"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
+  for (const double angle : {0.0, 0.7, half_turn / 2, 4.1}) {
+    for (const double distance : {1 + 1e-6, 1.01}) {
+      const Point normal{std::cos(angle), std::sin(angle)}, along{-normal.y, normal.x};
+      const std::vector<Point> moved{distance * normal - 2 * along, distance * normal + 2 * along};
+      EXPECT_EQ(refusal_of(chains, {{"moved", {}, moved, false, "case"}}), "") << angle << " " << distance;
+    }
+  }
   EXPECT_EQ(refusal_of(chains, {{"clear", {}, {{-2, 1.001}, {2, 1.001}}, false, "case"}}), "");
 }
 
