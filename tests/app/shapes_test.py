@@ -94,7 +94,8 @@ class Shapes(ShapesTest):
 
     def test_shapes_that_cross_are_refused_with_their_place(self):
         self.write("case.toml", ROD.replace("centre = [0.1, 0.2]", "centre = [0.1, 1.9]"))
-        self.refused(1, ["case.toml:5: boundaries 'rod' and 'channel' touch, cross or run along each other at (0.5898"], "mesh", "case.toml")
+        self.refused(1, ["case.toml:5: boundaries 'rod' and 'channel' touch, cross or run along each other at (0.5898",
+                         'or set geometry.overlap = "union" to join islands that overlap'], "mesh", "case.toml")
 
     def test_keys_of_files_need_a_file(self):
         self.write("case.toml", WING)

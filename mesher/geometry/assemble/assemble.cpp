@@ -181,8 +181,6 @@ Geometry to_geometry(BlockOutline blocks, AssembleOptions options) {
   return std::move(builder).geometry(std::move(boundaries), std::move(blocks.names));
 }
 
-constexpr const char* union_remedy = ", or set geometry.overlap = \"union\" to join islands that overlap";
-
 /// Areas of a much smaller geometry exceed the range of double precision.
 void require_extent(const Geometry& g) {
   constexpr double smallest_extent = 1e-100;

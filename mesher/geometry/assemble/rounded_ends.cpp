@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mesher/base/error.hpp"
+#include "mesher/geometry/assemble/chain_segments.hpp"
 #include "mesher/geometry/assemble/curved_chain.hpp"
 
 namespace quadloop {
@@ -172,25 +173,79 @@ Signature signature_of(const Chain& chain) {
   return {chain.name, chain.points.size(), *std::ranges::min_element(chain.points)};
 }
 
-void drop_repeated_chains(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+/// Counts the dropped lines, and keeps the place of the first one.
+struct DroppedLines {
+  std::int64_t count = 0;
+  std::string first;
+
+  void add(const Chain& chain) {
+    if (count++ == 0)
+      first = fmt::format("of boundary '{}' at ({}, {})", chain.name, chain.points[0].x, chain.points[0].y);
+  }
+};
+
+void drop_repeated_chains(std::vector<Chain>& chains, DroppedLines& dropped) {
   std::map<Signature, int> alike;
   for (const Chain& chain : chains) {
     if (!chain.points.empty()) ++alike[signature_of(chain)];
   }
   std::set<std::pair<std::string, Trace>> seen;
-  std::int64_t dropped = 0;
-  std::string first;
   std::erase_if(chains, [&](const Chain& chain) {
     if (chain.points.empty() || alike.at(signature_of(chain)) == 1 ||
         seen.insert({chain.name, trace_either_way(chain)}).second)
       return false;
-    if (dropped++ == 0)
-      first = fmt::format("of boundary '{}' at ({}, {})", chain.name, chain.points[0].x, chain.points[0].y);
+    dropped.add(chain);
     return true;
   });
-  if (dropped > 0)
-    warnings.push_back(fmt::format("dropped {} line{} that {} twice, the first {}", dropped,
-                                   dropped == 1 ? "" : "s", dropped == 1 ? "is there" : "are there", first));
+}
+
+/// The same for a segment and its reverse.
+Trace trace_either_way(const CurvedSegment& segment) {
+  const CurvedSegment back = reversed(segment);
+  return std::min(trace_of({segment.from, segment.to}, {segment.curve}),
+                  trace_of({back.from, back.to}, {back.curve}));
+}
+
+/// Drops open chains of drawings and maps that repeat a part of others, such as lines over the edges of a
+/// polyline: those each of whose segments is part of a chain of that name with more segments.
+void drop_repeated_parts(std::vector<Chain>& chains, DroppedLines& dropped) {
+  const auto may_repeat = [](const Chain& chain) {
+    return chain.open && !chain.directed && chain.points.size() > 1;
+  };
+  std::set<Point> ends;
+  for (const Chain& chain : chains) {
+    if (may_repeat(chain)) ends.insert(chain.points.front());
+  }
+  std::map<std::pair<std::string, Trace>, std::size_t> most_segments;
+  for (const Chain& chain : chains) {
+    if (std::ranges::none_of(chain.points, [&](Point p) { return ends.contains(p); })) continue;
+    const std::vector<ChainSegment> segments = segments_of({chain});
+    for (const ChainSegment& s : segments) {
+      std::size_t& most = most_segments[{chain.name, trace_either_way(s.segment)}];
+      most = std::max(most, segments.size());
+    }
+  }
+  std::erase_if(chains, [&](const Chain& chain) {
+    if (!may_repeat(chain)) return false;
+    const std::vector<ChainSegment> segments = segments_of({chain});
+    const bool repeats = std::ranges::all_of(segments, [&](const ChainSegment& s) {
+      const auto known = most_segments.find({chain.name, trace_either_way(s.segment)});
+      return known != most_segments.end() && known->second > segments.size();
+    });
+    if (repeats) dropped.add(chain);
+    return repeats;
+  });
+}
+
+/// Drops lines that are there twice.
+void drop_repeated_lines(std::vector<Chain>& chains, std::vector<std::string>& warnings) {
+  DroppedLines dropped;
+  drop_repeated_chains(chains, dropped);
+  drop_repeated_parts(chains, dropped);
+  if (dropped.count > 0)
+    warnings.push_back(fmt::format("dropped {} line{} that {} twice, the first {}", dropped.count,
+                                   dropped.count == 1 ? "" : "s",
+                                   dropped.count == 1 ? "is there" : "are there", dropped.first));
 }
 
 }  // namespace
@@ -204,7 +259,7 @@ void join_rounded_ends(std::vector<Chain>& chains, double share, std::vector<std
         fmt::format("dropped {} point{} that {} no farther than rounding ({:.2g}) from the one before",
                     dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", rounding));
   }
-  drop_repeated_chains(chains, warnings);
+  drop_repeated_lines(chains, warnings);
   const double most = std::max(rounding, share * extent_of(chains));
   const auto [count, first] = LooseEnds(chains, most).join();
   if (count == 0) return;

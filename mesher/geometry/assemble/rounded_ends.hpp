@@ -13,8 +13,9 @@ namespace quadloop {
 /// largest coordinate (3.6e-15 of it), and no third end is as near; the later end moves exactly onto the
 /// earlier. Throws InputError for an end that is as near to several others. Points within rounding of the
 /// previous one are dropped, in a closed chain also a last point near the first. Of chains of one name with
-/// the same points and curves, in either direction, the first is kept. Warns with the number of repairs and
-/// the first places.
+/// the same points and curves, in either direction, the first is kept; open chains that repeat segments of
+/// longer ones of their name, such as a line over an edge of a polyline, are dropped. Warns with the number
+/// of repairs and the first places.
 void join_rounded_ends(std::vector<Chain>& chains, double share, std::vector<std::string>& warnings);
 
 }  // namespace quadloop

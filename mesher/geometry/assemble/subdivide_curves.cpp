@@ -14,6 +14,7 @@
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/geometry/assemble/chain_segments.hpp"
+#include "mesher/geometry/assemble/united_islands.hpp"
 #include "mesher/geometry/box_tree.hpp"
 #include "mesher/geometry/predicates.hpp"
 
@@ -159,7 +160,10 @@ std::optional<Point> common_end(const CurvedSegment& a, const CurvedSegment& b) 
 class Subdivision {
  public:
   Subdivision(const std::vector<Chain>& chains, const AssembleOptions& options)
-      : chains_{chains}, segments_{segments_of(chains)}, limits_(segments_.size()) {
+      : chains_{chains},
+        remedy_{options.unite_islands || !options.blocks.empty() ? "" : union_remedy},
+        segments_{segments_of(chains)},
+        limits_(segments_.size()) {
     const ChordLimitsByName limits(chains, options);
     Box box;
     for (std::int32_t i = 0; i < size32(segments_); ++i) {
@@ -278,11 +282,12 @@ class Subdivision {
     const Chain &of_a = chains_[segments_[a.whole].chain], &of_b = chains_[segments_[b.whole].chain];
     throw InputError(
         fmt::format("{}: boundaries '{}' and '{}' touch, cross or run along each other at ({}, {}); move "
-                    "them apart by {:.1g} or more, or remove one",
-                    of_a.source, of_a.name, of_b.name, at.x, at.y, clear_));
+                    "them apart by {:.1g} or more, or remove one{}",
+                    of_a.source, of_a.name, of_b.name, at.x, at.y, clear_, remedy_));
   }
 
   const std::vector<Chain>& chains_;
+  const char* remedy_;  ///< added to the advice for boundaries that touch
   std::vector<ChainSegment> segments_;
   std::vector<ChordLimits> limits_;  ///< of each segment, for all that are equal to it
   std::vector<Piece> pieces_;        ///< of the segments without an earlier equal one

@@ -7,6 +7,10 @@
 
 namespace quadloop {
 
+/// What a message about islands that overlap advises.
+inline constexpr const char* union_remedy =
+    ", or set geometry.overlap = \"union\" to join islands that overlap";
+
 /// Unites islands that overlap or share edges. If an island meets the outer boundary, its part inside is
 /// removed from the domain. An island inside another one is dropped. A ring inside a polygon of the same
 /// feature, or a loop with a direction specified by its file, remains a hole of the island that contains

@@ -64,6 +64,43 @@ TEST(RoundedEnds, WhatIsThereTwiceStaysOnce) {
   EXPECT_EQ(Repaired({chain(false, {{0, 0}, {1, 0}, {1, 1}}), other}).chains.size(), 2U);
 }
 
+Chain of_drawing(bool open, std::vector<Point> points) {
+  Chain line = chain(open, std::move(points));
+  line.directed = false;
+  return line;
+}
+
+TEST(RoundedEnds, LinesOverAPartOfAPolylineAreDropped) {
+  const Chain square = of_drawing(false, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  const Repaired one({of_drawing(true, {{1, 0}, {0, 0}}), square});
+  ASSERT_EQ(one.chains.size(), 1U);
+  EXPECT_EQ(one.chains[0].points, square.points);
+  ASSERT_EQ(one.warnings.size(), 1U);
+  EXPECT_NE(one.warnings[0].find("dropped 1 line that is there twice"), std::string::npos) << one.warnings[0];
+  EXPECT_EQ(Repaired({square, of_drawing(true, {{0, 1}, {0, 0}, {1, 0}}), of_drawing(true, {{0, 0}, {0, 1}})})
+                .chains.size(),
+            1U)
+      << "across the point where the loop begins";
+  EXPECT_EQ(Repaired({square, of_drawing(true, {{0, 0}, {1, 1}})}).chains.size(), 2U) << "a diagonal";
+  EXPECT_EQ(Repaired({square, of_drawing(true, {{0, 0}, {1, 0}, {2, 0}})}).chains.size(), 2U)
+      << "a part repeats";
+  EXPECT_EQ(Repaired({square, chain(true, {{0, 0}, {1, 0}})}).chains.size(), 2U) << "directed";
+  Chain other = of_drawing(true, {{0, 0}, {1, 0}});
+  other.name = "other";
+  EXPECT_EQ(Repaired({square, other}).chains.size(), 2U);
+}
+
+TEST(RoundedEnds, PiecesOfACurvedLoopAreDropped) {
+  Chain loop = of_drawing(true, {{1, 0}});
+  append_arc(loop, {{0, 0}, {1, 0}, {0, 1}, 0, std::numbers::pi}, Point{-1, 0});
+  Chain upper = loop, straight = of_drawing(true, loop.points);
+  append_arc(loop, {{0, 0}, {-1, 0}, {0, -1}, 0, std::numbers::pi}, Point{1, 0});
+  loop.points.pop_back();
+  loop.open = false;
+  EXPECT_EQ(Repaired({upper, loop}).chains.size(), 1U);
+  EXPECT_EQ(Repaired({straight, loop}).chains.size(), 2U);
+}
+
 /// A half circle about the origin, above (or below) it.
 Chain half_circle(double x, double height) {
   Chain half = chain(true, {{x, 0}});
