@@ -62,17 +62,21 @@ function(quadloop_test name)
 endfunction()
 
 # quadloop_mpi_test(NAME RANKS 1 2 3 ... SOURCES ... LIBRARIES ... [LABEL normal|full] [TIMEOUT seconds]): one ctest NAME.RANKS for
-# each number of ranks; the timeout makes a deadlock a failure. On one rank and on three under sanitizers too.
+# each number of ranks; the timeout makes a deadlock a failure. Those on one rank and on three are quick, unless there is a LABEL, and
+# run under sanitizers too; those on other numbers of ranks are normal.
 function(quadloop_mpi_test name)
   cmake_parse_arguments(TEST "" "LABEL;TIMEOUT" "RANKS;SOURCES;LIBRARIES" ${ARGN})
   quadloop_test_program(${name} SOURCES ${TEST_SOURCES} LIBRARIES ${TEST_LIBRARIES})
   foreach(ranks IN LISTS TEST_RANKS)
     quadloop_add_test(${name}.${ranks} "${QUADLOOP_MPIRUN}" -n ${ranks} $<TARGET_FILE:${name}>)
     set(sanitize "")
+    set(label "${TEST_LABEL}")
     if(ranks EQUAL 1 OR ranks EQUAL 3)
       set(sanitize SANITIZE)
+    elseif(NOT label)
+      set(label normal)
     endif()
-    quadloop_label_test(${name}.${ranks} LABEL "${TEST_LABEL}" TIMEOUT "${TEST_TIMEOUT}" ${sanitize})
+    quadloop_label_test(${name}.${ranks} LABEL "${label}" TIMEOUT "${TEST_TIMEOUT}" ${sanitize})
     if(ranks GREATER 1)
       set_tests_properties(${name}.${ranks} PROPERTIES PROCESSORS 2) # waiting ranks use their cores
     endif()
