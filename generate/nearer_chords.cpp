@@ -53,9 +53,9 @@ void require_not_inverted(const Communicator& comm, const Geometry& geometry, co
   if (inverted.empty()) return;
   const Point place = std::ranges::min_element(inverted, {}, &Box::low)->low;
   throw InputError(fmt::format(
-      "near ({:.6g}, {:.6g}): a cell at a curve is inverted, as its nodes move from the chord onto the "
-      "curve; "
-      "reduce spacing.min, move curves and points that nearly touch there apart, or increase smooth.sweeps",
+      "near ({:.6g}, {:.6g}): a cell at a curve is inverted, as its nodes move from the chord onto "
+      "the curve; reduce spacing.min, move curves and points that nearly touch there apart, or increase "
+      "smooth.sweeps",
       place.x, place.y));
 }
 
