@@ -230,7 +230,7 @@ const KeyTable<BlockRule>& block_keys() {
        key<&BlockRule::inside>(
            "inside", point(),
            "A point inside the block, which extends from there to the nearest boundaries in all "
-           "directions."),
+           "directions. Inner lines bound no block."),
        key<&BlockRule::spacing>("spacing", number(io::Range::positive()), "Largest cell size in the block.",
                                 {.unit = "length", .fallback = "`spacing.max`"})}};
   return keys;

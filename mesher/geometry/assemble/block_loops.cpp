@@ -112,7 +112,7 @@ class LineGraph {
   std::vector<EdgeLines> lines_;
 };
 
-/// The faces of the graph, holes included. Face `outside()` is the unbounded one.
+/// The faces of the graph, holes included; inner lines divide no face. Face `outside()` is the unbounded one.
 class Faces {
  public:
   explicit Faces(const LineGraph& lines) : lines_{lines}, graph_{lines.graph()} {
@@ -121,6 +121,9 @@ class Faces {
     for (const std::int32_t h : graph_.outermost()) {
       const std::int32_t within = walk_at(lines.start(h));
       parent_[root_of(graph_.walk_of(h))] = root_of(within);
+    }
+    for (std::int32_t h = 0; h < graph_.size(); h += 2) {
+      if (lines.is_inner_line(h)) parent_[root_of(graph_.walk_of(h))] = root_of(graph_.walk_of(h + 1));
     }
     for (std::int32_t& parent : parent_) parent = root_of(parent);
   }
@@ -214,6 +217,7 @@ class FaceBlocks {
   std::int32_t face_of_point(const BlockRule& rule) const {
     const Point p = *rule.inside;
     for (std::int32_t e = 0; e < graph_.size(); e += 2) {
+      if (lines_.is_inner_line(e)) continue;
       const Point from = lines_.start(e), to = lines_.end(e);
       constexpr double rounding = 1e-9;
       if (length(nearest_on_segment(p, from, to) - p) <= rounding * length(to - from))
@@ -228,7 +232,13 @@ class FaceBlocks {
   }
 
   void require_known(const BlockRule& rule, const std::string& name) const {
-    if (std::ranges::count(chains_, name, &Chain::name) > 0) return;
+    const auto named = std::ranges::find(chains_, name, &Chain::name);
+    if (named != chains_.end() && !named->inner_line) return;
+    if (named != chains_.end())
+      throw InputError(
+          fmt::format("{}: block '{}': '{}' is an inner line, which bounds no block; give its points as a "
+                      "boundary of the geometry instead",
+                      rule.where, rule.name, name));
     std::vector<std::string> names;
     for (const Chain& chain : chains_) names.push_back(chain.name);
     throw InputError(fmt::format("{}: block '{}': the geometry has no boundary '{}'{}", rule.where, rule.name,

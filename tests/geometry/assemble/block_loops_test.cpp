@@ -188,6 +188,20 @@ TEST(BlockLoops, RunAlongInnerLinesAndBack) {
   EXPECT_NE(warnings[1].find("'along': 1 segment of the inner line"), std::string::npos) << warnings[1];
 }
 
+TEST(BlockLoops, BlocksReachAcrossInnerLines) {
+  std::vector<Chain> chains{box_chain("wall", -5, 5), box_chain("ring", -1, 1), box_chain("gauge", -0.5, 0.5)};
+  chains.push_back({"cut", true, {{-0.5, 3}, {-0.5, -3}}, {}});
+  for (std::size_t c = 2; c < chains.size(); ++c) chains[c].inner_line = true;
+  for (const Point p : {Point{0, 0}, Point{0.75, 0}, Point{-0.75, 0}, Point{0.5, 0}, Point{-0.5, 0.25}}) {
+    const BlockOutline blocks = found(chains, {within("fluid", "wall"), inside("solid", p)});
+    EXPECT_DOUBLE_EQ(area_of(blocks, "solid"), 4) << p.x;
+    EXPECT_DOUBLE_EQ(area_of(blocks, "fluid"), 96) << p.x;
+    EXPECT_EQ(names_of(blocks), (std::set<std::string>{"wall", "ring", "gauge", "cut"})) << p.x;
+  }
+  expect_refusal(chains, {within("solid", "gauge")}, "'gauge' is an inner line, which bounds no block");
+  expect_refusal(chains, {between("solid", {"ring", "cut"})}, "'cut' is an inner line");
+}
+
 TEST(BlockLoops, RefusesWithThePlace) {
   expect_refusal(nested(), {inside("fluid", {9, 9})}, "(9, 9)");
   expect_refusal(nested(), {inside("fluid", {5, 2})}, "lies on boundary 'wall'");
