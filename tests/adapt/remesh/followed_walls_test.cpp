@@ -10,9 +10,11 @@
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/postprocess/wall_table.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "generate/mesh_trial.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::adapt {
@@ -411,6 +413,37 @@ TEST(FollowedWalls, HaveTheFirstHeightInTheirTableAtTheRootOfAWake) {
     EXPECT_GE(at_edge.size(), 2U);
     for (const double y_plus : at_edge) EXPECT_NEAR(y_plus, 0.02 / 0.01, 0.2) << "base " << base;
   }
+}
+
+/// Splits, by two levels, of the leaves above a wake between x = 3 and 3.5, as adaptation requests them.
+DemandedSplits splits_beside_wake(const MeshInput& input) {
+  const MeshResult made = generate_mesh(world(), input).result;
+  const TreeGrid grid = input.grid();
+  std::vector<SplitDemand> demands;
+  for (const LeafRecord& leaf : made.tree.leaves) {
+    const Quadrant q = quadrant_of(leaf);
+    const Point centre = grid.box_of(q).centre();
+    if (centre.x < 3 || centre.x > 3.5 || centre.y < 0.5 || centre.y > 1) continue;
+    const std::uint32_t child_levels = 3U << q.level;
+    for (const Corner quarter : corners_along_curve) demands.push_back({q.child(quarter), child_levels});
+  }
+  return {world(), demands};
+}
+
+TEST(PlanWithLayers, TheColumnsOfAWakeAreRefinedWithTheCellsBesideThem) {
+  const MeshInput input = wedge(true);
+  const DemandedSplits splits = splits_beside_wake(input);
+  const MeshResult before = generate_mesh(world(), input).result,
+                   made = generate_mesh(world(), input, splits).result;
+  const auto columns = [](const MeshResult& result) { return result.mesh.strips.at(0).columns(); };
+  EXPECT_GT(columns(made), columns(before) + 10);
+  const auto smallest_angle = [](const MeshResult& result) {
+    return summarise_quality(world(), result.mesh).smallest_degrees;
+  };
+  EXPECT_GT(smallest_angle(made), 0.7 * smallest_angle(before));
+  const NodeBounds counted = MeshTrial(input).nodes(world(), splits);
+  EXPECT_GE(counted.most, made.tree.attributes.nodes);
+  EXPECT_LE(counted.least, made.tree.attributes.nodes);
 }
 
 TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {
