@@ -1,31 +1,43 @@
 #include "generate/mesh_trial.hpp"
 
+#include <utility>
+
 #include "mesher/build/count_nodes.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 
 namespace quadloop {
 
-MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured) : input_{input} {
+MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured)
+    : input_{input}, measured_{measured} {
   if (!has_layers(input)) return;
   MeshReport dropped;  // reported when the mesh is made
   geometry_.emplace(geometry_with_layers(input, dropped));
-  front_.emplace(front_of(input, *geometry_, measured));
-  outer_.emplace(outside(input, *front_));
+  of_case_.emplace(layered({}));
+}
+
+MeshTrial::Layered MeshTrial::layered(const DemandedSplits& demanded) const {
+  LayerFront front = front_of(input_, *geometry_, measured_, demanded);
+  MeshInput outer = outside(input_, front);
+  return {std::move(front), std::move(outer)};
 }
 
 NodeBounds MeshTrial::nodes(const Communicator& comm, const DemandedSplits& demanded) const {
-  if (!front_) {
-    const std::int64_t nodes = count_nodes(comm, meshed().geometry, meshed().mesh, demanded);
+  if (!of_case_) {
+    const std::int64_t nodes = count_nodes(comm, input_.geometry, input_.mesh, demanded);
     return {nodes, nodes};
   }
-  const MeshResult made = build_mesh(comm, meshed().geometry, meshed().mesh, demanded);
+  std::optional<Layered> followed;  // the columns of lines follow the demands
+  if (!input_.lines.empty() && !demanded.empty()) followed.emplace(layered(demanded));
+  const Layered& used = followed ? *followed : *of_case_;
+  const MeshResult made = build_mesh(comm, used.outer.geometry, used.outer.mesh, demanded);
   const std::int64_t outer = made.tree.attributes.nodes;
-  const NodeBounds layers = layer_nodes(comm, *front_, made.mesh);
+  const NodeBounds layers = layer_nodes(comm, used.front, made.mesh);
   return {outer + layers.least, outer + layers.most};
 }
 
 MeshEstimate MeshTrial::estimate(const DemandedSplits& demanded) const {
-  return estimate_mesh(meshed().geometry, meshed().mesh, demanded);
+  const MeshInput& meshed = of_case_ ? of_case_->outer : input_;
+  return estimate_mesh(meshed.geometry, meshed.mesh, demanded);
 }
 
 }  // namespace quadloop

@@ -25,12 +25,17 @@ class MeshTrial {
   MeshEstimate estimate(const DemandedSplits& demanded) const;
 
  private:
-  const MeshInput& meshed() const { return outer_ ? *outer_ : input_; }
+  /// The outer edge of the layers, and the domain outside it.
+  struct Layered {
+    LayerFront front;
+    MeshInput outer;
+  };
+  Layered layered(const DemandedSplits& demanded) const;
 
   const MeshInput& input_;
+  MeasuredWall measured_;
   std::optional<Geometry> geometry_;
-  std::optional<LayerFront> front_;
-  std::optional<MeshInput> outer_;
+  std::optional<Layered> of_case_;  ///< without demands
 };
 
 }  // namespace quadloop

@@ -12,6 +12,7 @@
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/required_points.hpp"
+#include "mesher/sizes/demanded_sizes.hpp"
 
 namespace quadloop {
 
@@ -57,10 +58,15 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 
 }  // namespace
 
-LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured) {
+LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured,
+                    const DemandedSplits& demanded) {
   require_strips_within(place_lines(geometry, input.lines), input.mesh.limit);
+  const TreeGrid grid = input.grid();
+  const DemandedSizes sizes(grid, demanded, input.mesh.size.gradation);
+  AdaptedSize adapted;
+  if (!demanded.empty()) adapted = [&](Point a, Point b, double most) { return sizes.near(a, b, most); };
   return layer_front(geometry, input.mesh.size.curvature, input.lines, measured,
-                     input.mesh.mirror.has_value(), input.mesh.pairs);
+                     input.mesh.mirror.has_value(), input.mesh.pairs, adapted);
 }
 
 MeshInput outside(const MeshInput& input, const LayerFront& front) {

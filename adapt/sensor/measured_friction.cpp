@@ -8,12 +8,14 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
+#include "mesher/mesh/wake_roots.hpp"
 
 namespace quadloop::adapt {
 
@@ -235,19 +237,31 @@ bool is_corner(const WallEdge& before, const WallEdge& after) {
   return dot(a, b) < cosine * length(a) * length(b);
 }
 
-/// Replaces the value at each corner by that at the other end of the edge, unless that is a corner too.
-void replace_corners(const std::vector<WallEdge>& edges, MeasuredWall& measured) {
+/// Replaces the value at each corner by that at the other end of the edge; if that is a corner too, by the
+/// value beyond the corner. `is_left_out(edge, next)`: whether their common node is a corner.
+template <class IsLeftOut>
+void replace_corners(const std::vector<WallEdge>& edges, const IsLeftOut& is_left_out,
+                     MeasuredWall& measured) {
   std::map<GlobalNodeId, std::size_t> edge_from;
   for (std::size_t k = 0; k < edges.size(); ++k) edge_from.emplace(edges[k].nodes[0], k);
   std::vector<std::array<bool, 2>> corners(edges.size());
+  std::vector<std::array<std::size_t, 2>> joints;  // edges before and after a corner
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const auto next = edge_from.find(edges[k].nodes[1]);
-    if (next == edge_from.end() || !is_corner(edges[k], edges[next->second])) continue;
+    if (next == edge_from.end() || !is_left_out(edges[k], edges[next->second])) continue;
     corners[k][1] = corners[next->second][0] = true;
+    joints.push_back({k, next->second});
   }
   for (std::size_t k = 0; k < edges.size(); ++k) {
     if (corners[k][0] && !corners[k][1]) measured[k].wall_units_from = measured[k].wall_units_to;
     if (corners[k][1] && !corners[k][0]) measured[k].wall_units_to = measured[k].wall_units_from;
+  }
+  const auto has_value = [&](std::size_t k) { return !corners[k][0] || !corners[k][1]; };
+  for (const auto& [before, after] : joints) {
+    if (has_value(before) && !has_value(after))
+      measured[after].wall_units_from = measured[before].wall_units_to;
+    if (has_value(after) && !has_value(before))
+      measured[before].wall_units_to = measured[after].wall_units_from;
   }
 }
 
@@ -273,7 +287,11 @@ MeasuredWall friction_at_nodes(const Communicator& comm, const Mesh& mesh, const
     };
     measured.push_back({edge.points[0], edge.points[1], wall_units(0), wall_units(1)});
   }
-  if (by_height) replace_corners(edges, measured);
+  const std::set<GlobalNodeId> roots = wake_roots(mesh.strips);
+  const auto is_left_out = [&](const WallEdge& edge, const WallEdge& next) {
+    return roots.contains(edge.nodes[1]) || (by_height && is_corner(edge, next));
+  };
+  replace_corners(edges, is_left_out, measured);
   return measured;
 }
 

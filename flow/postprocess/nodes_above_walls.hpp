@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesher/mesh/halo_mesh.hpp"
+#include "mesher/mesh/mesh.hpp"
 
 namespace quadloop::flow {
 
@@ -13,7 +14,10 @@ struct NodesAboveWalls {
   std::vector<Point> inward;    ///< unit normal averaged over the node's wall edges; 0 off walls
 };
 
-/// `is_wall` has an entry for each of the mesh's boundaries.
-NodesAboveWalls nodes_above(const HaloMesh& mesh, const std::vector<char>& is_wall);
+/// `is_wall` has an entry for each of the mesh's boundaries. At the root of a wake, whose averaged normal
+/// points along the wake, height, neighbour and normal are those above one of the node's wall edges: the
+/// lower height counts. `strips` are those of the mesh.
+NodesAboveWalls nodes_above(const HaloMesh& mesh, const std::vector<char>& is_wall,
+                            const std::vector<StripLayers>& strips);
 
 }  // namespace quadloop::flow

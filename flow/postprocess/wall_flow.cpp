@@ -72,7 +72,7 @@ std::vector<double> shear_at_nodes(const Communicator& comm, const Mesh& mesh, c
                                    const FlowColumns& columns, const FreeStream& stream,
                                    const std::vector<char>& rough) {
   const HaloMesh halo(comm, mesh);
-  const NodesAboveWalls above = nodes_above(halo, rough);
+  const NodesAboveWalls above = nodes_above(halo, rough, mesh.strips);
   std::vector<Point> velocities(halo.points().size());
   for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
     velocities[i] = columns.velocity(solution.row(NodeId{i}));

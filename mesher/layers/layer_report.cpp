@@ -138,6 +138,7 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const Wall
   report.share_least = worst->share;
   report.share_full = wall.share_full();
   report.least = worst->foot;
+  report.growth_at_least = worst->growth;
   return report;
 }
 
@@ -175,6 +176,7 @@ BoundaryLayerReport report_strip(const LayerStrip& strip) {
   report.boundary = strip.name;
   report.share_least = worst->share;
   report.least = worst->foot;
+  report.growth_at_least = worst->growth;
   report.asked = report.reached = strip.layers;
   report.columns = std::ssize(strip.columns);
   report.first_asked = report.first_asked_most = strip.spec.first;
@@ -219,7 +221,7 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
         "the full thickness. Layers are thinner at narrow gaps, at sharp turns and at rough parts of the "
         "geometry (close points with few decimals); reduce count or growth, or smooth the points",
         row.boundary, row.least.x, row.least.y, row.reached, row.share_least * row.thickness_asked,
-        100 * row.share_least, row.thickness_asked, row.growth_least, row.growth_asked,
+        100 * row.share_least, row.thickness_asked, row.growth_at_least, row.growth_asked,
         100 * row.share_full));
   }
   if (thin.size() > most_named)

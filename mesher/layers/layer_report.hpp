@@ -25,6 +25,7 @@ struct BoundaryLayerReport {
   double share_least = 1;  ///< smallest fraction of the requested thickness
   double share_full = 1;   ///< fraction of the wall's length with the requested thickness, within 1.5 %
   Point least;  ///< place on the wall with the smallest thickness fraction, or else the smallest growth
+  double growth_at_least = 0;  ///< growth ratio there; behind a wake's root ratios fall to 1 by design
 };
 
 /// One entry for each boundary with layers, in the order of the geometry, then one for each strip: columns of

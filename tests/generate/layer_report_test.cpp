@@ -89,6 +89,21 @@ TEST(LayerReport, HasARowForEachStrip) {
   EXPECT_EQ(line.least.y, 1);
 }
 
+/// The rows of a wake open downstream until they are equally high, which is no fault to be warned of.
+TEST(LayerReport, NamesTheGrowthAtTheThinnestPlaceOfAWake) {
+  const LayerSpec eight{0.01, 1.5, 1.5, 8, 1};
+  const PlacedLine line{0, 0, {{0, 0}, {6, 0}}, 0.1, eight, "wake"};
+  const double pinched = 0.4 * layers_thickness(eight);
+  const BoundaryLayerReport wake =
+      report_strip(layer_strip(line, WakeRoot{0, {0.01, pinched}, {0.01, -pinched}, {}, 0.04}));
+  EXPECT_NEAR(wake.growth_least, 1, 1e-9);
+  EXPECT_NEAR(wake.share_least, 0.4, 0.02);
+  EXPECT_GT(wake.growth_at_least, 1.2);
+  const std::vector<std::string> warnings = warnings_of({wake});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("with the growth ratio 1.2"), std::string::npos) << warnings[0];
+}
+
 TEST(LayerReport, WarnsWhereLessThanHalfIsReached) {
   const GeneratedMesh made = generate_mesh(world(), channel(0.1, true));
   ASSERT_EQ(made.layers.size(), 2U);

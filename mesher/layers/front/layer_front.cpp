@@ -41,13 +41,14 @@ std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
 class OuterOutline {
  public:
   OuterOutline(const WallLine& line, const FittingColumns& fitting, const std::vector<PlacedLine>& lines,
-               std::optional<double> curvature, bool mirrored)
+               std::optional<double> curvature, bool mirrored, const AdaptedSize& adapted)
       : line_{line},
         g_{line.geometry()},
         lines_{lines},
         fitting_{fitting},
         curvature_{curvature},
         mirrored_{mirrored},
+        adapted_{adapted},
         first_of_segment_(g_.points().size(), WallLine::none),
         covered_(g_.points().size(), 0),
         is_base_(g_.points().size(), 0) {
@@ -141,6 +142,7 @@ class OuterOutline {
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   bool mirrored_;
+  const AdaptedSize& adapted_;
   std::vector<std::int32_t> first_of_segment_;
   std::vector<char> covered_;  ///< flags of vertices on which a run's last column lies
   /// By segment: where its rest begins and ends, if the last column of a run lies on the part before or
@@ -231,14 +233,16 @@ void OuterOutline::add_wake(std::int32_t i) {
   if (at_corner > 0) spacing = std::min(spacing, at_corner);
   PlacedLine wake = *at;
   wake.layers = line_.spec(i).first < line_.spec(right).first ? line_.spec(i) : line_.spec(right);
-  strips_.push_back(layer_strip(wake, WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(g_, *at),
-                                               spacing, g_.boundary_of(at->edge)}));
+  strips_.push_back(layer_strip(wake,
+                                WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(g_, *at),
+                                         spacing, g_.boundary_of(at->edge)},
+                                adapted_));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
 
 void OuterOutline::add_free_strip(const PlacedLine& line) {
-  strips_.push_back(layer_strip(line, {}));
+  strips_.push_back(layer_strip(line, {}, adapted_));
   add_front_of(strips_.back());
   builder_.end_loop();
 }
@@ -414,12 +418,12 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
                        const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored,
-                       const std::vector<PeriodicPair>& pairs) {
+                       const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);
   FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
-  OuterOutline(front.line, fitting, placed, curvature, mirrored).build(front);
+  OuterOutline(front.line, fitting, placed, curvature, mirrored, adapted).build(front);
   require_room_for_strips(front);
   front.thickness = std::move(fitting.thickness);
   front.columns = std::move(fitting.columns);

@@ -57,13 +57,15 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// The layer front of all boundaries and lines with layers. Layers are thinner where walls are close to each
 /// other or have sharp concave corners, so that no two columns cross and space for cells remains outside each
 /// wall; both are verified with exact predicates. `curvature`: degrees that the wall may turn along one cell.
-/// With a measured wall first heights follow it (followed_layers()). Depends on its arguments only; mirror
+/// With a measured wall first heights follow it (followed_layers()). Where adaptation requests smaller cells,
+/// `adapted`, the columns of lines are as wide as these cells. Depends on its arguments only; mirror
 /// images have mirrored fronts, and if `mirrored`, a geometry that is its own mirror image has a front with
 /// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws
 /// InputError with coordinates where no layers fit. `geometry` must outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
                        const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {},
-                       bool mirrored = false, const std::vector<PeriodicPair>& pairs = {});
+                       bool mirrored = false, const std::vector<PeriodicPair>& pairs = {},
+                       const AdaptedSize& adapted = {});
 
 /// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/predicates.hpp"
@@ -22,7 +24,8 @@ constexpr double core_spreading = 0.05;  // of half the rows behind a base, per 
 constexpr double flattest = 0.7;         // largest height of a row over the width of its columns
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
 constexpr double most_rows_of_triangle = 3, flattest_triangle = 0.35;
-constexpr double leaf_over_column = 1.2;
+constexpr double leaf_over_column = 1.2;           // at most; leaves are rounded down to half of that
+constexpr double adapted_leaf_over_column = 0.85;  // the geometric mean of both limits
 constexpr double flattest_at_end = 0.5, leaf_over_end_row = 2, triangle_over_end_row = 1.4;
 
 /// A polyline parametrised by arc length.
@@ -111,9 +114,57 @@ bool is_positive(std::span<const Point> first, std::span<const Point> second) {
   return true;
 }
 
+/// The largest widths of a line's columns beside adapted cells, as a function of the arc length.
+class AdaptedWidths {
+ public:
+  AdaptedWidths() = default;
+  /// `reach(s)`: distance of the front from the line without adaptation.
+  template <class Reach>
+  AdaptedWidths(const Path& path, const AdaptedSize& adapted, double spacing, const Reach& reach) {
+    constexpr double step = 0.25;  // of the size, so that no leaf is passed over
+    if (!adapted) return;
+    const double whole = path.length(), most = adapted_leaf_over_column * spacing;
+    for (double s = 0;; s = std::min(whole, s + step * size_.back())) {
+      const Point across = reach(s) * left_of(path.direction(s, 0.5 * spacing));
+      s_.push_back(s);
+      size_.push_back(adapted(path.at(s) + across, path.at(s) - across, most));
+      width_.push_back(size_.back() < most ? size_.back() / adapted_leaf_over_column
+                                           : std::numeric_limits<double>::infinity());
+      if (s == whole) break;
+    }
+    limit(width_, widening);
+  }
+
+  /// Infinity without adaptation.
+  double at(double s) const { return at(s, width_, widening); }
+  /// As `thickness`, but everywhere at most `rows` times the width where that is above `least`.
+  void limit_thickness(double least, double rows) {
+    for (const double width : width_) thickness_.push_back(std::max(least, rows * width));
+    limit(thickness_, spreading);
+  }
+  double thickness_at(double s) const { return at(s, thickness_, spreading); }
+
+ private:
+  /// Limits each value to the growth `slope` from every other one.
+  void limit(std::vector<double>& values, double slope) const {
+    for (std::size_t i = 1; i < values.size(); ++i)
+      values[i] = std::min(values[i], values[i - 1] + slope * (s_[i] - s_[i - 1]));
+    for (std::size_t i = values.size(); i-- > 1;)
+      values[i - 1] = std::min(values[i - 1], values[i] + slope * (s_[i] - s_[i - 1]));
+  }
+  double at(double s, const std::vector<double>& values, double slope) const {
+    if (values.empty()) return std::numeric_limits<double>::infinity();
+    const auto after = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
+    const auto i = static_cast<std::size_t>(after - s_.begin());
+    return std::min(values[i - 1] + slope * (s - s_[i - 1]), values[i] + slope * (s_[i] - s));
+  }
+
+  std::vector<double> s_, size_, width_, thickness_;
+};
+
 class Strip {
  public:
-  Strip(const PlacedLine& line, const std::optional<WakeRoot>& root)
+  Strip(const PlacedLine& line, const std::optional<WakeRoot>& root, const AdaptedSize& adapted)
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
     strip_.name = line.name;
     strip_.place = line.place;
@@ -122,10 +173,14 @@ class Strip {
     strip_.asked = thickness_;
     strip_.root = root;
     strip_.layers = line.layers.count;
-    if (!root) return;
-    thickness_ = std::max(length(root->left - foot(true)), length(root->right - foot(false)));
-    if (root->base.empty()) return;
-    half_base_ = 0.5 * length(root->base.front() - root->base.back());
+    if (root) thickness_ = std::max(length(root->left - foot(true)), length(root->right - foot(false)));
+    if (root && !root->base.empty()) half_base_ = 0.5 * length(root->base.front() - root->base.back());
+    AdaptedWidths widths(path_, adapted, line.spacing, [&](double s) {
+      return half_base_ + thickness_at(s) + triangle_height * width_wanted(s);
+    });
+    widths.limit_thickness(thickness_, flattest * layers());
+    widths_ = std::move(widths);
+    if (half_base_ == 0) return;
     constexpr int most_rows = 1000;
     strip_.core = 2 * layers_within(line.layers, half_base_, most_rows);
     base_.emplace(line, root->base, strip_.core / 2);
@@ -152,7 +207,7 @@ class Strip {
   double thickness_at(double s) const {
     if (!strip_.root) return thickness_;
     const double widest = std::max(thickness_, flattest * layers() * line_.spacing);
-    return std::min(thickness_ + spreading * s, widest);
+    return std::min({thickness_ + spreading * s, widest, widths_.thickness_at(s)});
   }
   double even_row(double s) const { return thickness_at(s) / layers(); }
 
@@ -160,7 +215,7 @@ class Strip {
   double width_wanted(double s) const {
     const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest_at_end;
     const double at_beginning = strip_.root ? width_at_root() : at_end;
-    return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on});
+    return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on, widths_.at(s)});
   }
 
   /// Width of the first columns; behind the layers of a base smaller, so that sizes grow from these.
@@ -176,7 +231,7 @@ class Strip {
   /// behind it and space before the next column.
   int most_base_layers() const {
     constexpr double share_of_half = 0.6;
-    const double room = std::min(strip_.root->spacing, line_.spacing);
+    const double room = std::min({strip_.root->spacing, line_.spacing, widths_.at(0)});
     int layers = 0;
     while (layers < strip_.layers && layers + 1 < strip_.core / 2 &&
            base_->height(layers + 1) <= share_of_half * base_->half() &&
@@ -382,6 +437,7 @@ class Strip {
 
   const PlacedLine& line_;
   Path path_;
+  AdaptedWidths widths_;
   double thickness_, half_base_ = 0;
   std::optional<Base> base_;
   int base_layers_ = 0;
@@ -396,8 +452,9 @@ StripSize least_size(const PlacedLine& line) {
   return {columns, columns * 2 * line.layers.count};
 }
 
-LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root) {
-  LayerStrip strip = Strip(line, root).built();
+LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root,
+                       const AdaptedSize& adapted) {
+  LayerStrip strip = Strip(line, root, adapted).built();
   const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   if (std::ranges::all_of(strip.front, is_finite)) return strip;
   throw InputError(

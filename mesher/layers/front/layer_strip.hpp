@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/layers/front/adapted_size.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 
 namespace quadloop {
@@ -58,8 +59,11 @@ StripSize least_size(const PlacedLine& line);
 
 /// Builds the strip of a line. Downstream of a wake's root layers thicken: by a factor of 1.15 per column at
 /// the line, and by a tenth of the distance in total. Towards free ends cells become as high as wide. Far
-/// from ends columns are `spacing` apart. Throws InputError if the path returns to its first point within the
-/// thickness of the layers: it has no direction there.
-LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root);
+/// from ends columns are `spacing` apart, or less where adaptation requests smaller cells beside them; widths
+/// grow by a tenth of the distance from there, and no row is higher than its columns are wide. Throws
+/// InputError if the path returns to its first point within the thickness of the layers: it has no direction
+/// there.
+LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root,
+                       const AdaptedSize& adapted = {});
 
 }  // namespace quadloop

@@ -5,12 +5,16 @@
 
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
+#include "flow/postprocess/wall_table.hpp"
+#include "generate/leaf_quadrant.hpp"
 #include "generate/mesh_trial.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::adapt {
@@ -317,15 +321,17 @@ TEST(OwnMesh, MayHaveLayersThatReachFarBelowTheirLeaves) {
   EXPECT_THROW(require_own_mesh(world(), flow, "mesh", "tree"), InputError);
 }
 
-/// A wedge of layers with sharp edges, in a box; with a wake behind one of them, or fans at both.
-MeshInput wedge(bool with_wake, double y_plus = 0) {
+/// A wedge of layers with sharp edges, in a box; with a wake behind one of them, or fans at both. The edge
+/// with the wake has a base of this height.
+MeshInput wedge(bool with_wake, double y_plus = 0, double base = 0) {
   Boundary box{"box", 1, 30, "farfield"}, body{"body", 0.25, 30, "wall"};
   body.layers = LayerSpec{0.02, 1.3, 1.3, 8, 1, y_plus};
-  const std::vector<Point> points{{-8, -8}, {8, -8},     {8, 8}, {-8, 8},
-                                  {-2, 0},  {-1.5, 0.5}, {2, 0}, {-1.5, -0.5}};
+  std::vector<Point> points{{-8, -8}, {8, -8}, {8, 8}, {-8, 8}, {-2, 0}, {-1.5, 0.5}, {2, base / 2}};
+  if (base > 0) points.push_back({2, -base / 2});
+  points.push_back({-1.5, -0.5});
   std::vector<BoundaryId> of_segment(4, BoundaryId{0});
-  of_segment.resize(8, BoundaryId{1});
-  MeshInput input{{{box, body}, points, {0, 4, 8}, of_segment}, {}, {}, 0};
+  of_segment.resize(points.size(), BoundaryId{1});
+  MeshInput input{{{box, body}, points, {0, 4, size32(points)}, of_segment}, {}, {}, 0};
   input.mesh.size.min = 0.02;
   input.mesh.size.max = 1;
   if (with_wake) input.lines = {{{"body"}, {}, 3, 0.1, {}}};
@@ -355,6 +361,89 @@ TEST(FollowedWalls, IgnoreYPlusWhereTheWallTurns) {
     EXPECT_GT(least, 0);
     EXPECT_LT(most, 2 * least) << "y+ over the heights of the layers";
   }
+}
+
+/// At a sharp edge, and at a base of two cells.
+TEST(FollowedWalls, IgnoreFrictionAndYPlusAtTheRootOfAWake) {
+  for (const bool sheared : {false, true}) {
+    for (const double base : {0.0, 0.01}) {
+      const MeshInput input = wedge(true, 1, base);
+      MeshResult made = generate_mesh(world(), input).result;
+      const char* const name = sheared ? "wall_shear" : "Y_Plus";
+      SolvedMesh flow{std::move(made.mesh), std::move(made.tree), {{"density", name}, {}, {}}, "flow.mesh"};
+      for (std::int32_t i = 0; i < flow.mesh.owned_nodes; ++i) {
+        const Point p = flow.mesh.point(NodeId{i});
+        const bool at_root = p == Point{2, base / 2} || p == Point{2, -base / 2};
+        const bool at_corner = p == Point{-2, 0} || std::abs(p.x + 1.5) < 1e-12;
+        const bool wrong = at_root || (at_corner && !sheared);
+        flow.solution.values.insert(flow.solution.values.end(), {density, wrong ? 1e6 : 2.0});
+      }
+      const double units = sheared ? std::sqrt(2.0 * density) / viscosity : 2 / 0.02;
+      double most = 0;
+      for (const MeasuredEdge& edge : wall_to_follow(world(), input, options(), flow))
+        most = std::max({most, edge.wall_units_from, edge.wall_units_to});
+      EXPECT_NEAR(most, units, 0.1 * units) << name << ", base " << base;
+    }
+  }
+}
+
+/// The y+ in the last column of the rows at x = 2.
+std::vector<double> y_plus_at_edge(const std::string& table) {
+  std::vector<double> found;
+  std::istringstream in(table);
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string> words;
+    std::istringstream row(line);
+    for (std::string word; std::getline(row, word, ',');) words.push_back(word);
+    if (words.at(2) == "2") found.push_back(std::stod(words.at(7)));
+  }
+  return found;
+}
+
+TEST(FollowedWalls, HaveTheFirstHeightInTheirTableAtTheRootOfAWake) {
+  for (const double base : {0.0, 0.2}) {
+    const Mesh mesh = generate_mesh(world(), wedge(true, 0, base)).result.mesh;
+    Field flow{{"density", "x_velocity", "y_velocity", "pressure", "wall_shear"}, {}, {}};
+    for (std::int32_t i = 0; i < mesh.owned_nodes; ++i)
+      flow.values.insert(flow.values.end(), {1, 1, 0, 1, 1});
+    const flow::FreeStream stream{1, 1, 1, 0, 1.4, 0.01, 1};
+    const std::vector<double> at_edge =
+        y_plus_at_edge(flow::wall_table(world(), mesh, flow, stream, {"body"}));
+    if (!world().is_root()) continue;
+    EXPECT_GE(at_edge.size(), 2U);
+    for (const double y_plus : at_edge) EXPECT_NEAR(y_plus, 0.02 / 0.01, 0.2) << "base " << base;
+  }
+}
+
+/// Splits, by two levels, of the leaves above a wake between x = 3 and 3.5, as adaptation requests them.
+DemandedSplits splits_beside_wake(const MeshInput& input) {
+  const MeshResult made = generate_mesh(world(), input).result;
+  const TreeGrid grid = input.grid();
+  std::vector<SplitDemand> demands;
+  for (const LeafRecord& leaf : made.tree.leaves) {
+    const Quadrant q = quadrant_of(leaf);
+    const Point centre = grid.box_of(q).centre();
+    if (centre.x < 3 || centre.x > 3.5 || centre.y < 0.5 || centre.y > 1) continue;
+    const std::uint32_t child_levels = 3U << q.level;
+    for (const Corner quarter : corners_along_curve) demands.push_back({q.child(quarter), child_levels});
+  }
+  return {world(), demands};
+}
+
+TEST(PlanWithLayers, TheColumnsOfAWakeAreRefinedWithTheCellsBesideThem) {
+  const MeshInput input = wedge(true);
+  const DemandedSplits splits = splits_beside_wake(input);
+  const MeshResult before = generate_mesh(world(), input).result,
+                   made = generate_mesh(world(), input, splits).result;
+  const auto columns = [](const MeshResult& result) { return result.mesh.strips.at(0).columns(); };
+  EXPECT_GT(columns(made), columns(before) + 10);
+  const auto smallest_angle = [](const MeshResult& result) {
+    return summarise_quality(world(), result.mesh).smallest_degrees;
+  };
+  EXPECT_GT(smallest_angle(made), 0.7 * smallest_angle(before));
+  const NodeBounds counted = MeshTrial(input).nodes(world(), splits);
+  EXPECT_GE(counted.most, made.tree.attributes.nodes);
+  EXPECT_LE(counted.least, made.tree.attributes.nodes);
 }
 
 TEST(MeshTrial, CountsTheNodesOfLayersAndWakes) {

@@ -42,6 +42,49 @@ void expect_positive(const LayerStrip& strip) {
   }
 }
 
+/// A wake of thin layers along the x-axis, beside cells of size 0.01 at x = 3 if they are adapted.
+LayerStrip wake_beside_cells(double least, double growth) {
+  const LayerSpec thin{0.0005, 1.2, 1.2, 8};
+  const double h = layers_thickness(thin);
+  const PlacedLine line{0, 0, {{0, 0}, {6, 0}}, 0.1, thin};
+  const AdaptedSize adapted = [&](Point a, Point b, double most) {
+    return std::min(most, least + growth * std::abs(0.5 * (a.x + b.x) - 3));
+  };
+  return layer_strip(line, WakeRoot{0, {0.0005, h}, {0.0005, -h}, {}, 0.004}, adapted);
+}
+
+TEST(LayerStrip, ColumnsAreAsWideAsAdaptedCellsBesideThem) {
+  const LayerStrip strip = wake_beside_cells(0.01, 0.5);
+  expect_positive(strip);
+  const std::size_t middle = strip.columns[0].size() / 2;
+  double before = 0, least = 1, at = 0;
+  for (std::size_t k = 0; k + 1 < strip.columns.size(); ++k) {
+    const double x = strip.columns[k][middle].x, width = strip.columns[k + 1][middle].x - x;
+    if (width < least && x > 2) least = width, at = x;
+    if (before > 0) {
+      EXPECT_LT(std::max(width / before, before / width), 1.25) << x;
+    }
+    EXPECT_LT(width, 1.3 * (0.01 + 0.5 * std::abs(x - 3))) << x;
+    if (x > 2) {
+      EXPECT_LT(row_height(strip, k, 0), 0.75 * width + 0.02 * std::abs(x - 3)) << x;
+    }
+    if (x > 1.2 && x < 1.8) {
+      EXPECT_GT(width, 0.09) << "far from there, at " << x;
+    }
+    before = width;
+  }
+  EXPECT_NEAR(at, 3, 0.05);
+  EXPECT_GT(least, 0.009);
+}
+
+TEST(LayerStrip, LargerCellsBesideItChangeNothing) {
+  const LayerStrip coarse = wake_beside_cells(0.2, 0), other = wake_beside_cells(0.3, 0.1);
+  EXPECT_EQ(coarse.columns, other.columns);
+  EXPECT_EQ(coarse.front, other.front);
+  const LayerSpec thin = coarse.spec;
+  EXPECT_EQ(coarse.columns, layer_strip({0, 0, {{0, 0}, {6, 0}}, 0.1, thin}, coarse.root).columns);
+}
+
 TEST(LayerStrip, AWakeBeginsWithTheWallsColumnsAndOpens) {
   const LayerStrip strip = sharp_wake();
   expect_positive(strip);
