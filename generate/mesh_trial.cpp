@@ -26,8 +26,8 @@ NodeBounds MeshTrial::nodes(const Communicator& comm, const DemandedSplits& dema
     const std::int64_t nodes = count_nodes(comm, input_.geometry, input_.mesh, demanded);
     return {nodes, nodes};
   }
-  std::optional<Layered> followed;  // the columns of lines follow the demands
-  if (!input_.lines.empty() && !demanded.empty()) followed.emplace(layered(demanded));
+  std::optional<Layered> followed;  // layers and the columns of lines follow the demands
+  if (!demanded.empty()) followed.emplace(layered(demanded));
   const Layered& used = followed ? *followed : *of_case_;
   const MeshResult made = build_mesh(comm, used.outer.geometry, used.outer.mesh, demanded);
   const std::int64_t outer = made.tree.attributes.nodes;

@@ -18,8 +18,8 @@ bool wants_y_plus(const Geometry& geometry);
 Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped);
 
 /// Returns the outer edge of an input's layers on such a geometry, which must outlive it. `demanded`: the
-/// requests of adaptation, which the columns of wakes and layer lines follow. Throws TooManyCells, naming the
-/// line, if strips would have more cells than the input allows.
+/// requests of adaptation, which layers and the columns of wakes and layer lines follow. Throws TooManyCells,
+/// naming the line, if strips would have more cells than the input allows.
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured,
                     const DemandedSplits& demanded);
 

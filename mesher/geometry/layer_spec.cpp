@@ -83,6 +83,18 @@ int layers_within(const LayerSpec& spec, double thickness, int most) {
   return layers;
 }
 
+double thickness_with_last(const LayerSpec& spec, double last) {
+  constexpr int halvings = 50;
+  const auto last_with = [&](double share) { return spec.first * relative_heights(spec, share).back(); };
+  if (last_with(1) <= last) return layers_thickness(spec);
+  double low = 0, high = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (last_with(middle) <= last ? low : high) = middle;
+  }
+  return spec.first * relative_thickness(spec, low).sum;
+}
+
 LayerSpec with_first_height(const LayerSpec& spec, double first) {
   constexpr double most = 1.5;
   constexpr int halvings = 80;

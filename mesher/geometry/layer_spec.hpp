@@ -28,6 +28,11 @@ double layers_thickness(const LayerSpec& spec);
 /// The number of layers that reach the thickness, the last one possibly exceeding it; at most `most`.
 int layers_within(const LayerSpec& spec, double thickness, int most);
 
+/// The largest thickness, at most the requested one, with which the last layer is at most `last` high: the
+/// excess of each growth ratio over 1 is scaled by one factor, found by bisection. At least that of equal
+/// layers of the first height.
+double thickness_with_last(const LayerSpec& spec, double last);
+
 /// Layers with another first height but the same count and total thickness: the excess of each growth ratio
 /// over 1 is scaled by one factor, found by bisection. The factor is limited to 1.5; then the layers are
 /// thinner. A first height that leaves no space for the others becomes an equal share of the thickness.

@@ -93,6 +93,20 @@ TEST(LayerSpec, ColumnsScaleToTheLastBit) {
   for (std::size_t i = 0; i < a.reached.size(); ++i) EXPECT_EQ(1024 * a.reached[i], b.reached[i]);
 }
 
+TEST(LayerSpec, IsAsThickAsALastHeightAllows) {
+  const double whole = layers_thickness(usual), last = layer_heights(usual).back();
+  EXPECT_EQ(thickness_with_last(usual, last), whole);
+  EXPECT_EQ(thickness_with_last(usual, 2 * last), whole);
+  for (const double share : {0.7, 0.3, 0.05}) {
+    const double thickness = thickness_with_last(usual, share * last);
+    EXPECT_LT(thickness, whole);
+    const std::vector<double> heights = heights_of(column_heights(usual, usual.first, thickness));
+    EXPECT_NEAR(heights.back(), share * last, 1e-6 * last);
+    EXPECT_NEAR(heights.front(), usual.first, 1e-9 * usual.first);
+  }
+  EXPECT_NEAR(thickness_with_last(usual, 0), 30 * usual.first, 1e-12) << "equal layers";
+}
+
 TEST(LayerSpec, OfAnotherFirstHeightItIsAsThickAndHasAsManyLayers) {
   const double thickness = layers_thickness(usual);
   for (const double first : {3e-6, 1e-5, 5e-5, 2e-4}) {

@@ -10,6 +10,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/geometry/curve_parts.hpp"
+#include "mesher/layers/front/adapted_thickness.hpp"
 #include "mesher/layers/front/followed_layers.hpp"
 #include "mesher/layers/front/strip_room.hpp"
 #include "mesher/layers/front/thickness.hpp"
@@ -421,6 +422,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
                        const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);
+  if (adapted) line.limit_thickness(adapted_thickness(line, adapted));
   FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
   OuterOutline(front.line, fitting, placed, curvature, mirrored, adapted).build(front);

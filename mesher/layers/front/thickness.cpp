@@ -16,7 +16,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double shrink = 0.85, steepest = 0.35;
+constexpr double shrink = 0.85;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
 // Fraction of a gap: the columns of two facing walls, with their clearance, just do not meet.
 constexpr double share_of_gap = 0.36;
@@ -265,8 +265,8 @@ class Fitting {
 
   /// h(s) <= h(s') + 0.35 |s - s'|, and partners are as thick as each other.
   void limit_slopes() {
-    limit_slopes_on_runs();
-    while (equalise_partners()) limit_slopes_on_runs();
+    quadloop::limit_slopes(line_, h_);
+    while (equalise_partners()) quadloop::limit_slopes(line_, h_);
   }
   bool equalise_partners() {
     bool changed = false;
@@ -275,18 +275,6 @@ class Fitting {
       h_[i] = h_[j] = std::min(h_[i], h_[j]);
     }
     return changed;
-  }
-  void limit_slopes_on_runs() {
-    for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
-      for (std::int32_t i = 0; i < line_.size(); ++i) {
-        if (const std::int32_t j = line_.next(i); j != WallLine::none)
-          h_[j] = std::min(h_[j], h_[i] + steepest * line_.width(i));
-      }
-      for (std::int32_t i = line_.size() - 1; i >= 0; --i) {
-        if (const std::int32_t j = line_.previous(i); j != WallLine::none)
-          h_[j] = std::min(h_[j], h_[i] + steepest * line_.width(j));
-      }
-    }
   }
 
   std::optional<Segment> front_after(std::int32_t i) const {

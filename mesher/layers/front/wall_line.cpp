@@ -122,6 +122,11 @@ void WallLine::follow(std::vector<LayerSpec> specs) {
   for (std::int32_t i = 0; i < size(); ++i) asked_[i] = layers_thickness(spec(i));
 }
 
+void WallLine::limit_thickness(std::span<const double> most) {
+  for (std::int32_t i = 0; i < size(); ++i) asked_[i] = std::min(asked_[i], most[i]);
+  limit_slopes(*this, asked_);
+}
+
 void WallLine::add_run(const WallRun& run) {
   const std::int32_t begin = size();
   for (std::size_t k = 0; k < run.segments.size(); ++k) {
@@ -248,6 +253,20 @@ void WallLine::find_across() {
     if (found == begins.end()) continue;
     across_[i] = found->second;
     across_[found->second] = i;
+  }
+}
+
+void limit_slopes(const WallLine& line, std::span<double> values) {
+  constexpr double steepest = 0.35;
+  for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
+    for (std::int32_t i = 0; i < line.size(); ++i) {
+      if (const std::int32_t j = line.next(i); j != WallLine::none)
+        values[j] = std::min(values[j], values[i] + steepest * line.width(i));
+    }
+    for (std::int32_t i = line.size() - 1; i >= 0; --i) {
+      if (const std::int32_t j = line.previous(i); j != WallLine::none)
+        values[j] = std::min(values[j], values[i] + steepest * line.width(j));
+    }
   }
 }
 

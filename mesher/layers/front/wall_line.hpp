@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
@@ -63,6 +64,8 @@ class WallLine {
 
   /// Replaces the layers of each station; one entry per station.
   void follow(std::vector<LayerSpec> specs);
+  /// Limits the requested thicknesses, and their slopes (limit_slopes()); one entry per station.
+  void limit_thickness(std::span<const double> most);
 
   std::int32_t size() const { return size32(stations_); }
   const Station& operator[](std::int32_t i) const { return stations_[i]; }
@@ -86,7 +89,7 @@ class WallLine {
   std::int32_t column_at(std::int32_t i) const { return across_[i] == none ? i : std::min(i, across_[i]); }
   /// The length of the wall to the next station; 0 within a fan and where there is no next station.
   double width(std::int32_t i) const { return width_[i]; }
-  /// The requested thickness.
+  /// The requested thickness, as far as limit_thickness() allows it.
   double asked(std::int32_t i) const { return asked_[i]; }
   /// The requested layers: those of its boundary, or those set by follow().
   const LayerSpec& spec(std::int32_t i) const {
@@ -163,6 +166,10 @@ class WallLine {
   std::vector<double> width_, asked_;
   std::vector<LayerSpec> followed_;
 };
+
+/// Limits values of the stations, e.g. thicknesses, such that they grow by at most 0.35 of the distance from
+/// any other station on the same run.
+void limit_slopes(const WallLine& line, std::span<double> values);
 
 /// The direction rotated by 90 degrees to the left: into the domain.
 constexpr Point left_of(Point direction) { return {-direction.y, direction.x}; }
