@@ -14,11 +14,11 @@ namespace {
 
 using test::ten_layers;
 
-constexpr double least = 0.03;
+constexpr double smallest_spacing = 0.03;
 
 /// Cells of size 0.03 above x = 4, growing by half of the distance from there.
 double size_beside(Point a, Point b, double most) {
-  return std::min(most, least + 0.5 * std::abs(0.5 * (a.x + b.x) - 4));
+  return std::min(most, smallest_spacing + 0.5 * std::abs(0.5 * (a.x + b.x) - 4));
 }
 
 double last_layer(const LayerFront& front, std::int32_t i) {
@@ -42,7 +42,7 @@ TEST(AdaptedThickness, TheLastLayerIsAsHighAsTheCellsOutside) {
       EXPECT_LE(std::abs(front.thickness[i] - front.thickness[i - 1]), 0.3501 * front.line.width(i - 1));
     }
   }
-  EXPECT_GT(lowest, 1.2 * least);
+  EXPECT_GT(lowest, 1.2 * smallest_spacing);
 }
 
 TEST(AdaptedThickness, LargerCellsChangeNothing) {
