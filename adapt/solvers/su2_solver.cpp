@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "flow/command/log_tail.hpp"
+#include "flow/su2/careful_settings.hpp"
 #include "flow/su2/su2_config.hpp"
 #include "flow/su2/su2_history.hpp"
 #include "flow/su2/su2_variables.hpp"
@@ -57,28 +59,42 @@ Entries entries_of_loop(const CommandSolver& command, bool restarts) {
           {"CONV_FILENAME", history_name}};
 }
 
-/// Returns the user's configuration with the settings of the cycle.
-std::string config_text(const Su2Solver& solver, bool restarts) {
+/// A run of SU2 in a cycle.
+struct Run {
+  bool restarts = false;  ///< from a transferred solution
+  bool careful = false;   ///< after a run that diverged
+};
+
+/// Returns the user's configuration with the settings of the run.
+std::string config_text(const Su2Solver& solver, Run run) {
   flow::Su2Config config = read_config(solver.config);
-  for (const auto& [key, value] : entries_of_loop(solver.command, restarts)) config.set(key, value);
-  if (restarts) {
+  for (const auto& [key, value] : entries_of_loop(solver.command, run.restarts)) config.set(key, value);
+  if (run.careful) {
+    flow::set_careful_cfl(config);
+  } else if (run.restarts) {
     for (const auto& [key, value] : solver.warm) config.set(flow::su2_key(key), value);
   }
   return config.text();
 }
 
 /// *Collective.*
-void write_config(const Communicator& comm, const Su2Solver& solver, const std::string& folder,
-                  bool restarts) {
+void write_config(const Communicator& comm, const Su2Solver& solver, const std::string& folder, Run run) {
   io::OutputSet outputs(comm);
   io::TextOutput file(outputs, (std::filesystem::path(folder) / su2_config_name).string());
   std::string text;
   comm.together([&] {
-    if (comm.is_root()) text = config_text(solver, restarts);
+    if (comm.is_root()) text = config_text(solver, run);
   });
   file.write(text);
   file.close();
   outputs.commit();
+}
+
+/// Returns the end of what SU2 printed, on the root.
+std::string printed_end(const std::string& folder) {
+  flow::SolverFiles files;
+  files.folder = folder;
+  return flow::end_of_file(flow::solver_log(files));
 }
 
 /// Returns how SU2 ended, as far as its history and its log report this. *Collective.*
@@ -87,11 +103,9 @@ flow::Su2End end_of_run(const Communicator& comm, const std::string& folder) {
   comm.together([&] {
     if (!comm.is_root()) return;
     const std::string path = (std::filesystem::path(folder) / history_name).string() + ".csv";
-    flow::SolverFiles files;
-    files.folder = folder;
     own.emplace_back();
     if (std::filesystem::is_regular_file(path)) own.back() = flow::end_of_history(io::read_input(path));
-    own.back().converged = flow::converged_by_log(flow::end_of_file(flow::solver_log(files)));
+    own.back().converged = flow::converged_by_log(printed_end(folder));
   });
   return comm.all_gather_values(std::span<const flow::Su2End>(own)).front();
 }
@@ -110,9 +124,8 @@ std::string unconverged_warning(const flow::Su2Config& config, const flow::Su2En
 }
 
 /// Adds how SU2 ended to its flow. *Collective.*
-void add_end(const Communicator& comm, const Su2Solver& solver, const std::string& folder,
+void add_end(const Communicator& comm, const Su2Solver& solver, const flow::Su2End& end,
              flow::SolvedFlow& flow) {
-  const flow::Su2End end = end_of_run(comm, folder);
   flow.cl = end.cl;
   flow.cd = end.cd;
   flow.residual = end.residual;
@@ -123,6 +136,69 @@ void add_end(const Communicator& comm, const Su2Solver& solver, const std::strin
       flow.warnings.push_back(unconverged_warning(read_config(solver.config), end));
   });
 }
+
+/// Whether SU2 stopped in the folder because its flow diverged. *Collective.*
+bool stopped_diverging(const Communicator& comm, const std::string& folder) {
+  std::vector<char> diverged(1, 0);
+  if (comm.is_root()) diverged[0] = flow::diverged_by_log(printed_end(folder)) ? 1 : 0;
+  comm.broadcast(diverged);
+  return diverged[0] != 0;
+}
+
+/// Whether a run of SU2 that ended by itself shows a diverging flow.
+bool is_diverging(const flow::Su2End& end) {
+  constexpr double most_growth = 100;  // of the residual
+  return end.converged == false && end.residual && *end.residual > most_growth;
+}
+
+/// SU2 in the folders of the cycles.
+class Su2Runs {
+ public:
+  Su2Runs(Su2Solver solver, std::function<std::string(int cycle)> folder_of)
+      : solver_{std::move(solver)},
+        command_{command_solver(solver_.command, folder_of)},
+        folder_of_{std::move(folder_of)} {}
+
+  /// Solves once, and once more with lower CFL numbers if the flow diverged.
+  flow::SolvedFlow operator()(const Communicator& comm, const Mesh& mesh, const Field& start,
+                              int cycle) const {
+    const Field state = flow::without_primitive_variables(start);
+    std::optional<flow::SolvedFlow> flow = solved(comm, mesh, state, cycle, false);
+    if (!flow) {
+      flow = solved(comm, mesh, state, cycle, true);
+      flow->warnings.push_back(
+          "SU2 diverged in this cycle and was run again with a tenth of the CFL numbers (su2.cfg in the "
+          "folder "
+          "of the cycle); reduce CFL_NUMBER or the growth in CFL_ADAPT_PARAM, or remove them from "
+          "solver.warm");
+    }
+    flow->solution = flow::with_primitive_variables(std::move(flow->solution), solver_.command.gamma);
+    return std::move(*flow);
+  }
+
+ private:
+  /// Empty if the flow diverged, unless the run is careful.
+  std::optional<flow::SolvedFlow> solved(const Communicator& comm, const Mesh& mesh, const Field& state,
+                                         int cycle, bool careful) const {
+    const std::string folder = folder_of_(cycle);
+    write_config(comm, solver_, folder, {state.width() > 0, careful});
+    flow::SolvedFlow flow;
+    try {
+      flow = command_(comm, mesh, state, cycle);
+    } catch (const SolverError&) {
+      if (careful || !stopped_diverging(comm, folder)) throw;
+      return std::nullopt;
+    }
+    const flow::Su2End end = end_of_run(comm, folder);
+    if (!careful && is_diverging(end)) return std::nullopt;
+    add_end(comm, solver_, end, flow);
+    return flow;
+  }
+
+  Su2Solver solver_;
+  flow::FlowSolver command_;
+  std::function<std::string(int cycle)> folder_of_;
+};
 
 }  // namespace
 
@@ -148,16 +224,7 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command, Entrie
 }
 
 flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of) {
-  const flow::FlowSolver command = command_solver(solver.command, folder_of);
-  return [solver = std::move(solver), command, folder_of = std::move(folder_of)](
-             const Communicator& comm, const Mesh& mesh, const Field& start, int cycle) {
-    const std::string folder = folder_of(cycle);
-    write_config(comm, solver, folder, start.width() > 0);
-    flow::SolvedFlow flow = command(comm, mesh, flow::without_primitive_variables(start), cycle);
-    flow.solution = flow::with_primitive_variables(std::move(flow.solution), solver.command.gamma);
-    add_end(comm, solver, folder, flow);
-    return flow;
-  };
+  return Su2Runs(std::move(solver), std::move(folder_of));
 }
 
 }  // namespace quadloop::adapt

@@ -9,6 +9,9 @@ namespace quadloop::flow {
 /// Returns a key in upper case, as SU2 compares keys.
 std::string su2_key(std::string text);
 
+/// Returns a number that a whole word denotes; empty if it denotes none, or one that is not finite.
+std::optional<double> su2_number(const std::string& word);
+
 /// An SU2 configuration: lines "KEY= value", keys in any case, '%' begins a comment. A line that ends with a
 /// backslash continues on the next one. Everything that is not set remains as the user wrote it.
 class Su2Config {

@@ -1,10 +1,11 @@
 #include "flow/su2/su2_history.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
 #include <vector>
+
+#include "flow/su2/su2_config.hpp"
 
 namespace quadloop::flow {
 
@@ -20,13 +21,6 @@ std::vector<std::string> fields_of(const std::string& row) {
   return fields;
 }
 
-std::optional<double> number(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// A row's numbers by column name.
 using Row = std::map<std::string, double>;
 
@@ -35,7 +29,7 @@ Row row_of(const std::vector<std::string>& names, const std::string& text) {
   const std::vector<std::string> fields = fields_of(text);
   if (fields.size() != names.size()) return row;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (const auto value = number(fields[k])) row[names[k]] = *value;
+    if (const auto value = su2_number(fields[k])) row[names[k]] = *value;
   }
   return row;
 }
@@ -74,5 +68,7 @@ std::optional<bool> converged_by_log(const std::string& text) {
   if (text.find("Maximum number of iterations reached") != std::string::npos) return false;
   return std::nullopt;
 }
+
+bool diverged_by_log(const std::string& text) { return text.find("SU2 has diverged") != std::string::npos; }
 
 }  // namespace quadloop::flow

@@ -22,4 +22,7 @@ Su2End end_of_history(const std::string& text);
 /// time-accurate runs.
 std::optional<bool> converged_by_log(const std::string& text);
 
+/// Whether SU2 stopped because the flow diverged (COutput::ConvergenceMonitoring), by what it prints.
+bool diverged_by_log(const std::string& text);
+
 }  // namespace quadloop::flow

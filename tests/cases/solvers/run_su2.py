@@ -117,6 +117,25 @@ def check_unconverged(program, folder):
         require((made / "cycle_02").exists() != converged, f"the run ends after {sorted(made.iterdir())}")
 
 
+def check_diverged(program, folder):
+    """A flow that diverges is run again with lower CFL numbers, once."""
+    case = wedge_case(folder / "diverged", "RESTART")
+    config = folder / "diverged" / "flow.cfg"
+    given = config.read_text()
+    told = "SU2 diverged in this cycle and was run again with a tenth of the CFL numbers"
+    for stable, repeats in ((10, [False, True]), (1, [True, True])):
+        config.write_text(given + f"STABLE_CFL= {stable}\n")
+        made = folder / f"diverged_{stable}"
+        status, said = attempt(program, "adapt", case, "-o", made, "--cycles", "1")
+        require(status == 0 and told in said, f"{status} {said}")
+        for k, repeated in enumerate(repeats):
+            used = (made / f"cycle_{k:02d}" / "su2.cfg").read_text().splitlines()
+            require(("CFL_NUMBER= 1" in used) == repeated, f"cycle {k}: {used}")
+    config.write_text(given + "STABLE_CFL= 0.5\n")
+    status, said = attempt(program, "adapt", case, "-o", folder / "diverged_twice", "--cycles", "1")
+    require(status == 3 and "SU2 has diverged" in said and told not in said, f"{status} {said}")
+
+
 def check_no_su2(program, folder):
     """Without a command, on a machine without SU2."""
     case = wedge_case(folder / "no_su2", "RESTART")
@@ -169,6 +188,7 @@ def main():
             require_same_folders(made, folder / f"on_3_{restart}", "on 3 ranks")
         check_refusals(program, folder)
         check_unconverged(program, folder)
+        check_diverged(program, folder)
         if shutil.which("SU2_CFD") is None:
             check_no_su2(program, folder)
         check_resume(program, folder)

@@ -79,6 +79,8 @@ def conserved(x, y):
 
 def main(path):
     keys = configuration(path)
+    if float(keys.get("CFL_NUMBER", "1.25")) > float(keys.get("STABLE_CFL", "inf")):
+        refuse("SU2 has diverged (Residual > 10^20 detected).")
     points, markers = mesh(keys["MESH_FILENAME"])
     named = [word for key, value in keys.items() if key.startswith("MARKER_") and key not in ("MARKER_MONITORING", "MARKER_PLOTTING") for word in words(value)]
     for marker in markers:

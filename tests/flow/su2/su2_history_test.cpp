@@ -50,6 +50,13 @@ std::string recorded(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+TEST(Su2Log, ItsErrorTellsThatItDiverged) {
+  EXPECT_TRUE(diverged_by_log("Error in \"void CSolver::SetResidual_RMS()\":\n---\n"
+                              "SU2 has diverged (Residual > 10^20 detected).\n"));
+  EXPECT_TRUE(diverged_by_log("SU2 has diverged (NaN detected).\n"));
+  EXPECT_FALSE(diverged_by_log("Error in \"void CConfig\":\nmarker wall has no condition\n"));
+}
+
 TEST(Su2Recorded, ItsHistoryAndLogsAreUnderstood) {
   const Su2End end = end_of_history(recorded("history.csv"));
   EXPECT_EQ(end.log_residual, -3.82194366);
