@@ -36,6 +36,8 @@ bc = "farfield"
 [[source]]
 box = [-1.0, 6.0, -1.2, 1.2]
 spacing = 0.12
+[mesh]
+root = [-25.0, -25.0, 50.0, 1, 1]
 [solver]
 mach = 0.2
 reynolds = 100
