@@ -58,7 +58,7 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 
 }  // namespace
 
-LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured,
+LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredFlow& measured,
                     const DemandedSplits& demanded) {
   require_strips_within(place_lines(geometry, input.lines), input.mesh.limit);
   const TreeGrid grid = input.grid();

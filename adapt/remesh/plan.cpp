@@ -319,9 +319,9 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
                                const SolvedMesh& solved) {
   AdaptationPlan plan;
   plan.transfer = options.transfer;
-  plan.measured_wall = wall_to_follow(comm, input, options, solved);
-  plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
-  const TrialCount count(comm, input, plan.measured_wall);
+  plan.measured.walls = wall_to_follow(comm, input, options, solved);
+  plan.new_heights = other_heights(input, solved.tree.measured.walls, plan.measured.walls);
+  const TrialCount count(comm, input, plan.measured);
   const std::vector<std::int8_t> finest = finest_of_leaves(input, options, solved);
   if (input.mesh.type == MeshType::metric)
     plan_by_metric(comm, input, options, solved, plan);

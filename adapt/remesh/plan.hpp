@@ -25,7 +25,7 @@ struct AdaptationPlan {
   std::optional<double> estimate;
   /// If there is an estimate: `interpolation_error` and `target_size` of the cells.
   CellValues estimates_of_cells;
-  MeasuredWall measured_wall;  ///< for the first heights of layers; the same on every rank
+  MeasuredFlow measured;       ///< for layers that follow the flow; the same on every rank
   bool new_heights = false;    ///< whether these differ from those of the last mesh
   /// Anisotropy of the next mesh: none, that of a metric (on the tree of the case alone), or quadtree cells
   /// with r-adaptation.

@@ -154,7 +154,7 @@ std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord
     if (!comm.is_root()) return;
     TreeFrame frame(staged, leaves);
     frame.put_attributes(tree.attributes);
-    frame.put_rows(measured_wall_rows, tree.measured_wall);
+    frame.put_rows(measured_wall_rows, tree.measured.walls);
     frame.put_rows(block_run_rows, tree.block_runs);
     places = frame.places();
     frame.close();

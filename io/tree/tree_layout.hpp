@@ -44,7 +44,7 @@ struct RowsDataset {
   const char* name;
 };
 
-/// Of TreeRecord::measured_wall: x, y of the edge's ends, then wall units at both.
+/// Of MeasuredFlow::walls: x, y of the edge's ends, then wall units at both.
 inline constexpr RowsDataset<MeasuredEdge, double, 6> measured_wall_rows{"measured_wall"};
 /// Of TreeRecord::block_runs: corners, block and number of cells.
 inline constexpr RowsDataset<BlockRun, std::int64_t, 3> block_run_rows{"block_runs"};

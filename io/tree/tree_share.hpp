@@ -18,7 +18,7 @@ struct TreeShare {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, TreeShare& share) {
-  pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured_wall, share.tree.block_runs,
+  pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured.walls, share.tree.block_runs,
        share.before);
 }
 

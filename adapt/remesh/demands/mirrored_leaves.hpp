@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"

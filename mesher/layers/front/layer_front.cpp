@@ -329,14 +329,14 @@ double OuterOutline::spacing_after(std::int32_t i) const {
 }
 
 WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& placed,
-                   const MeasuredWall& measured) {
+                   const MeasuredFlow& measured) {
   std::vector<WakeStart> wakes;
   for (const PlacedLine& p : placed) {
     if (p.edge != PlacedLine::nowhere)
       wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
   }
   WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
-  if (!measured.empty()) line.follow(followed_layers(line, measured));
+  if (!measured.walls.empty()) line.follow(followed_layers(line, measured.walls));
   return line;
 }
 
@@ -398,7 +398,7 @@ void LayerFront::keep(const std::vector<std::int32_t>& stations) {
 }
 
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
-                   const MeasuredWall& measured) {
+                   const MeasuredFlow& measured) {
   return wall_line(geometry, place_lines(geometry, lines), measured);
 }
 
@@ -418,7 +418,7 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 }
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
-                       const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored,
+                       const std::vector<LayerLine>& lines, const MeasuredFlow& measured, bool mirrored,
                        const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
   const std::vector<PlacedLine> placed = place_lines(geometry, lines);
   WallLine line = wall_line(geometry, placed, measured);

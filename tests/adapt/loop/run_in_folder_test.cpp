@@ -179,9 +179,9 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
   const auto tree = [&](const std::string& cycle) {
     return io::read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
   };
-  EXPECT_TRUE(tree("cycle_00").measured_wall.empty());
-  EXPECT_FALSE(tree("cycle_01").measured_wall.empty());
-  EXPECT_NE(tree("cycle_02").measured_wall, tree("cycle_01").measured_wall);
+  EXPECT_TRUE(tree("cycle_00").measured.empty());
+  EXPECT_FALSE(tree("cycle_01").measured.empty());
+  EXPECT_NE(tree("cycle_02").measured, tree("cycle_01").measured);
   for (const char* name : {"mesh.mesh", "mesh.tree.h5"})
     EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
                 test::bytes_of(folder.file("parts/cycle_02/") + name))

@@ -246,11 +246,11 @@ TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
   const test::TemporaryFolder folder;
   TreeRecord tree = hand_made_tree();
   write_tree(world(), tree, folder.file("without.tree.h5"));
-  EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured_wall.empty());
-  tree.measured_wall = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
+  EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured.walls.empty());
+  tree.measured.walls = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
   write_tree(world(), tree, folder.file("a.tree.h5"));
-  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured_wall, tree.measured_wall);
-  tree.measured_wall[1].wall_units_to = -1;
+  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured.walls, tree.measured.walls);
+  tree.measured.walls[1].wall_units_to = -1;
   write_tree(world(), tree, folder.file("bad.tree.h5"));
   try {
     read_tree(world(), folder.file("bad.tree.h5"));
