@@ -329,6 +329,8 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   fill_layers(comm, input, front, generated.result);
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh);
   if (wants_y_plus(input.geometry)) generated.result.tree.measured.walls = measured.walls;
+  if (std::ranges::any_of(input.lines, &LayerLine::follows_flow))
+    generated.result.tree.measured.wakes = measured.wakes;
   times.end();
   generated.times = times;
   return generated;

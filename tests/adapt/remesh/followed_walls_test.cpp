@@ -250,7 +250,7 @@ TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
   const SolvedMesh flow = solved(world(), input, "wall_shear", shear);
   const AdaptationPlan plan = plan_adaptation(world(), input, options(), flow);
   EXPECT_EQ(plan.refined + plan.coarsened, 0) << "density is constant";
-  EXPECT_TRUE(plan.new_heights);
+  EXPECT_TRUE(plan.new_layers);
   EXPECT_TRUE(plan.changes_mesh());
   EXPECT_TRUE(plan.warnings.empty());
   const RemeshedSolution remeshed = remesh_and_transfer(world(), input, plan, flow);
@@ -279,9 +279,9 @@ TEST(FollowedWalls, HeightsThatStayChangeNoMesh) {
   flow.tree.measured.walls = wall_to_follow(world(), input, options(), flow);
   EXPECT_FALSE(other_heights(input, flow.tree.measured.walls, flow.tree.measured.walls));
   for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.02;
-  EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_heights);
+  EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_layers);
   for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.2;
-  EXPECT_TRUE(plan_adaptation(world(), input, options(), flow).new_heights);
+  EXPECT_TRUE(plan_adaptation(world(), input, options(), flow).new_layers);
 }
 
 TEST(PlanWithLayers, TheCapCountsTheirNodes) {
