@@ -165,7 +165,7 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
   const GeneratedMesh generated =
-      generate_mesh(comm, input, demanded, saved ? saved->measured_wall : MeasuredWall{});
+      generate_mesh(comm, input, demanded, saved ? saved->measured : MeasuredFlow{});
   times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");

@@ -308,7 +308,7 @@ void add_strips_to(const LayerFront& front, bool divided, MeshEstimate& estimate
 }
 
 GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
-                               const DemandedSplits& demanded, const MeasuredWall& measured,
+                               const DemandedSplits& demanded, const MeasuredFlow& measured,
                                const MeshChange& change) {
   StageTimes times;
   times.begin("layer edge");
@@ -328,7 +328,9 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
     generated.result.report.warnings.push_back(std::move(warning));
   fill_layers(comm, input, front, generated.result);
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh);
-  if (wants_y_plus(input.geometry)) generated.result.tree.measured_wall = measured;
+  if (wants_y_plus(input.geometry)) generated.result.tree.measured.walls = measured.walls;
+  if (std::ranges::any_of(input.lines, &LayerLine::follows_flow))
+    generated.result.tree.measured.wakes = measured.wakes;
   times.end();
   generated.times = times;
   return generated;
@@ -355,7 +357,7 @@ smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_le
 }
 
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
-                            const MeasuredWall& measured, const MeshChange& change) {
+                            const MeasuredFlow& measured, const MeshChange& change) {
   GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured, change)
                                               : generate_plain(comm, input, demanded, change);
   MeshResult& result = generated.result;

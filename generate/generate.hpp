@@ -9,7 +9,7 @@
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
 #include "mesher/geometry/geometry.hpp"
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
 #include "mesher/layers/layer_report.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
@@ -53,10 +53,11 @@ smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_le
 using MeshChange = std::function<void(const MeshInput& input, MeshResult& result)>;
 
 /// Generates and smooths a mesh (smooth_options_for()). If layers specify a y+, their first heights follow
-/// from the measured wall friction, which is stored in the tree record. Throws InputError as build_mesh does,
+/// from the measured wall friction; wakes that follow the flow have the measured courses. Both are stored in
+/// the tree record. Throws InputError as build_mesh does,
 /// and Fault if the mesh is not valid (require_sound()). *Collective.*
 GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input,
-                            const DemandedSplits& demanded = {}, const MeasuredWall& measured = {},
+                            const DemandedSplits& demanded = {}, const MeasuredFlow& measured = {},
                             const MeshChange& change = {});
 
 }  // namespace quadloop

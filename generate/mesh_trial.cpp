@@ -7,7 +7,7 @@
 
 namespace quadloop {
 
-MeshTrial::MeshTrial(const MeshInput& input, const MeasuredWall& measured)
+MeshTrial::MeshTrial(const MeshInput& input, const MeasuredFlow& measured)
     : input_{input}, measured_{measured} {
   if (!has_layers(input)) return;
   MeshReport dropped;  // reported when the mesh is made

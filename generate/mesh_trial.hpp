@@ -12,7 +12,7 @@ namespace quadloop {
 class MeshTrial {
  public:
   /// `input` must outlive the object. Throws InputError if its layers do not fit.
-  explicit MeshTrial(const MeshInput& input, const MeasuredWall& measured = {});
+  explicit MeshTrial(const MeshInput& input, const MeasuredFlow& measured = {});
   MeshTrial(const MeshTrial&) = delete;
   MeshTrial& operator=(const MeshTrial&) = delete;
 
@@ -33,7 +33,7 @@ class MeshTrial {
   Layered layered(const DemandedSplits& demanded) const;
 
   const MeshInput& input_;
-  MeasuredWall measured_;
+  MeasuredFlow measured_;
   std::optional<Geometry> geometry_;
   std::optional<Layered> of_case_;  ///< without demands
 };

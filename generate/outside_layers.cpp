@@ -58,9 +58,9 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 
 }  // namespace
 
-LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredWall& measured,
+LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredFlow& measured,
                     const DemandedSplits& demanded) {
-  require_strips_within(place_lines(geometry, input.lines), input.mesh.limit);
+  require_strips_within(place_lines(geometry, input.lines, measured.wakes), input.mesh.limit);
   const TreeGrid grid = input.grid();
   const DemandedSizes sizes(grid, demanded, input.mesh.size.gradation);
   AdaptedSize adapted;

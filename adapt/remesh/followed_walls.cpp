@@ -17,14 +17,14 @@ MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, co
   MeasuredWall measured =
       measured_friction(comm, solved.mesh, solved.solution, walls, *options.wall_flow, solved.file);
   if (input.mesh.mirror) agree_with_images(*input.mesh.mirror, measured);
-  return measured.empty() ? solved.tree.measured_wall : measured;
+  return measured.empty() ? solved.tree.measured.walls : measured;
 }
 
 bool other_heights(const MeshInput& input, const MeasuredWall& before, const MeasuredWall& now) {
   constexpr double much = 0.05;
   if (before == now) return false;
-  const WallLine old_line = wall_line(input.geometry, input.lines, before),
-                 new_line = wall_line(input.geometry, input.lines, now);
+  const WallLine old_line = wall_line(input.geometry, input.lines, {before, {}}),
+                 new_line = wall_line(input.geometry, input.lines, {now, {}});
   for (std::int32_t i = 0; i < new_line.size(); ++i) {
     const double old_height = old_line.spec(i).first;
     if (std::abs(new_line.spec(i).first - old_height) > much * old_height) return true;

@@ -16,6 +16,7 @@
 #include "adapt/remesh/demands/restart.hpp"
 #include "adapt/remesh/demands/target_levels.hpp"
 #include "adapt/remesh/demands/trial_count.hpp"
+#include "adapt/remesh/followed_wakes.hpp"
 #include "adapt/remesh/followed_walls.hpp"
 #include "generate/leaf_quadrant.hpp"
 #include "mesher/base/counted.hpp"
@@ -319,9 +320,12 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
                                const SolvedMesh& solved) {
   AdaptationPlan plan;
   plan.transfer = options.transfer;
-  plan.measured_wall = wall_to_follow(comm, input, options, solved);
-  plan.new_heights = other_heights(input, solved.tree.measured_wall, plan.measured_wall);
-  const TrialCount count(comm, input, plan.measured_wall);
+  FollowedWakes wakes = wakes_to_follow(comm, input, solved);
+  plan.measured = {wall_to_follow(comm, input, options, solved), std::move(wakes.paths)};
+  plan.new_layers = other_heights(input, solved.tree.measured.walls, plan.measured.walls) ||
+                    other_wakes(input, solved.tree.measured, plan.measured);
+  plan.warnings = std::move(wakes.warnings);
+  const TrialCount count(comm, input, plan.measured);
   const std::vector<std::int8_t> finest = finest_of_leaves(input, options, solved);
   if (input.mesh.type == MeshType::metric)
     plan_by_metric(comm, input, options, solved, plan);

@@ -25,8 +25,8 @@ struct AdaptationPlan {
   std::optional<double> estimate;
   /// If there is an estimate: `interpolation_error` and `target_size` of the cells.
   CellValues estimates_of_cells;
-  MeasuredWall measured_wall;  ///< for the first heights of layers; the same on every rank
-  bool new_heights = false;    ///< whether these differ from those of the last mesh
+  MeasuredFlow measured;    ///< for layers that follow the flow; the same on every rank
+  bool new_layers = false;  ///< whether heights or wakes differ from those of the last mesh
   /// Anisotropy of the next mesh: none, that of a metric (on the tree of the case alone), or quadtree cells
   /// with r-adaptation.
   std::variant<std::monostate, MetricDemand, TargetDemand> anisotropy;
@@ -35,9 +35,9 @@ struct AdaptationPlan {
   bool flat = false;                 ///< whether the solution gives no reason to refine anywhere
   std::string reason_for_no_change;  ///< why no cell is refined or coarsened
 
-  /// Without an effective flag, new heights or anisotropy the next mesh would be the same.
+  /// Without an effective flag, new layers or anisotropy the next mesh would be the same.
   bool changes_mesh() const {
-    return refined + coarsened > 0 || new_heights || !std::holds_alternative<std::monostate>(anisotropy);
+    return refined + coarsened > 0 || new_layers || !std::holds_alternative<std::monostate>(anisotropy);
   }
 };
 
@@ -45,7 +45,8 @@ struct AdaptationPlan {
 /// or more flags if the number of nodes is limited or prescribed (nodes are counted on the trees themselves,
 /// MeshTrial). With a norm: target sizes of the quadtree cells, changing any number of levels, for a number
 /// of nodes. For an anisotropic mesh: its metric. If walls specify a y+ and the solution provides friction,
-/// first heights follow it from the next mesh on if any changes by more than 5 %. Throws InputError if the
+/// first heights follow it from the next mesh on if any changes by more than 5 %; wakes that follow the flow
+/// get the courses of its streamlines (wakes_to_follow()). Throws InputError if the
 /// solution has no such variable, or one that is not finite. *Collective.*
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved);

@@ -75,7 +75,7 @@ RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& 
     };
   }
   remeshed.generated =
-      generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured_wall, stretch);
+      generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured, stretch);
   remeshed.times.append(remeshed.generated.times);
   remeshed.times.begin("transfer");
   Transferred transferred =
@@ -93,7 +93,7 @@ AdaptationPlan unchanged_plan(const TreeRecord& tree, const MeshInput& input) {
   plan.demands = unchanged_splits(tree, input);
   if (input.mesh.mirror)
     plan.demands = with_images(*input.mesh.mirror, tree.attributes, std::move(plan.demands));
-  plan.measured_wall = tree.measured_wall;
+  plan.measured = tree.measured;
   if (const char* setting = setting_that_follows(input))
     plan.warnings.push_back(
         fmt::format("{} has no effect without a table [adapt]: the mesh is that of the quadtree, without "

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/mesh.hpp"
 

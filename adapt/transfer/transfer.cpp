@@ -13,15 +13,12 @@
 #include "adapt/transfer/locate/baffle_places.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
-#include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/nearest_boundary.hpp"
-#include "adapt/transfer/locate/point_cells.hpp"
-#include "adapt/transfer/locate/triangle_piece.hpp"
 #include "adapt/transfer/locate/unchanged_nodes.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
+#include "adapt/transfer/point_values.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
-#include "mesher/geometry/point_table.hpp"
 #include "mesher/mesh/cells/block_part.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
@@ -32,102 +29,15 @@ namespace quadloop::adapt {
 
 namespace {
 
-/// The old mesh, and the partition of the plane for queries.
-struct OldMesh {
-  const Mesh& mesh;
-  const Field& field;
-  Point centre;  ///< determines how its quadrilaterals are split
-  const CurvePartition& shares;
-  const NodeFlags is_inner;
-};
-
 /// A place on the old boundary for a row of the new mesh.
 struct PlacedRow {
   std::int64_t row;
   BoundaryPlace place;
 };
 
-/// Old nodes with their rows, in one part of the plane.
-struct NodeShare {
-  std::vector<Point> points;
-  Field field;
-};
-
 std::span<const Point> owned_points(const Mesh& mesh) {
   return std::span(mesh.points).first(mesh.owned_nodes);
 }
-
-/// Exchange from this rank's points to the ranks whose parts of the plane contain them.
-Exchange to_partition(const Communicator& comm, const CurvePartition& shares, std::span<const Point> points) {
-  std::vector<int> ranks;
-  for (const Point p : points) ranks.push_back(shares.rank_of(p));
-  return {comm, ranks};
-}
-
-/// Boundary nodes that may coincide with one of the points. Interior nodes are corners of triangles, and none
-/// coincides with another.
-NodeShare gather_boundary_nodes(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
-  std::vector<Point> points;
-  std::vector<double> values;
-  for (const NodeId node : old.is_inner.ids()) {
-    const Point p = old.mesh.point(node);
-    if (old.is_inner[node] != 0 || !cells.meet({p, p})) continue;
-    points.push_back(p);
-    const auto row = old.field.row(node);
-    values.insert(values.end(), row.begin(), row.end());
-  }
-  const Exchange exchange = to_partition(comm, old.shares, points);
-  return {exchange.deliver(points), {old.field.names, exchange.deliver(values, old.field.width()), {}}};
-}
-
-/// Sends only triangles of cells that may contain one of the points.
-TrianglePiece gather_triangles(const Communicator& comm, const OldMesh& old, const PointCells& cells) {
-  const std::vector<CellTriangle> near = cell_triangles(comm, old.mesh, old.centre, cells);
-  return gather_piece(comm, old.shares, old.mesh, old.field, near);
-}
-
-/// The old mesh's values at points of this rank's part of the plane.
-class Found {
- public:
-  /// *Collective.*
-  Found(const Communicator& comm, const OldMesh& old, std::span<const Point> points) : points_{points} {
-    const PointCells cells(comm, old.shares.grid(), points);
-    nodes_ = gather_boundary_nodes(comm, old, cells);
-    at_node_ = find_equal_points(nodes_.points, points);
-    std::vector<Point> moved;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (at_node_[i] < 0) moved.push_back(points[i]);
-    }
-    piece_ = gather_triangles(comm, old, cells);
-    in_triangle_ = locate_points(piece_, moved);
-  }
-
-  /// Fills the row of the next point; returns false if the point is outside the old mesh.
-  bool next(std::span<double> row) {
-    const std::size_t point = next_point_++;
-    if (const std::int32_t node = at_node_[point]; node >= 0) {
-      const auto values = nodes_.field.row(NodeId{node});
-      std::copy(values.begin(), values.end(), row.begin());
-      return true;
-    }
-    const std::int32_t found = in_triangle_[next_moved_++];
-    if (found < 0) return false;
-    const CellTriangle& triangle = piece_.triangles[found];
-    const auto& [a, b, c] = triangle.nodes;
-    interpolate_in_triangle(piece_.corners(triangle),
-                            {piece_.field.row(a), piece_.field.row(b), piece_.field.row(c)}, points_[point],
-                            row);
-    return true;
-  }
-
- private:
-  std::span<const Point> points_;
-  NodeShare nodes_;
-  TrianglePiece piece_;
-  std::vector<std::int32_t> at_node_;      ///< for each point the coincident old boundary node, or -1
-  std::vector<std::int32_t> in_triangle_;  ///< for each other point its triangle in the piece
-  std::size_t next_point_ = 0, next_moved_ = 0;
-};
 
 /// Rows at owned nodes, and the lists of nodes without values: those outside the old mesh, and those that
 /// take values from a side of a baffle.
@@ -137,31 +47,12 @@ struct NewRows {
   std::vector<PlacedRow> at_baffles;
 };
 
-/// Rows at queried places, and whether these are inside the old mesh.
-struct Answers {
-  std::vector<double> values;
-  std::vector<char> is_inside;
-};
-
-/// Queries the ranks whose parts of the plane contain the places. *Collective.*
-Answers ask(const Communicator& comm, const OldMesh& old, std::span<const Point> places) {
-  const Exchange questions = to_partition(comm, old.shares, places);
-  const std::vector<Point> points = questions.deliver(places);
-  Found found(comm, old, points);
-  const auto width = old.field.width();
-  std::vector<double> rows(points.size() * width);
-  std::vector<char> is_inside;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    is_inside.push_back(found.next(std::span(rows).subspan(i * width, width)) ? 1 : 0);
-  return {questions.answer(rows, width), questions.answer(is_inside)};
-}
-
 /// Values of the old mesh at the positions of a new mesh's owned nodes, the first of which is `first_node`.
 /// *Collective.*
-NewRows rows_at(const Communicator& comm, const OldMesh& old, const BafflePlaces& baffles,
-                GlobalNodeId first_node, std::span<const Point> places) {
-  const std::vector<std::int32_t> standing = unchanged_nodes(old.mesh, old.is_inner, places);
-  const std::size_t width = old.field.width();
+NewRows rows_at(const PointValues& old, const BafflePlaces& baffles, GlobalNodeId first_node,
+                std::span<const Point> places) {
+  const std::vector<std::int32_t> standing = unchanged_nodes(old.mesh(), old.is_inner(), places);
+  const std::size_t width = old.field().width();
   NewRows rows{std::vector<double>(places.size() * width), {}, {}};
   std::vector<std::int32_t> others;
   for (std::int32_t node = 0; node < std::ssize(places); ++node) {
@@ -175,12 +66,12 @@ NewRows rows_at(const Communicator& comm, const OldMesh& old, const BafflePlaces
       others.push_back(node);
       continue;
     }
-    const std::span<const double> row = old.field.row(NodeId{standing[node]});
+    const std::span<const double> row = old.field().row(NodeId{standing[node]});
     for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // a few values each
   }
   std::vector<Point> asked;
   for (const std::int32_t node : others) asked.push_back(places[node]);
-  const Answers answers = ask(comm, old, asked);
+  const PointValues::Answers answers = old.at(asked);
   for (std::size_t i = 0; i < others.size(); ++i) {
     std::copy_n(answers.values.begin() + i * width, width, rows.values.begin() + others[i] * width);
     if (answers.is_inside[i] == 0) rows.outside.push_back(others[i]);
@@ -296,7 +187,7 @@ Transferred transfer_in_block(const Communicator& comm, const Mesh& old_mesh, co
   const BafflePlaces baffles(comm, old_mesh, new_mesh);
   NewRows rows;
   if (old.width() > 0)
-    rows = rows_at(comm, {old_mesh, old, centre, shares, inner_nodes(comm, old_mesh)}, baffles,
+    rows = rows_at(PointValues(comm, old_mesh, old, centre, shares), baffles,
                    GlobalNodeId{new_mesh.first_node}, at);
   report.outside = comm.sum(std::ssize(rows.outside));
   if (report.outside > 0 || comm.sum(std::ssize(rows.at_baffles)) > 0)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -108,6 +109,29 @@ void require_possible_wall(const MeasuredWall& wall, const std::string& path) {
       throw InputError(fmt::format("{}: the friction measured at ({}, {}) is impossible{}", path, edge.from.x,
                                    edge.from.y, cure));
   }
+}
+
+std::vector<std::vector<Point>> possible_wakes(const std::vector<Point>& points,
+                                               const std::vector<std::int64_t>& sizes,
+                                               const std::string& path) {
+  std::vector<std::vector<Point>> wakes;
+  std::size_t begin = 0;
+  for (const std::int64_t size : sizes) {
+    if (size < 2 || size > std::ssize(points) - static_cast<std::int64_t>(begin))
+      throw InputError(path + ": the points of its wakes do not fit their numbers" + cure);
+    const auto first = points.begin() + static_cast<std::ptrdiff_t>(begin);
+    wakes.emplace_back(first, first + size);
+    begin += static_cast<std::size_t>(size);
+  }
+  if (begin != points.size())
+    throw InputError(path + ": the points of its wakes do not fit their numbers" + cure);
+  const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+  for (const std::vector<Point>& wake : wakes) {
+    if (!std::ranges::all_of(wake, is_finite) || std::ranges::adjacent_find(wake) != wake.end())
+      throw InputError(fmt::format("{}: the wake from ({}, {}) has an impossible point{}", path, wake[0].x,
+                                   wake[0].y, cure));
+  }
+  return wakes;
 }
 
 void require_possible_runs(const std::vector<BlockRun>& runs, const TreeAttributes& attributes,

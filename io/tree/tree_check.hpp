@@ -18,6 +18,12 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
 /// Throws InputError if a number is not finite or the friction is negative. Not collective.
 void require_possible_wall(const MeasuredWall& wall, const std::string& path);
 
+/// Returns the wakes with these points and numbers of points. Throws InputError if the numbers do not fit, or
+/// for points that no path can have.
+std::vector<std::vector<Point>> possible_wakes(const std::vector<Point>& points,
+                                               const std::vector<std::int64_t>& sizes,
+                                               const std::string& path);
+
 /// Throws InputError if the runs are impossible or have other numbers of cells than the attributes. Not
 /// collective.
 void require_possible_runs(const std::vector<BlockRun>& runs, const TreeAttributes& attributes,

@@ -154,7 +154,15 @@ std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord
     if (!comm.is_root()) return;
     TreeFrame frame(staged, leaves);
     frame.put_attributes(tree.attributes);
-    frame.put_rows(measured_wall_rows, tree.measured_wall);
+    frame.put_rows(measured_wall_rows, tree.measured.walls);
+    std::vector<Point> points;
+    std::vector<std::int64_t> sizes;
+    for (const std::vector<Point>& path : tree.measured.wakes) {
+      points.insert(points.end(), path.begin(), path.end());
+      sizes.push_back(std::ssize(path));
+    }
+    frame.put_rows(wake_point_rows, points);
+    frame.put_rows(wake_size_rows, sizes);
     frame.put_rows(block_run_rows, tree.block_runs);
     places = frame.places();
     frame.close();

@@ -44,8 +44,11 @@ struct RowsDataset {
   const char* name;
 };
 
-/// Of TreeRecord::measured_wall: x, y of the edge's ends, then wall units at both.
+/// Of MeasuredFlow::walls: x, y of the edge's ends, then wall units at both.
 inline constexpr RowsDataset<MeasuredEdge, double, 6> measured_wall_rows{"measured_wall"};
+/// Of MeasuredFlow::wakes: x and y of the points of all paths; the number of points of each.
+inline constexpr RowsDataset<Point, double, 2> wake_point_rows{"wake_points"};
+inline constexpr RowsDataset<std::int64_t, std::int64_t, 1> wake_size_rows{"wake_sizes"};
 /// Of TreeRecord::block_runs: corners, block and number of cells.
 inline constexpr RowsDataset<BlockRun, std::int64_t, 3> block_run_rows{"block_runs"};
 

@@ -156,8 +156,9 @@ TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64
   const std::int64_t begin = all / ranks * rank + std::min(all % ranks, rank),
                      end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
   share.tree.leaves = source.read(begin, end);
-  share.tree.measured_wall = source.rows(measured_wall_rows);
-  require_possible_wall(share.tree.measured_wall, path);
+  share.tree.measured.walls = source.rows(measured_wall_rows);
+  require_possible_wall(share.tree.measured.walls, path);
+  share.tree.measured.wakes = possible_wakes(source.rows(wake_point_rows), source.rows(wake_size_rows), path);
   share.tree.block_runs = source.rows(block_run_rows);
   require_possible_runs(share.tree.block_runs, share.tree.attributes, path);
   if (begin > 0 && begin < end) share.before = source.read(begin - 1, begin).front();

@@ -18,8 +18,8 @@ struct TreeShare {
 
 template <class Pipe>
 void pass_fields(Pipe& pipe, TreeShare& share) {
-  pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured_wall, share.tree.block_runs,
-       share.before);
+  pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured.walls, share.tree.measured.wakes,
+       share.tree.block_runs, share.before);
 }
 
 /// Reads the part of a rank as read_tree() does, in this process, which HDF5 may crash if the file is

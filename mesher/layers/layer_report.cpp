@@ -327,6 +327,15 @@ void add_warning_of_turn(const LayerStrip& strip, std::vector<std::string>& warn
       strip.place, strip.name, strip.turn_degrees, at.x, at.y, too_sharp));
 }
 
+void add_warning_of_length(const LayerStrip& strip, std::vector<std::string>& warnings) {
+  if (!strip.shortened) return;
+  const auto& [requested, left, before, at] = *strip.shortened;
+  warnings.push_back(fmt::format(
+      "{}{} ends at ({:.6g}, {:.6g}), after {:.3g} of its length of {:.3g}, as it comes near {}; reduce its "
+      "length, or give it a path = [[x, y], ...] that passes beside it",
+      strip.place, strip.name, at.x, at.y, left, requested, before));
+}
+
 }  // namespace
 
 std::vector<std::string> size_warnings(const LayerFront& front, double min) {
@@ -336,6 +345,7 @@ std::vector<std::string> size_warnings(const LayerFront& front, double min) {
     add_warning_of_strip(strip, front.line.geometry(), min, warnings);
     add_warning_of_base(strip, warnings);
     add_warning_of_turn(strip, warnings);
+    add_warning_of_length(strip, warnings);
   }
   return warnings;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -53,7 +53,7 @@ struct BlockRun {
 struct TreeRecord {
   TreeAttributes attributes;
   std::vector<LeafRecord> leaves;
-  MeasuredWall measured_wall = {};  ///< wall friction for the first heights; all of it on every rank
+  MeasuredFlow measured = {};  ///< what layers follow; all of it on every rank
   /// The blocks of all mesh cells, triangles, then quads: files store the cells block by block. Empty if the
   /// domain is one block; all of it on every rank.
   std::vector<BlockRun> block_runs = {};

@@ -67,6 +67,12 @@ std::vector<Point> read_path(const io::CaseTable& table, const std::string& key)
   return path;
 }
 
+WakeCourse read_course(const io::CaseTable& table, const std::string& key) {
+  if (!table.is_text(key)) return {read_path(table, key)};
+  table.known_word(key, *table.text(key), {"flow"});
+  return {{}, true};
+}
+
 ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 2]]", read_path}; }
 
 /// Combines the keys read from a table to layers.
@@ -136,10 +142,10 @@ const KeyTable<LayerKeys>& layer_keys() {
   return keys;
 }
 
-const KeyTable<LayerLine>& wake_keys() {
-  static const KeyTable<LayerLine> keys{
+const KeyTable<WakeKeys>& wake_keys() {
+  static const KeyTable<WakeKeys> keys{
       "wake",
-      {key<&LayerLine::from>(
+      {key<&WakeKeys::line, &LayerLine::from>(
            "from", texts(),
            "The boundary with layers at whose sharp or blunt trailing edge the wake begins; a list if "
            "several boundaries meet there.",
@@ -147,20 +153,25 @@ const KeyTable<LayerLine>& wake_keys() {
             .required =
                 {{"the boundary whose edge, sharp or blunt, the wake begins at, or a list of those that "
                   "meet there"}}}),
-       key<&LayerLine::at>("at", point(),
-                           "A point near the trailing edge, if `from` has several. The nearest edge is used, "
-                           "at most 1/20 of the extent of the boundary away.",
-                           {.fallback = "none"}),
-       key<&LayerLine::length>("length", number(io::Range::positive()), "Length of a straight wake.",
-                               {.unit = "length",
-                                .needs = {{"no path"}},
-                                .required = {{"how far the wake goes on, or with path where", "no path"}}}),
-       key<&LayerLine::path>("path", path(),
-                             "The points of the wake line behind the trailing edge. The line starts at the "
-                             "trailing edge, which is not listed."),
-       key<&LayerLine::spacing>("spacing", number(io::Range::positive()),
-                                "Target cell length along the line.",
-                                {.unit = "length", .required = {{"the length of cells along the line"}}})}};
+       key<&WakeKeys::line, &LayerLine::at>(
+           "at", point(),
+           "A point near the trailing edge, if `from` has several. The nearest edge is used, "
+           "at most 1/20 of the extent of the boundary away.",
+           {.fallback = "none"}),
+       key<&WakeKeys::line, &LayerLine::length>(
+           "length", number(io::Range::positive()), "Length of a wake without points.",
+           {.unit = "length",
+            .needs = {{"no path or path = \"flow\""}},
+            .required = {{"how far the wake goes on, or with path where", "no path or path = \"flow\""}}}),
+       key<&WakeKeys::course>(
+           "path", ValueForm<WakeCourse>{"`[[x, y], ...]` or `\"flow\"`", "[[1, 1], [2, 2]]", read_course},
+           "The points of the wake line behind the trailing edge, which is not listed; or `\"flow\"`: the "
+           "streamline from the trailing edge in the solution of the previous cycle, see "
+           "[boundary layers](../how-to/boundary-layers.md#wakes-that-follow-the-flow).",
+           {.fallback = "straight"}),
+       key<&WakeKeys::line, &LayerLine::spacing>(
+           "spacing", number(io::Range::positive()), "Target cell length along the line.",
+           {.unit = "length", .required = {{"the length of cells along the line"}}})}};
   return keys;
 }
 
@@ -244,9 +255,12 @@ void read_boundary_tables(const io::CaseTable& boundaries, Settings& settings) {
 }
 
 LayerLine read_wake(const io::CaseTable& table) {
-  LayerLine wake;
+  WakeKeys keys;
+  wake_keys().read(table, keys);
+  LayerLine wake = std::move(keys.line);
   wake.where = table.place();
-  wake_keys().read(table, wake);
+  wake.path = std::move(keys.course.points);
+  wake.follows_flow = keys.course.follows_flow;
   std::erase(wake.from, "");
   if (wake.from.empty()) table.refuse("from", "is empty; name the boundary that the wake begins at");
   return wake;
@@ -303,7 +317,8 @@ void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis) {
   for (LayerLine& line : lines) {
     const std::vector<Point> image = image_of(axis, line.path);
     const auto is_image = [&](const LayerLine& other) {
-      return other.path == image && other.spacing == line.spacing && other.layers == line.layers;
+      return other.path == image && other.spacing == line.spacing && other.layers == line.layers &&
+             other.follows_flow == line.follows_flow;
     };
     if (std::ranges::any_of(lines, is_image)) continue;
     if (line.from.empty() && std::ranges::equal(image, line.path | std::views::reverse)) {

@@ -36,6 +36,20 @@ struct LayerKeys {
   int equal = 1;
 };
 
+/// The course of a wake: points, or that of the flow.
+struct WakeCourse {
+  std::vector<Point> points;
+  bool follows_flow = false;
+
+  friend bool operator==(const WakeCourse&, const WakeCourse&) = default;
+};
+
+/// The table [[wake]].
+struct WakeKeys {
+  LayerLine line;
+  WakeCourse course;
+};
+
 /// The table [[layer_line]].
 struct LayerLineKeys {
   LayerLine line;
@@ -50,7 +64,7 @@ struct BoundaryKeys {
 };
 
 const KeyTable<LayerKeys>& layer_keys();
-const KeyTable<LayerLine>& wake_keys();
+const KeyTable<WakeKeys>& wake_keys();
 const KeyTable<LayerLineKeys>& layer_line_keys();
 const KeyTable<BoundaryKeys>& boundary_keys();
 

@@ -73,4 +73,18 @@ void agree_with_images(MirrorAxis axis, MeasuredWall& wall) {
   }
 }
 
+void agree_with_images(MirrorAxis axis, std::vector<std::vector<Point>>& paths) {
+  std::map<Point, std::size_t> by_beginning;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto image = by_beginning.find(image_of(axis, paths[i][0]));
+    if (image_of(axis, paths[i][0]) == paths[i][0]) {
+      for (Point& p : paths[i]) p = foot_on(axis, p);
+    } else if (image != by_beginning.end()) {
+      paths[i].clear();
+      for (const Point p : paths[image->second]) paths[i].push_back(image_of(axis, p));
+    }
+    by_beginning.emplace(paths[i][0], i);
+  }
+}
+
 }  // namespace quadloop::adapt

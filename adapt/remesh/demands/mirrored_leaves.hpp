@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/geometry/mirror_axis.hpp"
 #include "mesher/mesh/tree_record.hpp"
 #include "mesher/sizes/demanded_splits.hpp"
@@ -28,5 +28,9 @@ std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree
 
 /// Makes the wall friction symmetric: the larger value of two images counts.
 void agree_with_images(MirrorAxis axis, MeasuredWall& wall);
+
+/// Makes paths symmetric: the later of two that begin at mirror images becomes the image of the first, and
+/// one that begins on the axis is moved to it.
+void agree_with_images(MirrorAxis axis, std::vector<std::vector<Point>>& paths);
 
 }  // namespace quadloop::adapt

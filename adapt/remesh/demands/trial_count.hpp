@@ -13,7 +13,7 @@ namespace quadloop::adapt {
 class TrialCount {
  public:
   /// `input` and the communicator must outlive the object. Throws as MeshTrial does.
-  TrialCount(const Communicator& comm, const MeshInput& input, const MeasuredWall& measured)
+  TrialCount(const Communicator& comm, const MeshInput& input, const MeasuredFlow& measured)
       : comm_{comm}, trial_{input, measured}, limit_{input.mesh.limit} {}
 
   static constexpr std::int64_t beyond = std::numeric_limits<std::int64_t>::max();

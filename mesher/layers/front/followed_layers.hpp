@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 
 namespace quadloop {

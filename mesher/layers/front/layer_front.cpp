@@ -14,6 +14,7 @@
 #include "mesher/layers/front/followed_layers.hpp"
 #include "mesher/layers/front/strip_room.hpp"
 #include "mesher/layers/front/thickness.hpp"
+#include "mesher/layers/front/wake_room.hpp"
 
 namespace quadloop {
 
@@ -42,10 +43,12 @@ std::vector<Point> base_of(const Geometry& g, const PlacedLine& wake) {
 class OuterOutline {
  public:
   OuterOutline(const WallLine& line, const FittingColumns& fitting, const std::vector<PlacedLine>& lines,
-               std::optional<double> curvature, bool mirrored, const AdaptedSize& adapted)
+               const WakeRoom& room, std::optional<double> curvature, bool mirrored,
+               const AdaptedSize& adapted)
       : line_{line},
         g_{line.geometry()},
         lines_{lines},
+        room_{room},
         fitting_{fitting},
         curvature_{curvature},
         mirrored_{mirrored},
@@ -140,6 +143,7 @@ class OuterOutline {
   const WallLine& line_;
   const Geometry& g_;
   const std::vector<PlacedLine>& lines_;
+  const WakeRoom& room_;
   const FittingColumns& fitting_;
   std::optional<double> curvature_;
   bool mirrored_;
@@ -237,7 +241,7 @@ void OuterOutline::add_wake(std::int32_t i) {
   strips_.push_back(layer_strip(wake,
                                 WakeRoot{i, fitting_.front[i], fitting_.front[right], base_of(g_, *at),
                                          spacing, g_.boundary_of(at->edge)},
-                                adapted_));
+                                adapted_, room_.around(*at)));
   add_vertex(fitting_.front[i], strip_boundary(), WallLine::none, strips_.back().spacing[0], true, 0);
   add_front_of(strips_.back());
 }
@@ -329,14 +333,14 @@ double OuterOutline::spacing_after(std::int32_t i) const {
 }
 
 WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& placed,
-                   const MeasuredWall& measured) {
+                   const MeasuredFlow& measured) {
   std::vector<WakeStart> wakes;
   for (const PlacedLine& p : placed) {
     if (p.edge != PlacedLine::nowhere)
       wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
   }
   WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
-  if (!measured.empty()) line.follow(followed_layers(line, measured));
+  if (!measured.walls.empty()) line.follow(followed_layers(line, measured.walls));
   return line;
 }
 
@@ -398,8 +402,8 @@ void LayerFront::keep(const std::vector<std::int32_t>& stations) {
 }
 
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
-                   const MeasuredWall& measured) {
-  return wall_line(geometry, place_lines(geometry, lines), measured);
+                   const MeasuredFlow& measured) {
+  return wall_line(geometry, place_lines(geometry, lines, measured.wakes), measured);
 }
 
 double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLine>& lines) {
@@ -418,14 +422,16 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 }
 
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature,
-                       const std::vector<LayerLine>& lines, const MeasuredWall& measured, bool mirrored,
+                       const std::vector<LayerLine>& lines, const MeasuredFlow& measured, bool mirrored,
                        const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
-  const std::vector<PlacedLine> placed = place_lines(geometry, lines);
+  std::vector<PlacedLine> placed = place_lines(geometry, lines, measured.wakes);
   WallLine line = wall_line(geometry, placed, measured);
   if (adapted) line.limit_thickness(adapted_thickness(line, adapted));
   FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
-  OuterOutline(front.line, fitting, placed, curvature, mirrored, adapted).build(front);
+  const WakeRoom room(front.line, fitting.front, placed);
+  for (PlacedLine& one : placed) one = room.with_room(one);
+  OuterOutline(front.line, fitting, placed, room, curvature, mirrored, adapted).build(front);
   require_room_for_strips(front);
   front.thickness = std::move(fitting.thickness);
   front.columns = std::move(fitting.columns);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/geometry/geometry.hpp"
-#include "mesher/geometry/measured_wall.hpp"
+#include "mesher/geometry/measured_flow.hpp"
 #include "mesher/geometry/periodic_pair.hpp"
 #include "mesher/layers/front/columns_on_wall.hpp"
 #include "mesher/layers/front/layer_strip.hpp"
@@ -63,12 +63,12 @@ double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLi
 /// mirrored sizes. Layers that end on both sides of a periodic pair are equally thick there. Throws
 /// InputError with coordinates where no layers fit. `geometry` must outlive the result.
 LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature = {},
-                       const std::vector<LayerLine>& lines = {}, const MeasuredWall& measured = {},
+                       const std::vector<LayerLine>& lines = {}, const MeasuredFlow& measured = {},
                        bool mirrored = false, const std::vector<PeriodicPair>& pairs = {},
                        const AdaptedSize& adapted = {});
 
 /// Only the front's stations, with their requested layers.
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
-                   const MeasuredWall& measured);
+                   const MeasuredFlow& measured);
 
 }  // namespace quadloop

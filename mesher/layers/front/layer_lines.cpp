@@ -58,6 +58,7 @@ class WakeWall {
   }
   /// In ascending order.
   const std::vector<std::int32_t>& segments() const { return segments_; }
+  const std::vector<BoundaryId>& boundaries() const { return boundaries_; }
   /// Whether a segment belongs to one of them.
   bool has(std::int32_t segment) const { return has(g_.boundary_of(segment)); }
 
@@ -203,14 +204,33 @@ PlacedLine named(const LayerLine& line, std::ptrdiff_t number, std::ptrdiff_t al
   return placed;
 }
 
-void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, PlacedLine& placed) {
+/// The course of a wake after its edge, whose bisector has the direction `on`.
+std::vector<Point> course_of(const LayerLine& line, Point edge, Point on,
+                             const std::vector<std::vector<Point>>& streamlines) {
+  if (!line.path.empty()) return {line.path.begin() + (line.path[0] == edge ? 1 : 0), line.path.end()};
+  const auto distance = [&](const std::vector<Point>& path) { return length(path[0] - edge); };
+  if (line.follows_flow && !streamlines.empty()) {
+    const std::vector<Point>& nearest = *std::ranges::min_element(streamlines, {}, distance);
+    if (distance(nearest) <= line.spacing) {
+      std::vector<Point> course = beginning_of(nearest, line.length);
+      const Point moved = edge - course[0];
+      course.erase(course.begin());
+      for (Point& p : course) p = p + moved;
+      return course;
+    }
+  }
+  return {edge + line.length * on};
+}
+
+void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line,
+                const std::vector<std::vector<Point>>& streamlines, PlacedLine& placed) {
   const WakeWall wall(g, walls, line, said(placed, line));
   const auto [first, last] = edge_of(g, wall, line, said(placed, line));
   std::vector<Point> path{middle_of(g, {first, last})};
-  const bool repeats_edge = !line.path.empty() && line.path[0] == path[0];
-  path.insert(path.end(), line.path.begin() + (repeats_edge ? 1 : 0), line.path.end());
   const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
-  if (line.path.empty()) path.push_back(path[0] + line.length * on);
+  const std::vector<Point> course = course_of(line, path[0], on, streamlines);
+  path.insert(path.end(), course.begin(), course.end());
+  if (line.follows_flow) placed.clear_of_all_but = wall.boundaries();
   if (path.size() > 1)
     placed.turn_degrees =
         std::acos(std::clamp(dot(on, direction_of(path[0], path[1])), -1.0, 1.0)) * (180 / std::numbers::pi);
@@ -235,7 +255,19 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line, Pl
 
 }  // namespace
 
-std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines) {
+std::vector<Point> beginning_of(const std::vector<Point>& path, double length) {
+  std::vector<Point> beginning{path[0]};
+  for (std::size_t i = 1; i < path.size() && length > 0; ++i) {
+    const Point step = path[i] - path[i - 1];
+    const double far = quadloop::length(step);
+    beginning.push_back(far <= length ? path[i] : path[i - 1] + (length / far) * step);
+    length -= far;
+  }
+  return beginning;
+}
+
+std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines,
+                                    const std::vector<std::vector<Point>>& streamlines) {
   const std::ptrdiff_t wakes = std::ranges::count_if(lines, [](const auto& l) { return !l.from.empty(); });
   std::optional<Walls> walls;
   if (wakes > 0) walls.emplace(geometry);
@@ -249,7 +281,7 @@ std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<
     PlacedLine placed =
         is_wake ? named(line, placed_wakes, wakes) : named(line, before + 1, std::ssize(lines) - wakes);
     if (is_wake) {
-      place_wake(geometry, *walls, line, placed);
+      place_wake(geometry, *walls, line, streamlines, placed);
       const auto [first, is_new] = name_at.emplace(placed.edge, placed.name);
       if (!is_new) refuse_second(placed, first->second);
     } else {

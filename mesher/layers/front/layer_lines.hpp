@@ -16,7 +16,7 @@ namespace quadloop {
 struct LayerLine {
   /// For a wake: the boundary with the edge, or the boundaries that meet there; empty for a free line.
   std::vector<std::string> from;
-  std::vector<Point> path;          ///< of a wake: its course after the edge; empty: straight
+  std::vector<Point> path;          ///< of a wake: its course after the edge; empty: straight, or the flow's
   double length = 0;                ///< of a wake without a path
   double spacing = 0;               ///< requested cell length along the line, positive
   std::optional<LayerSpec> layers;  ///< of a free line
@@ -24,13 +24,23 @@ struct LayerLine {
   std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
   /// Of a free line whose path, read backwards, is its own mirror image in an axis: its layers are, too.
   std::optional<MirrorAxis> across = {};
+  bool follows_flow = false;  ///< of a wake with a length: along a streamline, if one is known
 
   friend bool operator==(const LayerLine& a, const LayerLine& b) {
     const auto made_of = [](const LayerLine& l) {
-      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers);
+      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers, l.follows_flow);
     };
     return made_of(a) == made_of(b);
   }
+};
+
+/// A wake that ends before its requested length, as it comes near something else.
+struct ShortenedWake {
+  double requested = 0, left = 0;  ///< lengths
+  std::string before;              ///< "boundary flap" or "wake_2"
+  Point at;                        ///< the end of the wake
+
+  friend bool operator==(const ShortenedWake&, const ShortenedWake&) = default;
 };
 
 /// The location of a layer line.
@@ -47,15 +57,24 @@ struct PlacedLine {
   std::string place = {};  ///< what a message about it begins with: "case.toml:12: ", or nothing
   std::optional<MirrorAxis> across = {};  ///< as the line's
   double turn_degrees = 0;  ///< of a wake: between the bisector of the walls at the edge and the path
+  /// Of a wake that follows the flow: the boundaries at which it begins. Its layers keep clear of all others.
+  std::vector<BoundaryId> clear_of_all_but = {};
+  std::optional<ShortenedWake> shortened = {};
 };
 
 /// Finds the edges at which wakes begin. An edge is a vertex where the wall turns away from the domain by
 /// more than 120 degrees, or a base: a part of one boundary, shorter than a twentieth of the boundaries'
 /// bounding box, between two corners of more than 50 degrees each that turn by more than 120 degrees
 /// together. A wake begins at the only edge, or at the edge nearest to its `at`, which must be within a
-/// twentieth of the box from it. A wake without a path is straight and bisects the walls at the edge. Throws
+/// twentieth of the box from it. A wake without a path is straight and bisects the walls at the edge; one
+/// that follows the flow has the course of the streamline, if any, whose first point is the nearest to the
+/// edge, at most the requested spacing away: moved to the edge, and cut off at the requested length. Throws
 /// InputError for an unknown boundary or one without layers, for no or several matching edges (also for half
 /// an edge on a symmetry boundary), and for two wakes at one edge.
-std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines);
+std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines,
+                                    const std::vector<std::vector<Point>>& streamlines = {});
+
+/// The first part of a polyline, of this length; the whole polyline if it is not longer.
+std::vector<Point> beginning_of(const std::vector<Point>& path, double length);
 
 }  // namespace quadloop

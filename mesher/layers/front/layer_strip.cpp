@@ -20,6 +20,7 @@ namespace {
 constexpr double widening = 0.1;         // of columns, per distance from an end
 constexpr double opening = 1.15;         // factor per column of the first layer at the line
 constexpr double spreading = 0.1;        // of all layers together, per distance from a root
+constexpr double thinning = 0.35;        // of all layers together in narrow places, per distance
 constexpr double core_spreading = 0.05;  // of half the rows behind a base, per distance
 constexpr double flattest = 0.7;         // largest height of a row over the width of its columns
 constexpr double triangle_height = 0.85, steepest_front = 0.85;
@@ -114,37 +115,54 @@ bool is_positive(std::span<const Point> first, std::span<const Point> second) {
   return true;
 }
 
-/// The largest widths of a line's columns beside adapted cells, as a function of the arc length.
-class AdaptedWidths {
+/// The largest widths of a line's columns, and the largest thicknesses of its layers, beside adapted cells
+/// and near what the line keeps clear of, as functions of the arc length.
+class Limits {
  public:
-  AdaptedWidths() = default;
-  /// `reach(s)`: distance of the front from the line without adaptation.
+  Limits() = default;
+  /// `reach(s)`: distance of the front from the line without limits.
   template <class Reach>
-  AdaptedWidths(const Path& path, const AdaptedSize& adapted, double spacing, const Reach& reach) {
+  Limits(const Path& path, const AdaptedSize& adapted, const FreeDistance& free, double spacing,
+         const Reach& reach) {
     constexpr double step = 0.25;  // of the size, so that no leaf is passed over
-    if (!adapted) return;
+    constexpr double least_step = 1.0 / 64;
+    if (!adapted && !free) return;
     const double whole = path.length(), most = adapted_leaf_over_column * spacing;
-    for (double s = 0;; s = std::min(whole, s + step * size_.back())) {
+    for (double s = 0;;) {
       const Point across = reach(s) * left_of(path.direction(s, 0.5 * spacing));
+      const double size = adapted ? adapted(path.at(s) + across, path.at(s) - across, most) : most;
+      const double room = free ? free(path.at(s)) : infinity;
       s_.push_back(s);
-      size_.push_back(adapted(path.at(s) + across, path.at(s) - across, most));
-      width_.push_back(size_.back() < most ? size_.back() / adapted_leaf_over_column
-                                           : std::numeric_limits<double>::infinity());
+      room_.push_back(room);
+      width_.push_back(
+          std::min(size < most ? size / adapted_leaf_over_column : infinity, width_over_room * room));
       if (s == whole) break;
+      s = std::min(whole, s + std::min(step * size, std::max(least_step * spacing, step * room)));
     }
     limit(width_, widening);
   }
 
-  /// Infinity without adaptation.
-  double at(double s) const { return at(s, width_, widening); }
-  /// As `thickness`, but everywhere at most `rows` times the width where that is above `least`.
-  void limit_thickness(double least, double rows) {
-    for (const double width : width_) thickness_.push_back(std::max(least, rows * width));
+  /// Infinity without limits.
+  double width_at(double s) const { return at(s, width_, widening); }
+  /// As `thickness`, but at most `rows` times the width where that is above `least`, and as the room allows:
+  /// there also thinner, by a third of the distance from a root with `least`. `half_base`: of the rows
+  /// between the layers.
+  void limit_thickness(double least, double rows, double half_base) {
+    for (std::size_t i = 0; i < s_.size(); ++i) {
+      thickness_.push_back(std::max(least, rows * width_[i]));
+      const double rest = layers_over_room * room_[i] - half_base - core_spreading * s_[i];
+      in_room_.push_back(std::max(rest, least - thinning * s_[i]));
+    }
     limit(thickness_, spreading);
+    limit(in_room_, thinning);
   }
-  double thickness_at(double s) const { return at(s, thickness_, spreading); }
+  double thickness_at(double s) const {
+    return std::min(at(s, thickness_, spreading), at(s, in_room_, thinning));
+  }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   /// Limits each value to the growth `slope` from every other one.
   void limit(std::vector<double>& values, double slope) const {
     for (std::size_t i = 1; i < values.size(); ++i)
@@ -153,33 +171,34 @@ class AdaptedWidths {
       values[i - 1] = std::min(values[i - 1], values[i] + slope * (s_[i] - s_[i - 1]));
   }
   double at(double s, const std::vector<double>& values, double slope) const {
-    if (values.empty()) return std::numeric_limits<double>::infinity();
+    if (values.empty()) return infinity;
     const auto after = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
     const auto i = static_cast<std::size_t>(after - s_.begin());
     return std::min(values[i - 1] + slope * (s - s_[i - 1]), values[i] + slope * (s_[i] - s));
   }
 
-  std::vector<double> s_, size_, width_, thickness_;
+  std::vector<double> s_, width_, room_, thickness_, in_room_;
 };
 
 class Strip {
  public:
-  Strip(const PlacedLine& line, const std::optional<WakeRoot>& root, const AdaptedSize& adapted)
+  Strip(const PlacedLine& line, const std::optional<WakeRoot>& root, const AdaptedSize& adapted,
+        const FreeDistance& free)
       : line_{line}, path_{line.path}, thickness_{layers_thickness(line.layers)} {
     strip_.name = line.name;
     strip_.place = line.place;
     strip_.turn_degrees = line.turn_degrees;
+    strip_.shortened = line.shortened;
     strip_.spec = line.layers;
     strip_.asked = thickness_;
     strip_.root = root;
     strip_.layers = line.layers.count;
     if (root) thickness_ = std::max(length(root->left - foot(true)), length(root->right - foot(false)));
     if (root && !root->base.empty()) half_base_ = 0.5 * length(root->base.front() - root->base.back());
-    AdaptedWidths widths(path_, adapted, line.spacing, [&](double s) {
-      return half_base_ + thickness_at(s) + triangle_height * width_wanted(s);
-    });
-    widths.limit_thickness(thickness_, flattest * layers());
-    widths_ = std::move(widths);
+    Limits limits(path_, adapted, free, line.spacing,
+                  [&](double s) { return half_base_ + thickness_at(s) + triangle_height * width_wanted(s); });
+    limits.limit_thickness(thickness_, flattest * layers(), half_base_);
+    limits_ = std::move(limits);
     if (half_base_ == 0) return;
     constexpr int most_rows = 1000;
     strip_.core = 2 * layers_within(line.layers, half_base_, most_rows);
@@ -207,7 +226,7 @@ class Strip {
   double thickness_at(double s) const {
     if (!strip_.root) return thickness_;
     const double widest = std::max(thickness_, flattest * layers() * line_.spacing);
-    return std::min({thickness_ + spreading * s, widest, widths_.thickness_at(s)});
+    return std::min({thickness_ + spreading * s, widest, limits_.thickness_at(s)});
   }
   double even_row(double s) const { return thickness_at(s) / layers(); }
 
@@ -215,7 +234,8 @@ class Strip {
   double width_wanted(double s) const {
     const double on = path_.length() - s, at_end = even_row(path_.length()) / flattest_at_end;
     const double at_beginning = strip_.root ? width_at_root() : at_end;
-    return std::min({line_.spacing, at_beginning + widening * s, at_end + widening * on, widths_.at(s)});
+    return std::min(
+        {line_.spacing, at_beginning + widening * s, at_end + widening * on, limits_.width_at(s)});
   }
 
   /// Width of the first columns; behind the layers of a base smaller, so that sizes grow from these.
@@ -231,7 +251,7 @@ class Strip {
   /// behind it and space before the next column.
   int most_base_layers() const {
     constexpr double share_of_half = 0.6;
-    const double room = std::min({strip_.root->spacing, line_.spacing, widths_.at(0)});
+    const double room = std::min({strip_.root->spacing, line_.spacing, limits_.width_at(0)});
     int layers = 0;
     while (layers < strip_.layers && layers + 1 < strip_.core / 2 &&
            base_->height(layers + 1) <= share_of_half * base_->half() &&
@@ -437,7 +457,7 @@ class Strip {
 
   const PlacedLine& line_;
   Path path_;
-  AdaptedWidths widths_;
+  Limits limits_;
   double thickness_, half_base_ = 0;
   std::optional<Base> base_;
   int base_layers_ = 0;
@@ -453,8 +473,8 @@ StripSize least_size(const PlacedLine& line) {
 }
 
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root,
-                       const AdaptedSize& adapted) {
-  LayerStrip strip = Strip(line, root, adapted).built();
+                       const AdaptedSize& adapted, const FreeDistance& free) {
+  LayerStrip strip = Strip(line, root, adapted, free).built();
   const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
   if (std::ranges::all_of(strip.front, is_finite)) return strip;
   throw InputError(

@@ -8,6 +8,7 @@
 
 #include "mesher/layers/front/adapted_size.hpp"
 #include "mesher/layers/front/layer_lines.hpp"
+#include "mesher/layers/front/wake_room.hpp"
 
 namespace quadloop {
 
@@ -23,13 +24,14 @@ struct WakeRoot {
 /// Layers on both sides of a line, as columns of nodes across it; both sides have the same columns. Triangles
 /// join the last rows to the strip's front, so that the cells outside need not match.
 struct LayerStrip {
-  std::string name, place;       ///< those of the PlacedLine
-  double turn_degrees = 0;       ///< that of the PlacedLine
-  LayerSpec spec;                ///< the requested layers on each side
-  double asked = 0;              ///< requested total thickness of one side
-  std::optional<WakeRoot> root;  ///< if set, the first column consists of the wall's two columns
-  int layers = 0;                ///< on each side
-  int core = 0;                  ///< even number of rows between them behind a blunt edge
+  std::string name, place;                 ///< those of the PlacedLine
+  double turn_degrees = 0;                 ///< that of the PlacedLine
+  std::optional<ShortenedWake> shortened;  ///< that of the PlacedLine
+  LayerSpec spec;                          ///< the requested layers on each side
+  double asked = 0;                        ///< requested total thickness of one side
+  std::optional<WakeRoot> root;            ///< if set, the first column consists of the wall's two columns
+  int layers = 0;                          ///< on each side
+  int core = 0;                            ///< even number of rows between them behind a blunt edge
   /// Each column has 2 layers + core + 1 points, from right to left.
   std::vector<std::vector<Point>> columns;
   /// Layers on the base of a blunt edge, with their requested heights: lines along the base, from the wall
@@ -60,10 +62,11 @@ StripSize least_size(const PlacedLine& line);
 /// Builds the strip of a line. Downstream of a wake's root layers thicken: by a factor of 1.15 per column at
 /// the line, and by a tenth of the distance in total. Towards free ends cells become as high as wide. Far
 /// from ends columns are `spacing` apart, or less where adaptation requests smaller cells beside them; widths
-/// grow by a tenth of the distance from there, and no row is higher than its columns are wide. Throws
+/// grow by a tenth of the distance from there, and no row is higher than its columns are wide. `free`:
+/// distance from the line of what it keeps clear of; columns and layers leave room there (WakeRoom). Throws
 /// InputError if the path returns to its first point within the thickness of the layers: it has no direction
 /// there.
 LayerStrip layer_strip(const PlacedLine& line, const std::optional<WakeRoot>& root,
-                       const AdaptedSize& adapted = {});
+                       const AdaptedSize& adapted = {}, const FreeDistance& free = {});
 
 }  // namespace quadloop

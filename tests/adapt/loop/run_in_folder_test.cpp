@@ -179,9 +179,9 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
   const auto tree = [&](const std::string& cycle) {
     return io::read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5"));
   };
-  EXPECT_TRUE(tree("cycle_00").measured_wall.empty());
-  EXPECT_FALSE(tree("cycle_01").measured_wall.empty());
-  EXPECT_NE(tree("cycle_02").measured_wall, tree("cycle_01").measured_wall);
+  EXPECT_TRUE(tree("cycle_00").measured.empty());
+  EXPECT_FALSE(tree("cycle_01").measured.empty());
+  EXPECT_NE(tree("cycle_02").measured, tree("cycle_01").measured);
   for (const char* name : {"mesh.mesh", "mesh.tree.h5"})
     EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
                 test::bytes_of(folder.file("parts/cycle_02/") + name))
@@ -190,6 +190,60 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
                     record = test::bytes_of(folder.file("whole/cycle_02/record.json"));
   EXPECT_NE(log.find("target first heights on floor: 0.0"), std::string::npos) << log;
   EXPECT_NE(record.find("\"first_heights\": {\"floor\": [0.0"), std::string::npos) << record;
+  world().barrier();
+}
+
+/// Inviscid flow at 6 degrees past a body with a sharp trailing edge, whose wake follows it; a few steps.
+AdaptiveCase wake_case(int cycles) {
+  Boundary far{"far", 1, 30, "farfield"}, body{"body", 0.2, 30, "wall"};
+  body.layers = LayerSpec{0.02, 1.2, 1.2, 4, 1};
+  flow::EulerOptions euler;
+  euler.mach = 0.5;
+  euler.alpha = 6;
+  euler.iterations = 20;
+  std::vector<BoundaryId> of_segment(4, BoundaryId{0});
+  of_segment.insert(of_segment.end(), 3, BoundaryId{1});
+  AdaptiveCase adaptive{{{{far, body},
+                          {{-4, -4}, {6, -4}, {6, 4}, {-4, 4}, {-1, 0.1}, {1, 0}, {-1, -0.1}},
+                          {0, 4, 7},
+                          of_segment},
+                         {},
+                         {},
+                         0},
+                        {},
+                        euler,
+                        {"mesh"},
+                        {}};
+  adaptive.mesh.mesh.size.min = 0.02;
+  adaptive.mesh.mesh.size.max = 1;
+  LayerLine wake;
+  wake.from = {"body"};
+  wake.length = 2;
+  wake.spacing = 0.2;
+  wake.follows_flow = true;
+  adaptive.mesh.lines = {wake};
+  adaptive.adapt.cycles = cycles;
+  return adaptive;
+}
+
+TEST(RunInFolder, AWakeFollowsTheFlowAndItsTreeKeepsIt) {
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed;
+  whole.run(wake_case(2), folder.file("whole"), false);
+  begun.run(wake_case(1), folder.file("parts"), false);
+  resumed.run(wake_case(2), folder.file("parts"), true);
+  EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
+  world().barrier();
+  EXPECT_TRUE(io::read_tree(world(), folder.file("whole/cycle_00/mesh.tree.h5")).measured.empty());
+  const auto wakes = io::read_tree(world(), folder.file("whole/cycle_01/mesh.tree.h5")).measured.wakes;
+  ASSERT_EQ(wakes.size(), 1U);
+  EXPECT_EQ(wakes[0].front(), (Point{1, 0}));
+  EXPECT_GT(wakes[0].back().y, 0.03) << "upwards, as the flow";
+  EXPECT_LT(wakes[0].back().y, 2 * 0.106) << "less than the free stream";
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
+        << name;
   world().barrier();
 }
 

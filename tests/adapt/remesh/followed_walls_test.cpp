@@ -214,8 +214,8 @@ TEST(FollowedWalls, KeepWhatTheTreeHasWhereNothingIsTold) {
   const MeshInput input = channel();
   SolvedMesh silent = solved(world(), input, "temperature", y_plus);
   EXPECT_TRUE(wall_to_follow(world(), input, options(), silent).empty());
-  silent.tree.measured_wall = {{{0, 0}, {4, 0}, 7, 8}};
-  EXPECT_EQ(wall_to_follow(world(), input, options(), silent), silent.tree.measured_wall);
+  silent.tree.measured.walls = {{{0, 0}, {4, 0}, 7, 8}};
+  EXPECT_EQ(wall_to_follow(world(), input, options(), silent), silent.tree.measured.walls);
   AdaptOptions without = options();
   without.wall_flow.reset();
   EXPECT_TRUE(wall_to_follow(world(), input, without, silent).empty());
@@ -250,24 +250,24 @@ TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
   const SolvedMesh flow = solved(world(), input, "wall_shear", shear);
   const AdaptationPlan plan = plan_adaptation(world(), input, options(), flow);
   EXPECT_EQ(plan.refined + plan.coarsened, 0) << "density is constant";
-  EXPECT_TRUE(plan.new_heights);
+  EXPECT_TRUE(plan.new_layers);
   EXPECT_TRUE(plan.changes_mesh());
   EXPECT_TRUE(plan.warnings.empty());
   const RemeshedSolution remeshed = remesh_and_transfer(world(), input, plan, flow);
   const MeshResult& made = remeshed.generated.result;
   expect_heights(made.mesh);
-  EXPECT_EQ(made.tree.measured_wall, plan.measured_wall);
+  EXPECT_EQ(made.tree.measured, plan.measured);
   ASSERT_EQ(remeshed.generated.layers.size(), 1U);
   EXPECT_NEAR(remeshed.generated.layers[0].first_asked, 2 / wall_units(4), 1e-6);
   EXPECT_NEAR(remeshed.generated.layers[0].first_asked_most, 2 / wall_units(0), 1e-6);
   const AdaptationPlan standing = unchanged_plan(made.tree, input);
   const MeshResult again =
-      generate_mesh(world(), input, DemandedSplits(world(), standing.demands), standing.measured_wall).result;
+      generate_mesh(world(), input, DemandedSplits(world(), standing.demands), standing.measured).result;
   EXPECT_EQ(again.tree.attributes.coordinate_digest, made.tree.attributes.coordinate_digest);
   const Communicator alone(MPI_COMM_SELF);
   const SolvedMesh of_one = solved(alone, input, "wall_shear", shear);
   const AdaptationPlan plan_of_one = plan_adaptation(alone, input, options(), of_one);
-  EXPECT_EQ(plan_of_one.measured_wall, plan.measured_wall);
+  EXPECT_EQ(plan_of_one.measured, plan.measured);
   EXPECT_EQ(remesh_and_transfer(alone, input, plan_of_one, of_one)
                 .generated.result.tree.attributes.coordinate_digest,
             made.tree.attributes.coordinate_digest);
@@ -276,12 +276,12 @@ TEST(FollowedWalls, TheNextMeshHasTheYPlusThatIsWantedAndSoHasItsRestart) {
 TEST(FollowedWalls, HeightsThatStayChangeNoMesh) {
   const MeshInput input = channel();
   SolvedMesh flow = solved(world(), input, "wall_shear", shear);
-  flow.tree.measured_wall = wall_to_follow(world(), input, options(), flow);
-  EXPECT_FALSE(other_heights(input, flow.tree.measured_wall, flow.tree.measured_wall));
-  for (MeasuredEdge& edge : flow.tree.measured_wall) edge.wall_units_from *= 1.02;
-  EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_heights);
-  for (MeasuredEdge& edge : flow.tree.measured_wall) edge.wall_units_from *= 1.2;
-  EXPECT_TRUE(plan_adaptation(world(), input, options(), flow).new_heights);
+  flow.tree.measured.walls = wall_to_follow(world(), input, options(), flow);
+  EXPECT_FALSE(other_heights(input, flow.tree.measured.walls, flow.tree.measured.walls));
+  for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.02;
+  EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_layers);
+  for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.2;
+  EXPECT_TRUE(plan_adaptation(world(), input, options(), flow).new_layers);
 }
 
 TEST(PlanWithLayers, TheCapCountsTheirNodes) {

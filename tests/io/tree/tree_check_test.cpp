@@ -242,15 +242,38 @@ TEST(TreeFile, IsTheSameWhereARankDoesNotReachTheFolder) {
   EXPECT_EQ(bytes_at_root(folder.file("a.tree.h5")), bytes_at_root(folder.file("b.tree.h5")));
 }
 
+TEST(TreeFile, CoursesOfWakesComeBackOnEveryRank) {
+  const test::TemporaryFolder folder;
+  TreeRecord tree = hand_made_tree();
+  tree.measured.wakes = {{{0, 1}, {0.1, 1.5}}, {{3, 3}, {4, 3.5}, {5, 3.75}}};
+  write_tree(world(), tree, folder.file("a.tree.h5"));
+  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured, tree.measured);
+  for (const Point bad : {Point{3, 3}, Point{0, std::nan("")}}) {
+    tree.measured.wakes[1][1] = bad;
+    write_tree(world(), tree, folder.file("bad.tree.h5"));
+    try {
+      read_tree(world(), folder.file("bad.tree.h5"));
+      ADD_FAILURE();
+    } catch (const InputError& fault) {
+      EXPECT_NE(std::string(fault.what()).find("the wake from (3, 3) has an impossible point"),
+                std::string::npos)
+          << fault.what();
+    }
+  }
+  EXPECT_THROW(possible_wakes({{0, 0}, {1, 0}, {2, 0}}, {2}, "a"), InputError);
+  EXPECT_THROW(possible_wakes({{0, 0}, {1, 0}, {2, 0}}, {2, 1}, "a"), InputError);
+  EXPECT_THROW(possible_wakes({{0, 0}, {1, 0}}, {3}, "a"), InputError);
+}
+
 TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
   const test::TemporaryFolder folder;
   TreeRecord tree = hand_made_tree();
   write_tree(world(), tree, folder.file("without.tree.h5"));
-  EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured_wall.empty());
-  tree.measured_wall = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
+  EXPECT_TRUE(read_tree(world(), folder.file("without.tree.h5")).measured.walls.empty());
+  tree.measured.walls = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
   write_tree(world(), tree, folder.file("a.tree.h5"));
-  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured_wall, tree.measured_wall);
-  tree.measured_wall[1].wall_units_to = -1;
+  EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured.walls, tree.measured.walls);
+  tree.measured.walls[1].wall_units_to = -1;
   write_tree(world(), tree, folder.file("bad.tree.h5"));
   try {
     read_tree(world(), folder.file("bad.tree.h5"));

@@ -115,7 +115,7 @@ TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
 TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
   const Geometry floor = test::floor_with_layers(target_layers);
   const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
-  const LayerFront front = layer_front(floor, {}, {}, wall);
+  const LayerFront front = layer_front(floor, {}, {}, {wall, {}});
   const auto last_layer = [&](std::int32_t i) {
     const std::vector<double> heights =
         column_heights(front.line.spec(i), 2 / (100 + 7.5 * front.line[i].wall.x), target_thickness).reached;

@@ -36,6 +36,22 @@ TEST(PlaceLines, AWakeGoesStraightOnFromASharpEdge) {
   EXPECT_EQ(placed[0].layers, ten_layers);
 }
 
+TEST(PlaceLines, AWakeThatFollowsTheFlowHasTheNearestStreamlinesCourse) {
+  LayerLine wake = wake_of("wedge");
+  wake.follows_flow = true;
+  const std::vector<std::vector<Point>> streamlines{{{-2, 0}, {-4, 0}}, {{2, 0.01}, {3, 0.11}, {7, 0.11}}};
+  EXPECT_EQ(place_lines(wedge(0), {wake})[0].path.size(), 2U) << "the bisector";
+  const PlacedLine placed = place_lines(wedge(0), {wake}, streamlines)[0];
+  ASSERT_EQ(placed.path.size(), 3U);
+  EXPECT_EQ(placed.path[0], (Point{2, 0})) << "moved to the edge";
+  EXPECT_NEAR(placed.path[1].y, 0.1, 1e-12);
+  EXPECT_NEAR(length(placed.path[1] - placed.path[0]) + length(placed.path[2] - placed.path[1]), 3, 1e-12);
+  EXPECT_EQ(placed.clear_of_all_but.size(), 1U);
+  wake.follows_flow = false;
+  EXPECT_EQ(place_lines(wedge(0), {wake}, streamlines)[0].path.size(), 2U);
+  EXPECT_TRUE(place_lines(wedge(0), {wake}, streamlines)[0].clear_of_all_but.empty());
+}
+
 TEST(PlaceLines, AWakeBeginsAtTheEdgeNearestToItsPlace) {
   const Geometry g =
       test::outline_of({{{"box", {{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}},

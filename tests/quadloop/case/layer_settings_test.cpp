@@ -181,6 +181,15 @@ TEST_F(LayerTables, ReadsWakesAndFreeLinesWithLayers) {
   EXPECT_EQ(settings.lines[2], (LayerLine{{}, {{0, 0}, {1, 1}}, 0, 0.3, LayerSpec{1e-3, 1.2, 1.2, 5, 1}}));
 }
 
+TEST_F(LayerTables, ReadsAWakeThatFollowsTheFlow) {
+  const LayerLine wake =
+      read("[[wake]]\nfrom = \"box\"\npath = \"flow\"\nlength = 3\nspacing = 0.1\n").lines[0];
+  EXPECT_TRUE(wake.follows_flow);
+  EXPECT_TRUE(wake.path.empty());
+  EXPECT_EQ(wake.length, 3);
+  EXPECT_FALSE(read("[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n").lines[0] == wake);
+}
+
 TEST_F(LayerTables, RefusesBadWakesAndFreeLines) {
   const auto wake = [&](const std::string& text) { return refused("[[wake]]\n" + text + "\n"); };
   const auto line = [&](const std::string& text) { return refused("[[layer_line]]\n" + text + "\n"); };
@@ -190,6 +199,8 @@ TEST_F(LayerTables, RefusesBadWakesAndFreeLines) {
   has(wake("length = 1\nspacing = 1"), "from' is missing");
   has(wake("from = \"a\"\nspacing = 1"), "length' is missing: how far the wake goes on, or with path where");
   has(wake("from = \"a\"\nlength = 1\npath = [[1, 1]]\nspacing = 1"), "length' stands beside path");
+  has(wake("from = \"a\"\npath = \"flow\"\nspacing = 1"), "length' is missing: how far the wake goes on");
+  has(wake("from = \"a\"\npath = \"flaw\"\nlength = 1\nspacing = 1"), "'flaw'");
   has(wake("from = \"a\"\nat = [1]\nlength = 1\nspacing = 1"), "at' ");
   has(wake("from = \"a\"\nlength = 1"), "spacing' is missing");
   has(wake("from = \"a\"\nlength = 1\nspacing = 0"), "spacing' is 0");

@@ -20,4 +20,14 @@ struct MeasuredEdge {
 /// known.
 using MeasuredWall = std::vector<MeasuredEdge>;
 
+/// What the solution on an earlier mesh tells the layers of the next one; the same on every rank.
+struct MeasuredFlow {
+  MeasuredWall walls;
+  /// Streamlines for wakes that follow the flow, each from the trailing edge on.
+  std::vector<std::vector<Point>> wakes;
+
+  bool empty() const { return walls.empty() && wakes.empty(); }
+  friend bool operator==(const MeasuredFlow&, const MeasuredFlow&) = default;
+};
+
 }  // namespace quadloop

@@ -1,0 +1,102 @@
+#include "mesher/layers/front/wake_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesher/geometry/nearest_on_segment.hpp"
+
+namespace quadloop {
+
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+bool keeps_clear(const PlacedLine& line) { return !line.clear_of_all_but.empty(); }
+
+double length_of(const std::vector<Point>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += length(path[i] - path[i - 1]);
+  return sum;
+}
+
+double distance_to(const std::vector<Point>& path, Point p) {
+  double least = unlimited;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    least = std::min(least, place_on_segment(p, path[i - 1], path[i]).squared_distance);
+  return std::sqrt(least);
+}
+
+/// The part of the distance to another line that is free for a wake. Two wakes that follow the flow share
+/// it; layers of another line have their requested thickness, and thicken behind a wall.
+double free_beside(const PlacedLine& other, double distance) {
+  constexpr double share = 0.6, spread_of_wake = 0.1, triangles = 0.85;
+  if (keeps_clear(other)) return share * distance;
+  const double spread = other.edge == PlacedLine::nowhere ? 0 : spread_of_wake * length_of(other.path);
+  return std::max(0.0, distance - layers_thickness(other.layers) - spread - triangles * other.spacing);
+}
+
+}  // namespace
+
+WakeRoom::WakeRoom(const WallLine& walls, std::span<const Point> fronts, const std::vector<PlacedLine>& lines)
+    : geometry_{walls.geometry()}, lines_{lines} {
+  if (std::ranges::none_of(lines, keeps_clear)) return;
+  for (std::int32_t i = 0; i < walls.size(); ++i) {
+    if (const std::int32_t next = walls.next(i); next != WallLine::none)
+      obstacles_.push_back({fronts[i], fronts[next], geometry_.boundary_of(walls[i].segment)});
+  }
+  for (std::int32_t s = 0; s < geometry_.size(); ++s) {
+    if (!walls.has_layers(s))
+      obstacles_.push_back(
+          {geometry_.point(s), geometry_.point(geometry_.next(s)), geometry_.boundary_of(s)});
+  }
+  tree_ = BoxTree(size32(obstacles_),
+                  [&](std::int32_t k) { return box_of(obstacles_[k].from, obstacles_[k].to); });
+}
+
+FreeDistance WakeRoom::around(const PlacedLine& wake) const {
+  if (!keeps_clear(wake)) return {};
+  return [this, &wake](Point p) { return free(wake, p); };
+}
+
+WakeRoom::Nearest WakeRoom::nearest(const PlacedLine& wake, Point p) const {
+  if (!keeps_clear(wake)) return {.distance = unlimited};
+  const auto distance = [&](std::int32_t k) {
+    const Obstacle& obstacle = obstacles_[k];
+    const bool own =
+        std::ranges::find(wake.clear_of_all_but, obstacle.boundary) != wake.clear_of_all_but.end();
+    return own ? unlimited : place_on_segment(p, obstacle.from, obstacle.to).squared_distance;
+  };
+  Nearest found{unlimited, tree_.nearest(p, distance)};
+  if (found.obstacle != BoxTree::none) found.distance = std::sqrt(distance(found.obstacle));
+  for (const PlacedLine& other : lines_) {
+    if (other.name == wake.name) continue;
+    if (const double free = free_beside(other, distance_to(other.path, p)); free < found.distance)
+      found = {free, BoxTree::none, &other};
+  }
+  return found;
+}
+
+std::string WakeRoom::name_of(const Nearest& nearest) const {
+  if (nearest.line != nullptr) return nearest.line->name;
+  return "boundary " + geometry_.boundary(obstacles_[nearest.obstacle].boundary).name;
+}
+
+PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
+  constexpr double least_share = 0.3, step = 0.25, shortest = 2;
+  const double whole = length_of(wake.path), thickness = layers_thickness(wake.layers),
+               half_base = 0.5 * length(geometry_.point(wake.edge) - geometry_.point(wake.base_end));
+  const double least = half_base + least_share * thickness;
+  for (double s = std::min(whole, shortest * thickness); s < whole; s += step * wake.spacing) {
+    const std::vector<Point> part = quadloop::beginning_of(wake.path, s);
+    const Nearest at = nearest(wake, part.back());
+    if (layers_over_room * at.distance >= least) continue;
+    PlacedLine shorter = wake;
+    shorter.path = part;
+    shorter.shortened = ShortenedWake{whole, s, name_of(at), part.back()};
+    return shorter;
+  }
+  return wake;
+}
+
+}  // namespace quadloop
