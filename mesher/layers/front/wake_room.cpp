@@ -83,14 +83,14 @@ std::string WakeRoom::name_of(const Nearest& nearest) const {
 }
 
 PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
-  constexpr double least_share = 0.3, step = 0.25, shortest = 2;
+  constexpr double least_share = 0.3, step = 0.25, shortest = 2, spread_of_core = 0.05;
   const double whole = length_of(wake.path), thickness = layers_thickness(wake.layers),
                half_base = 0.5 * length(geometry_.point(wake.edge) - geometry_.point(wake.base_end));
-  const double least = half_base + least_share * thickness;
   for (double s = std::min(whole, shortest * thickness); s < whole; s += step * wake.spacing) {
     const std::vector<Point> part = quadloop::beginning_of(wake.path, s);
     const Nearest at = nearest(wake, part.back());
-    if (layers_over_room * at.distance >= least) continue;
+    const double core = half_base > 0 ? half_base + spread_of_core * s : 0;
+    if (layers_over_room * at.distance >= core + least_share * thickness) continue;
     PlacedLine shorter = wake;
     shorter.path = part;
     shorter.shortened = ShortenedWake{whole, s, name_of(at), part.back()};

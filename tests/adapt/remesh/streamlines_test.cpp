@@ -54,7 +54,9 @@ TEST(Streamlines, FollowAUniformFlowBehindAGentleBeginning) {
     for (std::size_t i = 1; i < line.points.size(); ++i) {
       const Point step = line.points[i] - line.points[i - 1];
       whole += length(step);
-      if (i > 1) EXPECT_NEAR(cross(step, flow), 0, 1e-12);
+      if (i > 1) {
+        EXPECT_NEAR(cross(step, flow), 0, 1e-12);
+      }
     }
     EXPECT_NEAR(whole, 1.5, 1e-12);
   }
