@@ -112,6 +112,9 @@ std::string line_of(const adapt::CycleRecord& record) {
   line += fmt::format("  {:.1f} s", seconds);
   for (const auto& [boundary, least, largest] : record.first_heights)
     line += fmt::format("\n          target first heights on {}: {:.4g} to {:.4g}", boundary, least, largest);
+  for (const auto& [boundary, least, largest] : record.thickness)
+    line += fmt::format("\n          target thickness of layers on {}: {:.4g} to {:.4g}", boundary, least,
+                        largest);
   return line;
 }
 

@@ -59,13 +59,14 @@ class WordDigest {
     add(spacing);
     if (follows_flow) add(std::uint64_t{1});
     if (!layers) return;
-    const auto& [first, growth, growth_to, count, equal, y_plus] = *layers;
+    const auto& [first, growth, growth_to, count, equal, y_plus, follows_flow] = *layers;
     add(first);
     add(growth);
     add(growth_to);
     add(static_cast<std::uint64_t>(count));
     add(static_cast<std::uint64_t>(equal));
     if (y_plus > 0) add(y_plus);
+    if (follows_flow) add(std::uint64_t{1});
   }
   std::uint64_t value() const { return mixed_bits(state_); }
 

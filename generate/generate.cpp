@@ -331,6 +331,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   if (wants_y_plus(input.geometry)) generated.result.tree.measured.walls = measured.walls;
   if (std::ranges::any_of(input.lines, &LayerLine::follows_flow))
     generated.result.tree.measured.wakes = measured.wakes;
+  if (wants_thickness_of_flow(input.geometry)) generated.result.tree.measured.thickness = measured.thickness;
   times.end();
   generated.times = times;
   return generated;

@@ -26,6 +26,11 @@ bool wants_y_plus(const Geometry& geometry) {
                              [](const Boundary& b) { return b.layers && b.layers->y_plus > 0; });
 }
 
+bool wants_thickness_of_flow(const Geometry& geometry) {
+  return std::ranges::any_of(geometry.boundaries(),
+                             [](const Boundary& b) { return b.layers && b.layers->follows_flow; });
+}
+
 Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped) {
   Geometry kept = without_small_islands(input.geometry, input.mesh.size.min, dropped);
   if (!input.mesh.may_vanish && !dropped.boundaries_vanished.empty()) {

@@ -44,6 +44,8 @@ std::string log_text(const CycleRecord& record, const std::vector<std::string>& 
                                  record.nodes, record.triangles, record.quads, quality_text(record));
   for (const auto& [boundary, least, largest] : record.first_heights)
     text += fmt::format("target first heights on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
+  for (const auto& [boundary, least, largest] : record.thickness)
+    text += fmt::format("target thickness of layers on {}: {:.6g} to {:.6g}\n", boundary, least, largest);
   if (record.metric) text += lines_of(*record.metric);
   for (const std::string& line : notes) text += line + "\n";
   for (const flow::GoalValue& goal : record.goals) text += line_of(goal) + "\n";

@@ -125,6 +125,8 @@ class Loop {
     for (const BoundaryLayerReport& row : remeshed.generated.layers) {
       if (row.y_plus > 0)
         record.first_heights.push_back({row.boundary, row.first_asked, row.first_asked_most});
+      if (row.follows_flow)
+        record.thickness.push_back({row.boundary, row.thickness_asked, row.thickness_asked_most});
     }
     record.metric = remeshed.stretched;
     record.seconds = seconds_of(comm_, times);

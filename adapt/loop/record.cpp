@@ -101,10 +101,12 @@ JsonObject statistics_of(const CycleRecord& record) {
   if (record.settled) json.add("settled", *record.settled);
   if (!record.goals.empty()) json.add("goals", record_of(record.goals));
   if (!record.forces.empty()) json.add("forces", record_of(record.forces));
-  JsonObject heights;
-  for (const auto& [boundary, least, largest] : record.first_heights)
-    heights.add(boundary, std::vector{least, largest});
-  if (!record.first_heights.empty()) json.add("first_heights", heights);
+  for (const auto& [name, ranges] :
+       {std::pair{"first_heights", &record.first_heights}, {"layer_thickness", &record.thickness}}) {
+    JsonObject walls;
+    for (const auto& [boundary, least, largest] : *ranges) walls.add(boundary, std::vector{least, largest});
+    if (!ranges->empty()) json.add(name, walls);
+  }
   if (record.metric) json.add("metric", record_of(*record.metric));
   return json;
 }

@@ -14,8 +14,8 @@
 
 namespace quadloop::adapt {
 
-/// First heights of one boundary's layers, in the geometry's unit of length.
-struct FirstHeights {
+/// Range of a length of the layers along a boundary, in the geometry's unit.
+struct RangeOnWall {
   std::string boundary;
   double least = 0, largest = 0;
 };
@@ -49,7 +49,9 @@ struct CycleRecord : flow::FlowStatistics {
   /// Drift of each variable's integral in the transfer into this cycle.
   std::vector<std::pair<std::string, double>> drift;
   /// Smallest and largest target first height, for boundaries that specify a y+.
-  std::vector<FirstHeights> first_heights;
+  std::vector<RangeOnWall> first_heights;
+  /// Smallest and largest target thickness, for boundaries whose layers follow the flow.
+  std::vector<RangeOnWall> thickness;
   std::optional<MetricStatistics> metric;  ///< that the mesh follows, if any
   std::vector<std::pair<std::string, double>> seconds;
 };

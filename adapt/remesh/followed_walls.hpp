@@ -14,7 +14,15 @@ namespace quadloop::adapt {
 MeasuredWall wall_to_follow(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                             const SolvedMesh& solved);
 
-/// Whether any first height of the input's walls differs by more than 5 %.
-bool other_heights(const MeshInput& input, const MeasuredWall& before, const MeasuredWall& now);
+/// Returns the thickness of the boundary layer for walls whose layers follow it (measured_thickness()): that
+/// of the solution; where it is unknown, that which the tree was made with. Adds a warning if the solution
+/// has no velocity at nodes. *Collective.*
+std::vector<MeasuredThickness> thickness_to_follow(const Communicator& comm, const MeshInput& input,
+                                                   const SolvedMesh& solved,
+                                                   std::vector<std::string>& warnings);
+
+/// Whether any first height of the input's walls differs by more than 5 %, or the thickness of layers that
+/// follow the flow by more than 10 %.
+bool other_heights(const MeshInput& input, const MeasuredFlow& before, const MeasuredFlow& now);
 
 }  // namespace quadloop::adapt

@@ -321,10 +321,12 @@ AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input,
   AdaptationPlan plan;
   plan.transfer = options.transfer;
   FollowedWakes wakes = wakes_to_follow(comm, input, solved);
-  plan.measured = {wall_to_follow(comm, input, options, solved), std::move(wakes.paths)};
-  plan.new_layers = other_heights(input, solved.tree.measured.walls, plan.measured.walls) ||
-                    other_wakes(input, solved.tree.measured, plan.measured);
   plan.warnings = std::move(wakes.warnings);
+  plan.measured.walls = wall_to_follow(comm, input, options, solved);
+  plan.measured.wakes = std::move(wakes.paths);
+  plan.measured.thickness = thickness_to_follow(comm, input, solved, plan.warnings);
+  plan.new_layers = other_heights(input, solved.tree.measured, plan.measured) ||
+                    other_wakes(input, solved.tree.measured, plan.measured);
   const TrialCount count(comm, input, plan.measured);
   const std::vector<std::int8_t> finest = finest_of_leaves(input, options, solved);
   if (input.mesh.type == MeshType::metric)

@@ -50,6 +50,7 @@ JsonObject json_of_row(const BoundaryLayerReport& row) {
   json.add("growth_asked", row.growth_asked);
   json.add("growth_least", row.growth_least);
   json.add("thickness_asked", row.thickness_asked);
+  if (row.follows_flow) json.add("thickness_asked_most", row.thickness_asked_most);
   json.add("thickness_share_least", row.share_least);
   json.add("wall_share_full", row.share_full);
   json.add("least_at", std::vector{row.least.x, row.least.y});

@@ -100,15 +100,18 @@ void require_possible_attributes(const TreeAttributes& attributes, std::int64_t 
   if (nodes < 0 || triangles < 0 || quads < 0) refuse("it has a number of nodes or cells below 0");
 }
 
-void require_possible_wall(const MeasuredWall& wall, const std::string& path) {
-  for (const MeasuredEdge& edge : wall) {
-    const bool finite = std::isfinite(edge.from.x) && std::isfinite(edge.from.y) &&
-                        std::isfinite(edge.to.x) && std::isfinite(edge.to.y) &&
-                        std::isfinite(edge.wall_units_from) && std::isfinite(edge.wall_units_to);
-    if (!finite || edge.wall_units_from < 0 || edge.wall_units_to < 0)
-      throw InputError(fmt::format("{}: the friction measured at ({}, {}) is impossible{}", path, edge.from.x,
-                                   edge.from.y, cure));
-  }
+void require_possible_flow(const MeasuredFlow& flow, const std::string& path) {
+  const auto require_possible = [&](const char* what, Point from, Point to, double at_from, double at_to) {
+    const bool finite = std::isfinite(from.x) && std::isfinite(from.y) && std::isfinite(to.x) &&
+                        std::isfinite(to.y) && std::isfinite(at_from) && std::isfinite(at_to);
+    if (!finite || at_from < 0 || at_to < 0)
+      throw InputError(
+          fmt::format("{}: the {} measured at ({}, {}) is impossible{}", path, what, from.x, from.y, cure));
+  };
+  for (const auto& [from, to, at_from, at_to] : flow.walls)
+    require_possible("friction", from, to, at_from, at_to);
+  for (const auto& [from, to, at_from, at_to] : flow.thickness)
+    require_possible("thickness", from, to, at_from, at_to);
 }
 
 std::vector<std::vector<Point>> possible_wakes(const std::vector<Point>& points,

@@ -15,8 +15,8 @@ namespace quadloop::io {
 void require_possible_attributes(const TreeAttributes& attributes, std::int64_t leaves,
                                  const std::string& path);
 
-/// Throws InputError if a number is not finite or the friction is negative. Not collective.
-void require_possible_wall(const MeasuredWall& wall, const std::string& path);
+/// Throws InputError if a number is not finite, or a friction or thickness is negative. Not collective.
+void require_possible_flow(const MeasuredFlow& flow, const std::string& path);
 
 /// Returns the wakes with these points and numbers of points. Throws InputError if the numbers do not fit, or
 /// for points that no path can have.

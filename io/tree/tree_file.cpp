@@ -163,6 +163,7 @@ std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord
     }
     frame.put_rows(wake_point_rows, points);
     frame.put_rows(wake_size_rows, sizes);
+    frame.put_rows(measured_thickness_rows, tree.measured.thickness);
     frame.put_rows(block_run_rows, tree.block_runs);
     places = frame.places();
     frame.close();

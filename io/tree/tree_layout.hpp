@@ -49,6 +49,8 @@ inline constexpr RowsDataset<MeasuredEdge, double, 6> measured_wall_rows{"measur
 /// Of MeasuredFlow::wakes: x and y of the points of all paths; the number of points of each.
 inline constexpr RowsDataset<Point, double, 2> wake_point_rows{"wake_points"};
 inline constexpr RowsDataset<std::int64_t, std::int64_t, 1> wake_size_rows{"wake_sizes"};
+/// Of MeasuredFlow::thickness: x, y of the edge's ends, then the thickness at both.
+inline constexpr RowsDataset<MeasuredThickness, double, 6> measured_thickness_rows{"measured_thickness"};
 /// Of TreeRecord::block_runs: corners, block and number of cells.
 inline constexpr RowsDataset<BlockRun, std::int64_t, 3> block_run_rows{"block_runs"};
 

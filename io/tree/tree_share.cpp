@@ -157,7 +157,8 @@ TreeShare read_tree_share(const std::string& path, std::int64_t rank, std::int64
                      end = all / ranks * (rank + 1) + std::min(all % ranks, rank + 1);
   share.tree.leaves = source.read(begin, end);
   share.tree.measured.walls = source.rows(measured_wall_rows);
-  require_possible_wall(share.tree.measured.walls, path);
+  share.tree.measured.thickness = source.rows(measured_thickness_rows);
+  require_possible_flow(share.tree.measured, path);
   share.tree.measured.wakes = possible_wakes(source.rows(wake_point_rows), source.rows(wake_size_rows), path);
   share.tree.block_runs = source.rows(block_run_rows);
   require_possible_runs(share.tree.block_runs, share.tree.attributes, path);

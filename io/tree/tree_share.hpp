@@ -19,7 +19,7 @@ struct TreeShare {
 template <class Pipe>
 void pass_fields(Pipe& pipe, TreeShare& share) {
   pass(pipe, share.tree.attributes, share.tree.leaves, share.tree.measured.walls, share.tree.measured.wakes,
-       share.tree.block_runs, share.before);
+       share.tree.measured.thickness, share.tree.block_runs, share.before);
 }
 
 /// Reads the part of a rank as read_tree() does, in this process, which HDF5 may crash if the file is

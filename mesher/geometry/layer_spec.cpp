@@ -60,6 +60,30 @@ double share_for(const LayerSpec& spec, double thickness) {
   }
 }
 
+/// Limits of the factor by which the excess of growth ratios over 1 is scaled.
+struct ShareLimits {
+  double low = 0, high = 1;
+};
+
+/// Layers like `other` with growth ratios between those of `spec` scaled by the limits: the largest ones with
+/// at most this thickness, else the smallest ones.
+LayerSpec with_scaled_growth(const LayerSpec& spec, LayerSpec other, double thickness,
+                             const ShareLimits& limits) {
+  constexpr int halvings = 80;
+  const auto scale = [&](double share) {
+    other.growth = 1 + share * (spec.growth - 1);
+    other.growth_to = 1 + share * (spec.growth_to - 1);
+  };
+  auto [low, high] = limits;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    scale(middle);
+    (layers_thickness(other) <= thickness ? low : high) = middle;
+  }
+  scale(low);
+  return other;
+}
+
 }  // namespace
 
 std::vector<double> layer_heights(const LayerSpec& spec) {
@@ -97,22 +121,19 @@ double thickness_with_last(const LayerSpec& spec, double last) {
 
 LayerSpec with_first_height(const LayerSpec& spec, double first) {
   constexpr double most = 1.5;
-  constexpr int halvings = 80;
   const double thickness = layers_thickness(spec);
   LayerSpec other = spec;
   other.first = std::min(first, thickness / spec.count);
-  const auto scale = [&](double share) {
-    other.growth = 1 + share * (spec.growth - 1);
-    other.growth_to = 1 + share * (spec.growth_to - 1);
-  };
-  double low = 0, high = most;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    scale(middle);
-    (layers_thickness(other) <= thickness ? low : high) = middle;
-  }
-  scale(low);
-  return other;
+  return with_scaled_growth(spec, other, thickness, {0, most});
+}
+
+LayerSpec with_thickness(const LayerSpec& spec, double first, double thickness) {
+  constexpr double least_growth = 1.02, most_growth = 1.3;
+  LayerSpec other = spec;
+  other.first = first;
+  const double low = spec.growth > least_growth ? (least_growth - 1) / (spec.growth - 1) : 1;
+  const double high = spec.growth_to < most_growth ? (most_growth - 1) / (spec.growth_to - 1) : 1;
+  return with_scaled_growth(spec, other, thickness, {low, std::max(low, high)});
 }
 
 ColumnHeights column_heights(const LayerSpec& spec, double first, double length) {

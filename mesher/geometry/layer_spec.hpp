@@ -15,6 +15,9 @@ struct LayerSpec {
   int count = 0;           ///< number of layers, positive
   int equal = 1;           ///< number of layers with the first height
   double y_plus = 0;       ///< if positive, the target y+ of the first layer, of which `first` is an estimate
+  /// Whether the total thickness follows the boundary layer of a solution; the other members are its first
+  /// estimate.
+  bool follows_flow = false;
 
   friend bool operator==(const LayerSpec&, const LayerSpec&) = default;
 };
@@ -37,6 +40,12 @@ double thickness_with_last(const LayerSpec& spec, double last);
 /// over 1 is scaled by one factor, found by bisection. The factor is limited to 1.5; then the layers are
 /// thinner. A first height that leaves no space for the others becomes an equal share of the thickness.
 LayerSpec with_first_height(const LayerSpec& spec, double first);
+
+/// Layers with another first height and total thickness but the same count: the excess of each growth ratio
+/// over 1 is scaled by one factor, found by bisection. The largest growth ratio is at most 1.3, or that of
+/// `spec` if it is larger, and the smallest at least 1.02, or that of `spec` if it is smaller; then the
+/// layers are thinner or thicker. The first height is kept.
+LayerSpec with_thickness(const LayerSpec& spec, double first, double thickness);
 
 /// One column of layers.
 struct ColumnHeights {

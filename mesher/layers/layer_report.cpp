@@ -25,7 +25,7 @@ struct Column {
   BoundaryId boundary;
   GlobalNodeId node;
   int layers = 0;
-  double first = 0, growth = 0, share = 0;
+  double first = 0, growth = 0, share = 0, asked = 0;
   Point foot;
 };
 
@@ -52,7 +52,8 @@ void add_columns(const LayerFront& front, const FrontPlaces& places, const Mesh&
       const LayerColumn column = column_at(front, ends[k], outer.point(nodes[k]));
       columns.push_back({front.line[ends[k].station].layers, outer.global(nodes[k]),
                          size32(column.heights.reached) - 1, column.heights.first * column.cosine,
-                         column.heights.growth, share_at(front, ends[k]), column.foot});
+                         column.heights.growth, share_at(front, ends[k]), front.line.asked(ends[k].station),
+                         column.foot});
     }
   }
 }
@@ -95,6 +96,7 @@ struct WallStatistics {
   /// Length of wall between stations with the requested thickness; total length.
   double full_length = 0, length = 0;
   double first_least = std::numeric_limits<double>::infinity(), first_most = 0;  ///< requested first heights
+  double thickness_least = std::numeric_limits<double>::infinity(), thickness_most = 0;  ///< requested
 
   double share_full() const { return length > 0 ? full_length / length : 1; }
 };
@@ -108,6 +110,8 @@ StatisticsOfWalls statistics_of_walls(const LayerFront& front) {
     WallStatistics& wall = walls[front.line[i].layers];
     wall.first_least = std::min(wall.first_least, front.line.spec(i).first);
     wall.first_most = std::max(wall.first_most, front.line.spec(i).first);
+    wall.thickness_least = std::min(wall.thickness_least, front.line.asked(i));
+    wall.thickness_most = std::max(wall.thickness_most, front.line.asked(i));
     if (!front.line.goes_on(i)) continue;
     wall.length += front.line.width(i);
     const double least = std::min(share_at(front, i), share_at(front, front.line.next(i)));
@@ -134,7 +138,10 @@ BoundaryLayerReport report_of(const LayerFront& front, BoundaryId id, const Wall
   report.first_median = median_first(columns);
   report.growth_asked = spec.growth;
   report.growth_least = std::ranges::min(columns, {}, &Column::growth).growth;
-  report.thickness_asked = layers_thickness(spec);
+  report.follows_flow = spec.follows_flow;
+  report.thickness_asked = spec.follows_flow ? wall.thickness_least : layers_thickness(spec);
+  report.thickness_asked_most = spec.follows_flow ? wall.thickness_most : report.thickness_asked;
+  report.asked_at_least = spec.follows_flow ? worst->asked : report.thickness_asked;
   report.share_least = worst->share;
   report.share_full = wall.share_full();
   report.least = worst->foot;
@@ -185,7 +192,7 @@ BoundaryLayerReport report_strip(const LayerStrip& strip) {
   report.first_median = columns[columns.size() / 2].first;
   report.growth_asked = strip.spec.growth;
   report.growth_least = std::ranges::min(columns, {}, &SideColumn::growth).growth;
-  report.thickness_asked = strip.asked;
+  report.thickness_asked = report.thickness_asked_most = report.asked_at_least = strip.asked;
   report.share_full = static_cast<double>(std::ranges::count_if(
                           columns, [](const SideColumn& c) { return c.share > full; })) /
                       static_cast<double>(columns.size());
@@ -220,8 +227,8 @@ std::vector<std::string> warnings_of(const LayerReport& report) {
         "requested {:.3g}, with the growth ratio {:.3g} instead of {:.3g}; {:.1f} % of the boundary has "
         "the full thickness. Layers are thinner at narrow gaps, at sharp turns and at rough parts of the "
         "geometry (close points with few decimals); reduce count or growth, or smooth the points",
-        row.boundary, row.least.x, row.least.y, row.reached, row.share_least * row.thickness_asked,
-        100 * row.share_least, row.thickness_asked, row.growth_at_least, row.growth_asked,
+        row.boundary, row.least.x, row.least.y, row.reached, row.share_least * row.asked_at_least,
+        100 * row.share_least, row.asked_at_least, row.growth_at_least, row.growth_asked,
         100 * row.share_full));
   }
   if (thin.size() > most_named)

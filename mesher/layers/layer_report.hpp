@@ -21,9 +21,11 @@ struct BoundaryLayerReport {
   double first_asked = 0, first_asked_most = 0, first_least = 0, first_median = 0;
   /// Growth ratios of the layers above those of equal height; requested: that of the first one.
   double growth_asked = 0, growth_least = 0;
-  double thickness_asked = 0;
-  double share_least = 1;  ///< smallest fraction of the requested thickness
-  double share_full = 1;   ///< fraction of the wall's length with the requested thickness, within 1.5 %
+  /// Requested thickness; if it follows a flow, the smallest, the largest, and that at `least`.
+  double thickness_asked = 0, thickness_asked_most = 0, asked_at_least = 0;
+  bool follows_flow = false;  ///< whether the thickness follows a flow
+  double share_least = 1;     ///< smallest fraction of the requested thickness
+  double share_full = 1;      ///< fraction of the wall's length with the requested thickness, within 1.5 %
   Point least;  ///< place on the wall with the smallest thickness fraction, or else the smallest growth
   double growth_at_least = 0;  ///< growth ratio there; behind a wake's root ratios fall to 1 by design
 };

@@ -50,6 +50,13 @@ FirstHeight read_first_height(const io::CaseTable& table, const std::string& key
   return {height_of_y_plus(y_plus, conditions_of_y_plus(table, key, text)), y_plus};
 }
 
+LayersThickness read_thickness(const io::CaseTable& table, const std::string& key) {
+  if (!table.is_text(key)) return {*table.number(key, io::Range::positive())};
+  if (const std::string text = *table.text(key); text != "flow")
+    table.refuse(key, fmt::format("is '{}', but must be a number above 0 or \"flow\"", text));
+  return {0, true};
+}
+
 GrowthRange read_growth(const io::CaseTable& table, const std::string& key) {
   const std::vector<double> growth = table.numbers_or_one(key, {1, 2, true, false});
   if (growth.empty() || growth.size() > 2 || growth.front() > growth.back())
@@ -79,11 +86,13 @@ ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 
 LayerSpec layers_of(const io::CaseTable& table, const LayerKeys& keys) {
   LayerSpec spec{keys.first.height, keys.growth.low, keys.growth.high,
                  keys.count,        keys.equal,      keys.first.y_plus};
-  if (keys.thickness) {
-    if (*keys.thickness < spec.first)
-      table.refuse("thickness", fmt::format("is {}, less than the first layer's height of {}",
-                                            *keys.thickness, spec.first));
-    spec.count = layers_within(spec, *keys.thickness, most_layers + 1);
+  spec.follows_flow = keys.thickness.follows_flow;
+  if (const double thickness = keys.thickness.least; thickness > 0) {
+    if (keys.count > 0) table.refuse("thickness", "stands beside count; give one of them");
+    if (thickness < spec.first)
+      table.refuse("thickness",
+                   fmt::format("is {}, less than the first layer's height of {}", thickness, spec.first));
+    spec.count = layers_within(spec, thickness, most_layers + 1);
     if (spec.count > most_layers)
       table.refuse("thickness", fmt::format("takes more than {} layers; let them grow faster", most_layers));
   }
@@ -128,14 +137,18 @@ const KeyTable<LayerKeys>& layer_keys() {
            "Growth ratio of successive layers. `[1.1, 1.5]`: the ratio starts at the first value and rises, "
            "after five layers by 0.05 per layer, to the second.",
            {.fallback = "1.2"}),
-       key<&LayerKeys::count>("count", whole({1, most_layers}),
-                              "Number of layers. Alternative to `thickness`.",
-                              {.required = {{"how many layers, or with thickness how thick they are together",
-                                             "no thickness"}}}),
+       key<&LayerKeys::count>(
+           "count", whole({1, most_layers}), "Number of layers. Alternative to `thickness`.",
+           {.required = {{"how many layers, or with thickness how thick they are together", "no thickness"},
+                         {"how many layers share the thickness of the boundary layer",
+                          "thickness = \"flow\""}}}),
        key<&LayerKeys::thickness>(
-           "thickness", number(io::Range::positive()),
-           "Total thickness: the smallest number of layers that reaches it. The last layer may exceed it.",
-           {.unit = "length", .needs = {{"no count", "give one of them"}}}),
+           "thickness", ValueForm<LayersThickness>{"number, above 0, or `\"flow\"`", "0.02", read_thickness},
+           "Total thickness instead of `count`: the smallest number of layers that reaches it. The last "
+           "layer may exceed it. `\"flow\"`, for walls, beside `count`: `adapt` adjusts the thickness to the "
+           "boundary layer in the solution ([layers](../explanation/layers.md#thickness-from-the-flow)). The "
+           "first mesh has the thickness of `first`, `growth` and `count`.",
+           {.unit = "length"}),
        key<&LayerKeys::equal>("equal", whole({1, most_layers}),
                               "Number of layers of the first height before the growth begins.",
                               {.example = "2"})}};
@@ -272,6 +285,10 @@ LayerLine read_layer_line(const io::CaseTable& table, Settings& settings) {
   layer_line_keys().read(table, keys);
   if (keys.line.path.size() < 2) table.refuse("path", "must have two points at least");
   settings.wants_y_plus = settings.wants_y_plus || keys.layers.first.y_plus > 0;
+  if (keys.layers.thickness.follows_flow)
+    table.refuse("thickness",
+                 "is 'flow', but this line has no wall with a boundary layer; give a number, or "
+                 "count alone");
   keys.layers.first.y_plus = 0;  // no wall friction to follow
   keys.line.layers = layers_of(table, keys.layers);
   return keys.line;

@@ -27,12 +27,20 @@ struct GrowthRange {
   friend bool operator==(const GrowthRange&, const GrowthRange&) = default;
 };
 
+/// The total thickness of layers: at least this, if it is positive, or that of the boundary layer.
+struct LayersThickness {
+  double least = 0;
+  bool follows_flow = false;
+
+  friend bool operator==(const LayersThickness&, const LayersThickness&) = default;
+};
+
 /// The keys of `layers` and of a free line.
 struct LayerKeys {
   FirstHeight first;
   GrowthRange growth;
   int count = 0;
-  std::optional<double> thickness;
+  LayersThickness thickness;
   int equal = 1;
 };
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Layers whose first height follows the wall shear in the loop: the heights are those of the y+ wanted, the mesh stays within max_nodes, files are the same on
-any number of ranks, after --resume, and of a mesh made again from a cycle's tree.
+"""Layers whose first height follows the wall shear in the loop, and their thickness the boundary layer: the heights are those of the y+ wanted, the thickness is
+that of Blasius's layer, the mesh stays within max_nodes, files are the same on any number of ranks, after --resume, and of a mesh made again from a cycle's tree.
 
     run_follow.py --quadloop PROGRAM
 """
@@ -26,6 +26,7 @@ reynolds = 5000
 
 def following_case(folder):
     text = CASE.read_text().replace("first = 0.001", f'first = "yplus:{Y_PLUS}"').replace("../naca0012", str(ROOT / "cases" / "naca0012"))
+    text = text.replace("count = 15 }", 'count = 15, thickness = "flow" }')
     text = text.replace("max_nodes = 10000", f"max_nodes = {MOST}").replace("cycles = 3", "cycles = 2")
     case = folder / "follow.toml"
     case.write_text(text.replace("tolerance = 1e-6", "tolerance = 1e-6\niterations = 12") + FOLLOWING)
@@ -78,6 +79,12 @@ def check_heights(made):
     require(checked > 20, f"only {checked} columns looked at")
 
 
+def check_thickness(record):
+    """At the nose layers are thin. At Reynolds number 5000 Blasius's layer is 0.07 thick at the end; the airfoil's is thicker there."""
+    least, largest = record["layer_thickness"]["airfoil"]
+    require(least < 0.05 and 0.07 < largest < 0.3, f"layers are {least} to {largest} thick")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quadloop", required=True)
@@ -88,7 +95,9 @@ def main():
         alone = folder / "alone"
         told = adapt(args.quadloop, case, alone)
         require("target first heights on airfoil" in told, told)
+        require("target thickness of layers on airfoil" in told, told)
         check_heights(alone)
+        check_thickness(json.loads((alone / "cycle_02" / "record.json").read_text()))
         for cycle in (0, 1, 2):
             nodes = json.loads((alone / f"cycle_0{cycle}" / "record.json").read_text())["nodes"]
             require(nodes <= MOST and (cycle == 0 or nodes >= 0.95 * MOST), f"cycle {cycle} has {nodes} nodes")

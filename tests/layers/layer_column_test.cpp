@@ -121,7 +121,7 @@ TEST(LayerColumn, ThatFollowsFrictionChangesEvenlyBetweenStations) {
   LayerSpec wanted = ten_layers;
   wanted.y_plus = 2;
   const Geometry floor = test::floor_with_layers(wanted);
-  const LayerFront front = layer_front(floor, {}, {}, {{{{0, 0}, {8, 0}, 60, 140}}, {}});
+  const LayerFront front = layer_front(floor, {}, {}, {{{{0, 0}, {8, 0}, 60, 140}}, {}, {}});
   const double here = front.line.spec(7).first, next = front.line.spec(8).first;
   EXPECT_GT(here, next * 1.001);
   const Point node = front.points[7] + 0.25 * (front.points[8] - front.points[7]);

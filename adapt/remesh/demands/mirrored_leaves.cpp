@@ -60,17 +60,31 @@ std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree
   return demands;
 }
 
-void agree_with_images(MirrorAxis axis, MeasuredWall& wall) {
+namespace {
+
+/// The larger of two images' values at the ends of edges, `from` and `to`.
+template <class Edge>
+void agree_with_images(MirrorAxis axis, std::vector<Edge>& edges, double Edge::*from, double Edge::*to) {
   std::map<std::pair<Point, Point>, std::size_t> by_ends;
-  for (std::size_t i = 0; i < wall.size(); ++i) by_ends.emplace(std::pair{wall[i].from, wall[i].to}, i);
-  const MeasuredWall before = wall;
-  for (MeasuredEdge& edge : wall) {
+  for (std::size_t i = 0; i < edges.size(); ++i) by_ends.emplace(std::pair{edges[i].from, edges[i].to}, i);
+  const std::vector<Edge> before = edges;
+  for (Edge& edge : edges) {
     const auto image = by_ends.find({image_of(axis, edge.to), image_of(axis, edge.from)});
     if (image == by_ends.end()) continue;
-    const MeasuredEdge& other = before[image->second];
-    edge.wall_units_from = std::max(edge.wall_units_from, other.wall_units_to);
-    edge.wall_units_to = std::max(edge.wall_units_to, other.wall_units_from);
+    const Edge& other = before[image->second];
+    edge.*from = std::max(edge.*from, other.*to);
+    edge.*to = std::max(edge.*to, other.*from);
   }
+}
+
+}  // namespace
+
+void agree_with_images(MirrorAxis axis, MeasuredWall& wall) {
+  agree_with_images(axis, wall, &MeasuredEdge::wall_units_from, &MeasuredEdge::wall_units_to);
+}
+
+void agree_with_images(MirrorAxis axis, std::vector<MeasuredThickness>& thickness) {
+  agree_with_images(axis, thickness, &MeasuredThickness::at_from, &MeasuredThickness::at_to);
 }
 
 void agree_with_images(MirrorAxis axis, std::vector<std::vector<Point>>& paths) {

@@ -28,6 +28,7 @@ std::vector<SplitDemand> with_images(MirrorAxis axis, const TreeAttributes& tree
 
 /// Makes the wall friction symmetric: the larger value of two images counts.
 void agree_with_images(MirrorAxis axis, MeasuredWall& wall);
+void agree_with_images(MirrorAxis axis, std::vector<MeasuredThickness>& thickness);
 
 /// Makes paths symmetric: the later of two that begin at mirror images becomes the image of the first, and
 /// one that begins on the axis is moved to it.

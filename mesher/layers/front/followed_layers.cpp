@@ -1,48 +1,41 @@
 #include "mesher/layers/front/followed_layers.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
-#include "mesher/geometry/box_tree.hpp"
-#include "mesher/geometry/nearest_on_segment.hpp"
+#include "mesher/layers/front/values_along_wall.hpp"
 
 namespace quadloop {
 
 namespace {
 
 constexpr double most_over_estimate = 10;
+constexpr double thickness_over_measured = 1.2;
 constexpr double steepest_following = 0.6;  // of a height, per thickness of the layers along the wall
 
-/// Finds the measurement near a station.
+/// The measurements near a station.
 class Measurements {
  public:
-  explicit Measurements(const MeasuredWall& wall) : wall_{wall} {
-    std::vector<Box> boxes;
-    for (const MeasuredEdge& edge : wall) boxes.push_back(box_of(edge.from, edge.to));
-    tree_ = BoxTree(boxes);
-  }
+  explicit Measurements(const MeasuredFlow& flow) : friction_(flow.walls), thickness_(flow.thickness) {}
 
   /// Wall units per unit of length; negative where there is no measurement.
   double wall_units(const Station& station) const {
-    const auto distance = [&](std::int32_t k) {
-      const Point along = wall_[k].to - wall_[k].from;
-      const bool same_way = dot(along, station.before) > 0 || dot(along, station.after) > 0;
-      return same_way ? place_on_segment(station.wall, wall_[k].from, wall_[k].to).squared_distance
-                      : std::numeric_limits<double>::infinity();
-    };
-    const std::int32_t nearest = tree_.nearest(station.wall, distance);
-    if (nearest == BoxTree::none || distance(nearest) == std::numeric_limits<double>::infinity()) return -1;
-    const MeasuredEdge& edge = wall_[nearest];
-    const double on = place_on_segment(station.wall, edge.from, edge.to).parameter,
-                 back = place_on_segment(station.wall, edge.to, edge.from).parameter;
-    return 0.5 * ((edge.wall_units_from + on * (edge.wall_units_to - edge.wall_units_from)) +
-                  (edge.wall_units_to + back * (edge.wall_units_from - edge.wall_units_to)));
+    return friction_
+        .at(station.wall, station.before, station.after, &MeasuredEdge::wall_units_from,
+            &MeasuredEdge::wall_units_to)
+        .value_or(-1);
+  }
+  /// The thickness of the boundary layer; 0 where it is unknown.
+  double thickness(const Station& station) const {
+    return thickness_
+        .at(station.wall, station.before, station.after, &MeasuredThickness::at_from,
+            &MeasuredThickness::at_to)
+        .value_or(0);
   }
 
  private:
-  const MeasuredWall& wall_;
-  BoxTree tree_;
+  ValuesAlongWall<MeasuredEdge> friction_;
+  ValuesAlongWall<MeasuredThickness> thickness_;
 };
 
 double target_height(const LayerSpec& spec, double wall_units) {
@@ -50,6 +43,16 @@ double target_height(const LayerSpec& spec, double wall_units) {
   const double least = spec.first / most_over_estimate, most = spec.first * most_over_estimate;
   const double height = wall_units * most > spec.y_plus ? spec.y_plus / wall_units : most;
   return std::min(std::max(height, least), layers_thickness(spec) / spec.count);
+}
+
+/// The requested layers with this first height and, where it is known, the thickness of the boundary layer.
+LayerSpec followed(const LayerSpec& spec, double first, double measured_thickness) {
+  if (!spec.follows_flow || measured_thickness <= 0)
+    return spec.y_plus > 0 ? with_first_height(spec, first) : spec;
+  const double estimate = layers_thickness(spec);
+  return with_thickness(spec, first,
+                        std::clamp(thickness_over_measured * measured_thickness,
+                                   estimate / most_over_estimate, estimate * most_over_estimate));
 }
 
 /// Limits each height to the growth allowed from every other station along the wall.
@@ -73,17 +76,15 @@ void limit_growth(const WallLine& line, std::span<double> heights) {
 
 }  // namespace
 
-std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredWall& measured) {
+std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredFlow& measured) {
   const Measurements measurements(measured);
   std::vector<double> heights;
   for (std::int32_t i = 0; i < line.size(); ++i)
     heights.push_back(target_height(line.spec(i), measurements.wall_units(line[i])));
   limit_growth(line, heights);
   std::vector<LayerSpec> layers;
-  for (std::int32_t i = 0; i < line.size(); ++i) {
-    const LayerSpec& spec = line.spec(i);
-    layers.push_back(spec.y_plus > 0 ? with_first_height(spec, heights[i]) : spec);
-  }
+  for (std::int32_t i = 0; i < line.size(); ++i)
+    layers.push_back(followed(line.spec(i), heights[i], measurements.thickness(line[i])));
   return layers;
 }
 

@@ -340,7 +340,7 @@ WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& plac
       wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
   }
   WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
-  if (!measured.walls.empty()) line.follow(followed_layers(line, measured.walls));
+  if (!measured.walls.empty() || !measured.thickness.empty()) line.follow(followed_layers(line, measured));
   return line;
 }
 

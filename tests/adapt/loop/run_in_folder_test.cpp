@@ -148,9 +148,9 @@ TEST(RunInFolder, WithPassesBeginsWithAnAdaptedMeshAndIsGoneOnWithToTheSameFiles
 
 /// Laminar flow along the floor of a channel, a few steps of it: too few to be right, enough to have
 /// friction.
-AdaptiveCase floor_case(int cycles) {
+AdaptiveCase floor_case(int cycles, bool follows_flow = false) {
   Boundary floor{"floor", 0.25, 30, "wall"}, rest{"rest", 0.25, 30, "farfield"};
-  floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 0.5};
+  floor.layers = LayerSpec{0.01, 1.5, 1.5, 5, 1, 0.5, follows_flow};
   flow::EulerOptions euler;
   euler.mach = 0.5;
   euler.viscosity = 1e-3;
@@ -244,6 +244,30 @@ TEST(RunInFolder, AWakeFollowsTheFlowAndItsTreeKeepsIt) {
     EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
                 test::bytes_of(folder.file("parts/cycle_02/") + name))
         << name;
+  world().barrier();
+}
+
+TEST(RunInFolder, ThicknessFollowsTheFlowAndItsTreeKeepsIt) {
+  const TemporaryFolder folder;
+  Heard whole, begun, resumed;
+  whole.run(floor_case(2, true), folder.file("whole"), false);
+  begun.run(floor_case(1, true), folder.file("parts"), false);
+  resumed.run(floor_case(2, true), folder.file("parts"), true);
+  world().barrier();
+  const auto thickness = [&](const std::string& cycle) {
+    return io::read_tree(world(), folder.file("whole/" + cycle + "/mesh.tree.h5")).measured.thickness;
+  };
+  EXPECT_TRUE(thickness("cycle_00").empty());
+  EXPECT_FALSE(thickness("cycle_01").empty());
+  EXPECT_NE(thickness("cycle_02"), thickness("cycle_01"));
+  for (const char* name : {"mesh.mesh", "mesh.tree.h5"})
+    EXPECT_TRUE(test::bytes_of(folder.file("whole/cycle_02/") + name) ==
+                test::bytes_of(folder.file("parts/cycle_02/") + name))
+        << name;
+  const std::string log = test::bytes_of(folder.file("whole/cycle_02/log.txt")),
+                    record = test::bytes_of(folder.file("whole/cycle_02/record.json"));
+  EXPECT_NE(log.find("target thickness of layers on floor: 0."), std::string::npos) << log;
+  EXPECT_NE(record.find("\"layer_thickness\": {\"floor\": [0."), std::string::npos) << record;
   world().barrier();
 }
 

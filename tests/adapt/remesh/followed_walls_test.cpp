@@ -277,7 +277,7 @@ TEST(FollowedWalls, HeightsThatStayChangeNoMesh) {
   const MeshInput input = channel();
   SolvedMesh flow = solved(world(), input, "wall_shear", shear);
   flow.tree.measured.walls = wall_to_follow(world(), input, options(), flow);
-  EXPECT_FALSE(other_heights(input, flow.tree.measured.walls, flow.tree.measured.walls));
+  EXPECT_FALSE(other_heights(input, flow.tree.measured, flow.tree.measured));
   for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.02;
   EXPECT_FALSE(plan_adaptation(world(), input, options(), flow).new_layers);
   for (MeasuredEdge& edge : flow.tree.measured.walls) edge.wall_units_from *= 1.2;

@@ -273,6 +273,9 @@ TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
   tree.measured.walls = {{{0, 1}, {0.1, 1.5}, 1e5, 2e5}, {{0.1, 1.5}, {0.25, 2}, 2e5, 0}};
   write_tree(world(), tree, folder.file("a.tree.h5"));
   EXPECT_EQ(read_tree(world(), folder.file("a.tree.h5")).measured.walls, tree.measured.walls);
+  tree.measured.thickness = {{{0, 1}, {0.1, 1.5}, 0.01, 0.02}, {{0.1, 1.5}, {0.25, 2}, 0.02, 0}};
+  write_tree(world(), tree, folder.file("both.tree.h5"));
+  EXPECT_EQ(read_tree(world(), folder.file("both.tree.h5")).measured, tree.measured);
   tree.measured.walls[1].wall_units_to = -1;
   write_tree(world(), tree, folder.file("bad.tree.h5"));
   try {
@@ -280,6 +283,15 @@ TEST(TreeFile, AMeasuredWallComesBackOnEveryRank) {
     ADD_FAILURE();
   } catch (const InputError& fault) {
     EXPECT_NE(std::string(fault.what()).find("the friction measured at (0.1, 1.5)"), std::string::npos);
+  }
+  tree.measured.walls.clear();
+  tree.measured.thickness[0].at_from = -0.1;
+  write_tree(world(), tree, folder.file("thin.tree.h5"));
+  try {
+    read_tree(world(), folder.file("thin.tree.h5"));
+    ADD_FAILURE();
+  } catch (const InputError& fault) {
+    EXPECT_NE(std::string(fault.what()).find("the thickness measured at (0, 1)"), std::string::npos);
   }
 }
 

@@ -51,5 +51,25 @@ TEST(AdaptedThickness, LargerCellsChangeNothing) {
   EXPECT_EQ(layer_front(floor, {}, {}, {}, false, {}, coarse).points, layer_front(floor).points);
 }
 
+/// Layers that follow the flow may cover small cells in the boundary layer: only those at the front count.
+TEST(AdaptedThickness, OfLayersThatFollowTheFlowOnlyCellsAtTheFrontCount) {
+  LayerSpec layers = ten_layers;
+  layers.follows_flow = true;
+  const double thickness = layers_thickness(layers);
+  const Geometry floor = test::floor_with_layers(layers), fixed = test::floor_with_layers(ten_layers);
+  for (const double small_below : {0.5, 0.9, 1.1}) {
+    const auto cells = [&](Point a, Point b, double most) {
+      return std::min(a.y, b.y) < small_below * thickness ? std::min(most, smallest_spacing) : most;
+    };
+    const LayerFront front = layer_front(floor, {}, {}, {}, false, {}, cells);
+    const double fit = thickness_with_last(layers, 1.4 * smallest_spacing);
+    ASSERT_LT(fit, 0.99 * thickness);
+    for (std::int32_t i = 0; i < front.line.size(); ++i)
+      EXPECT_NEAR(front.thickness[i], small_below < 0.8 ? thickness : fit, 1e-9) << small_below;
+    const LayerFront of_fixed = layer_front(fixed, {}, {}, {}, false, {}, cells);
+    EXPECT_NEAR(of_fixed.thickness[of_fixed.line.size() / 2], fit, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace quadloop

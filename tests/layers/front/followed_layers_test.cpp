@@ -28,8 +28,9 @@ MeasuredWall measured_floor(int edges, const WallUnits& wall_units) {
 }
 
 struct Followed {
-  Followed(Geometry g, const MeasuredWall& wall)
-      : geometry{std::move(g)}, line{geometry, wall_runs(geometry)}, layers{followed_layers(line, wall)} {}
+  Followed(Geometry g, const MeasuredFlow& flow)
+      : geometry{std::move(g)}, line{geometry, wall_runs(geometry)}, layers{followed_layers(line, flow)} {}
+  Followed(Geometry g, const MeasuredWall& wall) : Followed(std::move(g), MeasuredFlow{wall, {}, {}}) {}
   Geometry geometry;
   WallLine line;
   std::vector<LayerSpec> layers;
@@ -86,6 +87,41 @@ TEST(FollowedLayers, BoundariesOfAGivenHeightAndWhatIsNotMeasuredKeepTheirs) {
   for (const LayerSpec& layers : unknown.layers) EXPECT_EQ(layers.first, target_layers.first);
 }
 
+/// 1.2 times as thick as the boundary layer.
+TEST(FollowedLayers, TheThicknessIsThatOfTheFlowWithTheFirstHeightOfItsFriction) {
+  LayerSpec layers = target_layers;
+  layers.follows_flow = true;
+  MeasuredFlow flow;
+  flow.thickness = {{{0, 0}, {4, 0}, 0.2, 0.28}, {{4, 0}, {8, 0}, 0.28, 0.36}};
+  for (const bool has_friction : {false, true}) {
+    if (has_friction) flow.walls = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
+    const Followed f(test::floor_with_layers(layers), flow);
+    for (std::int32_t i = 0; i < f.line.size(); ++i) {
+      const double x = f.line[i].wall.x, first = has_friction ? 2 / (100 + 7.5 * x) : 0.02;
+      EXPECT_NEAR(f.layers[i].first, first, 1e-15);
+      EXPECT_EQ(f.layers[i].count, 10);
+      EXPECT_NEAR(layers_thickness(f.layers[i]), 1.2 * (0.2 + 0.02 * x), 1e-9) << x;
+    }
+  }
+}
+
+TEST(FollowedLayers, TheThicknessStaysWithinATenthAndTenTimesOfTheEstimateAndTheGrowthInItsLimits) {
+  LayerSpec layers = target_layers;
+  layers.follows_flow = true;
+  MeasuredFlow thin, thick, unknown;
+  thin.thickness = {{{0, 0}, {8, 0}, 1e-9, 1e-9}};
+  thick.thickness = {{{0, 0}, {8, 0}, 100, 100}};
+  unknown.thickness = {{{0, 0}, {8, 0}, 0, 0}};
+  for (const LayerSpec& found : Followed(test::floor_with_layers(layers), thin).layers)
+    EXPECT_NEAR(found.growth, 1.02, 1e-12);
+  for (const LayerSpec& found : Followed(test::floor_with_layers(layers), thick).layers)
+    EXPECT_NEAR(found.growth, 1.3, 1e-12);
+  for (const LayerSpec& found : Followed(test::floor_with_layers(layers), unknown).layers)
+    EXPECT_EQ(found, layers);
+  for (const LayerSpec& found : Followed(test::floor_with_layers(target_layers), thick).layers)
+    EXPECT_NEAR(layers_thickness(found), target_thickness, 1e-9) << "does not follow the flow";
+}
+
 TEST(FollowedLayers, EachSideOfAThinBodyFollowsItsOwnFriction) {
   // of an earlier mesh, whose lower side lies nearer to the upper one of this body than its own upper side
   const MeasuredWall wall{{{-2, 1e-3}, {2, 1e-3}, 100, 100}, {{2, 0}, {-2, 0}, 150, 150}};
@@ -115,7 +151,7 @@ TEST(FollowedLayers, MirrorImagesHaveMirroredHeights) {
 TEST(FollowedLayers, TheFrontsLastLayersAskForLeavesOfTheirSize) {
   const Geometry floor = test::floor_with_layers(target_layers);
   const MeasuredWall wall = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
-  const LayerFront front = layer_front(floor, {}, {}, {wall, {}});
+  const LayerFront front = layer_front(floor, {}, {}, {wall, {}, {}});
   const auto last_layer = [&](std::int32_t i) {
     const std::vector<double> heights =
         column_heights(front.line.spec(i), 2 / (100 + 7.5 * front.line[i].wall.x), target_thickness).reached;

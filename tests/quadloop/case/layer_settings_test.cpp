@@ -43,6 +43,10 @@ TEST_F(LayerSettingsTest, ReadsEveryKey) {
   EXPECT_EQ(read("first = 0.01, growth = 1.5, thickness = 0.047").count, 3);
   EXPECT_EQ(read("first = 0.01, growth = 1.5, thickness = 0.048").count, 4);
   EXPECT_EQ(read("first = 0.01, thickness = 0.01").count, 1);
+  LayerSpec follows{1e-3, 1.2, 1.2, 7, 1};
+  EXPECT_FALSE(follows.follows_flow);
+  follows.follows_flow = true;
+  EXPECT_EQ(read("first = 1e-3, count = 7, thickness = \"flow\""), follows);
 }
 
 TEST_F(LayerSettingsTest, TakesTheFirstHeightFromYPlus) {
@@ -108,6 +112,9 @@ TEST_F(LayerSettingsTest, RefusesNumbersOfLayersAndGrowthsThatCannotBe) {
   expect_refused("first = 1e-3", "case.toml:4: 'boundary.box.layers.count' is missing");
   expect_refused("first = 1e-3, count = 3, thickness = 1",
                  "'boundary.box.layers.thickness' stands beside count");
+  expect_refused("first = 1e-3, thickness = \"flow\"", "case.toml:4: 'boundary.box.layers.count' is missing");
+  expect_refused("first = 1e-3, count = 3, thickness = \"float\"",
+                 "'boundary.box.layers.thickness' is 'float', but must be a number above 0 or \"flow\"");
   expect_refused("first = 1e-3, thickness = 1e-4",
                  "'boundary.box.layers.thickness' is 0.0001, less than the first");
   expect_refused("first = 1e-3, thickness = nan", "'boundary.box.layers.thickness' is nan");
@@ -209,6 +216,8 @@ TEST_F(LayerTables, RefusesBadWakesAndFreeLines) {
   has(wake("from = \"a\"\nlength = 1\nspacing = 1\nfirst = 1"), "unknown key");
   has(line("path = [[1, 1]]\nspacing = 1\nfirst = 1\ncount = 1"), "path' must have two points at least");
   has(line("path = [[1, 1], [2, 2]]\nspacing = 1\ncount = 1"), "first' is missing");
+  has(line("path = [[1, 1], [2, 2]]\nspacing = 1\nfirst = 1\ncount = 1\nthickness = \"flow\""),
+      "thickness' is 'flow', but this line has no wall");
 }
 
 }  // namespace

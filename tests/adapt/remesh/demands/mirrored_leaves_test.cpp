@@ -61,6 +61,9 @@ TEST(MirroredLeaves, WallsAgree) {
   agree_with_images(MirrorAxis::x, wall);
   EXPECT_EQ(wall,
             (MeasuredWall{{{0, 0}, {1, 1}, 10, 21}, {{1, -1}, {0, 0}, 21, 10}, {{5, 5}, {6, 6}, 1, 2}}));
+  std::vector<MeasuredThickness> thickness{{{0, 0}, {1, 1}, 10, 20}, {{1, -1}, {0, 0}, 21, 9}};
+  agree_with_images(MirrorAxis::x, thickness);
+  EXPECT_EQ(thickness, (std::vector<MeasuredThickness>{{{0, 0}, {1, 1}, 10, 21}, {{1, -1}, {0, 0}, 21, 10}}));
 }
 
 }  // namespace
