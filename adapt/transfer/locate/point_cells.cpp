@@ -7,6 +7,8 @@ namespace quadloop::adapt {
 namespace {
 
 constexpr std::int64_t most_cells = 1 << 16, few_points = 8;
+constexpr std::int64_t sparse_points =
+    most_cells / 16;  // up to here each point gets a coarse square at least
 constexpr CurveGrid::Square whole_grid{{}, 32};
 constexpr int coarse_bits = 11, above_coarse = 32 - coarse_bits;  // 2048 by 2048 coarse squares
 constexpr int word_bits = 64;
@@ -30,9 +32,10 @@ PointCells::PointCells(const Communicator& comm, const CurveGrid& grid, std::spa
   keys.reserve(points.size());
   for (const Point p : points) keys.push_back(grid.key_of(p));
   std::sort(keys.begin(), keys.end());
-  const std::int64_t few = std::max(few_points, 4 * comm.sum(std::ssize(keys)) / most_cells);
+  const std::int64_t all = comm.sum(std::ssize(keys)), few = std::max(few_points, 4 * all / most_cells);
   std::vector<Stretch> own;
-  split(keys, whole_grid, few, own);
+  split(keys, whole_grid,
+        {static_cast<std::size_t>(few), all <= sparse_points ? above_coarse : whole_grid.bits}, own);
   own = comm.all_gather_values(std::span<const Stretch>(own));
   std::sort(own.begin(), own.end(), [](const Stretch& a, const Stretch& b) {
     return a.first != b.first ? a.first < b.first : a.last > b.last;
@@ -68,10 +71,10 @@ bool PointCells::is_occupied(const CurveGrid::Steps& coarse) const {
 }
 
 /// `keys`: those in the square, ascending.
-void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
+void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, Limits most,
                        std::vector<Stretch>& stretches) {
   if (keys.empty()) return;
-  if (keys.size() <= few || square.bits == 0) {
+  if ((keys.size() <= most.points && square.bits <= most.bits) || square.bits == 0) {
     stretches.push_back({CurveGrid::key_at(square.begin), CurveGrid::key_at(square.last())});
     return;
   }
@@ -79,7 +82,7 @@ void PointCells::split(std::span<const std::uint64_t> keys, const CurveGrid::Squ
     const CurveGrid::Square child = square.child(k);
     const auto end = std::upper_bound(keys.begin(), keys.end(), CurveGrid::key_at(child.last()));
     const std::size_t count = end - keys.begin();
-    split(keys.first(count), child, few, stretches);
+    split(keys.first(count), child, most, stretches);
     keys = keys.subspan(count);
   }
 }

@@ -46,7 +46,12 @@ class PointCells {
   struct Stretch {
     std::uint64_t first = 0, last = 0;
   };
-  static void split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, std::size_t few,
+  /// Of a square: the number of its points, and its size.
+  struct Limits {
+    std::size_t points;
+    int bits;
+  };
+  static void split(std::span<const std::uint64_t> keys, const CurveGrid::Square& square, Limits most,
                     std::vector<Stretch>& stretches);
   const Stretch* next(std::uint64_t key) const;
   bool descend(const CurveGrid::Steps& steps, const CurveGrid::Square& square) const;
