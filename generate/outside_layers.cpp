@@ -66,12 +66,14 @@ void require_strips_within(const std::vector<PlacedLine>& lines, const MeshLimit
 LayerFront front_of(const MeshInput& input, const Geometry& geometry, const MeasuredFlow& measured,
                     const DemandedSplits& demanded) {
   require_strips_within(place_lines(geometry, input.lines, measured.wakes), input.mesh.limit);
+  const auto front = [&](const AdaptedSize& adapted) {
+    return layer_front(geometry, input.mesh.size.curvature, input.lines, measured,
+                       input.mesh.mirror.has_value(), input.mesh.pairs, adapted);
+  };
+  if (demanded.empty()) return front({});
   const TreeGrid grid = input.grid();
   const DemandedSizes sizes(grid, demanded, input.mesh.size.gradation);
-  AdaptedSize adapted;
-  if (!demanded.empty()) adapted = [&](Point a, Point b, double most) { return sizes.near(a, b, most); };
-  return layer_front(geometry, input.mesh.size.curvature, input.lines, measured,
-                     input.mesh.mirror.has_value(), input.mesh.pairs, adapted);
+  return front([&](Point a, Point b, double most) { return sizes.near(a, b, most); });
 }
 
 MeshInput outside(const MeshInput& input, const LayerFront& front) {
