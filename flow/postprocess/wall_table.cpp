@@ -35,7 +35,8 @@ std::unordered_map<std::int64_t, WallRow> rows_of(const Communicator& comm, cons
         if (is_wall[edge.boundary] != 0 && halo.owns(node)) wanted[node.value()] = 1;
       }
     }
-    const NodesAboveWalls above = stream.viscosity > 0 ? nodes_above(halo, is_wall, mesh.strips) : NodesAboveWalls{};
+    const NodesAboveWalls above =
+        stream.viscosity > 0 ? nodes_above(halo, is_wall, mesh.strips) : NodesAboveWalls{};
     for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
       const NodeId node{i};
       if (wanted[node.value()] == 0) continue;

@@ -51,8 +51,9 @@ std::string recorded(const std::string& name) {
 }
 
 TEST(Su2Log, ItsErrorTellsThatItDiverged) {
-  EXPECT_TRUE(diverged_by_log("Error in \"void CSolver::SetResidual_RMS()\":\n---\n"
-                              "SU2 has diverged (Residual > 10^20 detected).\n"));
+  EXPECT_TRUE(
+      diverged_by_log("Error in \"void CSolver::SetResidual_RMS()\":\n---\n"
+                      "SU2 has diverged (Residual > 10^20 detected).\n"));
   EXPECT_TRUE(diverged_by_log("SU2 has diverged (NaN detected).\n"));
   EXPECT_FALSE(diverged_by_log("Error in \"void CConfig\":\nmarker wall has no condition\n"));
 }

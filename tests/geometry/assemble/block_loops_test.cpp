@@ -189,7 +189,8 @@ TEST(BlockLoops, RunAlongInnerLinesAndBack) {
 }
 
 TEST(BlockLoops, BlocksReachAcrossInnerLines) {
-  std::vector<Chain> chains{box_chain("wall", -5, 5), box_chain("ring", -1, 1), box_chain("gauge", -0.5, 0.5)};
+  std::vector<Chain> chains{box_chain("wall", -5, 5), box_chain("ring", -1, 1),
+                            box_chain("gauge", -0.5, 0.5)};
   chains.push_back({"cut", true, {{-0.5, 3}, {-0.5, -3}}, {}});
   for (std::size_t c = 2; c < chains.size(); ++c) chains[c].inner_line = true;
   for (const Point p : {Point{0, 0}, Point{0.75, 0}, Point{-0.75, 0}, Point{0.5, 0}, Point{-0.5, 0.25}}) {
