@@ -47,7 +47,7 @@ class WordDigest {
     }
   }
   void add(const LayerLine& line) {
-    const auto& [names, path, length, spacing, layers, where, at, across, follows_flow] =
+    const auto& [names, path, length, spacing, layers, where, at, across, on_streamline] =
         line;  // across follows from mirror
     const std::string from = fmt::format("{}", fmt::join(names, "\n"));
     add(from.size());
@@ -57,7 +57,7 @@ class WordDigest {
     for (const Point p : path) add(p);
     add(length);
     add(spacing);
-    if (follows_flow) add(std::uint64_t{1});
+    if (on_streamline) add(std::uint64_t{1});
     if (!layers) return;
     const auto& [first, growth, growth_to, count, equal, y_plus, follows_flow] = *layers;
     add(first);

@@ -165,9 +165,11 @@ TEST(PointCells, OfARowEachBoxIsVisitedThatMeetsThem) {
   const std::vector<Point> everywhere = graded_points(3000, 50);
   const CurveGrid grid(world(), everywhere);
   const PointCells cells(world(), grid, std::span(everywhere).first(40));
-  std::vector<Box> boxes;  // rows of boxes far from each other and beside each other, the last one not full
+  std::vector<Box> boxes;  // half of the rows begin at points of the cells; the last row of 32 is not full
   for (int i = 0; i < 1000; ++i) {
-    const Point low{scattered(33, i / 50, 0) + 0.002 * i, scattered(33, i / 50, 1)};
+    const int row = i / 50;
+    const Point begin = row % 2 == 0 ? everywhere[row] : Point{scattered(33, row, 0), scattered(33, row, 1)};
+    const Point low = begin + Point{0.002 * (i % 50), 0};
     boxes.push_back({low, low + Point{0.002, 0.01 * (i % 3)}});
   }
   std::vector<std::size_t> met, visited;
@@ -177,7 +179,7 @@ TEST(PointCells, OfARowEachBoxIsVisitedThatMeetsThem) {
   cells.for_each_met(
       boxes.size(), [&](std::size_t i) { return boxes[i]; }, [&](std::size_t i) { visited.push_back(i); });
   EXPECT_EQ(visited, met);
-  EXPECT_GT(met.size(), 10U);
+  EXPECT_GE(met.size(), 10U);
   EXPECT_LT(met.size(), 900U);
 }
 
