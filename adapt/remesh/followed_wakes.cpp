@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/streamlines.hpp"
@@ -58,13 +57,6 @@ std::string warning_of(const Streamline& line, const PlacedLine& placed, bool ke
       placed.place, placed.name, at.x, at.y);
 }
 
-double distance_to(const std::vector<Point>& path, Point p) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path.size(); ++i)
-    least = std::min(least, place_on_segment(p, path[i - 1], path[i]).squared_distance);
-  return std::sqrt(least);
-}
-
 /// Whether a point of the first path is farther from the second one than a fifth of the column width.
 bool deviates(const PlacedLine& line, const std::vector<Point>& path) {
   constexpr double share = 0.2, widening = 0.1;
@@ -72,7 +64,7 @@ bool deviates(const PlacedLine& line, const std::vector<Point>& path) {
   double s = 0;
   for (std::size_t i = 1; i < line.path.size(); ++i) {
     s += length(line.path[i] - line.path[i - 1]);
-    if (distance_to(path, line.path[i]) > share * std::min(line.spacing, at_edge + widening * s)) return true;
+    if (distance_to_polyline(line.path[i], path) > share * std::min(line.spacing, at_edge + widening * s)) return true;
   }
   return false;
 }

@@ -1,5 +1,8 @@
 #include "mesher/geometry/nearest_on_segment.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace quadloop {
@@ -41,6 +44,13 @@ PlaceOnSegment place_on_segment(Point p, Point a, Point b) {
   const double parameter = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
   const Point off = parameter == 1 ? b - p : a + parameter * along - p;
   return {parameter, dot(off, off)};
+}
+
+double distance_to_polyline(Point p, std::span<const Point> polyline) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < polyline.size(); ++i)
+    least = std::min(least, place_on_segment(p, polyline[i - 1], polyline[i]).squared_distance);
+  return std::sqrt(least);
 }
 
 }  // namespace quadloop

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop {
@@ -19,5 +21,8 @@ struct PlaceOnSegment {
 /// In plain arithmetic, for searches over many segments and for places along an edge. Exact if an end is
 /// nearest, so that edges with a common end have the same distance from a point beyond it.
 PlaceOnSegment place_on_segment(Point p, Point a, Point b);
+
+/// The distance from a polyline of two or more points, also in plain arithmetic.
+double distance_to_polyline(Point p, std::span<const Point> polyline);
 
 }  // namespace quadloop

@@ -427,6 +427,10 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
   std::vector<PlacedLine> placed = place_lines(geometry, lines, measured.wakes);
   WallLine line = wall_line(geometry, placed, measured);
   if (adapted) line.limit_thickness(adapted_thickness(line, adapted));
+  const WakeRoom before_layers(line, placed);
+  for (PlacedLine& one : placed) one = before_layers.with_room(one);
+  if (const std::vector<double> most = before_layers.thickness_of_walls(); !most.empty())
+    line.limit_thickness(most);
   FittingColumns fitting = fit_thickness(line, partners_at(line, pairs));
   LayerFront front{std::move(line), {}, {}, {}, geometry, {}, {}, {}, false};
   const WakeRoom room(front.line, fitting.front, placed);

@@ -20,7 +20,6 @@ namespace {
 constexpr double widening = 0.1;         // of columns, per distance from an end
 constexpr double opening = 1.15;         // factor per column of the first layer at the line
 constexpr double spreading = 0.1;        // of all layers together, per distance from a root
-constexpr double thinning = 0.35;        // of all layers together in narrow places, per distance
 constexpr double thinnest = 0.2;         // of the layers at the root, wherever there is room for a wake
 constexpr double core_spreading = 0.05;  // of half the rows behind a base, per distance
 constexpr double flattest = 0.7;         // largest height of a row over the width of its columns
@@ -153,13 +152,13 @@ class Limits {
       thickness_.push_back(std::max(least, rows * width_[i]));
       const double core = half_base > 0 ? half_base + core_spreading * s_[i] : 0;
       in_room_.push_back(
-          std::max({layers_over_room * room_[i] - core, least - thinning * s_[i], thinnest * least}));
+          std::max({layers_over_room * room_[i] - core, least - thinning_of_wakes * s_[i], thinnest * least}));
     }
     limit(thickness_, spreading);
-    limit(in_room_, thinning);
+    limit(in_room_, thinning_of_wakes);
   }
   double thickness_at(double s) const {
-    return std::min(at(s, thickness_, spreading), at(s, in_room_, thinning));
+    return std::min(at(s, thickness_, spreading), at(s, in_room_, thinning_of_wakes));
   }
 
  private:

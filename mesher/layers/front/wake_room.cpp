@@ -20,11 +20,16 @@ double length_of(const std::vector<Point>& path) {
   return sum;
 }
 
-double distance_to(const std::vector<Point>& path, Point p) {
-  double least = unlimited;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    least = std::min(least, place_on_segment(p, path[i - 1], path[i]).squared_distance);
-  return std::sqrt(least);
+constexpr double share_of_wall = 0.36;  // of the distance between a wall and a wake, as of a gap between walls
+
+std::vector<Point> points_of(const WallLine& walls) {
+  std::vector<Point> points;
+  for (std::int32_t i = 0; i < walls.size(); ++i) points.push_back(walls[i].wall);
+  return points;
+}
+
+bool begins_at(const PlacedLine& wake, BoundaryId boundary) {
+  return std::ranges::find(wake.clear_of_all_but, boundary) != wake.clear_of_all_but.end();
 }
 
 /// The part of the distance to another line that is free for a wake. Two wakes that follow the flow share
@@ -38,8 +43,13 @@ double free_beside(const PlacedLine& other, double distance) {
 
 }  // namespace
 
+WakeRoom::WakeRoom(const WallLine& walls, const std::vector<PlacedLine>& lines)
+    : WakeRoom(walls, points_of(walls), lines) {
+  share_ = 1 - share_of_wall;
+}
+
 WakeRoom::WakeRoom(const WallLine& walls, std::span<const Point> fronts, const std::vector<PlacedLine>& lines)
-    : geometry_{walls.geometry()}, lines_{lines} {
+    : walls_{walls}, geometry_{walls.geometry()}, share_{1}, lines_{lines} {
   if (std::ranges::none_of(lines, keeps_clear)) return;
   for (std::int32_t i = 0; i < walls.size(); ++i) {
     if (const std::int32_t next = walls.next(i); next != WallLine::none)
@@ -63,15 +73,15 @@ WakeRoom::Nearest WakeRoom::nearest(const PlacedLine& wake, Point p) const {
   if (!keeps_clear(wake)) return {.distance = unlimited};
   const auto distance = [&](std::int32_t k) {
     const Obstacle& obstacle = obstacles_[k];
-    const bool own =
-        std::ranges::find(wake.clear_of_all_but, obstacle.boundary) != wake.clear_of_all_but.end();
-    return own ? unlimited : place_on_segment(p, obstacle.from, obstacle.to).squared_distance;
+    return begins_at(wake, obstacle.boundary)
+               ? unlimited
+               : place_on_segment(p, obstacle.from, obstacle.to).squared_distance;
   };
   Nearest found{unlimited, tree_.nearest(p, distance)};
-  if (found.obstacle != BoxTree::none) found.distance = std::sqrt(distance(found.obstacle));
+  if (found.obstacle != BoxTree::none) found.distance = share_ * std::sqrt(distance(found.obstacle));
   for (const PlacedLine& other : lines_) {
     if (other.name == wake.name) continue;
-    if (const double free = free_beside(other, distance_to(other.path, p)); free < found.distance)
+    if (const double free = free_beside(other, distance_to_polyline(p, other.path)); free < found.distance)
       found = {free, BoxTree::none, &other};
   }
   return found;
@@ -93,10 +103,38 @@ PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
     if (layers_over_room * at.distance >= core + least_share * thickness) continue;
     PlacedLine shorter = wake;
     shorter.path = part;
-    shorter.shortened = ShortenedWake{whole, s, name_of(at), part.back()};
+    shorter.shortened =
+        ShortenedWake{wake.shortened ? wake.shortened->requested : whole, s, name_of(at), part.back()};
     return shorter;
   }
   return wake;
+}
+
+double WakeRoom::thickness_at_root(const PlacedLine& wake) const {
+  constexpr double step = 0.25;  // of the column width
+  const double whole = length_of(wake.path);
+  double most = unlimited;
+  for (double s = 0; thinning_of_wakes * s < most && s < whole; s += step * wake.spacing)
+    most = std::min(most, layers_over_room * free(wake, beginning_of(wake.path, s).back()) +
+                              thinning_of_wakes * s);
+  return most;
+}
+
+std::vector<double> WakeRoom::thickness_of_walls() const {
+  if (std::ranges::none_of(lines_, keeps_clear)) return {};
+  std::vector<double> most(walls_.size(), unlimited);
+  for (const PlacedLine& wake : lines_) {
+    if (!keeps_clear(wake)) continue;
+    const double at_root = thickness_at_root(wake);
+    for (std::int32_t i = 0; i < walls_.size(); ++i) {
+      const Station& station = walls_[i];
+      if (!begins_at(wake, geometry_.boundary_of(station.segment)))
+        most[i] = std::min(most[i], share_of_wall * distance_to_polyline(station.wall, wake.path));
+      else if (station.wall == geometry_.point(wake.edge) || station.wall == geometry_.point(wake.base_end))
+        most[i] = std::min(most[i], at_root);
+    }
+  }
+  return most;
 }
 
 }  // namespace quadloop

@@ -11,7 +11,7 @@
 
 namespace quadloop {
 
-/// Distance from a point on a line to the nearest thing that its layers must keep clear of.
+/// Distance from a point on a line that is free of everything that its layers must keep clear of.
 using FreeDistance = std::function<double(Point)>;
 
 /// Parts of the free distance that a wake's layers on one side, with the rows behind a base, and the width of
@@ -19,12 +19,18 @@ using FreeDistance = std::function<double(Point)>;
 /// than a third is left to the cells outside.
 constexpr double layers_over_room = 0.4, width_over_room = 0.25;
 
+/// In narrow places wakes become thinner by this much of the distance, as walls' layers do (limit_slopes()).
+constexpr double thinning_of_wakes = 0.35;
+
 /// The room for the wakes that follow the flow: they keep clear of other walls with their layers, of other
 /// boundaries and of other lines.
 class WakeRoom {
  public:
-  /// `fronts`: the outer ends of the columns, one for each station of `walls`. All must outlive the object.
+  /// Beside layers whose `fronts` are known: the outer ends of the columns, one for each station of `walls`.
+  /// All must outlive the object.
   WakeRoom(const WallLine& walls, std::span<const Point> fronts, const std::vector<PlacedLine>& lines);
+  /// Before layers have been fitted: walls get the share of the distance from a wake that they get of a gap.
+  WakeRoom(const WallLine& walls, const std::vector<PlacedLine>& lines);
 
   /// Infinity for a wake that does not follow the flow.
   double free(const PlacedLine& wake, Point p) const { return nearest(wake, p).distance; }
@@ -33,6 +39,10 @@ class WakeRoom {
   /// `wake`, or its part before the first place with room for less than a third of its layers. Never shorter
   /// than twice the thickness of its layers.
   PlacedLine with_room(const PlacedLine& wake) const;
+
+  /// The largest thickness of the layers at each station of the walls that leaves the wakes their room; empty
+  /// without wakes that follow the flow.
+  std::vector<double> thickness_of_walls() const;
 
  private:
   struct Obstacle {
@@ -45,9 +55,12 @@ class WakeRoom {
     const PlacedLine* line = nullptr;
   };
   Nearest nearest(const PlacedLine& wake, Point p) const;
+  double thickness_at_root(const PlacedLine& wake) const;
   std::string name_of(const Nearest& nearest) const;
 
+  const WallLine& walls_;
   const Geometry& geometry_;
+  double share_;  ///< of the distance from an obstacle that is free
   const std::vector<PlacedLine>& lines_;
   std::vector<Obstacle> obstacles_;
   BoxTree tree_;
