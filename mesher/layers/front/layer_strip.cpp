@@ -289,7 +289,8 @@ class Strip {
   /// Direction of the line. Bends are rounded over the layers' thickness, so that columns on their inner side
   /// do not cross.
   Point along(std::size_t k) const {
-    return path_.direction(reached_[k], std::max(width_at(k), thickness_at(reached_[k])));
+    const double core = strip_.core > 0 ? half_core(k) : 0;
+    return path_.direction(reached_[k], std::max(width_at(k), core + thickness_at(reached_[k])));
   }
   Point direction(std::size_t k, bool left) const {
     const double s = reached_[k];
