@@ -139,14 +139,14 @@ class Limits {
       if (s == whole) break;
       s = std::min(whole, s + std::min(step * size, std::max(least_step * spacing, step * room)));
     }
-    limit(width_, widening);
+    limit(width_, widening, widening);
   }
 
   /// Infinity without limits.
-  double width_at(double s) const { return at(s, width_, widening); }
+  double width_at(double s) const { return at(s, width_, widening, widening); }
   /// As `thickness`, but at most `rows` times the width where that is above `least`, and as the room allows:
-  /// there also thinner, by a third of the distance from a root with `least`. `half_base`: of the rows
-  /// between the layers.
+  /// there also thinner, by a third of the distance from a root with `least`; behind narrow places they
+  /// thicken as slowly as elsewhere. `half_base`: of the rows between the layers.
   void limit_thickness(double least, double rows, double half_base) {
     for (std::size_t i = 0; i < s_.size(); ++i) {
       thickness_.push_back(std::max(least, rows * width_[i]));
@@ -154,28 +154,28 @@ class Limits {
       in_room_.push_back(
           std::max({layers_over_room * room_[i] - core, least - thinning_of_wakes * s_[i], thinnest * least}));
     }
-    limit(thickness_, spreading);
-    limit(in_room_, thinning_of_wakes);
+    limit(thickness_, spreading, spreading);
+    limit(in_room_, spreading, thinning_of_wakes);
   }
   double thickness_at(double s) const {
-    return std::min(at(s, thickness_, spreading), at(s, in_room_, thinning_of_wakes));
+    return std::min(at(s, thickness_, spreading, spreading), at(s, in_room_, spreading, thinning_of_wakes));
   }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Limits each value to the growth `slope` from every other one.
-  void limit(std::vector<double>& values, double slope) const {
+  /// Limits each value to the growth `up` from those before it, and to the growth `down` from those behind.
+  void limit(std::vector<double>& values, double up, double down) const {
     for (std::size_t i = 1; i < values.size(); ++i)
-      values[i] = std::min(values[i], values[i - 1] + slope * (s_[i] - s_[i - 1]));
+      values[i] = std::min(values[i], values[i - 1] + up * (s_[i] - s_[i - 1]));
     for (std::size_t i = values.size(); i-- > 1;)
-      values[i - 1] = std::min(values[i - 1], values[i] + slope * (s_[i] - s_[i - 1]));
+      values[i - 1] = std::min(values[i - 1], values[i] + down * (s_[i] - s_[i - 1]));
   }
-  double at(double s, const std::vector<double>& values, double slope) const {
+  double at(double s, const std::vector<double>& values, double up, double down) const {
     if (values.empty()) return infinity;
     const auto after = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
     const auto i = static_cast<std::size_t>(after - s_.begin());
-    return std::min(values[i - 1] + slope * (s - s_[i - 1]), values[i] + slope * (s_[i] - s));
+    return std::min(values[i - 1] + up * (s - s_[i - 1]), values[i] + down * (s_[i] - s));
   }
 
   std::vector<double> s_, width_, room_, thickness_, in_room_;

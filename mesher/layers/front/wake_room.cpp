@@ -94,7 +94,8 @@ std::string WakeRoom::name_of(const Nearest& nearest) const {
 
 PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
   constexpr double least_share = 0.3, step = 0.25, shortest = 2, spread_of_core = 0.05;
-  const double whole = length_of(wake.path), thickness = layers_thickness(wake.layers),
+  const double whole = length_of(wake.path),
+               thickness = std::min(layers_thickness(wake.layers), thickness_at_root(wake)),
                half_base = 0.5 * length(geometry_.point(wake.edge) - geometry_.point(wake.base_end));
   for (double s = std::min(whole, shortest * thickness); s < whole; s += step * wake.spacing) {
     const std::vector<Point> part = quadloop::beginning_of(wake.path, s);

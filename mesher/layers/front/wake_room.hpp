@@ -36,8 +36,8 @@ class WakeRoom {
   double free(const PlacedLine& wake, Point p) const { return nearest(wake, p).distance; }
   FreeDistance around(const PlacedLine& wake) const;
 
-  /// `wake`, or its part before the first place with room for less than a third of its layers. Never shorter
-  /// than twice the thickness of its layers.
+  /// `wake`, or its part before the first place with room for less than a third of the layers at its root.
+  /// Never shorter than twice their thickness.
   PlacedLine with_room(const PlacedLine& wake) const;
 
   /// The largest thickness of the layers at each station of the walls that leaves the wakes their room; empty
@@ -55,6 +55,7 @@ class WakeRoom {
     const PlacedLine* line = nullptr;
   };
   Nearest nearest(const PlacedLine& wake, Point p) const;
+  /// The largest thickness at the root from which the wake can become as thin as its room requires.
   double thickness_at_root(const PlacedLine& wake) const;
   std::string name_of(const Nearest& nearest) const;
 
