@@ -1,9 +1,16 @@
 #include "adapt/remesh/streamlines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
 
+#include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
+#include "adapt/transfer/locate/locate_points.hpp"
+#include "mesher/geometry/box_tree.hpp"
 #include "mesher/layers/front/wall_line.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
 #include "mesher/mesh/variable_names.hpp"
@@ -22,15 +29,21 @@ std::optional<std::array<std::size_t, 2>> direction_in(const std::vector<std::st
   return std::nullopt;
 }
 
-/// Unit vectors of the flow at places that all ranks ask for; empty where there is none.
+/// Unit vectors of the flow at places that all ranks ask for; empty where there is none. Each rank searches
+/// its own cells. Of several triangles at a place the one with the lowest number counts.
 class FlowAt {
  public:
   /// *Collective.*
   FlowAt(const Communicator& comm, const Mesh& mesh, const Field& direction)
       : comm_{comm},
+        mesh_{mesh},
         field_{with_ghosts(comm, mesh, direction)},
-        shares_{comm, owned_points(mesh), {}},
-        values_{comm, mesh, field_, centre_of_nodes(comm, mesh), shares_} {}
+        triangles_{cell_triangles(comm, mesh, centre_of_nodes(comm, mesh))},
+        tree_(size32(triangles_), [this](std::int32_t k) {
+          Box box;
+          for (const Point p : corners(k)) box.include(p);
+          return box;
+        }) {}
 
   struct Answer {
     bool is_inside = false;
@@ -38,29 +51,50 @@ class FlowAt {
   };
   /// *Collective.*
   std::vector<Answer> at(const std::vector<Point>& places) const {
-    const std::vector<Point> asked = comm_.is_root() ? places : std::vector<Point>{};
-    PointValues::Answers found = values_.at(asked);
-    comm_.broadcast(found.values);
-    comm_.broadcast(found.is_inside);
-    std::vector<Answer> answers(places.size());
+    std::vector<Found> own;
+    for (const Point p : places) own.push_back(found_at(p));
+    const std::vector<Found> all = comm_.all_gather_values(std::span<const Found>(own));
+    std::vector<Answer> answers;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const Point flow{found.values[2 * i], found.values[2 * i + 1]};
-      answers[i].is_inside = found.is_inside[i] != 0;
-      if (answers[i].is_inside && length(flow) > 0 && std::isfinite(length(flow)))
-        answers[i].direction = unit(flow);
+      Found first;
+      for (std::size_t k = i; k < all.size(); k += places.size()) {
+        if (all[k].triangle < first.triangle) first = all[k];
+      }
+      answers.push_back({first.triangle != nowhere, {}});
+      const double speed = length(first.flow);
+      if (speed > 0 && std::isfinite(speed)) answers.back().direction = unit(first.flow);
     }
     return answers;
   }
 
  private:
-  static std::span<const Point> owned_points(const Mesh& mesh) {
-    return std::span(mesh.points).first(mesh.owned_nodes);
+  static constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::max();
+  struct Found {
+    std::int64_t triangle = nowhere;  ///< its global number
+    Point flow;
+  };
+
+  std::array<Point, 3> corners(std::int32_t k) const {
+    const auto& [a, b, c] = triangles_[k].nodes;
+    return {mesh_.point(a), mesh_.point(b), mesh_.point(c)};
+  }
+  Found found_at(Point p) const {
+    Found found;
+    tree_.for_each_meeting({p, p}, [&](std::int32_t k) {
+      if (triangles_[k].number >= found.triangle || !contains(corners(k), p)) return;
+      const auto& [a, b, c] = triangles_[k].nodes;
+      std::array<double, 2> flow{};
+      interpolate_in_triangle(corners(k), {field_.row(a), field_.row(b), field_.row(c)}, p, flow);
+      found = {triangles_[k].number, {flow[0], flow[1]}};
+    });
+    return found;
   }
 
   const Communicator& comm_;
+  const Mesh& mesh_;
   Field field_;
-  CurvePartition shares_;
-  PointValues values_;
+  std::vector<CellTriangle> triangles_;
+  BoxTree tree_;
 };
 
 /// The streamlines during the integration.

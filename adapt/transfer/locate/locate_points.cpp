@@ -13,11 +13,6 @@ namespace {
 constexpr std::size_t few = 8;  ///< number of points or triangles that is not subdivided
 constexpr int deepest = 100;    ///< ends the subdivision of coincident points
 
-bool contains(const std::array<Point, 3>& corners, Point p) {
-  const auto& [a, b, c] = corners;
-  return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
-}
-
 /// Distributes points and triangles together to ever smaller bounding boxes of the remaining points, until
 /// the few are tested with each other.
 class Search {
@@ -109,6 +104,11 @@ class Search {
 };
 
 }  // namespace
+
+bool contains(const std::array<Point, 3>& corners, Point p) {
+  const auto& [a, b, c] = corners;
+  return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
+}
 
 std::vector<std::int32_t> locate_points(const TrianglePiece& piece, std::span<const Point> points) {
   return Search(piece, points).run();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,6 +8,9 @@
 #include "adapt/transfer/locate/triangle_piece.hpp"
 
 namespace quadloop::adapt {
+
+/// Whether a counter-clockwise triangle contains a point, border included; exact.
+bool contains(const std::array<Point, 3>& corners, Point p);
 
 /// For each point the index of the triangle that contains it, border included, by exact predicates; the
 /// lowest number of several; -1 if there is none. The triangles must be counter-clockwise. O((n + m) log n).

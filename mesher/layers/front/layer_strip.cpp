@@ -150,9 +150,8 @@ class Limits {
   void limit_thickness(double least, double rows, double half_base) {
     for (std::size_t i = 0; i < s_.size(); ++i) {
       thickness_.push_back(std::max(least, rows * width_[i]));
-      const double core = half_base > 0 ? half_base + core_spreading * s_[i] : 0;
-      in_room_.push_back(
-          std::max({layers_over_room * room_[i] - core, least - thinning_of_wakes * s_[i], thinnest * least}));
+      in_room_.push_back(std::max({layers_in_room(room_[i], half_base), least - thinning_of_wakes * s_[i],
+                                   thinnest * least}));
     }
     limit(thickness_, spreading, spreading);
     limit(in_room_, spreading, thinning_of_wakes);
@@ -160,6 +159,8 @@ class Limits {
   double thickness_at(double s) const {
     return std::min(at(s, thickness_, spreading, spreading), at(s, in_room_, spreading, thinning_of_wakes));
   }
+  /// Of half the rows behind a base: its largest height.
+  double core_at(double s) const { return core_over_layers * at(s, in_room_, spreading, thinning_of_wakes); }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -346,7 +347,7 @@ class Strip {
   double half_core(std::size_t k) const {
     const double open = 0.5 * strip_.core * first_height(k),
                  widest = half_base_ + core_spreading * reached_[k];
-    return std::max(half_base_, std::min(open, widest));
+    return std::max(half_base_, std::min({open, widest, limits_.core_at(reached_[k])}));
   }
   /// The points between the feet, without these: around the layers on the base.
   std::vector<Point> core_at_base() const {

@@ -43,6 +43,11 @@ double free_beside(const PlacedLine& other, double distance) {
 
 }  // namespace
 
+double layers_in_room(double free, double half_base) {
+  const double both = layers_over_room * free;
+  return half_base > 0 ? std::min(both / (1 + core_over_layers), both - half_base) : both;
+}
+
 WakeRoom::WakeRoom(const WallLine& walls, const std::vector<PlacedLine>& lines)
     : WakeRoom(walls, points_of(walls), lines) {
   share_ = 1 - share_of_wall;
@@ -93,15 +98,14 @@ std::string WakeRoom::name_of(const Nearest& nearest) const {
 }
 
 PlacedLine WakeRoom::with_room(const PlacedLine& wake) const {
-  constexpr double least_share = 0.3, step = 0.25, shortest = 2, spread_of_core = 0.05;
+  constexpr double least_share = 0.3, step = 0.25, shortest = 2;
   const double whole = length_of(wake.path),
                thickness = std::min(layers_thickness(wake.layers), thickness_at_root(wake)),
                half_base = 0.5 * length(geometry_.point(wake.edge) - geometry_.point(wake.base_end));
   for (double s = std::min(whole, shortest * thickness); s < whole; s += step * wake.spacing) {
     const std::vector<Point> part = quadloop::beginning_of(wake.path, s);
     const Nearest at = nearest(wake, part.back());
-    const double core = half_base > 0 ? half_base + spread_of_core * s : 0;
-    if (layers_over_room * at.distance >= core + least_share * thickness) continue;
+    if (layers_in_room(at.distance, half_base) >= least_share * thickness) continue;
     PlacedLine shorter = wake;
     shorter.path = part;
     shorter.shortened =

@@ -19,6 +19,12 @@ using FreeDistance = std::function<double(Point)>;
 /// than a third is left to the cells outside.
 constexpr double layers_over_room = 0.4, width_over_room = 0.25;
 
+/// The height of half the rows behind a base in narrow places, over that of the layers on one side.
+constexpr double core_over_layers = 0.5;
+/// The thickness of the layers on one side that this free distance allows a wake behind a base with this half
+/// length, 0 at a sharp edge.
+double layers_in_room(double free, double half_base);
+
 /// In narrow places wakes become thinner by this much of the distance, as walls' layers do (limit_slopes()).
 constexpr double thinning_of_wakes = 0.35;
 
