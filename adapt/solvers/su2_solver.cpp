@@ -61,19 +61,22 @@ Entries entries_of_loop(const CommandSolver& command, bool restarts) {
 
 /// A run of SU2 in a cycle.
 struct Run {
-  bool restarts = false;  ///< from a transferred solution
-  bool careful = false;   ///< after a run that diverged
+  bool restarts = false;   ///< from a transferred solution, or from the first run of the cycle
+  bool finishing = false;  ///< the second run of the cycle
+  bool careful = false;    ///< after a run that diverged
 };
+
+void set_all(flow::Su2Config& config, const Entries& entries) {
+  for (const auto& [key, value] : entries) config.set(flow::su2_key(key), value);
+}
 
 /// Returns the user's configuration with the settings of the run.
 std::string config_text(const Su2Solver& solver, Run run) {
   flow::Su2Config config = read_config(solver.config);
-  for (const auto& [key, value] : entries_of_loop(solver.command, run.restarts)) config.set(key, value);
-  if (run.careful) {
-    flow::set_careful_cfl(config);
-  } else if (run.restarts) {
-    for (const auto& [key, value] : solver.warm) config.set(flow::su2_key(key), value);
-  }
+  set_all(config, entries_of_loop(solver.command, run.restarts));
+  if (run.restarts && !run.careful) set_all(config, solver.warm);
+  if (run.finishing) set_all(config, solver.finish);
+  if (run.careful) flow::set_careful_cfl(config);
   return config.text();
 }
 
@@ -159,38 +162,60 @@ class Su2Runs {
         command_{command_solver(solver_.command, folder_of)},
         folder_of_{std::move(folder_of)} {}
 
-  /// Solves once, and once more with lower CFL numbers if the flow diverged.
+  /// Solves once, and a second time with the keys of `finish` if there are any.
   flow::SolvedFlow operator()(const Communicator& comm, const Mesh& mesh, const Field& start,
                               int cycle) const {
     const Field state = flow::without_primitive_variables(start);
-    std::optional<flow::SolvedFlow> flow = solved(comm, mesh, state, cycle, false);
-    if (!flow) {
-      flow = solved(comm, mesh, state, cycle, true);
-      flow->warnings.push_back(
-          "SU2 diverged in this cycle and was run again with a tenth of the CFL numbers (su2.cfg in the "
-          "folder "
-          "of the cycle); reduce CFL_NUMBER or the growth in CFL_ADAPT_PARAM, or remove them from "
-          "solver.warm");
-    }
-    flow->solution = flow::with_primitive_variables(std::move(flow->solution), solver_.command.gamma);
-    return std::move(*flow);
+    flow::SolvedFlow flow = solved(comm, mesh, state, cycle, {.restarts = state.width() > 0});
+    if (!solver_.finish.empty()) finish(comm, mesh, cycle, flow);
+    flow.solution = flow::with_primitive_variables(std::move(flow.solution), solver_.command.gamma);
+    return flow;
   }
 
  private:
-  /// Empty if the flow diverged, unless the run is careful.
-  std::optional<flow::SolvedFlow> solved(const Communicator& comm, const Mesh& mesh, const Field& state,
-                                         int cycle, bool careful) const {
+  /// Solves once, and once more with lower CFL numbers if the flow diverged.
+  flow::SolvedFlow solved(const Communicator& comm, const Mesh& mesh, const Field& state, int cycle,
+                          Run run) const {
+    std::optional<flow::SolvedFlow> flow = attempt(comm, mesh, state, cycle, run);
+    if (flow) return std::move(*flow);
+    run.careful = true;
+    flow = attempt(comm, mesh, state, cycle, run);
+    flow->warnings.push_back(
+        "SU2 diverged in this cycle and was run again with a tenth of the CFL numbers (su2.cfg in the "
+        "folder of the cycle); reduce CFL_NUMBER or the growth in CFL_ADAPT_PARAM, or remove them from "
+        "solver.warm");
+    return std::move(*flow);
+  }
+
+  /// Replaces a flow by that of the second run, which starts from it. If the second run diverges, the flow of
+  /// the first one stays.
+  void finish(const Communicator& comm, const Mesh& mesh, int cycle, flow::SolvedFlow& flow) const {
+    std::optional<flow::SolvedFlow> finished =
+        attempt(comm, mesh, flow.solution, cycle, {.restarts = true, .finishing = true});
+    if (!finished) {
+      flow.warnings.push_back(
+          "SU2 diverged in the second run of this cycle, with the keys of solver.finish; the cycle keeps the "
+          "flow of the first run: let the first run converge further, or reduce CFL_NUMBER in solver.finish");
+      return;
+    }
+    finished->warnings.insert(finished->warnings.begin(), flow.warnings.begin(), flow.warnings.end());
+    flow = std::move(*finished);
+  }
+
+  /// Runs SU2. Empty if the flow diverged, unless the run is careful.
+  std::optional<flow::SolvedFlow> attempt(const Communicator& comm, const Mesh& mesh, const Field& state,
+                                          int cycle, Run run) const {
     const std::string folder = folder_of_(cycle);
-    write_config(comm, solver_, folder, {state.width() > 0, careful});
+    write_config(comm, solver_, folder, run);
     flow::SolvedFlow flow;
     try {
       flow = command_(comm, mesh, state, cycle);
     } catch (const SolverError&) {
-      if (careful || !stopped_diverging(comm, folder)) throw;
+      if (run.careful || !stopped_diverging(comm, folder)) throw;
       return std::nullopt;
     }
     const flow::Su2End end = end_of_run(comm, folder);
-    if (!careful && is_diverging(end)) return std::nullopt;
+    if (!run.careful && is_diverging(end)) return std::nullopt;
     add_end(comm, solver_, end, flow);
     return flow;
   }
@@ -207,7 +232,7 @@ bool is_set_by_loop(const std::string& key) {
   return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == flow::su2_key(key); });
 }
 
-Su2Solver su2_solver_of(const std::string& config, CommandSolver command, Entries warm) {
+Su2Solver su2_solver_of(const std::string& config, CommandSolver command, Entries warm, Entries finish) {
   const flow::Su2Config given = read_config(config);
   command.mesh = "mesh.su2";
   command.solution = restart_name(given, config);
@@ -220,7 +245,7 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command, Entrie
     command.command.name = "SU2_CFD";
     command.command.where = "[solver] has no command, so SU2_CFD is run";
   }
-  return {config, std::move(warm), std::move(command)};
+  return {config, std::move(warm), std::move(finish), std::move(command)};
 }
 
 flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of) {

@@ -174,7 +174,12 @@ std::vector<Key<SolverSettings>> command_keys() {
               "warm", su2_entries(),
               "Keys of SU2's configuration, with their values for runs that restart from a transferred "
               "solution: a number, or text as in the configuration.",
-              {.fallback = "none", .needs = {{"kind = \"su2\""}}})};
+              {.fallback = "none", .needs = {{"kind = \"su2\""}}}),
+          key<&SolverSettings::finish>(
+              "finish", su2_entries(),
+              "Keys of SU2's configuration, with their values for a second run in each cycle, which starts "
+              "from the solution of the first one.",
+              {.example = "{ MUSCL_TURB = \"YES\" }", .fallback = "none", .needs = {{"kind = \"su2\""}}})};
 }
 
 /// Checks the time steps, and combinations of several keys.
@@ -327,7 +332,7 @@ adapt::ChosenSolver chosen_solver(const SolverSettings& settings, const std::vec
   solver.case_folder = case_folder.string();
   if (settings.kind == SolverSettings::Kind::su2)
     return adapt::su2_solver_of((case_folder / settings.case_template).string(), std::move(solver),
-                                settings.warm);
+                                settings.warm, settings.finish);
   return solver;
 }
 

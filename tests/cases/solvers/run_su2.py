@@ -136,6 +136,29 @@ def check_diverged(program, folder):
     require(status == 3 and "SU2 has diverged" in said and told not in said, f"{status} {said}")
 
 
+def check_finish(program, folder):
+    """A second run in each cycle, from the solution of the first one; if it diverges, the cycle has the flow of the first one."""
+    case = wedge_case(folder / "finish", "RESTART")
+    with open(folder / "finish" / "flow.cfg", "a") as config:
+        config.write("STABLE_CFL= 2000\n")
+    with open(case, "a") as text:
+        text.write('finish = { MUSCL_TURB = "YES" }\n')
+    for ranks in (1, 3):
+        adapt(program, case, folder / f"finished_{ranks}", ranks=ranks, options=["--cycles", "1"])
+    made = folder / "finished_1"
+    require_same_folders(made, folder / "finished_3", "a second run on 3 ranks")
+    for k in range(2):
+        used = (made / f"cycle_{k:02d}" / "su2.cfg").read_text().splitlines()
+        require("MUSCL_TURB= YES" in used and "CFL_NUMBER= 1000" in used and "RESTART_SOL= YES" in used, f"cycle {k}: {used}")
+        log = (made / f"cycle_{k:02d}" / "solver.log").read_text()
+        require(log == "started from Density Momentum_x Momentum_y Energy\n", f"cycle {k}: {log}")
+    told = "SU2 diverged in the second run of this cycle"
+    status, said = attempt(program, "adapt", case, "-o", folder / "first_kept", "--cycles", "0", "--set", "solver.finish.CFL_NUMBER=3000")
+    require(status == 0 and told in said, f"{status} {said}")
+    kept, whole = ((folder / name / "cycle_00" / "mesh.mesh").read_bytes() for name in ("first_kept", "finished_1"))
+    require(kept == whole, "the flow of the first run is not kept")
+
+
 def check_no_su2(program, folder):
     """Without a command, on a machine without SU2."""
     case = wedge_case(folder / "no_su2", "RESTART")
@@ -189,6 +212,7 @@ def main():
         check_refusals(program, folder)
         check_unconverged(program, folder)
         check_diverged(program, folder)
+        check_finish(program, folder)
         if shutil.which("SU2_CFD") is None:
             check_no_su2(program, folder)
         check_resume(program, folder)

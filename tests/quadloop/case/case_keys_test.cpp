@@ -106,6 +106,7 @@ std::string text_of(const Settings& s) {
   const adapt::CommandSolver& c = s.solver.command;
   dump.add(c.command.arguments, c.command.timeout, c.mesh, c.solution, c.ranks);
   for (const auto& [key, value] : s.solver.warm) dump.add(key, value);
+  for (const auto& [key, value] : s.solver.finish) dump.add(key, value);
   for (const OutflowPressure& outflow : s.solver.pressures) dump.add(outflow.pattern, outflow.pressure);
   for (const WallTemperature& wall : s.solver.wall_temperatures) dump.add(wall.pattern, wall.temperature);
   return dump.text();
