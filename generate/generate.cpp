@@ -129,7 +129,7 @@ void name_layers(const Geometry& geometry, Mesh& mesh) {
 void fill_layers(const Communicator& comm, const MeshInput& input, const LayerFront& front,
                  MeshResult& result) {
   DivideBy divide;
-  if (has_triangles_alone(input.mesh.type)) divide = order_in_layers(input, result.report.finest_allowed);
+  if (divides_layers(input.mesh.type)) divide = order_in_layers(input, result.report.finest_allowed);
   add_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
   if (front.on_interfaces)
     add_interface_layers(comm, front, result.edge_leaves, divide, result.mesh, result.tree.leaves);
@@ -318,7 +318,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   times.end();
   GeneratedMesh generated = OutsideMesh(comm, input, demanded, front).made(change);
   add_dropped(dropped, generated.result.report);
-  add_strips_to(front, has_triangles_alone(input.mesh.type), generated.result.report.estimate);
+  add_strips_to(front, divides_layers(input.mesh.type), generated.result.report.estimate);
   times.append(generated.times);
   times.begin("layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);

@@ -20,10 +20,14 @@
 namespace quadloop {
 
 /// Cell types of a mesh: hybrid: quadrilaterals where they fit, else triangles; delaunay: triangles only,
-/// constrained Delaunay over the whole domain; metric: such triangles until there is a solution, then
-/// triangles that follow its metric.
+/// constrained Delaunay over the whole domain; metric: outside of layers such triangles until there is a
+/// solution, then triangles that follow its metric.
 enum class MeshType { hybrid, delaunay, metric };
+/// Whether a mesh has no quadrilaterals outside of layers.
 inline bool has_triangles_alone(MeshType type) { return type != MeshType::hybrid; }
+/// Whether layers consist of triangles too. Beside anisotropic triangles they are quadrilaterals, which viscous
+/// flow requires.
+inline bool divides_layers(MeshType type) { return type == MeshType::delaunay; }
 
 /// Quadrilaterals of a hybrid mesh: all well-shaped ones, or only parallelograms, the others being split.
 enum class QuadChoice { all, parallel };

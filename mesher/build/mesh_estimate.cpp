@@ -61,7 +61,7 @@ MeshEstimate estimate_mesh(const Geometry& geometry, MeshType type, SizedDomain&
   estimate.leaves = leaves.all();
   estimate.cells = (leaves.inside + leaves.cut) * (delaunay ? triangles_of_leaf : hybrid_cells_of_leaf);
   estimate.cells += std::max(0.0, kept_points(geometry) - leaves.cut);
-  estimate.layer_cells = cells_of_layers(geometry, domain) * (delaunay ? 2 : 1);
+  estimate.layer_cells = cells_of_layers(geometry, domain) * (divides_layers(type) ? 2 : 1);
   estimate.cells += estimate.layer_cells;
   estimate.bytes = of_leaf * leaves.all() + of_cut_leaf * leaves.cut +
                    (delaunay ? of_delaunay_triangle : of_hybrid_cell) * estimate.cells;

@@ -128,12 +128,11 @@ LayerSpec with_first_height(const LayerSpec& spec, double first) {
 }
 
 LayerSpec with_thickness(const LayerSpec& spec, double first, double thickness) {
-  constexpr double least_growth = 1.02, most_growth = 1.3;
+  constexpr double least_share = 0.7, most_growth = 1.3;
   LayerSpec other = spec;
   other.first = first;
-  const double low = spec.growth > least_growth ? (least_growth - 1) / (spec.growth - 1) : 1;
   const double high = spec.growth_to < most_growth ? (most_growth - 1) / (spec.growth_to - 1) : 1;
-  return with_scaled_growth(spec, other, thickness, {low, std::max(low, high)});
+  return with_scaled_growth(spec, other, thickness, {least_share, high});
 }
 
 ColumnHeights column_heights(const LayerSpec& spec, double first, double length) {

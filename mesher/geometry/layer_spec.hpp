@@ -42,9 +42,9 @@ double thickness_with_last(const LayerSpec& spec, double last);
 LayerSpec with_first_height(const LayerSpec& spec, double first);
 
 /// Layers with another first height and total thickness but the same count: the excess of each growth ratio
-/// over 1 is scaled by one factor, found by bisection. The largest growth ratio is at most 1.3, or that of
-/// `spec` if it is larger, and the smallest at least 1.02, or that of `spec` if it is smaller; then the
-/// layers are thinner or thicker. The first height is kept.
+/// over 1 is scaled by one factor, found by bisection. The factor is at least 0.7, and the largest growth
+/// ratio at most 1.3, or that of `spec` if it is larger; then the layers are thicker or thinner. The first
+/// height is kept.
 LayerSpec with_thickness(const LayerSpec& spec, double first, double thickness);
 
 /// One column of layers.

@@ -46,11 +46,20 @@ PlaceOnSegment place_on_segment(Point p, Point a, Point b) {
   return {parameter, dot(off, off)};
 }
 
-double distance_to_polyline(Point p, std::span<const Point> polyline) {
+Point nearest_on_polyline(Point p, std::span<const Point> polyline) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < polyline.size(); ++i)
-    least = std::min(least, place_on_segment(p, polyline[i - 1], polyline[i]).squared_distance);
-  return std::sqrt(least);
+  Point nearest = polyline[0];
+  for (std::size_t i = 1; i < polyline.size(); ++i) {
+    const auto [parameter, squared_distance] = place_on_segment(p, polyline[i - 1], polyline[i]);
+    if (squared_distance >= least) continue;
+    least = squared_distance;
+    nearest = polyline[i - 1] + parameter * (polyline[i] - polyline[i - 1]);
+  }
+  return nearest;
+}
+
+double distance_to_polyline(Point p, std::span<const Point> polyline) {
+  return length(nearest_on_polyline(p, polyline) - p);
 }
 
 }  // namespace quadloop

@@ -22,7 +22,8 @@ struct PlaceOnSegment {
 /// nearest, so that edges with a common end have the same distance from a point beyond it.
 PlaceOnSegment place_on_segment(Point p, Point a, Point b);
 
-/// The distance from a polyline of two or more points, also in plain arithmetic.
+/// The nearest point of a polyline of two or more points, and its distance; also in plain arithmetic.
+Point nearest_on_polyline(Point p, std::span<const Point> polyline);
 double distance_to_polyline(Point p, std::span<const Point> polyline);
 
 }  // namespace quadloop

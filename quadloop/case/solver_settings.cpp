@@ -179,7 +179,7 @@ std::vector<Key<SolverSettings>> command_keys() {
               "finish", su2_entries(),
               "Keys of SU2's configuration, with their values for a second run in each cycle, which starts "
               "from the solution of the first one.",
-              {.example = "{ MUSCL_TURB = \"YES\" }", .fallback = "none", .needs = {{"kind = \"su2\""}}})};
+              {.fallback = "none", .example = "{ MUSCL_TURB = \"YES\" }", .needs = {{"kind = \"su2\""}}})};
 }
 
 /// Checks the time steps, and combinations of several keys.

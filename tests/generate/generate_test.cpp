@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "generate/digests.hpp"
@@ -22,7 +23,7 @@ namespace {
 using test::world;
 
 /// A box round a disc of void.
-MeshInput disc_in_box() {
+MeshInput disc_in_box(const std::optional<LayerSpec>& layers = {}) {
   std::vector<Point> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   std::vector<BoundaryId> boundary(4, BoundaryId{0});
   for (int i = 0; i < 60; ++i) {
@@ -30,8 +31,9 @@ MeshInput disc_in_box() {
     points.push_back({0.1 + 0.4 * std::cos(angle), 0.05 + 0.4 * std::sin(angle)});
     boundary.push_back(BoundaryId{1});
   }
-  MeshInput input{
-      {{{"box", 0.25, 30, "none"}, {"disc", 0.06, 30, "wall"}}, points, {0, 4, 64}, boundary}, {}, {}, 0};
+  std::vector<Boundary> boundaries{{"box", 0.25, 30, "none"}, {"disc", 0.06, 30, "wall"}};
+  boundaries[1].layers = layers;
+  MeshInput input{{boundaries, points, {0, 4, 64}, boundary}, {}, {}, 0};
   input.mesh.size.min = 0.03;
   input.mesh.size.max = 0.25;
   input.smooth.sweeps = 5;
@@ -61,6 +63,23 @@ TEST(Generate, SmoothsWhatItHasMeshed) {
     if (!world().is_root()) continue;
     EXPECT_TRUE(validate(whole).empty());
     EXPECT_EQ(is_delaunay(whole), type == MeshType::delaunay);
+  }
+}
+
+TEST(Generate, LayersAreDividedInDelaunayMeshesOnly) {
+  constexpr LayerSpec five_layers{0.005, 1.2, 1.2, 5};
+  for (const MeshType type : {MeshType::hybrid, MeshType::metric, MeshType::delaunay}) {
+    MeshInput input = disc_in_box(five_layers);
+    input.mesh.type = type;
+    const Mesh whole = gather_whole(world(), generate_mesh(world(), input).result.mesh);
+    if (!world().is_root()) continue;
+    EXPECT_TRUE(validate(whole).empty());
+    const std::size_t columns = whole.boundaries[1].edges.size();
+    ASSERT_GT(columns, 20U);
+    if (type == MeshType::hybrid)
+      EXPECT_GT(whole.quads.size(), 5 * columns);
+    else
+      EXPECT_EQ(whole.quads.size(), type == MeshType::metric ? 5 * columns : 0);
   }
 }
 

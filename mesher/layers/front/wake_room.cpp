@@ -133,10 +133,13 @@ std::vector<double> WakeRoom::thickness_of_walls() const {
     const double at_root = thickness_at_root(wake);
     for (std::int32_t i = 0; i < walls_.size(); ++i) {
       const Station& station = walls_[i];
-      if (!begins_at(wake, geometry_.boundary_of(station.segment)))
-        most[i] = std::min(most[i], share_of_wall * distance_to_polyline(station.wall, wake.path));
-      else if (station.wall == geometry_.point(wake.edge) || station.wall == geometry_.point(wake.base_end))
+      if (!begins_at(wake, geometry_.boundary_of(station.segment))) {
+        const Point to_wake = nearest_on_polyline(station.wall, wake.path) - station.wall;
+        if (dot(to_wake, station.direction) > 0) most[i] = std::min(most[i], share_of_wall * length(to_wake));
+      } else if (station.wall == geometry_.point(wake.edge) ||
+                 station.wall == geometry_.point(wake.base_end)) {
         most[i] = std::min(most[i], at_root);
+      }
     }
   }
   return most;

@@ -48,9 +48,9 @@ TEST(TemplateFiles, OfSu2AreItsConfiguration) {
   const TemporaryFolder folder;
   if (world().is_root()) {
     test::write_bytes(folder.file("flow.cfg"), "MACH_NUMBER= 0.8\n");
-    const CaseSettings files = template_files(Su2Solver{folder.file("flow.cfg"), {}, {}});
+    const CaseSettings files = template_files(Su2Solver{folder.file("flow.cfg"), {}, {}, {}});
     EXPECT_EQ(keys_of(files), std::vector<std::string>{template_key("flow.cfg")});
-    EXPECT_TRUE(template_files(Su2Solver{folder.file("none.cfg"), {}, {}}).empty());
+    EXPECT_TRUE(template_files(Su2Solver{folder.file("none.cfg"), {}, {}, {}}).empty());
   }
   world().barrier();
   EXPECT_TRUE(template_files(flow::EulerOptions{}).empty());

@@ -84,6 +84,29 @@ TEST(WakeRoom, AWakeBecomesThinnerBesideAnotherBody) {
   EXPECT_GT(thickness_near(7.5), 0.3) << "past the body it thickens again";
 }
 
+TEST(WakeRoom, TheLayersOfAWallBesideAWakeLeaveItRoom) {
+  // without layers the second body leaves a free distance of 0.45 to the wake
+  const Geometry g = two_bodies(4, 0.75, test::equal_layers(0.4, 4));
+  const LayerFront front = layer_front(g, {}, {wake_of_flow()});
+  const LayerStrip& strip = front.strips[0];
+  EXPECT_FALSE(strip.shortened);
+  double thinnest = 1, whole = 0;
+  for (std::int32_t i = 0; i < front.line.size(); ++i) {
+    const Station& station = front.line[i];
+    if (g.boundary(station.layers).name != "second") continue;
+    const double distance = station.wall.y;  // from the wake on the x axis
+    if (station.direction.y < 0) {
+      EXPECT_LE(front.thickness[i], 0.36 * distance + 1e-9) << station.wall.x;
+    }
+    thinnest = std::min(thinnest, front.thickness[i]);
+    whole = std::max(whole, front.thickness[i]);
+  }
+  EXPECT_GT(thinnest, 0.3 * 0.45) << "where the body is next to the wake";
+  EXPECT_DOUBLE_EQ(whole, 0.4) << "on its other side";
+  for (const std::vector<Point>& column : strip.columns)
+    EXPECT_GT(length(column.back() - column[column.size() / 2]), 0.05);
+}
+
 TEST(WakeRoom, AWakeThatKeepsItsCourseHasNoLimits) {
   const Geometry g = two_bodies(4, 3, {});
   LayerLine wake = wake_of_flow();
