@@ -92,7 +92,7 @@ TEST(FollowedLayers, TheThicknessIsThatOfTheFlowWithTheFirstHeightOfItsFriction)
   LayerSpec layers = target_layers;
   layers.follows_flow = true;
   MeasuredFlow flow;
-  flow.thickness = {{{0, 0}, {4, 0}, 0.2, 0.28}, {{4, 0}, {8, 0}, 0.28, 0.36}};
+  flow.thickness = {{{0, 0}, {4, 0}, 0.36, 0.344}, {{4, 0}, {8, 0}, 0.344, 0.328}};
   for (const bool has_friction : {false, true}) {
     if (has_friction) flow.walls = measured_floor(1, [](double x) { return 100 + 7.5 * x; });
     const Followed f(test::floor_with_layers(layers), flow);
@@ -100,7 +100,7 @@ TEST(FollowedLayers, TheThicknessIsThatOfTheFlowWithTheFirstHeightOfItsFriction)
       const double x = f.line[i].wall.x, first = has_friction ? 2 / (100 + 7.5 * x) : 0.02;
       EXPECT_NEAR(f.layers[i].first, first, 1e-15);
       EXPECT_EQ(f.layers[i].count, 10);
-      EXPECT_NEAR(layers_thickness(f.layers[i]), 1.2 * (0.2 + 0.02 * x), 1e-9) << x;
+      EXPECT_NEAR(layers_thickness(f.layers[i]), 1.2 * (0.36 - 0.004 * x), 1e-9) << x;
     }
   }
 }

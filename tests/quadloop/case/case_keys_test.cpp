@@ -158,6 +158,8 @@ class Accepted {
 
  private:
   bool is_asked(const std::string& when, const TableText& table) const {
+    if (const auto other = when.find(" or "); other != std::string::npos)
+      return is_asked(when.substr(0, other), table) || is_asked(when.substr(other + 4), table);
     const auto value_of = [&](const std::string& key) {
       const auto found = values_.find(place_of(table.name) + "." + key);
       return found == values_.end() ? std::string() : found->second;
