@@ -45,23 +45,24 @@ double target_height(const LayerSpec& spec, double wall_units) {
   return std::min(std::max(height, least), layers_thickness(spec) / spec.count);
 }
 
-/// The requested layers with this first height and, where it is known, the thickness of the boundary layer.
-LayerSpec followed(const LayerSpec& spec, double first, double measured_thickness) {
-  if (!spec.follows_flow || measured_thickness <= 0)
-    return spec.y_plus > 0 ? with_first_height(spec, first) : spec;
+bool follows(const LayerSpec& spec, double measured_thickness) {
+  return spec.follows_flow && measured_thickness > 0;
+}
+
+/// The requested thickness, or where it is known that of the boundary layer.
+double target_thickness(const LayerSpec& spec, double measured_thickness) {
   const double estimate = layers_thickness(spec);
-  return with_thickness(spec, first,
-                        std::clamp(thickness_over_measured * measured_thickness,
-                                   estimate / most_over_estimate, estimate * most_over_estimate));
+  if (!follows(spec, measured_thickness)) return estimate;
+  return std::clamp(thickness_over_measured * measured_thickness, estimate / most_over_estimate,
+                    estimate * most_over_estimate);
 }
 
 /// Limits each height to the growth allowed from every other station along the wall.
-void limit_growth(const WallLine& line, std::span<double> heights) {
+void limit_growth(const WallLine& line, std::span<const double> thickness, std::span<double> heights) {
   const auto limit = [&](std::int32_t from, std::int32_t to, double width) {
-    const LayerSpec& spec = line.spec(to);
-    if (spec.y_plus > 0)
+    if (line.spec(to).y_plus > 0)
       heights[to] =
-          std::min(heights[to], heights[from] * (1 + steepest_following * width / layers_thickness(spec)));
+          std::min(heights[to], heights[from] * (1 + steepest_following * width / thickness[to]));
   };
   for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
     for (std::int32_t i = 0; i < line.size(); ++i) {
@@ -78,13 +79,20 @@ void limit_growth(const WallLine& line, std::span<double> heights) {
 
 std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredFlow& measured) {
   const Measurements measurements(measured);
-  std::vector<double> heights;
-  for (std::int32_t i = 0; i < line.size(); ++i)
+  std::vector<double> heights, measured_thickness, thickness;
+  for (std::int32_t i = 0; i < line.size(); ++i) {
     heights.push_back(target_height(line.spec(i), measurements.wall_units(line[i])));
-  limit_growth(line, heights);
+    measured_thickness.push_back(measurements.thickness(line[i]));
+    thickness.push_back(target_thickness(line.spec(i), measured_thickness[i]));
+  }
+  limit_growth(line, thickness, heights);
   std::vector<LayerSpec> layers;
-  for (std::int32_t i = 0; i < line.size(); ++i)
-    layers.push_back(followed(line.spec(i), heights[i], measurements.thickness(line[i])));
+  for (std::int32_t i = 0; i < line.size(); ++i) {
+    const LayerSpec& spec = line.spec(i);
+    layers.push_back(follows(spec, measured_thickness[i]) ? with_thickness(spec, heights[i], thickness[i])
+                     : spec.y_plus > 0                    ? with_first_height(spec, heights[i])
+                                                          : spec);
+  }
   return layers;
 }
 
