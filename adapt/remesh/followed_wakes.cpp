@@ -64,7 +64,8 @@ bool deviates(const PlacedLine& line, const std::vector<Point>& path) {
   double s = 0;
   for (std::size_t i = 1; i < line.path.size(); ++i) {
     s += length(line.path[i] - line.path[i - 1]);
-    if (distance_to_polyline(line.path[i], path) > share * std::min(line.spacing, at_edge + widening * s)) return true;
+    if (distance_to_polyline(line.path[i], path) > share * std::min(line.spacing, at_edge + widening * s))
+      return true;
   }
   return false;
 }

@@ -74,8 +74,7 @@ RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& 
       remeshed.stretched = report.statistics;
     };
   }
-  remeshed.generated =
-      generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured, stretch);
+  remeshed.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured, stretch);
   remeshed.times.append(remeshed.generated.times);
   remeshed.times.begin("transfer");
   Transferred transferred =

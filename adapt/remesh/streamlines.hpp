@@ -35,7 +35,8 @@ struct Streamline {
 
 /// Integrates streamlines downstream by the midpoint rule, of second order in the step, all of them at once.
 /// The line begins with a straight piece in the middle between the bisector and the flow. The same points on
-/// every rank, and on any number of ranks. O(cells log cells) once, then O(log cells) for each step. *Collective.*
+/// every rank, and on any number of ranks. O(cells log cells) once, then O(log cells) for each step.
+/// *Collective.*
 std::vector<Streamline> streamlines(const Communicator& comm, const Mesh& mesh, const Field& direction,
                                     const std::vector<StreamlineStart>& starts);
 

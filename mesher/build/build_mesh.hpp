@@ -25,8 +25,8 @@ namespace quadloop {
 enum class MeshType { hybrid, delaunay, metric };
 /// Whether a mesh has no quadrilaterals outside of layers.
 inline bool has_triangles_alone(MeshType type) { return type != MeshType::hybrid; }
-/// Whether layers consist of triangles too. Beside anisotropic triangles they are quadrilaterals, which viscous
-/// flow requires.
+/// Whether layers consist of triangles too. Beside anisotropic triangles they are quadrilaterals, which
+/// viscous flow requires.
 inline bool divides_layers(MeshType type) { return type == MeshType::delaunay; }
 
 /// Quadrilaterals of a hybrid mesh: all well-shaped ones, or only parallelograms, the others being split.

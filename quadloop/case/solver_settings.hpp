@@ -47,7 +47,7 @@ struct SolverSettings {
   std::vector<std::pair<std::string, std::string>> warm;
   /// Keys of SU2's configuration, with their values in the second run of a cycle.
   std::vector<std::pair<std::string, std::string>> finish;
-  std::string case_template;     ///< path of SU2's configuration or OpenFOAM's case, as written in the case
+  std::string case_template;  ///< path of SU2's configuration or OpenFOAM's case, as written in the case
   std::vector<OutflowPressure> pressures;
   std::vector<WallTemperature> wall_temperatures;
 };

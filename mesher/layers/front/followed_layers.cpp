@@ -61,8 +61,7 @@ double target_thickness(const LayerSpec& spec, double measured_thickness) {
 void limit_growth(const WallLine& line, std::span<const double> thickness, std::span<double> heights) {
   const auto limit = [&](std::int32_t from, std::int32_t to, double width) {
     if (line.spec(to).y_plus > 0)
-      heights[to] =
-          std::min(heights[to], heights[from] * (1 + steepest_following * width / thickness[to]));
+      heights[to] = std::min(heights[to], heights[from] * (1 + steepest_following * width / thickness[to]));
   };
   for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
     for (std::int32_t i = 0; i < line.size(); ++i) {

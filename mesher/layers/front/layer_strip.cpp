@@ -150,8 +150,8 @@ class Limits {
   void limit_thickness(double least, double rows, double half_base) {
     for (std::size_t i = 0; i < s_.size(); ++i) {
       thickness_.push_back(std::max(least, rows * width_[i]));
-      in_room_.push_back(std::max({layers_in_room(room_[i], half_base), least - thinning_of_wakes * s_[i],
-                                   thinnest * least}));
+      in_room_.push_back(std::max(
+          {layers_in_room(room_[i], half_base), least - thinning_of_wakes * s_[i], thinnest * least}));
     }
     limit(thickness_, spreading, spreading);
     limit(in_room_, spreading, thinning_of_wakes);

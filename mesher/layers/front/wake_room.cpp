@@ -20,7 +20,8 @@ double length_of(const std::vector<Point>& path) {
   return sum;
 }
 
-constexpr double share_of_wall = 0.36;  // of the distance between a wall and a wake, as of a gap between walls
+constexpr double share_of_wall =
+    0.36;  // of the distance between a wall and a wake, as of a gap between walls
 
 std::vector<Point> points_of(const WallLine& walls) {
   std::vector<Point> points;
@@ -120,8 +121,8 @@ double WakeRoom::thickness_at_root(const PlacedLine& wake) const {
   const double whole = length_of(wake.path);
   double most = unlimited;
   for (double s = 0; thinning_of_wakes * s < most && s < whole; s += step * wake.spacing)
-    most = std::min(most, layers_over_room * free(wake, beginning_of(wake.path, s).back()) +
-                              thinning_of_wakes * s);
+    most = std::min(most,
+                    layers_over_room * free(wake, beginning_of(wake.path, s).back()) + thinning_of_wakes * s);
   return most;
 }
 

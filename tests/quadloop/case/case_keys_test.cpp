@@ -206,7 +206,8 @@ class CaseKeys : public ::testing::Test {
     if (name == "block.name" || name == "block.spacing") accepted.set(table.text(), "inside");
     if (name == "line.name" || name == "line.kind") accepted.set(table.text(), "boundary");
     if (name == "line.spline") accepted.set(table.text(), "path");
-    if (name == "line.kind" || name == "line.path" || name == "line.spline") accepted.set(table.text(), "name");
+    if (name == "line.kind" || name == "line.path" || name == "line.spline")
+      accepted.set(table.text(), "name");
     accepted.set(table.text(), key.text.name);
     accepted.set(table_named("geometry"), "file");
     std::string tables;
