@@ -148,9 +148,10 @@ bool stopped_diverging(const Communicator& comm, const std::string& folder) {
   return diverged[0] != 0;
 }
 
-/// Whether a run of SU2 that ended by itself shows a diverging flow.
-bool is_diverging(const flow::Su2End& end) {
-  constexpr double most_growth = 100;  // of the residual
+/// Whether a run of SU2 that ended by itself shows a diverging flow. The second run of a cycle starts from a
+/// converged flow, so that its residual grows less before it is too large for results.
+bool is_diverging(const flow::Su2End& end, Run run) {
+  const double most_growth = run.finishing ? 10 : 100;  // of the residual
   return end.converged == false && end.residual && *end.residual > most_growth;
 }
 
@@ -195,7 +196,8 @@ class Su2Runs {
     if (!finished) {
       flow.warnings.push_back(
           "SU2 diverged in the second run of this cycle, with the keys of solver.finish; the cycle keeps the "
-          "flow of the first run: let the first run converge further, or reduce CFL_NUMBER in solver.finish");
+          "flow of the first run: let the first run converge further, or reduce the CFL numbers in "
+          "solver.finish");
       return;
     }
     finished->warnings.insert(finished->warnings.begin(), flow.warnings.begin(), flow.warnings.end());
@@ -215,7 +217,7 @@ class Su2Runs {
       return std::nullopt;
     }
     const flow::Su2End end = end_of_run(comm, folder);
-    if (!run.careful && is_diverging(end)) return std::nullopt;
+    if (!run.careful && is_diverging(end, run)) return std::nullopt;
     add_end(comm, solver_, end, flow);
     return flow;
   }

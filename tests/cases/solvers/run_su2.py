@@ -153,10 +153,14 @@ def check_finish(program, folder):
         log = (made / f"cycle_{k:02d}" / "solver.log").read_text()
         require(log == "started from Density Momentum_x Momentum_y Energy\n", f"cycle {k}: {log}")
     told = "SU2 diverged in the second run of this cycle"
-    status, said = attempt(program, "adapt", case, "-o", folder / "first_kept", "--cycles", "0", "--set", "solver.finish.CFL_NUMBER=3000")
-    require(status == 0 and told in said, f"{status} {said}")
-    kept, whole = ((folder / name / "cycle_00" / "mesh.mesh").read_bytes() for name in ("first_kept", "finished_1"))
-    require(kept == whole, "the flow of the first run is not kept")
+    growing = ["solver.finish.RESIDUAL_CHANGE=0.5", "solver.finish.CONV_RESIDUAL_MINVAL=-6", "solver.finish.ITER=4"]
+    for name, settings in (("stopped", ["solver.finish.CFL_NUMBER=3000"]), ("growing", growing)):
+        status, said = attempt(program, "adapt", case, "-o", folder / name, "--cycles", "0", "--set", *settings)
+        require(status == 0 and told in said, f"{status} {said}")
+        kept, whole = ((folder / made / "cycle_00" / "mesh.mesh").read_bytes() for made in (name, "finished_1"))
+        require(kept == whole, f"{name}: the flow of the first run is not kept")
+        record = json.loads((folder / name / "cycle_00" / "record.json").read_text())
+        require(record["log_residual"] == -5, f"{name}: {record['log_residual']} is not the residual of the first run")
 
 
 def check_no_su2(program, folder):

@@ -110,11 +110,12 @@ def main(path):
                 print(number, *(f"{value:.15e}" for value in row), sep=", ", file=file)
     with open(keys["CONV_FILENAME"] + ".csv", "w") as file:
         print('"Inner_Iter",     "rms[Rho]"     ,       "CD"       ,       "CL"       ', file=file)
+        change = float(keys.get("RESIDUAL_CHANGE", "-1"))
         for step in range(4):
-            print(f"{step}, {-2.0 - step}, {0.02 + 0.1 ** step}, {0.3 + 0.1 ** step}", sep=",", file=file)
+            print(f"{step}, {-2.0 + change * step}, {0.02 + 0.1 ** step}, {0.3 + 0.1 ** step}", sep=",", file=file)
     print(f"started from {started}")
     if "CONV_RESIDUAL_MINVAL" in keys:
-        converged = -5 <= float(keys["CONV_RESIDUAL_MINVAL"])
+        converged = -2 + 3 * change <= float(keys["CONV_RESIDUAL_MINVAL"])
         print("All convergence criteria satisfied." if converged else f"\nMaximum number of iterations reached (ITER = {keys['ITER']}) before convergence.")
 
 
