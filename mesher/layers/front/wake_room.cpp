@@ -20,8 +20,7 @@ double length_of(const std::vector<Point>& path) {
   return sum;
 }
 
-constexpr double share_of_wall =
-    0.36;  // of the distance between a wall and a wake, as of a gap between walls
+constexpr double share_of_wall = 0.36;  // of its distance from a wake, as of a gap between walls
 
 std::vector<Point> points_of(const WallLine& walls) {
   std::vector<Point> points;
