@@ -1,6 +1,7 @@
 #include "mesher/layers/front/followed_layers.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "mesher/layers/front/values_along_wall.hpp"
@@ -74,9 +75,30 @@ void limit_growth(const WallLine& line, std::span<const double> thickness, std::
   }
 }
 
+/// Layers of at least this thickness whose last one is as high as the cells that adaptation requests at the
+/// front. Cells get larger with the distance from the wall, so the front moves outwards in steps.
+LayerSpec as_high_as_cells(const Station& station, const LayerSpec& spec, double first, double thickness,
+                           const AdaptedSize& adapted) {
+  constexpr int steps_outwards = 8;
+  constexpr double outer_part = 0.8;  // the cells from here to the front are looked at
+  LayerSpec layers = with_thickness(spec, first, thickness);
+  if (!adapted) return layers;
+  const LayerSpec thickest = with_thickness(spec, first, std::numeric_limits<double>::infinity());
+  const double highest = layer_heights(thickest).back();
+  const auto above_wall = [&](double height) { return station.wall + height * station.direction; };
+  for (int step = 0; step < steps_outwards; ++step) {
+    const double reached = layers_thickness(layers),
+                 size = adapted(above_wall(outer_part * reached), above_wall(reached), highest);
+    if (size <= layer_heights(layers).back()) break;
+    layers = with_thickness(spec, first, thickness_with_last(thickest, size));
+  }
+  return layers;
+}
+
 }  // namespace
 
-std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredFlow& measured) {
+std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredFlow& measured,
+                                       const AdaptedSize& adapted) {
   const Measurements measurements(measured);
   std::vector<double> heights, measured_thickness, thickness;
   for (std::int32_t i = 0; i < line.size(); ++i) {
@@ -88,9 +110,10 @@ std::vector<LayerSpec> followed_layers(const WallLine& line, const MeasuredFlow&
   std::vector<LayerSpec> layers;
   for (std::int32_t i = 0; i < line.size(); ++i) {
     const LayerSpec& spec = line.spec(i);
-    layers.push_back(follows(spec, measured_thickness[i]) ? with_thickness(spec, heights[i], thickness[i])
-                     : spec.y_plus > 0                    ? with_first_height(spec, heights[i])
-                                                          : spec);
+    layers.push_back(follows(spec, measured_thickness[i])
+                         ? as_high_as_cells(line[i], spec, heights[i], thickness[i], adapted)
+                     : spec.y_plus > 0 ? with_first_height(spec, heights[i])
+                                       : spec);
   }
   return layers;
 }

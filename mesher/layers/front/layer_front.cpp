@@ -333,14 +333,15 @@ double OuterOutline::spacing_after(std::int32_t i) const {
 }
 
 WallLine wall_line(const Geometry& geometry, const std::vector<PlacedLine>& placed,
-                   const MeasuredFlow& measured) {
+                   const MeasuredFlow& measured, const AdaptedSize& adapted) {
   std::vector<WakeStart> wakes;
   for (const PlacedLine& p : placed) {
     if (p.edge != PlacedLine::nowhere)
       wakes.push_back({p.edge, p.base_end, direction_of(p.path[0], p.path[1])});
   }
   WallLine line(geometry, wall_runs(geometry, bases_of(geometry, placed)), wakes);
-  if (!measured.walls.empty() || !measured.thickness.empty()) line.follow(followed_layers(line, measured));
+  if (!measured.walls.empty() || !measured.thickness.empty())
+    line.follow(followed_layers(line, measured, adapted));
   return line;
 }
 
@@ -403,7 +404,7 @@ void LayerFront::keep(const std::vector<std::int32_t>& stations) {
 
 WallLine wall_line(const Geometry& geometry, const std::vector<LayerLine>& lines,
                    const MeasuredFlow& measured) {
-  return wall_line(geometry, place_lines(geometry, lines, measured.wakes), measured);
+  return wall_line(geometry, place_lines(geometry, lines, measured.wakes), measured, {});
 }
 
 double leaf_wanted_by_layers(const Geometry& geometry, const std::vector<LayerLine>& lines) {
@@ -425,7 +426,7 @@ LayerFront layer_front(const Geometry& geometry, std::optional<double> curvature
                        const std::vector<LayerLine>& lines, const MeasuredFlow& measured, bool mirrored,
                        const std::vector<PeriodicPair>& pairs, const AdaptedSize& adapted) {
   std::vector<PlacedLine> placed = place_lines(geometry, lines, measured.wakes);
-  WallLine line = wall_line(geometry, placed, measured);
+  WallLine line = wall_line(geometry, placed, measured, adapted);
   if (adapted) line.limit_thickness(adapted_thickness(line, adapted));
   const WakeRoom before_layers(line, placed);
   for (PlacedLine& one : placed) one = before_layers.with_room(one);

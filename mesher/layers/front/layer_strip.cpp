@@ -151,16 +151,16 @@ class Limits {
     for (std::size_t i = 0; i < s_.size(); ++i) {
       thickness_.push_back(std::max(least, rows * width_[i]));
       in_room_.push_back(std::max(
-          {layers_in_room(room_[i], half_base), least - thinning_of_wakes * s_[i], thinnest * least}));
+          {layers_in_room(room_[i], half_base), least - steepest_thickness * s_[i], thinnest * least}));
     }
     limit(thickness_, spreading, spreading);
-    limit(in_room_, spreading, thinning_of_wakes);
+    limit(in_room_, spreading, steepest_thickness);
   }
   double thickness_at(double s) const {
-    return std::min(at(s, thickness_, spreading, spreading), at(s, in_room_, spreading, thinning_of_wakes));
+    return std::min(at(s, thickness_, spreading, spreading), at(s, in_room_, spreading, steepest_thickness));
   }
   /// Of half the rows behind a base: its largest height.
-  double core_at(double s) const { return core_over_layers * at(s, in_room_, spreading, thinning_of_wakes); }
+  double core_at(double s) const { return core_over_layers * at(s, in_room_, spreading, steepest_thickness); }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -18,9 +18,7 @@ namespace {
 
 constexpr double shrink = 0.85;
 constexpr double clearance = 0.75;  // free length beyond a column's end, as a fraction of its length
-// Fraction of a gap: the columns of two facing walls, with their clearance, just do not meet.
-constexpr double share_of_gap = 0.36;
-constexpr double own_reach = 4;  // thicknesses of wall within which a column's own wall is no obstacle
+constexpr double own_reach = 4;     // thicknesses of wall within which a column's own wall is no obstacle
 constexpr int most_passes = 200, passes_alone = 12;
 
 struct Segment {

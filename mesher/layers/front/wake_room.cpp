@@ -20,8 +20,6 @@ double length_of(const std::vector<Point>& path) {
   return sum;
 }
 
-constexpr double share_of_wall = 0.36;  // of its distance from a wake, as of a gap between walls
-
 std::vector<Point> points_of(const WallLine& walls) {
   std::vector<Point> points;
   for (std::int32_t i = 0; i < walls.size(); ++i) points.push_back(walls[i].wall);
@@ -50,7 +48,7 @@ double layers_in_room(double free, double half_base) {
 
 WakeRoom::WakeRoom(const WallLine& walls, const std::vector<PlacedLine>& lines)
     : WakeRoom(walls, points_of(walls), lines) {
-  share_ = 1 - share_of_wall;
+  share_ = 1 - share_of_gap;
 }
 
 WakeRoom::WakeRoom(const WallLine& walls, std::span<const Point> fronts, const std::vector<PlacedLine>& lines)
@@ -119,9 +117,9 @@ double WakeRoom::thickness_at_root(const PlacedLine& wake) const {
   constexpr double step = 0.25;  // of the column width
   const double whole = length_of(wake.path);
   double most = unlimited;
-  for (double s = 0; thinning_of_wakes * s < most && s < whole; s += step * wake.spacing)
-    most = std::min(most,
-                    layers_over_room * free(wake, beginning_of(wake.path, s).back()) + thinning_of_wakes * s);
+  for (double s = 0; steepest_thickness * s < most && s < whole; s += step * wake.spacing)
+    most = std::min(
+        most, layers_over_room * free(wake, beginning_of(wake.path, s).back()) + steepest_thickness * s);
   return most;
 }
 
@@ -135,7 +133,7 @@ std::vector<double> WakeRoom::thickness_of_walls() const {
       const Station& station = walls_[i];
       if (!begins_at(wake, geometry_.boundary_of(station.segment))) {
         const Point to_wake = nearest_on_polyline(station.wall, wake.path) - station.wall;
-        if (dot(to_wake, station.direction) > 0) most[i] = std::min(most[i], share_of_wall * length(to_wake));
+        if (dot(to_wake, station.direction) > 0) most[i] = std::min(most[i], share_of_gap * length(to_wake));
       } else if (station.wall == geometry_.point(wake.edge) ||
                  station.wall == geometry_.point(wake.base_end)) {
         most[i] = std::min(most[i], at_root);

@@ -25,9 +25,6 @@ constexpr double core_over_layers = 0.5;
 /// length, 0 at a sharp edge.
 double layers_in_room(double free, double half_base);
 
-/// In narrow places wakes become thinner by this much of the distance, as walls' layers do (limit_slopes()).
-constexpr double thinning_of_wakes = 0.35;
-
 /// The room for the wakes that follow the flow: they keep clear of other walls with their layers, of other
 /// boundaries and of other lines.
 class WakeRoom {

@@ -257,15 +257,14 @@ void WallLine::find_across() {
 }
 
 void limit_slopes(const WallLine& line, std::span<double> values) {
-  constexpr double steepest = 0.35;
   for (int round = 0; round < 2; ++round) {  // a closed run needs a second round
     for (std::int32_t i = 0; i < line.size(); ++i) {
       if (const std::int32_t j = line.next(i); j != WallLine::none)
-        values[j] = std::min(values[j], values[i] + steepest * line.width(i));
+        values[j] = std::min(values[j], values[i] + steepest_thickness * line.width(i));
     }
     for (std::int32_t i = line.size() - 1; i >= 0; --i) {
       if (const std::int32_t j = line.previous(i); j != WallLine::none)
-        values[j] = std::min(values[j], values[i] + steepest * line.width(j));
+        values[j] = std::min(values[j], values[i] + steepest_thickness * line.width(j));
     }
   }
 }

@@ -40,6 +40,11 @@ struct Station {
 
 /// The longest last column of a run, as a fraction of the part of a boundary on which it can lie.
 constexpr double share_of_end = 0.9;
+/// The part of a gap for the layers of one of its sides: the columns of two facing walls, with their
+/// clearance, just do not meet.
+constexpr double share_of_gap = 0.36;
+/// The change of thickness along a wall or a wake, per distance, in gaps and at corners.
+constexpr double steepest_thickness = 0.35;
 constexpr double cosine_of_sharp_edge = -0.5;  ///< the wall turns by more than 120 degrees
 
 /// An edge at which a wake begins.
@@ -167,8 +172,8 @@ class WallLine {
   std::vector<LayerSpec> followed_;
 };
 
-/// Limits values of the stations, e.g. thicknesses, such that they grow by at most 0.35 of the distance from
-/// any other station on the same run.
+/// Limits values of the stations, e.g. thicknesses, such that they grow by at most `steepest_thickness` times
+/// the distance from any other station on the same run.
 void limit_slopes(const WallLine& line, std::span<double> values);
 
 /// The direction rotated by 90 degrees to the left: into the domain.

@@ -105,6 +105,34 @@ TEST(FollowedLayers, TheThicknessIsThatOfTheFlowWithTheFirstHeightOfItsFriction)
   }
 }
 
+/// Beside large cells they are thicker than the boundary layer.
+TEST(FollowedLayers, TheLastLayerIsAtLeastAsHighAsTheCellsThatAdaptationRequests) {
+  LayerSpec layers = target_layers;
+  layers.follows_flow = true;
+  const Geometry floor = test::floor_with_layers(layers);
+  const WallLine line(floor, wall_runs(floor));
+  MeasuredFlow flow;
+  flow.thickness = {{{0, 0}, {8, 0}, 0.36, 0.36}};
+  const auto last_layers = [&](const AdaptedSize& cells) {
+    std::vector<double> last;
+    for (const LayerSpec& found : followed_layers(line, flow, cells)) {
+      EXPECT_EQ(found.first, layers.first);
+      EXPECT_GE(layers_thickness(found), 1.2 * 0.36 - 1e-9);
+      last.push_back(layer_heights(found).back());
+    }
+    return last;
+  };
+  const std::vector<double> of_flow = last_layers({});
+  EXPECT_EQ(last_layers([](Point, Point, double most) { return std::min(most, 0.05); }), of_flow);
+  for (const double size : last_layers([](Point, Point, double most) { return std::min(most, 0.11); }))
+    EXPECT_NEAR(size, 0.11, 1e-9);
+  const auto growing = [](Point a, Point b, double most) { return std::min(most, 0.3 * std::min(a.y, b.y)); };
+  for (const LayerSpec& found : followed_layers(line, flow, growing)) {
+    const double fit = 0.3 * 0.8 * layers_thickness(found);
+    EXPECT_NEAR(layer_heights(found).back(), std::min(fit, 0.02 * std::pow(1.3, 9)), 0.02 * fit);
+  }
+}
+
 TEST(FollowedLayers, TheThicknessStaysWithinATenthAndTenTimesOfTheEstimateAndTheGrowthInItsLimits) {
   LayerSpec layers = target_layers;
   layers.follows_flow = true;
