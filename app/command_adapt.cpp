@@ -6,22 +6,16 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "adapt/loop/run_in_folder.hpp"
-#include "adapt/solvers/openfoam_template.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/extent_report.hpp"
-#include "io/formats.hpp"
-#include "io/input/case_file.hpp"
-#include "io/input/geom_text.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
-#include "mesher/build/islands.hpp"
+#include "quadloop/case/adaptive_input.hpp"
 #include "quadloop/case/case_input.hpp"
 #include "quadloop/case/design_start.hpp"
-#include "quadloop/case/solver_settings.hpp"
 
 namespace quadloop::app {
 
@@ -34,67 +28,6 @@ struct AdaptArguments {
   std::vector<std::string> assignments;
   std::optional<double> max_cells;
 };
-
-/// Checks for errors that would stop the loop after the initial mesh.
-void require_solver_files(const AdaptArguments& arguments, const adapt::CommandSolver& solver) {
-  const io::CaseTable table = *io::read_case(arguments.case_path, arguments.assignments).table("solver");
-  const auto is_for = [](const std::string& path, io::Content content) {
-    const io::FileFormat* format = io::format_of(path);
-    return format != nullptr && format->holds(content);
-  };
-  if (!is_for(solver.mesh, io::Content::mesh))
-    table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
-                             io::suffixes_for({io::Content::mesh}) + "; end the name in one of these");
-  if (!is_for(solver.solution, io::Content::solution))
-    table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
-                                 io::suffixes_for({io::Content::solution}, "and") +
-                                 "; end the name in one of these");
-  if (solver.solution == solver.mesh ||
-      std::filesystem::path(solver.solution).stem() == adapt::CyclePaths::mesh_stem)
-    table.refuse("solution",
-                 "is '" + solver.solution + "', the name of a mesh file; give the solution another name");
-  if (solver.solution == solver.state())
-    table.refuse("solution", "is '" + solver.solution + "', the file of the initial state for " +
-                                 solver.mesh + "; give the solution another name");
-}
-
-/// Returns the geometry text to store with each cycle, if the next design's mesh is to be morphed from it.
-std::string outline_to_keep(const CaseInput& input) {
-  if (!input.settings.morph_to) return {};
-  MeshReport told_of_the_mesh;
-  return io::geom_text(
-      without_small_islands(input.mesh->geometry, input.mesh->mesh.size.min, told_of_the_mesh));
-}
-
-adapt::AdaptiveCase adaptive_case(const AdaptArguments& arguments, const std::optional<TreeAttributes>& saved,
-                                  std::optional<double>& morph_to, Warnings& warnings, std::string& note,
-                                  std::string& extents) {
-  CaseInput input =
-      load_case({arguments.case_path, arguments.assignments, arguments.geometry, saved}, warnings);
-  const Settings& settings = input.settings;
-  const adapt::AdaptOptions& adapt = adapt_options(settings, arguments.case_path);
-  require_known_variables(settings.solver, adapt.variables, arguments.case_path);
-  const flow::EulerOptions& flow = settings.solver.euler;
-  if (!settings.solver.given)
-    note = fmt::format("no table [solver]: the built-in solver runs at Mach {} and {} degrees", flow.mach,
-                       flow.alpha);
-  for (const std::string& line : extent_lines(input.extents)) extents += "  " + line + "\n";
-  morph_to = settings.morph_to;
-  const std::string outline = outline_to_keep(input);
-  adapt::ChosenSolver solver =
-      chosen_solver(settings.solver, settings.outline.rules, input.mesh->geometry, arguments.case_path);
-  if (const adapt::CommandSolver* const command = adapt::command_of(solver))
-    require_solver_files(arguments, *command);
-  if (const auto* openfoam = std::get_if<adapt::OpenfoamSolver>(&solver))
-    adapt::read_openfoam_template(openfoam->case_template);  // rejects errors that would end the first cycle
-  adapt::AdaptiveCase adaptive{std::move(*input.mesh), adapt,           std::move(solver),
-                               settings.formats,       settings.values, settings.fields};
-  adaptive.stream = settings.stream;
-  adaptive.partitions = settings.partitions;
-  adaptive.outline = outline;
-  if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
-  return adaptive;
-}
 
 std::string line_of(const adapt::CycleRecord& record) {
   std::string line =
@@ -151,6 +84,12 @@ std::string closing_line(const std::string& folder, const adapt::LoopEnd& end) {
   return fmt::format("  wrote {}/{} to {}\n", folder, adapt::cycle_name(first), adapt::cycle_name(last));
 }
 
+std::string extents_text(const std::vector<FileExtent>& extents) {
+  std::string text;
+  for (const std::string& line : extent_lines(extents)) text += "  " + line + "\n";
+  return text;
+}
+
 std::string folder_of(const AdaptArguments& arguments) {
   if (!arguments.folder.empty()) return arguments.folder;
   return std::filesystem::path(arguments.case_path).stem().string() + ".adapt";
@@ -163,18 +102,19 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
-  std::optional<adapt::AdaptiveCase> adaptive;
-  std::string note, extents;
+  std::optional<AdaptiveInput> input;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
-  std::optional<double> morph_to;
   comm.together([&] {
-    std::optional<TreeAttributes> saved;
-    if (former) saved = former->tree.attributes;
-    adaptive = adaptive_case(arguments, saved, morph_to, context.record.noted, note, extents);
+    CaseArguments of_case{arguments.case_path, arguments.assignments, arguments.geometry, {}};
+    if (former) of_case.saved = former->tree.attributes;
+    input = adaptive_input(load_case(of_case, context.record.noted), of_case);
   });
-  adaptive->mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
-  if (comm.is_root() && !note.empty()) log::information(note);
+  adapt::AdaptiveCase& adaptive = input->adaptive;
+  if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
+  adaptive.mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
+  if (comm.is_root() && !input->note.empty()) log::information(input->note);
+  std::string extents = extents_text(input->extents);
   const std::string folder = folder_of(arguments);
   context.warn(former ? former->warnings : Warnings{});
   std::vector<JsonObject> cycles;
@@ -188,10 +128,10 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   context.record.statistics.add("folder", folder);
   context.record.statistics.add("cycles", cycles);
   std::optional<adapt::DesignStart> start;
-  if (former) start = read_start(comm, *former, morph_to, outline_file(arguments), adaptive->settings);
-  const adapt::LoopEnd end = adapt::run_in_folder(comm, *adaptive, folder, arguments.resume, report, start);
+  if (former) start = read_start(comm, *former, input->morph_to, outline_file(arguments), adaptive.settings);
+  const adapt::LoopEnd end = adapt::run_in_folder(comm, adaptive, folder, arguments.resume, report, start);
   if (comm.is_root()) context.record.statistics.add("nothing_to_change", end.nothing_to_change);
-  if (comm.is_root() && !adaptive->adapt.until.empty()) context.record.statistics.add("settled", end.settled);
+  if (comm.is_root() && !adaptive.adapt.until.empty()) context.record.statistics.add("settled", end.settled);
   if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end);
 }
 

@@ -8,10 +8,13 @@
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "flow/flow_solver.hpp"
+#include "io/input/case_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/layers/boundary_layer_report.hpp"
+#include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/field.hpp"
 #include "mesher/mesh/halo_mesh.hpp"
 #include "mesher/mesh/mesh.hpp"
@@ -49,18 +52,20 @@ namespace quadloop {
 
 using adapt::SolvedMesh, adapt::TransferReport;
 using flow::FlowSolver, flow::SolvedFlow;
+using io::CaseSource;
 
 struct CaseParts;
 namespace adapt {
 struct AdaptationPlan;
 }
 
-/// A case file with its geometry: sizes, smoothing, adaptation, solver. Copies of the object share the data.
+/// A case with its geometry: sizes, smoothing, adaptation, solver. Copies of the object share the data.
 class Case {
  public:
-  /// Reads the file on every rank. `assignments` override keys of the file, e.g. "spacing.min=0.01". Throws
-  /// InputError with file, line and key.
-  Case(const Communicator& comm, const std::string& path, const std::vector<std::string>& assignments = {});
+  /// Reads a case file, or a case given as TOML text, on every rank. Outlines need no file: [[shape]] tables
+  /// hold their points. `assignments` override keys, e.g. "spacing.min=0.01". Throws InputError with file,
+  /// line and key.
+  Case(const Communicator& comm, const CaseSource& source, const std::vector<std::string>& assignments = {});
 
   const std::string& title() const;
   int cycles() const;  ///< adapt.cycles; 0 if the case has no adaptation
@@ -78,6 +83,7 @@ struct NewMesh {
   SolvedMesh solved;           ///< transferred solution; empty for the initial mesh
   TransferReport transferred;  ///< conservation error of the transfer for each variable
   std::vector<std::string> warnings;
+  LayerReport layers;  ///< of the boundaries and lines that have layers
 };
 
 /// Generates the initial mesh of the case, smoothed with the case's settings. Throws InputError, naming the
@@ -134,6 +140,51 @@ RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh
 /// InputError as make_mesh() and sense() do, and if `flags` belongs to another mesh.
 NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
                const SolvedMesh& before);
+
+/// The results of one cycle of an Adaptation.
+struct CycleReport {
+  int cycle = 0;
+  std::string record;  ///< a JSON object with the members of docs/reference/adaptive-run.md, without timings
+  std::vector<std::string> warnings;
+};
+
+/// The adaptive loop of a case, with a solver of the caller: cycles 0 to adapt.cycles, each on the mesh that
+/// the cycle before it planned, from its transferred solution. Meshes and solutions have the same bits as
+/// those of the command `quadloop adapt` with the same solver.
+///
+///     Adaptation run(comm, wing);
+///     while (run.begin_cycle())
+///       run.finish_cycle(my_solver(comm, run.solved()->mesh, run.initial_state(), run.cycle()));
+class Adaptation {
+ public:
+  /// With a folder, each cycle writes the files of the command there. With `resume` the loop continues after
+  /// the last complete cycle in the folder. `comm` must outlive the object. Throws InputError, e.g. if the
+  /// case has no table [adapt], or if the folder belongs to another case; OutputError.
+  Adaptation(const Communicator& comm, const Case& of, const std::string& folder = {}, bool resume = false);
+  ~Adaptation();
+  Adaptation(const Adaptation&) = delete;
+  Adaptation& operator=(const Adaptation&) = delete;
+
+  /// Generates the next mesh and the initial state on it. Returns false if the loop has ended: after
+  /// adapt.cycles, if the mesh would not change, or as adapt.until says. Throws as make_mesh() does.
+  bool begin_cycle();
+  int cycle() const;  ///< the cycle under way, or the last one
+  /// The mesh of this cycle, with the solution after finish_cycle(). Null before the first cycle. It does not
+  /// change after finish_cycle(), and lives as long as the caller holds it.
+  std::shared_ptr<const SolvedMesh> solved() const;
+  /// The transferred solution; no variables in cycle 0. Valid until begin_cycle() is called again.
+  const Field& initial_state() const;
+  /// Its conservation error.
+  const TransferReport& transferred() const;
+  const LayerReport& layers() const;  ///< of the mesh under way
+  /// Takes the solution, writes the files and plans the next mesh. Throws InputError if the solution lacks
+  /// the variable of the sensor or is not finite.
+  CycleReport finish_cycle(SolvedFlow flow);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Returns one line per error, with its location; empty for a valid mesh. The lines are the same on every
 /// rank. Gathers the mesh on one rank.

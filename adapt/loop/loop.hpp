@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +9,7 @@
 #include "adapt/loop/record.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/flow_solver.hpp"
+#include "mesher/base/timer.hpp"
 
 namespace quadloop::adapt {
 
@@ -53,18 +54,66 @@ struct LoopEnd {
   int first = 0, last = 0;         ///< first > last: none
   bool nothing_to_change = false;  ///< no cell is flagged in the last one, before adapt.cycles
   bool settled = false;            ///< converged by adapt.until, before adapt.cycles
-  std::optional<CycleEnd> left;    ///< result of the last cycle, if one was run
+  std::shared_ptr<CycleEnd> left;  ///< result of the last cycle, if one was run
 };
 
-/// Meshes, solves and adapts in memory: cycles `first` to adapt.cycles, each on the mesh that the previous
-/// one planned, starting from its transferred solution. `before` is the result of cycle first - 1; without it
-/// the initial mesh follows from the case alone. The loop ends early if no cell is flagged, as the next cycle
-/// would solve on the same mesh, or if forces and error estimate have settled. Meshes and solutions are
-/// bitwise independent of the number of ranks, and of whether `before` comes from memory or from native
-/// files. `start` replaces the case's own initial mesh by that of another run, with its solution. Throws what
-/// meshing, solver and observer throw. *Collective.*
+/// The start of a loop that does not begin with the case's own initial mesh.
+struct LoopStart {
+  int first = 0;                     ///< the first cycle
+  std::shared_ptr<CycleEnd> before;  ///< result of the cycle before it; null in cycle 0
+  FirstMesh mesh = {};               ///< of cycle 0, with the initial state; empty: the case's own
+};
+
+/// Meshes and adapts in memory, cycle by cycle: cycles `first` to adapt.cycles, each on the mesh that the
+/// previous one planned, starting from its transferred solution. The caller solves between begin_cycle() and
+/// finish_cycle(). The loop ends early if no cell is flagged, as the next cycle would solve on the same mesh,
+/// or if forces and error estimate have settled. Meshes and solutions are bitwise independent of the number
+/// of ranks, and of whether the cycle before comes from memory or from native files.
+class AdaptiveLoop {
+ public:
+  /// All arguments but the last must outlive the object.
+  AdaptiveLoop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
+               CycleObserver& observer, LoopStart start = {});
+
+  /// Generates the mesh and the initial state of the next cycle; returns false if the loop has ended. Throws
+  /// what meshing and observer throw. *Collective.*
+  bool begin_cycle();
+
+  int cycle() const { return cycle_; }  ///< the cycle under way, or the last one
+  /// The mesh of this cycle. Its solution is set by finish_cycle(). The object lives as long as a caller
+  /// holds it; the mesh does not change any more.
+  std::shared_ptr<const CycleEnd> under_way() const { return under_way_; }
+  const Field& initial_state() const { return remeshed_.start; }  ///< no variables in cycle 0
+  const RemeshedSolution& remeshed() const { return remeshed_; }  ///< without mesh and tree
+
+  /// Takes the solution on this mesh and plans the next one. Throws what planning and observer throw.
+  /// *Collective.*
+  void finish_cycle(flow::SolvedFlow flow);
+
+  const LoopEnd& end() const { return end_; }
+
+ private:
+  RemeshedSolution next_mesh() const;
+  void settle(CycleRecord& record, CycleEnd& end) const;
+  CycleRecord record_of(const flow::SolvedFlow& flow, const CycleEnd& end) const;
+
+  const Communicator& comm_;
+  const MeshInput& mesh_;
+  const AdaptOptions& adapt_;
+  CycleObserver& observer_;
+  FirstMesh first_mesh_;
+  LoopEnd end_;
+  int cycle_;
+  StageTimes times_;
+  RemeshedSolution remeshed_;
+  std::shared_ptr<CycleEnd> under_way_;
+};
+
+/// Runs the rest of a loop with a solver. Throws what meshing, solver and observer throw. *Collective.*
+LoopEnd run_to_end(const Communicator& comm, AdaptiveLoop& loop, const flow::FlowSolver& solver);
+
+/// Runs a whole loop with a solver. Throws what meshing, solver and observer throw. *Collective.*
 LoopEnd run_loop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
-                 const flow::FlowSolver& solver, CycleObserver& observer, int first = 0,
-                 std::optional<CycleEnd> before = {}, const FirstMesh& start = {});
+                 const flow::FlowSolver& solver, CycleObserver& observer, LoopStart start = {});
 
 }  // namespace quadloop::adapt

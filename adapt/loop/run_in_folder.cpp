@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapt/loop/cycle_files.hpp"
-#include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/passes.hpp"
 #include "adapt/loop/resume.hpp"
 #include "adapt/loop/template_files.hpp"
@@ -124,28 +122,43 @@ std::string begun_with(const DesignStart& start) {
 
 }  // namespace
 
+FolderRun::FolderRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
+                     bool resume, const RunReport& report, const std::optional<DesignStart>& start)
+    : comm_{comm}, adaptive_{adaptive}, adapt_{adaptive.adapt}, folders_(comm, folder) {
+  require_min_in_tree(adaptive.mesh, adaptive.adapt);  // checked before any flow is solved
+  LoopStart of_loop = start_of(resume, report, start);
+  files_.emplace(comm, folders_, file_options(adaptive), report.cycle);
+  loop_.emplace(comm, adaptive.mesh, adapt_, *files_, std::move(of_loop));
+}
+
+LoopStart FolderRun::start_of(bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
+  LoopStart of_loop;
+  of_loop.first = folders_.open(resume, start ? begun_with(*start) : std::string());
+  if (resume && of_loop.first == 0)
+    report.warning(folders_.folder() +
+                   ": contains no complete cycle to continue; the run begins with cycle 0");
+  if (of_loop.first > 0)
+    of_loop.before = std::make_shared<CycleEnd>(
+        left_by_earlier_run(comm_, adaptive_, folders_, of_loop.first - 1, report));
+  if (start) {
+    adapt_.passes = 0;  // the mesh is already adapted
+    of_loop.mesh = [this, &start] {
+      return continued_mesh(comm_, adaptive_.mesh, start->solved, start->wish, adapt_.transfer);
+    };
+  } else if (adapt_.passes > 0) {
+    of_loop.mesh = [this] {
+      return mesh_after_passes(comm_, adaptive_.mesh, adapt_, rough_solver(adaptive_));
+    };
+  }
+  return of_loop;
+}
+
+flow::FlowSolver FolderRun::solver() const { return solver_in(folders_, adaptive_); }
+
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start) {
-  require_min_in_tree(adaptive.mesh, adaptive.adapt);  // checked before any flow is solved
-  CycleFolders folders(comm, folder);
-  const int first = folders.open(resume, start ? begun_with(*start) : std::string());
-  if (resume && first == 0)
-    report.warning(folder + ": contains no complete cycle to continue; the run begins with cycle 0");
-  std::optional<CycleEnd> before;
-  if (first > 0) before = left_by_earlier_run(comm, adaptive, folders, first - 1, report);
-  CycleFiles files(comm, folders, file_options(adaptive), report.cycle);
-  AdaptOptions adapt = adaptive.adapt;
-  FirstMesh first_mesh;
-  if (start) {
-    adapt.passes = 0;  // the mesh is already adapted
-    first_mesh = [&] {
-      return continued_mesh(comm, adaptive.mesh, start->solved, start->wish, adapt.transfer);
-    };
-  } else if (adapt.passes > 0) {
-    first_mesh = [&] { return mesh_after_passes(comm, adaptive.mesh, adapt, rough_solver(adaptive)); };
-  }
-  return run_loop(comm, adaptive.mesh, adapt, solver_in(folders, adaptive), files, first, std::move(before),
-                  first_mesh);
+  FolderRun run(comm, adaptive, folder, resume, report, start);
+  return run_to_end(comm, run.loop(), run.solver());
 }
 
 }  // namespace quadloop::adapt

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "adapt/loop/case_settings.hpp"
+#include "adapt/loop/cycle_files.hpp"
+#include "adapt/loop/cycle_folders.hpp"
 #include "adapt/loop/loop.hpp"
 #include "adapt/remesh/morphed_mesh.hpp"
 #include "adapt/solvers/chosen_solver.hpp"
@@ -40,10 +42,34 @@ struct RunReport {
   std::function<void(const std::string&)> warning;  ///< before the first cycle
 };
 
-/// Runs cycles 0 to adapt.cycles in `folder`, writing the files of CycleFiles. With `resume` it continues
-/// after the last complete cycle and ends with the same files as an uninterrupted run. If `start` is given,
-/// cycle 0 uses its mesh on the case's geometry (continued_mesh). Throws InputError, SolverError,
-/// OutputError; complete cycles are kept. *Collective.*
+/// The cycles 0 to adapt.cycles of a case in a folder, with the files of CycleFiles. With `resume` they
+/// continue after the last complete cycle, and the files at the end are those of an uninterrupted run. If
+/// `start` is given, cycle 0 uses its mesh on the case's geometry (continued_mesh). Errors keep complete
+/// cycles.
+class FolderRun {
+ public:
+  /// `comm`, `adaptive` and `start` must outlive the object. Throws InputError, OutputError. *Collective.*
+  FolderRun(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder, bool resume,
+            const RunReport& report, const std::optional<DesignStart>& start = {});
+  FolderRun(const FolderRun&) = delete;
+  FolderRun& operator=(const FolderRun&) = delete;
+
+  AdaptiveLoop& loop() { return *loop_; }
+  /// The solver of the case. The object must outlive it.
+  flow::FlowSolver solver() const;
+
+ private:
+  LoopStart start_of(bool resume, const RunReport& report, const std::optional<DesignStart>& start);
+
+  const Communicator& comm_;
+  const AdaptiveCase& adaptive_;
+  AdaptOptions adapt_;
+  CycleFolders folders_;
+  std::optional<CycleFiles> files_;
+  std::optional<AdaptiveLoop> loop_;
+};
+
+/// Runs all cycles with the solver of the case. Throws InputError, SolverError, OutputError. *Collective.*
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start = {});
 

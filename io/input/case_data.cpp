@@ -158,12 +158,14 @@ std::string CaseTable::Data::place(const std::string& path, const toml::node* no
   const auto line = node == nullptr ? 0 : node->source().begin.line;
   if (line == 0 && below != assigned.end() && below->first.starts_with(path + "."))
     return "--set " + below->second;
-  return line == 0 ? file : fmt::format("{}:{}", file, line);
+  return line == 0 || !has_lines ? file : fmt::format("{}:{}", file, line);
 }
 
-void parse_case(CaseTable::Data& data, const std::string& path) {
+void parse_case(CaseTable::Data& data, const CaseSource& source) {
+  const std::string& path = source.path;
   data.file = path;
-  const std::string text = read_input(path);
+  data.has_lines = !source.text;
+  const std::string text = source.text ? *source.text : read_input(path);
   try {
     data.root = toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -13,6 +13,7 @@ namespace quadloop::io {
 /// The parsed file with its assignments. Private to io/input: the only header that exposes toml++.
 struct CaseTable::Data {
   std::string file;
+  bool has_lines = true;  ///< whether locations contain line numbers
   toml::table root;
   std::vector<std::string> warnings;
   std::map<std::string, std::string> assigned;  ///< dotted key -> the assignment that set it
@@ -21,8 +22,8 @@ struct CaseTable::Data {
   std::string place(const std::string& path, const toml::node* node) const;
 };
 
-/// Reads and parses the file, without assignments.
-void parse_case(CaseTable::Data& data, const std::string& path);
+/// Reads and parses the case, without assignments.
+void parse_case(CaseTable::Data& data, const CaseSource& source);
 /// Applies one "key=value" to the tables.
 void assign(CaseTable::Data& data, const std::string& assignment);
 

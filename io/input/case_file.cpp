@@ -282,9 +282,9 @@ void CaseTable::refuse(const std::string& key, const std::string& message) const
   throw InputError(fmt::format("{}: '{}' {}", place(key), full_name(key), message));
 }
 
-CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments) {
+CaseTable read_case(const CaseSource& source, const std::vector<std::string>& assignments) {
   auto data = std::make_shared<CaseTable::Data>();
-  parse_case(*data, path);
+  parse_case(*data, source);
   for (const std::string& assignment : assignments) assign(*data, assignment);
   const toml::table* root = &data->root;
   return CaseTable(std::move(data), root, "");

@@ -84,8 +84,19 @@ class CaseTable {
 /// file.
 bool is_assignment(std::string_view word);
 
-/// Reads a case file (TOML) and applies `assignments` ("spacing.min=0.1", from --set) in their order. A value
-/// is TOML, else plain text. On the calling rank only. Throws InputError "file:line: ...".
-CaseTable read_case(const std::string& path, const std::vector<std::string>& assignments = {});
+/// A case file, or a case as TOML text.
+struct CaseSource {
+  CaseSource(std::string file) : path{std::move(file)} {}
+  CaseSource(const char* file) : path{file} {}
+  /// `name` stands for the file in messages, without line numbers; relative paths begin at its folder.
+  CaseSource(std::string name, std::string toml) : path{std::move(name)}, text{std::move(toml)} {}
+
+  std::string path;
+  std::optional<std::string> text = {};
+};
+
+/// Reads a case (TOML) and applies `assignments` ("spacing.min=0.1", from --set) in their order. A value is
+/// TOML, else plain text. On the calling rank only. Throws InputError "file:line: ...".
+CaseTable read_case(const CaseSource& source, const std::vector<std::string>& assignments = {});
 
 }  // namespace quadloop::io

@@ -65,10 +65,10 @@ std::vector<std::string> formats_of_parts(const std::string& case_path, const Se
 }  // namespace
 
 CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
-  require_case_file(arguments.case_path);
+  if (!arguments.source.text) require_case_file(arguments.source.path);
   CaseInput input;
   Settings& settings = input.settings;
-  settings = read_settings(arguments.case_path, arguments.assignments);
+  settings = read_settings(arguments.source, arguments.assignments);
   if (!arguments.geometry.empty()) {
     Warnings told_again_below;
     replace_geometry(arguments.geometry, settings, told_again_below);
@@ -77,7 +77,7 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   Geometry geometry = load_geometry(settings, warnings, arguments.saved, &input.extents);
   require_layers_that_doubles_hold(geometry);
   input.part_formats =
-      formats_of_parts(arguments.case_path, settings, geometry.block_names().size(), warnings);
+      formats_of_parts(arguments.source.path, settings, geometry.block_names().size(), warnings);
   const MeshOptions options = mesh_options(settings, geometry);
   if (std::optional<Geometry> merged = short_edges_merged(geometry, options.size.min, warnings))
     geometry = std::move(*merged);

@@ -11,7 +11,7 @@ namespace quadloop {
 
 /// Arguments of the commands that generate a mesh.
 struct CaseArguments {
-  std::string case_path;
+  io::CaseSource source;
   std::vector<std::string> assignments;  ///< of --set
   std::string geometry;                  ///< replaces the case's geometry files; empty: the case's
   std::optional<TreeAttributes> saved;   ///< of the tree of a restart, whose root is kept

@@ -198,8 +198,9 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
     std::move(of_file.begin(), of_file.end(), std::back_inserter(chains));
   }
   if (!settings.files.empty()) require_layers(settings.files, layers);
-  for (const auto& [chain, is_body] : settings.shapes) {
+  for (const auto& [chain, is_body, spline] : settings.shapes) {
     chains.push_back(chain);
+    if (spline) join_by_splines(chains.back(), options.default_corner_degrees);
     if (is_body && !settings.inside) options.bodies.push_back(chain.name);
   }
   const std::optional<MirrorAxis> axis = settings.half ? settings.half->axis : settings.mesh.mirror;

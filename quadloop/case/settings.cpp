@@ -217,8 +217,9 @@ const KeyTable<Settings>& output_keys() {
   return keys;
 }
 
-Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments) {
-  const CaseTable root = io::read_case(case_path, assignments);
+Settings read_settings(const io::CaseSource& source, const std::vector<std::string>& assignments) {
+  const CaseTable root = io::read_case(source, assignments);
+  const std::string& case_path = source.path;
   refuse_unknown_keys(root, root_names());
   Settings settings;
   settings.output_prefix = std::filesystem::path(case_path).stem().string();

@@ -37,6 +37,7 @@ struct GeometryInput {
 struct Shape {
   Chain chain;
   bool is_body = false;  ///< meshed around, unless Settings::inside
+  bool spline = false;   ///< its points are joined by cubic splines from corner to corner
 };
 
 /// The files of a case and their placement: each list has one value for all files, or one per file.
@@ -112,9 +113,9 @@ const KeyTable<Settings>& title_keys();
 const KeyTable<Settings>& design_keys();
 const KeyTable<Settings>& output_keys();
 
-/// Reads the case file; assignments of the command line override its keys. On the calling rank only. Throws
+/// Reads the case; assignments of the command line override its keys. On the calling rank only. Throws
 /// InputError that names key and line.
-Settings read_settings(const std::string& case_path, const std::vector<std::string>& assignments);
+Settings read_settings(const io::CaseSource& source, const std::vector<std::string>& assignments);
 
 /// Returns the case's table [adapt]. Throws InputError, which names the case, if it has none.
 const adapt::AdaptOptions& adapt_options(const Settings& settings, const std::string& case_path);

@@ -44,6 +44,7 @@ Chain chain_of(const io::CaseTable& table, const ShapeKeys& shape) {
     case Kind::circle: return circle(shape.name, shape.centre, shape.radius, where);
     case Kind::rectangle: return rectangle(shape.name, {{box[0], box[2]}, {box[1], box[3]}}, where);
     case Kind::polygon: return polygon(shape.name, shape.points, where);
+    case Kind::curve: return open_curve(shape.name, shape.points, where);
     case Kind::naca: break;
   }
   return of_key(table, "flap", [&] { return naca_chain(shape.name, shape.naca, where); });
@@ -58,8 +59,10 @@ std::vector<Key<ShapeKeys>> kind_keys() {
                             choice<Kind>({{"naca", Kind::naca},
                                           {"circle", Kind::circle},
                                           {"rectangle", Kind::rectangle},
-                                          {"polygon", Kind::polygon}}),
-                            "Kind of the shape."),
+                                          {"polygon", Kind::polygon},
+                                          {"curve", Kind::curve}}),
+                            "Kind of the shape. A `curve` is open: curves that meet at their ends form an "
+                            "outline with a name for each side."),
       key<&ShapeKeys::naca, &NacaAirfoil::code>(
           "code", naca_code(),
           "NACA section of four digits (`2412`), four digits modified (`0012-64`) or five digits (`23012`). "
@@ -87,10 +90,14 @@ std::vector<Key<ShapeKeys>> form_keys() {
                                {.needs = {{"kind = \"rectangle\""}},
                                 .required = {{"[x0, x1, y0, y1]", "kind = \"rectangle\""}}}),
           key<&ShapeKeys::points>(
-              "points", points(), "The points of the polygon, in order.",
+              "points", points(), "The points of the polygon or curve, in order.",
               {.example = "[[0, 0], [3, 0], [0, 4]]",
-               .needs = {{"kind = \"polygon\""}},
-               .required = {{"the points of the polygon, [[x, y], ...]", "kind = \"polygon\""}}})};
+               .needs = {{"kind = \"polygon\" or kind = \"curve\""}},
+               .required = {{"the points, [[x, y], ...]", "kind = \"polygon\" or kind = \"curve\""}}}),
+          key<&ShapeKeys::spline>("spline", flag(),
+                                  "Cubic splines through the points, from corner to corner, as for "
+                                  "[files](#geometry). `false`: straight lines.",
+                                  {.example = "true", .needs = {{"points"}}})};
 }
 
 std::vector<Key<ShapeKeys>> placement_keys() {
@@ -122,7 +129,7 @@ Shape read_shape(const io::CaseTable& table) {
   shape_keys().read(table, keys);
   std::vector<Chain> chains{chain_of(table, keys)};
   quadloop::apply(keys.placement, chains);  // not std::apply
-  return {std::move(chains.front()), keys.kind == Kind::naca};
+  return {std::move(chains.front()), keys.kind == Kind::naca, keys.spline};
 }
 
 }  // namespace quadloop

@@ -12,7 +12,7 @@ namespace quadloop {
 
 /// Settings of a table [[shape]].
 struct ShapeKeys {
-  enum class Kind { naca, circle, rectangle, polygon };
+  enum class Kind { naca, circle, rectangle, polygon, curve };
   std::string name;
   Kind kind = Kind::naca;
   NacaAirfoil naca;
@@ -20,6 +20,7 @@ struct ShapeKeys {
   double radius = 0;
   std::vector<double> box;
   std::vector<Point> points;
+  bool spline = false;
   Transform placement;
 };
 

@@ -4,7 +4,8 @@ target_include_directories(quadloop_options INTERFACE "$<BUILD_INTERFACE:${PROJE
                                                       "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/quadloop>")
 target_compile_features(quadloop_options INTERFACE cxx_std_20)
 # Exact predicates, and one result on every machine, need each operation rounded on its own: no fused multiply-add.
-target_compile_options(quadloop_options INTERFACE -ffp-contract=off $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion>)
+# Position-independent functions are inlined like others, as nobody replaces them at run time.
+target_compile_options(quadloop_options INTERFACE -ffp-contract=off -fno-semantic-interposition $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wconversion>)
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC warns of types of unnamed namespaces in headers, and takes the sources of one unit for headers. Units need more memory than it expects: it
   # would spend an eighth of its time on collecting garbage.

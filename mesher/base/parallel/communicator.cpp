@@ -66,7 +66,11 @@ Communicator::Communicator(MPI_Comm to_duplicate) {
   MPI_Comm_size(comm_, &size_);
 }
 
-Communicator::~Communicator() { MPI_Comm_free(&comm_); }
+Communicator::~Communicator() {
+  int finalised = 0;  // as when a garbage collector outlives MPI
+  MPI_Finalized(&finalised);
+  if (finalised == 0) MPI_Comm_free(&comm_);
+}
 
 std::int64_t Communicator::sum(std::int64_t value) const {
   return reduced(value, MPI_INT64_T, MPI_SUM, comm_);

@@ -33,6 +33,10 @@ Chain polygon(const std::string& name, std::vector<Point> points, const std::str
   return closed_chain(name, std::move(points), source);
 }
 
+Chain open_curve(const std::string& name, std::vector<Point> points, const std::string& source) {
+  return {name, true, std::move(points), source, false};
+}
+
 Chain naca_chain(const std::string& name, const NacaAirfoil& airfoil, const std::string& source) {
   constexpr double spacing = 0.01;
   const std::vector<std::vector<Point>> parts = smooth_parts(airfoil);

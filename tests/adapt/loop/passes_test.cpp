@@ -68,8 +68,10 @@ TEST(Passes, StandInTheRecordOfTheFirstCycle) {
     std::vector<CycleRecord> records;
   } notes;
   AdaptOptions options = options_with(1);
-  run_loop(world(), square_in_eighths, options, solve_shock_with_lift, notes, 0, {},
-           [&] { return mesh_after_passes(world(), square_in_eighths, options, solve_shock_with_lift); });
+  run_loop(world(), square_in_eighths, options, solve_shock_with_lift, notes,
+           {.mesh = [&] {
+             return mesh_after_passes(world(), square_in_eighths, options, solve_shock_with_lift);
+           }});
   ASSERT_EQ(notes.records.size(), 2U);
   const std::string first = json_text(notes.records[0]), second = json_text(notes.records[1]);
   EXPECT_NE(first.find("\"passes\": [{\"nodes\": "), std::string::npos) << first;

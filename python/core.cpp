@@ -1,0 +1,440 @@
+// The Python module quadloop._core: the library of quadloop/quadloop.hpp for the package in this folder,
+// which adds names, defaults and conversions. Collective calls are those of the library.
+#include <mpi.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/mpi_singleton.hpp"
+#include "io/plot/mesh_plot.hpp"
+#include "mesher/mesh/scatter_mesh.hpp"
+#include "quadloop/case/case_keys.hpp"
+#include "quadloop/quadloop.hpp"
+
+namespace py = pybind11;
+
+namespace quadloop::python {
+
+namespace {
+
+using Released = py::call_guard<py::gil_scoped_release>;
+using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// The communicators that were passed, by their Fortran handle. MPI is initialised with the first one if
+/// nobody has done it, and then finalised by finish().
+class Communicators {
+ public:
+  /// `handle` of mpi4py's communicator; none: this process alone.
+  std::shared_ptr<const Communicator> of(std::optional<MPI_Fint> handle) {
+    initialise();
+    std::shared_ptr<const Communicator>& known = known_[handle];
+    if (!known) known = std::make_shared<const Communicator>(handle ? MPI_Comm_f2c(*handle) : MPI_COMM_SELF);
+    return known;
+  }
+  void finish() {
+    int finalised = 0;
+    MPI_Finalized(&finalised);
+    if (finalised == 0) known_.clear();
+    if (finalised == 0 && initialised_here_) MPI_Finalize();
+  }
+
+ private:
+  void initialise() {
+    int initialised = 0;
+    MPI_Initialized(&initialised);
+    if (initialised != 0) return;
+    const app::MpiSingleton settings;
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    initialised_here_ = true;
+  }
+
+  std::map<std::optional<MPI_Fint>, std::shared_ptr<const Communicator>> known_;
+  bool initialised_here_ = false;
+};
+
+Communicators& communicators() {
+  static Communicators all;
+  return all;
+}
+
+/// A case on a communicator.
+struct CoreCase {
+  std::shared_ptr<const Communicator> comm;
+  std::optional<Case> of;
+};
+
+/// A mesh that Python may hold as long as it likes. Its arrays are views.
+struct CoreMesh {
+  std::shared_ptr<const Communicator> comm;
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const SolvedMesh> solved;  ///< with its tree; null for a mesh from a file
+  LayerReport layers;
+  std::optional<Case> of;
+};
+
+CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_ptr<const SolvedMesh> solved,
+                   LayerReport layers, const Case& of) {
+  std::shared_ptr<const Mesh> mesh(solved, &solved->mesh);
+  return {comm, std::move(mesh), std::move(solved), std::move(layers), of};
+}
+
+/// A read-only array without a copy; `owner` keeps the data alive.
+template <class Number>
+py::array view(const void* data, std::vector<py::ssize_t> shape, const py::object& owner) {
+  py::array array(py::dtype::of<Number>(), std::move(shape), data, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+template <class Rows>
+py::array rows_view(const Rows& rows, py::ssize_t width, const py::object& owner) {
+  return view<std::int32_t>(rows.data(), {static_cast<py::ssize_t>(rows.size()), width}, owner);
+}
+
+py::array points_of(const py::object& self) {
+  const Mesh& mesh = *self.cast<const CoreMesh&>().mesh;
+  static_assert(sizeof(Point) == 2 * sizeof(double));
+  return view<double>(mesh.points.data(), {static_cast<py::ssize_t>(mesh.points.size()), 2}, self);
+}
+
+py::dict edges_of(const py::object& self) {
+  py::dict edges;
+  for (const BoundaryEdges& boundary : self.cast<const CoreMesh&>().mesh->boundaries)
+    edges[py::str(boundary.name)] = rows_view(boundary.edges, 2, self);
+  return edges;
+}
+
+py::dict conditions_of(const CoreMesh& self) {
+  py::dict conditions;
+  for (const BoundaryEdges& boundary : self.mesh->boundaries)
+    conditions[py::str(boundary.name)] = boundary.condition.word();
+  return conditions;
+}
+
+py::array_t<std::int64_t> global_ids(const CoreMesh& self) {
+  const Mesh& mesh = *self.mesh;
+  py::array_t<std::int64_t> ids(static_cast<py::ssize_t>(mesh.points.size()));
+  auto into = ids.mutable_unchecked<1>();
+  for (std::int32_t n = 0; n < size32(mesh.points); ++n) into(n) = mesh.global(NodeId{n}).value();
+  return ids;
+}
+
+py::dict blocks_of(const py::object& self) {
+  const Mesh& mesh = *self.cast<const CoreMesh&>().mesh;
+  py::dict blocks;
+  blocks["names"] = mesh.blocks.names;
+  const auto numbers = [&](const std::vector<std::int32_t>& of_cells) {
+    return view<std::int32_t>(of_cells.data(), {static_cast<py::ssize_t>(of_cells.size())}, self);
+  };
+  blocks["triangles"] = numbers(mesh.blocks.of_triangles);
+  blocks["quads"] = numbers(mesh.blocks.of_quads);
+  return blocks;
+}
+
+py::dict named_nodes_of(const CoreMesh& self) {
+  py::dict nodes;
+  for (const NamedNode& named : self.mesh->named_nodes) nodes[py::str(named.name)] = named.node.value();
+  return nodes;
+}
+
+py::list layers_of(const CoreMesh& self) {
+  py::list rows;
+  for (const BoundaryLayerReport& row : self.layers) {
+    py::dict entry;
+    entry["boundary"] = row.boundary;
+    entry["count"] = row.asked;
+    entry["count_reached"] = row.reached;
+    entry["columns"] = row.columns;
+    entry["y_plus"] = row.y_plus;
+    entry["first"] = row.first_least;
+    entry["growth"] = row.growth_least;
+    entry["thickness"] = row.thickness_asked;
+    entry["smallest_share"] = row.share_least;
+    entry["coverage"] = row.share_full;
+    entry["thinnest_at"] = py::make_tuple(row.least.x, row.least.y);
+    rows.append(entry);
+  }
+  return rows;
+}
+
+/// Nodal and cell variables, each with a row of values for each owned node or each cell.
+struct PythonField {
+  std::vector<std::string> names;
+  DoubleArray values;
+  std::vector<std::string> cell_names;
+  DoubleArray cell_values;
+};
+
+std::vector<double> rows_of(const DoubleArray& values, std::size_t rows, std::size_t width,
+                            const char* what) {
+  const auto count = static_cast<std::size_t>(values.size());
+  if (count != rows * width)
+    throw InputError(std::string(what) + ": " + std::to_string(count) + " values for " +
+                     std::to_string(width) + " variables in " + std::to_string(rows) + " rows");
+  return {values.data(), values.data() + count};
+}
+
+/// Not collective: an error is one of this rank.
+Field field_of(const Mesh& mesh, const PythonField& given) {
+  Field field;
+  field.names = given.names;
+  field.values = rows_of(given.values, static_cast<std::size_t>(mesh.owned_nodes), given.names.size(),
+                         "values at the owned nodes");
+  field.cells.names = given.cell_names;
+  field.cells.values =
+      rows_of(given.cell_values, mesh.cell_count(), given.cell_names.size(), "values in the cells");
+  return field;
+}
+
+DoubleArray table_of(const std::vector<double>& values, std::size_t width) {
+  const std::size_t rows = width == 0 ? 0 : values.size() / width;
+  DoubleArray table({static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(width)});
+  std::copy(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows * width), table.mutable_data());
+  return table;
+}
+
+py::tuple python_field(const Field& field) {
+  return py::make_tuple(field.names, table_of(field.values, field.width()), field.cells.names,
+                        table_of(field.cells.values, field.cells.width()));
+}
+
+PythonField python_field_from(const py::tuple& given) {
+  return {given[0].cast<std::vector<std::string>>(), given[1].cast<DoubleArray>(),
+          given[2].cast<std::vector<std::string>>(), given[3].cast<DoubleArray>()};
+}
+
+/// A mesh and its field on all ranks, made from those of Python. *Collective.*
+Field field_on_all_ranks(const CoreMesh& self, const py::tuple& given) {
+  Field field;
+  std::optional<std::string> fault;
+  try {
+    field = field_of(*self.mesh, python_field_from(given));
+  } catch (const InputError& error) {
+    fault = error.what();
+  }
+  const py::gil_scoped_release released;
+  self.comm->together([&] {
+    if (fault) throw InputError(*fault);
+  });
+  return field;
+}
+
+py::dict quality_of_mesh(const CoreMesh& self) {
+  QualitySummary quality;
+  {
+    const py::gil_scoped_release released;
+    quality = summarise_quality(*self.comm, *self.mesh);
+  }
+  py::dict result;
+  result["nodes"] = quality.counts.nodes;
+  result["triangles"] = quality.counts.triangles;
+  result["quads"] = quality.counts.quads;
+  result["boundary_edges"] = quality.counts.boundary_edges;
+  result["smallest_angle"] = quality.smallest_degrees;
+  result["largest_angle"] = quality.largest_degrees;
+  result["worst_quality"] = quality.worst;
+  result["mean_quality"] = quality.mean;
+  return result;
+}
+
+/// A PNG of the whole mesh on the root, no bytes on other ranks. *Collective.*
+py::bytes png_of(const CoreMesh& self, const std::string& name, const py::object& values, double size) {
+  Field field;
+  if (!name.empty()) field = field_on_all_ranks(self, values.cast<py::tuple>());
+  std::string picture;
+  {
+    const py::gil_scoped_release released;
+    const Communicator& comm = *self.comm;
+    io::LoadedMesh loaded;
+    loaded.mesh = gather_whole(comm, *self.mesh);
+    if (!name.empty()) {
+      const std::vector<double> all = comm.all_gather_values(std::span<const double>(field.values));
+      loaded.solution = Field{field.names, all, {}};
+    }
+    comm.together([&] {
+      if (!comm.is_root()) return;
+      loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
+      loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
+      io::PlotOptions options;
+      options.field = name;
+      options.size = size;
+      picture = io::draw_mesh(loaded, options, io::PlotFormat::png);
+    });
+  }
+  return py::bytes(picture);
+}
+
+/// The whole mesh on the root, an empty one elsewhere. *Collective.*
+CoreMesh gathered(const CoreMesh& self) {
+  const std::shared_ptr<const Communicator> alone = communicators().of(std::nullopt);
+  const py::gil_scoped_release released;
+  return {
+      alone, std::make_shared<const Mesh>(gather_whole(*self.comm, *self.mesh)), nullptr, self.layers, {}};
+}
+
+std::vector<std::string> write_mesh(const CoreMesh& self, const std::string& path, const py::tuple& values) {
+  const Field field = field_on_all_ranks(self, values);
+  const py::gil_scoped_release released;
+  return write(*self.comm, *self.mesh, path, field);
+}
+
+py::tuple make_core_mesh(const CoreCase& self) {
+  std::optional<NewMesh> made;
+  {
+    const py::gil_scoped_release released;
+    made = make_mesh(*self.comm, *self.of);
+  }
+  auto solved = std::make_shared<const SolvedMesh>(std::move(made->solved));
+  return py::make_tuple(core_mesh(self.comm, std::move(solved), std::move(made->layers), *self.of),
+                        made->warnings);
+}
+
+py::tuple read_core_mesh(const std::string& path, std::optional<MPI_Fint> handle) {
+  const std::shared_ptr<const Communicator> comm = communicators().of(handle);
+  std::optional<MeshFile> file;
+  {
+    const py::gil_scoped_release released;
+    file = read(*comm, path);
+  }
+  CoreMesh mesh{comm, std::make_shared<const Mesh>(std::move(file->mesh)), nullptr, {}, {}};
+  return py::make_tuple(std::move(mesh), python_field(file->field), file->warnings);
+}
+
+/// The adaptive loop of a case.
+class CoreAdaptation {
+ public:
+  CoreAdaptation(const CoreCase& of, const std::string& folder, bool resume) : case_{of} {
+    const py::gil_scoped_release released;
+    run_ = std::make_unique<Adaptation>(*case_.comm, *case_.of, folder, resume);
+  }
+
+  bool begin_cycle() {
+    const py::gil_scoped_release released;
+    return run_->begin_cycle();
+  }
+  int cycle() const { return run_->cycle(); }
+  CoreMesh mesh() const { return core_mesh(case_.comm, run_->solved(), run_->layers(), *case_.of); }
+  py::tuple initial_state() const { return python_field(run_->initial_state()); }
+  py::tuple solution() const { return python_field(run_->solved()->solution); }
+  py::tuple finish_cycle(const py::tuple& values) {
+    SolvedFlow flow;
+    flow.solution = field_on_all_ranks(mesh(), values);
+    CycleReport report;
+    {
+      const py::gil_scoped_release released;
+      report = run_->finish_cycle(std::move(flow));
+    }
+    return py::make_tuple(report.record, report.warnings);
+  }
+
+ private:
+  CoreCase case_;
+  std::unique_ptr<Adaptation> run_;
+};
+
+/// Raises SolverError on all ranks if the text of any of them is not empty: that of the lowest such rank.
+void raise_together(const CoreCase& self, const std::string& text) {
+  self.comm->together([&] {
+    if (!text.empty()) throw SolverError(text);
+  });
+}
+
+/// Every key of a case, by table.
+py::dict keys() {
+  py::dict tables;
+  for (const TableText& table : case_tables()) {
+    py::dict rows;
+    for (const KeyText& key : table.keys)
+      rows[py::str(key.name)] = py::make_tuple(key.value, key.initial, key.meaning);
+    tables[py::str(table.name)] = rows;
+  }
+  return tables;
+}
+
+void add_errors(py::module_& module) {
+  const py::object none = py::none();
+  static py::exception<InputError> input(module, "InputError", PyExc_ValueError);
+  static py::exception<SolverError> solver(module, "SolverError", PyExc_RuntimeError);
+  static py::exception<OutputError> output(module, "OutputError", PyExc_OSError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const InputError& error) {
+      input(error.what());
+    } catch (const SolverError& error) {
+      solver(error.what());
+    } catch (const OutputError& error) {
+      output(error.what());
+    }
+  });
+}
+
+void add_mesh(py::module_& module) {
+  py::class_<CoreMesh>(module, "Mesh")
+      .def_property_readonly("points", &points_of)
+      .def_property_readonly("triangles",
+                             [](const py::object& self) {
+                               return rows_view(self.cast<const CoreMesh&>().mesh->triangles, 3, self);
+                             })
+      .def_property_readonly(
+          "quads",
+          [](const py::object& self) { return rows_view(self.cast<const CoreMesh&>().mesh->quads, 4, self); })
+      .def_property_readonly("edges", &edges_of)
+      .def_property_readonly("conditions", &conditions_of)
+      .def_property_readonly("blocks", &blocks_of)
+      .def_property_readonly("named_nodes", &named_nodes_of)
+      .def_property_readonly("global_ids", &global_ids)
+      .def_property_readonly("owned", [](const CoreMesh& self) { return self.mesh->owned_nodes; })
+      .def_property_readonly("rank", [](const CoreMesh& self) { return self.comm->rank(); })
+      .def_property_readonly("ranks", [](const CoreMesh& self) { return self.comm->size(); })
+      .def("layers", &layers_of)
+      .def("quality", &quality_of_mesh)
+      .def(
+          "check", [](const CoreMesh& self) { return check(*self.comm, *self.mesh); }, Released())
+      .def("png", &png_of)
+      .def("gathered", &gathered)
+      .def("write", &write_mesh);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  add_errors(module);
+  add_mesh(module);
+  py::class_<CoreCase>(module, "Case")
+      .def(py::init([](const std::string& name, const std::optional<std::string>& text,
+                       const std::vector<std::string>& assignments, std::optional<MPI_Fint> handle) {
+        CoreCase made{communicators().of(handle), {}};
+        const py::gil_scoped_release released;
+        made.of.emplace(*made.comm, text ? CaseSource(name, *text) : CaseSource(name), assignments);
+        return made;
+      }))
+      .def_property_readonly("title", [](const CoreCase& self) { return self.of->title(); })
+      .def_property_readonly("rank", [](const CoreCase& self) { return self.comm->rank(); })
+      .def_property_readonly("cycles", [](const CoreCase& self) { return self.of->cycles(); })
+      .def_property_readonly("warnings", [](const CoreCase& self) { return self.of->warnings(); })
+      .def("mesh", &make_core_mesh)
+      .def("raise_together", &raise_together, Released());
+  py::class_<CoreAdaptation>(module, "Adaptation")
+      .def(py::init<const CoreCase&, const std::string&, bool>())
+      .def("begin_cycle", &CoreAdaptation::begin_cycle)
+      .def_property_readonly("cycle", &CoreAdaptation::cycle)
+      .def("mesh", &CoreAdaptation::mesh)
+      .def("initial_state", &CoreAdaptation::initial_state)
+      .def("solution", &CoreAdaptation::solution)
+      .def("finish_cycle", &CoreAdaptation::finish_cycle);
+  module.def("read", &read_core_mesh);
+  module.def("keys", &keys);
+  module.def("finish", [] { communicators().finish(); });
+}
+
+}  // namespace quadloop::python

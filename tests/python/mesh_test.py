@@ -1,0 +1,105 @@
+"""Meshes as arrays: views without copies, names, checks, files, pictures, conversions."""
+import gc
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+import quadloop as ql
+
+PROGRAM = sys.argv[1]
+CASE = ql.Case(outlines={"ring": ql.polygon([[0, 0], [4, 0], [4, 3], [0, 3]]), "hole": [[1, 1], [2, 1], [2, 2]]}, spacing={"max": 0.25})
+
+
+def area(mesh):
+    total = 0.0
+    for cells in (mesh.triangles, mesh.quads):
+        p = mesh.points[cells]
+        q = np.roll(p, -1, axis=1)
+        total += 0.5 * (p[:, :, 0] * q[:, :, 1] - p[:, :, 1] * q[:, :, 0]).sum()
+    return total
+
+
+class Meshes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = ql.mesh(CASE)
+
+    def test_cells_cover_the_domain_and_edges_bound_it(self):
+        mesh = self.mesh
+        self.assertAlmostEqual(area(mesh), 11.5, 12)
+        self.assertEqual(set(mesh.edges), {"ring", "hole"})
+        around = sum(np.hypot(*(mesh.points[e[:, 1]] - mesh.points[e[:, 0]]).T).sum() for e in [mesh.edges["ring"]])
+        self.assertAlmostEqual(around, 14, 12)
+        self.assertEqual(mesh.nodes, mesh.owned)
+        np.testing.assert_array_equal(mesh.global_ids, np.arange(mesh.owned))
+        self.assertEqual(mesh.check(), [])
+        self.assertGreater(mesh.quality.worst_quality, 0.3)
+
+    def test_arrays_are_views_that_outlive_the_mesh_and_cannot_be_changed(self):
+        mesh = ql.mesh(CASE)
+        points, again, hole = mesh.points, mesh.points, mesh.edges["hole"]
+        self.assertTrue(np.shares_memory(points, again))
+        for array in (points, mesh.triangles, mesh.quads, hole):
+            self.assertFalse(array.flags.writeable or array.flags.owndata)
+        copy = points.copy()
+        del mesh
+        gc.collect()
+        others = [ql.mesh(CASE.changed(spacing={"max": 0.2})) for _ in range(3)]
+        np.testing.assert_array_equal(points, copy)
+        self.assertEqual(len(others), 3)
+
+    def test_a_million_cells_are_handed_over_without_a_copy(self):
+        mesh = ql.mesh(ql.Case(outlines={"edge": [[0, 0], [1, 0], [1, 1], [0, 1]]}, spacing={"max": 0.001}))
+        self.assertGreater(len(mesh.quads) + len(mesh.triangles), 1_000_000)
+        for array, again in [(mesh.points, mesh.points), (mesh.quads, mesh.quads)]:
+            self.assertTrue(np.shares_memory(array, again) and not array.flags.owndata)
+
+    def test_files_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.mesh.write(Path(folder, "library.mesh"))
+            Path(folder, "case.toml").write_text(CASE.toml)
+            subprocess.run([PROGRAM, "-q", "mesh", "case.toml", "-o", "command"], cwd=folder, check=True)
+            self.assertEqual(Path(folder, "library.mesh").read_bytes(), Path(folder, "command.mesh").read_bytes())
+            height = self.mesh.points[:, 1] ** 2
+            self.mesh.write(Path(folder, "solved.vtu"), {"height": height})
+            back, solution = ql.read(Path(folder, "solved.vtu"))
+            order, old = np.lexsort(back.points.T), np.lexsort(self.mesh.points.T)
+            np.testing.assert_array_equal(back.points[order], self.mesh.points[old])
+            np.testing.assert_array_equal(solution["height"][order], height[old])
+            with self.assertRaises(ql.OutputError):
+                self.mesh.write(Path(folder, "none", "a.mesh"))
+            with self.assertRaisesRegex(ql.InputError, "7 values"):
+                self.mesh.write(Path(folder, "a.vtu"), {"height": np.zeros(7)})
+
+    def test_the_report_of_layers(self):
+        layers = {"first": 0.01, "growth": 1.2, "count": 6}
+        mesh = ql.mesh(CASE.changed(boundary={"hole": {"bc": "wall", "layers": layers}}))
+        report = mesh.layers["hole"]
+        self.assertEqual((report.count, report.count_reached), (6, 6))
+        self.assertAlmostEqual(report.first, 0.01, 6)
+        self.assertGreater(report.coverage, 0.9)
+        self.assertEqual(self.mesh.layers, {})
+
+    def test_a_notebook_shows_picture_and_table(self):
+        self.assertTrue(self.mesh._repr_png_().startswith(b"\x89PNG"))
+        self.assertIn("edges of hole", self.mesh._repr_html_())
+        shown = self.mesh.png("height", {"height": self.mesh.points[:, 1]}, size=500)
+        self.assertTrue(shown.startswith(b"\x89PNG") and shown != self.mesh.png(size=500))
+
+    def test_conversions_keep_names(self):
+        meshio = types.SimpleNamespace(Mesh=lambda points, cells, **more: types.SimpleNamespace(points=points, cells=cells, **more))
+        with mock.patch.dict(sys.modules, {"meshio": meshio}):
+            converted = self.mesh.to_meshio({"x": self.mesh.points[:, 0]})
+        self.assertEqual(set(converted.cell_sets), {"ring", "hole"})
+        lines = dict(zip(self.mesh.edges, converted.cells[2:]))
+        np.testing.assert_array_equal(lines["hole"][1], self.mesh.edges["hole"])
+        self.assertEqual([len(part) for part in converted.cell_sets["hole"]], [len(self.mesh.edges["hole"]) if name == "hole" else 0 for name in ("", "", *self.mesh.edges)])
+
+
+unittest.main(argv=["mesh_test"])
