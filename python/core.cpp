@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -341,6 +342,66 @@ class CoreAdaptation {
   std::unique_ptr<Adaptation> run_;
 };
 
+/// Points as a list, from an array of shape (n, 2).
+std::vector<Point> points_from(const DoubleArray& array) {
+  const auto count = static_cast<std::size_t>(array.size()) / 2;
+  std::vector<Point> points(count);
+  for (std::size_t i = 0; i < count; ++i) points[i] = {array.data()[2 * i], array.data()[2 * i + 1]};
+  return points;
+}
+
+DoubleArray array_of(std::span<const Point> points) {
+  DoubleArray array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    array.mutable_data()[2 * i] = points[i].x;
+    array.mutable_data()[2 * i + 1] = points[i].y;
+  }
+  return array;
+}
+
+using PythonLoops = std::vector<std::pair<std::string, DoubleArray>>;
+
+std::vector<MovingLoop> loops_from(const PythonLoops& given) {
+  std::vector<MovingLoop> loops;
+  for (const auto& [boundary, points] : given) loops.push_back({boundary, points_from(points)});
+  return loops;
+}
+
+/// A mesh moved to another outline.
+class CoreMorph {
+ public:
+  CoreMorph(const CoreMesh& mesh, const PythonLoops& from, const PythonLoops& to, double least_quality)
+      : before_{mesh} {
+    const std::vector<MovingLoop> old_loops = loops_from(from), new_loops = loops_from(to);
+    const py::gil_scoped_release released;
+    morph_ = std::make_unique<Morph>(*before_.comm, *before_.mesh, old_loops, new_loops, least_quality);
+  }
+
+  CoreMesh mesh() const { return {before_.comm, morph_->mesh(), nullptr, before_.layers, before_.of}; }
+  double worst_quality() const { return morph_->worst_quality(); }
+  bool smoothed() const { return morph_->smoothed(); }
+  DoubleArray push_forward(const std::vector<DoubleArray>& of_points) const {
+    std::vector<std::vector<Point>> lists;
+    for (const DoubleArray& list : of_points) lists.push_back(points_from(list));
+    return array_of(morph_->push_forward(lists));
+  }
+  std::vector<DoubleArray> pull_back(const DoubleArray& of_nodes) const {
+    const std::vector<Point> gradient = points_from(of_nodes);
+    std::vector<std::vector<Point>> lists;
+    {
+      const py::gil_scoped_release released;
+      lists = morph_->pull_back(gradient);
+    }
+    std::vector<DoubleArray> arrays;
+    for (const std::vector<Point>& list : lists) arrays.push_back(array_of(list));
+    return arrays;
+  }
+
+ private:
+  CoreMesh before_;
+  std::unique_ptr<Morph> morph_;
+};
+
 /// Raises SolverError on all ranks if the text of any of them is not empty: that of the lowest such rank.
 void raise_together(const CoreCase& self, const std::string& text) {
   self.comm->together([&] {
@@ -361,13 +422,17 @@ py::dict keys() {
 }
 
 void add_errors(py::module_& module) {
-  const py::object none = py::none();
   static py::exception<InputError> input(module, "InputError", PyExc_ValueError);
   static py::exception<SolverError> solver(module, "SolverError", PyExc_RuntimeError);
+  static py::exception<TooFar> too_far(module, "TooFar", input.ptr());
   static py::exception<OutputError> output(module, "OutputError", PyExc_OSError);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
+    } catch (const TooFar& error) {
+      py::object raised = py::reinterpret_borrow<py::object>(too_far.ptr())(error.what());
+      raised.attr("share") = error.share;
+      PyErr_SetObject(too_far.ptr(), raised.ptr());
     } catch (const InputError& error) {
       input(error.what());
     } catch (const SolverError& error) {
@@ -396,6 +461,15 @@ void add_mesh(py::module_& module) {
       .def_property_readonly("owned", [](const CoreMesh& self) { return self.mesh->owned_nodes; })
       .def_property_readonly("rank", [](const CoreMesh& self) { return self.comm->rank(); })
       .def_property_readonly("ranks", [](const CoreMesh& self) { return self.comm->size(); })
+      .def(
+          "maximum", [](const CoreMesh& self, double value) { return self.comm->maximum(value); }, Released())
+      .def(
+          "sum",
+          [](const CoreMesh& self, double value) {
+            const std::array<double, 1> values{value};
+            return reproducible_sum(*self.comm, values);
+          },
+          Released())
       .def("layers", &layers_of)
       .def("quality", &quality_of_mesh)
       .def(
@@ -432,6 +506,13 @@ PYBIND11_MODULE(_core, module) {
       .def("initial_state", &CoreAdaptation::initial_state)
       .def("solution", &CoreAdaptation::solution)
       .def("finish_cycle", &CoreAdaptation::finish_cycle);
+  py::class_<CoreMorph>(module, "Morph")
+      .def(py::init<const CoreMesh&, const PythonLoops&, const PythonLoops&, double>())
+      .def("mesh", &CoreMorph::mesh)
+      .def_property_readonly("worst_quality", &CoreMorph::worst_quality)
+      .def_property_readonly("smoothed", &CoreMorph::smoothed)
+      .def("push_forward", &CoreMorph::push_forward)
+      .def("pull_back", &CoreMorph::pull_back);
   module.def("read", &read_core_mesh);
   module.def("keys", &keys);
   module.def("finish", [] { communicators().finish(); });

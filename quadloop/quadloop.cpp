@@ -234,7 +234,7 @@ MeshFile read(const Communicator& comm, const std::string& path) {
   comm.together([&] {
     if (!comm.is_root()) return;
     loaded = io::read_mesh(path);
-    order = space_filling_order(loaded.mesh);
+    order = order_for_parts(loaded.mesh);
   });
   MeshFile file;
   file.mesh = scatter_mesh(comm, loaded.mesh, order);

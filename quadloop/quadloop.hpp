@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -186,12 +187,56 @@ class Adaptation {
   std::unique_ptr<Parts> parts_;
 };
 
+/// A boundary as a closed polygon, in either direction.
+struct MovingLoop {
+  std::string boundary;
+  std::vector<Point> points;
+};
+
+/// The cells of a mesh cannot follow a change of its outline.
+class TooFar : public InputError {
+ public:
+  TooFar(const std::string& message, double possible_share) : InputError(message), share{possible_share} {}
+  double share;  ///< of the change, up to which no cell is inverted
+};
+
+/// A mesh moved from one outline to another with the same number of points: the cells stay, the nodes on the
+/// outline stay on their segments, and all others follow (docs/explanation/morphing.md).
+class Morph {
+ public:
+  /// Moves a copy of the mesh. `from` has the loops of the mesh that move and `to` the same loops in the same
+  /// order, with as many points; other boundaries stay in place. `comm` must outlive the object. Throws
+  /// InputError for other loops, and if a node of the boundary is not on `from`; TooFar if cells would become
+  /// inverted, or if the quality of the worst cell would fall below `least_quality`, from 0 to 1.
+  Morph(const Communicator& comm, const Mesh& mesh, const std::vector<MovingLoop>& from,
+        const std::vector<MovingLoop>& to, double least_quality = 0);
+  ~Morph();
+  Morph(const Morph&) = delete;
+  Morph& operator=(const Morph&) = delete;
+
+  std::shared_ptr<const Mesh> mesh() const;
+  double worst_quality() const;  ///< of the cells outside layers: 1 for the best shape
+  /// Whether cells had to be smoothed. Then the nodes have no derivative.
+  bool smoothed() const;
+
+  /// Velocity of each owned node for given velocities of the points of `to`: one list for each loop, the same
+  /// on all ranks. Throws InputError for lists of other lengths, and if smoothed().
+  std::vector<Point> push_forward(const std::vector<std::vector<Point>>& of_points) const;
+  /// The transpose: from the gradient of a functional with respect to each owned node to that with respect to
+  /// the points of `to`, the same on all ranks and any number of them. *Collective.*
+  std::vector<std::vector<Point>> pull_back(std::span<const Point> of_nodes) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
 /// Returns one line per error, with its location; empty for a valid mesh. The lines are the same on every
 /// rank. Gathers the mesh on one rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh read from a file. Its blocks are merged, and it is partitioned along a space-filling curve, which
-/// renumbers nodes and cells.
+/// A mesh read from a file. Its blocks are merged. Numbers of nodes and cells are those of the file if
+/// neighbours are close in it, as in meshes of this library; otherwise they follow a space-filling curve.
 struct MeshFile {
   Mesh mesh;
   Field field;  ///< no variables if the file has none

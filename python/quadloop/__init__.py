@@ -11,7 +11,8 @@ The keyword arguments of `Case` are the tables of a case file, with the same key
 communicator as `comm`: each rank holds its part of the mesh, and all ranks call the same functions in the same
 order. The mesh is the same, bit for bit, on any number of ranks. Lengths are in the unit of the outlines.
 
-Errors: InputError (a ValueError) for a case, mesh or field that cannot be used; SolverError (a RuntimeError);
+Errors: InputError (a ValueError) for a case, mesh or field that cannot be used; TooFar (an InputError) for a mesh that cannot
+follow a change of its outline, with the share of the change that it can follow; SolverError (a RuntimeError);
 OutputError (an OSError). The message names the key or the place, and a remedy. Warnings go to `warnings.warn` with
 the category QuadloopWarning.
 """
@@ -25,10 +26,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from . import _core
-from ._core import InputError, OutputError, SolverError
+from ._core import InputError, OutputError, SolverError, TooFar
 
-__all__ = ["AdaptationCycle", "Case", "InputError", "LayerReport", "Mesh", "OutputError", "Outline", "QuadloopWarning",
-           "Quality", "SolverError", "adapt", "curve", "keys", "mesh", "polygon", "read", "spline"]
+__all__ = ["AdaptationCycle", "Case", "InputError", "LayerReport", "Mesh", "Morphed", "OutputError", "Outline", "QuadloopWarning",
+           "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "keys", "mesh", "polygon", "read", "spline"]
 
 atexit.register(_core.finish)
 
@@ -138,6 +139,7 @@ class Case:
         for name, given in (outlines or {}).items():
             parts = given if isinstance(given, (list, tuple)) and given and isinstance(given[0], (Outline, np.ndarray)) else [given]
             shapes += [_shape(name, part) for part in parts]
+        self._outlines = dict(outlines or {})
         self._file, self._tables = None, {**tables, **({"shape": shapes} if shapes else {})}
         self._cores: dict = {}
         self._core(None)
@@ -146,14 +148,14 @@ class Case:
     def from_file(cls, path, **tables) -> "Case":
         """The case of a file. Keyword arguments override keys of its tables."""
         case = cls.__new__(cls)
-        case._file, case._tables, case._cores = os.fspath(path), tables, {}
+        case._file, case._tables, case._cores, case._outlines = os.fspath(path), tables, {}, {}
         case._core(None)
         return case
 
     def changed(self, **tables) -> "Case":
         """The same case with other values of some keys."""
         case = Case.__new__(Case)
-        case._file, case._tables, case._cores = self._file, _merged(self._tables, tables), {}
+        case._file, case._tables, case._cores, case._outlines = self._file, _merged(self._tables, tables), {}, self._outlines
         case._core(None)
         return case
 
@@ -423,3 +425,85 @@ def adapt(case: Case, solve, comm=None, folder=None, resume: bool = False, **key
         mesh_of_cycle.warnings = messages
         of_cycle = {key: value for key, value in json.loads(record).items() if not key.endswith("_digest")}
         yield AdaptationCycle(run.cycle, mesh_of_cycle, _solution(run.solution()), of_cycle, messages)
+
+
+# Design
+
+
+class Morphed:
+    """A mesh whose nodes have followed a change of its outline; the cells are the same. Made by Run.morph().
+
+    mesh           the moved Mesh
+    outlines       boundary -> the points of the new outline, shape (n, 2)
+    worst_quality  of the cells outside layers: 1 for the best shape
+    smoothed       whether cells had to be smoothed; then the nodes have no derivative
+    """
+
+    def __init__(self, core, outlines: dict):
+        self._core, self.outlines = core, outlines
+        self.mesh = Mesh(core.mesh())
+        self.worst_quality, self.smoothed = core.worst_quality, core.smoothed
+
+    def push_forward(self, velocities: Mapping) -> np.ndarray:
+        """Velocities of the owned nodes, shape (owned, 2), for velocities of the points of outlines: boundary -> shape (n, 2); 0 for those not given.
+
+        The derivative of the node positions is exact. Raises InputError if the mesh was smoothed.
+        """
+        unknown = set(velocities) - set(self.outlines)
+        if unknown:
+            raise InputError(f"'{unknown.pop()}' is no boundary that moves; these are {', '.join(self.outlines)}")
+        return self._core.push_forward([np.asarray(velocities.get(name, np.zeros_like(points)), dtype=float) for name, points in self.outlines.items()])
+
+    def pull_back(self, gradient) -> dict:
+        """The transpose: from dJ/dX at the owned nodes, shape (owned, 2), to boundary -> dJ/d(points), shape (n, 2). On several ranks: collective."""
+        return dict(zip(self.outlines, self._core.pull_back(np.asarray(gradient, dtype=float))))
+
+
+class Run:
+    """A mesh of a case for designs: its outlines move, the mesh follows.
+
+    mesh      the Mesh of the case
+    outlines  boundary -> its points, shape (n, 2), for the closed polygons of the case
+    """
+
+    def __init__(self, case: Case, comm=None):
+        self.case = case
+        self.mesh = mesh(case, comm)
+        polygons = {name: polygon(given) if not isinstance(given, Outline) else given for name, given in case._outlines.items()
+                    if isinstance(given, (Outline, np.ndarray)) or not isinstance(given[0], (Outline, np.ndarray))}
+        self.outlines = {name: outline.points for name, outline in polygons.items() if outline.kind == "polygon" and not outline.spline}
+
+    def morph(self, outlines: Mapping, min_quality: float = 0.0) -> Morphed:
+        """Moves the mesh to new outlines with as many points: boundary -> shape (n, 2). Other boundaries stay in place.
+
+        Raises TooFar if cells would become inverted, or the quality of the worst one would fall below `min_quality` (0 to 1).
+        On several ranks: collective.
+        """
+        unknown = set(outlines) - set(self.outlines)
+        if unknown:
+            raise InputError(f"'{unknown.pop()}' is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
+        old = [(name, self.outlines[name]) for name in outlines]
+        new = [(name, polygon(points).points) for name, points in outlines.items()]
+        return Morphed(_core.Morph(self.mesh._core, old, new, min_quality), dict(new))
+
+    def verify(self, outlines: Mapping, step: float = 1e-6, seed: int = 0) -> tuple:
+        """Compares the derivatives at new outlines with central differences, and the transpose with the derivative.
+
+        Returns (largest deviation of a node velocity from the difference, deviation of the scalar products), relative to the
+        largest velocity and product. `step` is relative to the extent of the outlines.
+        """
+        random = np.random.default_rng(seed)
+        here = self.morph(outlines)
+        ways = {name: random.uniform(-1, 1, points.shape) for name, points in here.outlines.items()}
+        length = step * max(np.ptp(points, axis=0).max() for points in here.outlines.values())
+        ahead, behind = (self.morph({name: points + sign * length * ways[name] for name, points in here.outlines.items()}).mesh for sign in (1, -1))
+        velocity = here.push_forward(ways)
+        difference = (ahead.points - behind.points)[:here.mesh.owned] / (2 * length)
+        gradient = random.uniform(-1, 1, velocity.shape)
+        back = here.pull_back(gradient)
+        comm_sum = self.mesh._core.sum
+        product = comm_sum(float((gradient * velocity).sum()))
+        transposed = sum(float((back[name] * ways[name]).sum()) for name in ways)
+        largest = self.mesh._core.maximum(float(np.abs(velocity).max(initial=0)))
+        deviation = self.mesh._core.maximum(float(np.abs(velocity - difference).max(initial=0)))
+        return deviation / largest, abs(product - transposed) / abs(product)

@@ -6,8 +6,10 @@ import os
 import re
 import sys
 import tempfile
+import types
 from pathlib import Path
 
+import numpy as np
 from mpi4py import MPI
 
 comm = MPI.COMM_WORLD
@@ -17,11 +19,50 @@ def programs(page):
     return re.findall(r"^```python\n(.*?)^```", Path(page).read_text(), re.M | re.S)
 
 
-def run(text):
+def run(text, names=None):
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        exec(compile(text, "program", "exec"), {"__name__": "__main__"})
+        exec(compile(text, "program", "exec"), {"__name__": "__main__"} if names is None else names)
     return said.getvalue().splitlines()
+
+
+class Component:
+    """Stands in for the calls of OpenMDAO's ExplicitComponent."""
+
+    def add_input(self, name, value):
+        self.inputs = {name: np.array(value)}
+
+    def add_output(self, name, value):
+        self.outputs = {name: np.array(value)}
+
+
+def use_component(text):
+    api = types.ModuleType("openmdao.api")
+    api.ExplicitComponent, api.AnalysisError = Component, type("AnalysisError", (Exception,), {})
+    package = types.ModuleType("openmdao")
+    package.api = api
+    sys.modules.update({"openmdao": package, "openmdao.api": api})
+    names = {"__name__": "component"}
+    run(text, names)
+    component = names["Nodes"]()
+    component.setup()
+    oval = component.inputs["outline"].copy()
+    component.inputs["outline"] += 0.02 * np.sin(3 * oval[:, ::-1])
+    component.compute(component.inputs, component.outputs)
+    way, weights = np.cos(oval), np.sin(component.outputs["nodes"])
+    ahead, back = {"nodes": np.zeros_like(weights)}, {"outline": np.zeros_like(oval)}
+    component.compute_jacvec_product(component.inputs, {"outline": way}, ahead, "fwd")
+    component.compute_jacvec_product(component.inputs, back, {"nodes": weights}, "rev")
+    products = (weights * ahead["nodes"]).sum(), (way * back["outline"]).sum()
+    assert abs(products[0] - products[1]) < 1e-11 * abs(products[0]), products
+    component.inputs["outline"] = 3 * oval
+    component.inputs["outline"][::2] *= 0.5
+    try:
+        component.compute(component.inputs, component.outputs)
+    except api.AnalysisError as error:
+        assert "of the way" in str(error), error
+    else:
+        raise AssertionError("cells cannot follow this")
 
 
 def digest(path):
@@ -29,7 +70,8 @@ def digest(path):
 
 
 def main():
-    airfoil, adaptation = programs(sys.argv[1])
+    airfoil, adaptation, component = programs(sys.argv[1])
+    use_component(component)
     folder = comm.bcast(tempfile.mkdtemp() if comm.rank == 0 else None)
     alone = Path(folder, f"alone{comm.rank}")
     alone.mkdir()
@@ -51,9 +93,8 @@ def main():
     if comm.rank == 0:
         os.mkdir("one")
         os.chdir("one")
-        names = {"comm": MPI.COMM_SELF}
         text = adaptation.replace("comm = MPI.COMM_WORLD", "comm = MPI.COMM_SELF")
-        assert text != adaptation and names
+        assert text != adaptation
         run(text)
         assert [digest(f"run/cycle_{k:02}/mesh.mesh") for k in range(5)] == meshes
         assert [digest(f"run/cycle_{k:02}/mesh.tree.h5") for k in range(5)] == [digest(f"../run/cycle_{k:02}/mesh.tree.h5") for k in range(5)]

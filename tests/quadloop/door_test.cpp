@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <type_traits>
 
 #include "mesher/mesh/check/delaunay_check.hpp"
@@ -79,6 +80,78 @@ TEST_F(Door, TheLoopGoesOnForAMetricAndForTargets) {
     EXPECT_NE(next.solved.mesh.points, made.solved.mesh.points) << settings.front();
     EXPECT_TRUE(check(world(), next.solved.mesh).empty()) << settings.front();
   }
+}
+
+const char* const square_text =
+    "[[shape]]\nname = \"side\"\nkind = \"polygon\"\npoints = [[0, 0], [1, 0], [1, 1], [0, 1]]\n"
+    "[spacing]\nmin = 0.02\nmax = 0.1\n[boundary.side]\nbc = \"wall\"\n"
+    "[adapt]\nvariable = \"q\"\ncycles = 2\nmin = 0.005\n";
+
+TEST_F(Door, ACaseMayBeText) {
+  const Case of_text(world(), CaseSource("square", square_text)), of_file(world(), case_path());
+  EXPECT_EQ(make_mesh(world(), of_text).solved.mesh.points, make_mesh(world(), of_file).solved.mesh.points);
+  try {
+    const Case wrong(world(), CaseSource("square", std::string("title = 3\n") + square_text));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("square: 'title'"), 0U) << error.what();
+  }
+}
+
+TEST_F(Door, TheLoopHasTheMeshesOfItsSteps) {
+  const Case square(world(), CaseSource("square", square_text));
+  SolvedMesh step = make_mesh(world(), square).solved;
+  Adaptation run(world(), square), in_folder(world(), square, file("run"));
+  EXPECT_EQ(run.solved(), nullptr);
+  std::vector<std::shared_ptr<const SolvedMesh>> kept;
+  for (int cycle = 0; run.begin_cycle(); ++cycle) {
+    ASSERT_TRUE(in_folder.begin_cycle());
+    EXPECT_EQ(run.cycle(), cycle);
+    EXPECT_EQ(run.solved()->mesh.points, step.mesh.points);
+    EXPECT_EQ(in_folder.solved()->mesh.points, step.mesh.points);
+    EXPECT_EQ(run.initial_state().values, step.solution.values);
+    step.solution = front(step.mesh);
+    SolvedFlow flow;
+    flow.solution = step.solution;
+    const CycleReport report = run.finish_cycle(flow);
+    in_folder.finish_cycle(flow);
+    EXPECT_EQ(report.cycle, cycle);
+    EXPECT_NE(report.record.find("\"nodes\": " + std::to_string(nodes(step.mesh))), std::string::npos);
+    kept.push_back(run.solved());
+    if (cycle < 2) step = remesh(world(), square, sense(world(), square, step), step).solved;
+  }
+  EXPECT_EQ(kept.size(), 3U);
+  EXPECT_FALSE(in_folder.begin_cycle());
+  EXPECT_LT(nodes(kept[0]->mesh), nodes(kept[2]->mesh)) << "meshes live as long as they are held";
+  Adaptation again(world(), square, file("run"), true);
+  EXPECT_FALSE(again.begin_cycle()) << "all cycles exist";
+  EXPECT_EQ(again.solved()->mesh.points, step.mesh.points);
+  EXPECT_THROW(Adaptation(world(), Case(world(), case_path(), {"spacing.max=0.2"}), file("run"), true),
+               InputError);
+}
+
+TEST_F(Door, AMeshFollowsItsOutline) {
+  const Case square(world(), CaseSource("square", square_text));
+  const Mesh mesh = make_mesh(world(), square).solved.mesh;
+  const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, moved{{0, 0}, {1.2, 0.1}, {1, 1}, {0, 1}};
+  const Morph morph(world(), mesh, {{"side", corners}}, {{"side", moved}});
+  EXPECT_FALSE(morph.smoothed());
+  EXPECT_TRUE(check(world(), *morph.mesh()).empty());
+  const std::vector<Point> velocity = morph.push_forward({{{}, {1, 0}, {}, {}}});
+  ASSERT_EQ(velocity.size(), static_cast<std::size_t>(mesh.owned_nodes));
+  std::vector<double> products;
+  std::vector<Point> gradient;
+  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
+    gradient.push_back({morph.mesh()->points[i].y, 1});
+    products.push_back(dot(gradient.back(), velocity[i]));
+  }
+  const std::vector<std::vector<Point>> back = morph.pull_back(gradient);
+  EXPECT_NEAR(back.at(0).at(1).x, reproducible_sum(world(), products), 1e-9);
+  EXPECT_GT(back.at(0).at(1).x, 1);
+  EXPECT_THROW(Morph(world(), mesh, {{"side", corners}}, {{"side", {{0, 0}, {0, 1}, {1, 1}, {1, 0}}}}),
+               InputError);
+  EXPECT_THROW(Morph(world(), mesh, {{"side", corners}}, {{"side", moved}}, 0.999), TooFar);
+  EXPECT_THROW(Morph(world(), mesh, {{"hole", corners}}, {{"hole", moved}}), InputError);
 }
 
 TEST_F(Door, WritesAndReadsTheSameMeshAndField) {

@@ -57,6 +57,19 @@ TEST_F(ShapeSettings, AnAirfoilIsThatOfItsCode) {
             naca_chain("wing", naca, "").points);
 }
 
+TEST_F(ShapeSettings, CurvesThatMeetFormAnOutline) {
+  const std::string
+      wall = "[[shape]]\nname = \"wall\"\nkind = \"curve\"\npoints = [[2, 0], [2, 1], [0, 1], [0, 0]]\n",
+      floor = "[[shape]]\nname = \"floor\"\nkind = \"curve\"\npoints = [[2, 0], [1, 0.1], [0, 0]]\n";
+  const Geometry straight = load(wall + floor), bent = load(wall + floor + "spline = true\n");
+  EXPECT_EQ(straight.size(), 5);
+  EXPECT_EQ(straight.boundaries().size(), 2U);
+  EXPECT_FALSE(straight.has_curves());
+  EXPECT_TRUE(bent.has_curves());
+  expect_refused(wall, "open");
+  expect_refused("[[shape]]\nname = \"rod\"\nkind = \"circle\"\nradius = 1\nspline = true\n", "spline");
+}
+
 TEST_F(ShapeSettings, AShapeIsScaledThenTurnedThenMoved) {
   const Chain chain = only(
       "name = \"a\"\nkind = \"polygon\"\npoints = [[0, 0], [1, 0], [0, 1]]\nscale = 2\nrotate = 90\n"
