@@ -16,6 +16,8 @@ follow a change of its outline, with the share of the change that it can follow;
 OutputError (an OSError). The message names the key or the place, and a remedy. Warnings go to `warnings.warn` with
 the category QuadloopWarning.
 """
+from __future__ import annotations
+
 import atexit
 import dataclasses
 import json
@@ -282,7 +284,7 @@ class Mesh:
 
     def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
         """A picture of the mesh, or of a nodal field of the solution, `size` pixels wide or high. Empty on all ranks but the first."""
-        return self._core.png(field, _rows(self, {field: solution[field]}) if field else (), size)
+        return self._core.png(field, _rows(self, {field: (solution or {})[field]}) if field else (), size)
 
     def _repr_png_(self):
         return self.png() if self._core.ranks == 1 else None
@@ -300,7 +302,7 @@ class Mesh:
 
     def to_meshio(self, solution: Mapping | None = None):
         """A meshio.Mesh with the names of boundaries and blocks as cell sets. For meshes on one rank."""
-        import meshio
+        import meshio  # type: ignore
         lines = list(self.edges.items())
         cells = [("triangle", self.triangles), ("quad", self.quads)] + [("line", edges) for _, edges in lines]
         empty = np.zeros(0, dtype=int)
@@ -313,7 +315,7 @@ class Mesh:
 
     def to_pyvista(self, solution: Mapping | None = None):
         """A pyvista.UnstructuredGrid of the cells; block numbers are the cell array `block`. For meshes on one rank."""
-        import pyvista
+        import pyvista  # type: ignore
         faces = [np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel() for cells in (self.triangles, self.quads)]
         kinds = np.repeat([5, 9], [len(self.triangles), len(self.quads)])  # VTK_TRIANGLE, VTK_QUAD
         grid = pyvista.UnstructuredGrid(np.concatenate(faces), kinds, np.column_stack([self.points, np.zeros(len(self.points))]))
@@ -324,7 +326,7 @@ class Mesh:
         return grid
 
 
-def _rows(mesh: Mesh, solution: Mapping | None) -> tuple:
+def _rows(mesh: Mesh, solution: Mapping | None) -> _core.Tables:
     """A solution as tables: names and values at nodes, names and values in cells."""
     nodal, cellwise = [], []
     cells = len(mesh.triangles) + len(mesh.quads)
@@ -347,7 +349,7 @@ def _rows(mesh: Mesh, solution: Mapping | None) -> tuple:
     return ([name for name, _ in nodal], table(nodal, mesh.owned), [name for name, _ in cellwise], table(cellwise, cells))
 
 
-def _solution(tables: tuple) -> dict:
+def _solution(tables: _core.Tables) -> dict:
     names, values, cell_names, cell_values = tables
     return {**{name: values[:, k] for k, name in enumerate(names)}, **{name: cell_values[:, k] for k, name in enumerate(cell_names)}}
 

@@ -17,7 +17,7 @@ if(QUADLOOP_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPIL
   target_compile_options(quadloop_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 set_target_properties(quadloop_options PROPERTIES EXPORT_NAME options)
-install(TARGETS quadloop_options EXPORT quadloop)
+install(TARGETS quadloop_options EXPORT quadloop COMPONENT dev)
 
 # Where CMAKE_UNITY_BUILD is on (preset `release`), up to so many sources of one target are compiled as one file: headers are read and templates
 # instantiated once for all of them. Names in unnamed namespaces must therefore differ within a target.
@@ -48,6 +48,6 @@ function(quadloop_module name)
   endif()
   if(NOT MODULE_PROGRAM)
     add_dependencies(installed quadloop_${name})
-    install(TARGETS quadloop_${name} EXPORT quadloop${MODULE_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    install(TARGETS quadloop_${name} EXPORT quadloop${MODULE_COMPONENT} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
   endif()
 endfunction()
