@@ -310,6 +310,62 @@ py::tuple read_core_mesh(const std::string& path, std::optional<MPI_Fint> handle
   return py::make_tuple(std::move(mesh), python_field(file->field), file->warnings);
 }
 
+/// Points as a list, from an array of shape (n, 2).
+std::vector<Point> points_from(const DoubleArray& array) {
+  const auto count = static_cast<std::size_t>(array.size()) / 2;
+  std::vector<Point> points(count);
+  for (std::size_t i = 0; i < count; ++i) points[i] = {array.data()[2 * i], array.data()[2 * i + 1]};
+  return points;
+}
+
+DoubleArray array_of(std::span<const Point> points) {
+  DoubleArray array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    array.mutable_data()[2 * i] = points[i].x;
+    array.mutable_data()[2 * i + 1] = points[i].y;
+  }
+  return array;
+}
+
+using IntArray = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+/// Rows of node numbers, each below `nodes`.
+template <std::size_t width>
+std::vector<std::array<NodeId, width>> rows_from(const IntArray& given, std::int32_t nodes,
+                                                 const char* what) {
+  const auto count = static_cast<std::size_t>(given.size()) / width;
+  std::vector<std::array<NodeId, width>> rows(count);
+  for (std::size_t i = 0; i < count * width; ++i) {
+    const std::int32_t node = given.data()[i];
+    if (node < 0 || node >= nodes)
+      throw InputError(std::string(what) + ": row " + std::to_string(i / width) + " names node " +
+                       std::to_string(node) + ", but there are " + std::to_string(nodes) + " nodes");
+    rows[i / width][i % width] = NodeId{node};
+  }
+  return rows;
+}
+
+/// A mesh of this process from arrays; edges have the domain to their left.
+CoreMesh mesh_from_arrays(const DoubleArray& points, const IntArray& triangles, const IntArray& quads,
+                          const std::vector<std::pair<std::string, IntArray>>& edges) {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->points = points_from(points);
+  mesh->owned_nodes = size32(mesh->points);
+  mesh->triangles = rows_from<3>(triangles, mesh->owned_nodes, "triangles");
+  mesh->quads = rows_from<4>(quads, mesh->owned_nodes, "quads");
+  for (const auto& [name, rows] : edges)
+    mesh->boundaries.push_back({name, {}, rows_from<2>(rows, mesh->owned_nodes, name.c_str())});
+  return {communicators().of(std::nullopt), std::move(mesh), nullptr, {}, {}};
+}
+
+/// A smoothed copy of a mesh of a case. *Collective.*
+CoreMesh smoothed_mesh(const CoreCase& of, const CoreMesh& given) {
+  const py::gil_scoped_release released;
+  auto mesh = std::make_shared<Mesh>(*given.mesh);
+  smooth(*of.comm, *of.of, *mesh);
+  return {given.comm, std::move(mesh), nullptr, given.layers, of.of};
+}
+
 /// The adaptive loop of a case.
 class CoreAdaptation {
  public:
@@ -341,23 +397,6 @@ class CoreAdaptation {
   CoreCase case_;
   std::unique_ptr<Adaptation> run_;
 };
-
-/// Points as a list, from an array of shape (n, 2).
-std::vector<Point> points_from(const DoubleArray& array) {
-  const auto count = static_cast<std::size_t>(array.size()) / 2;
-  std::vector<Point> points(count);
-  for (std::size_t i = 0; i < count; ++i) points[i] = {array.data()[2 * i], array.data()[2 * i + 1]};
-  return points;
-}
-
-DoubleArray array_of(std::span<const Point> points) {
-  DoubleArray array({static_cast<py::ssize_t>(points.size()), py::ssize_t{2}});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    array.mutable_data()[2 * i] = points[i].x;
-    array.mutable_data()[2 * i + 1] = points[i].y;
-  }
-  return array;
-}
 
 using PythonLoops = std::vector<std::pair<std::string, DoubleArray>>;
 
@@ -402,10 +441,20 @@ class CoreMorph {
   std::unique_ptr<Morph> morph_;
 };
 
-/// Raises SolverError on all ranks if the text of any of them is not empty: that of the lowest such rank.
-void raise_together(const CoreCase& self, const std::string& text) {
+/// Raises an error on all ranks if the text of any of them is not empty: that of the lowest such rank.
+void raise_together(const CoreMesh& self, const std::string& text, bool is_input) {
   self.comm->together([&] {
+    if (!text.empty() && is_input) throw InputError(text);
     if (!text.empty()) throw SolverError(text);
+  });
+}
+
+/// Raises InputError on all ranks if the texts differ. *Collective.*
+void agree(const Communicator& comm, const std::string& text, const std::string& what) {
+  const std::vector<std::string> of_root = broadcast_words(comm, {text});
+  comm.together([&] {
+    if (of_root.front() != text)
+      throw InputError("rank " + std::to_string(comm.rank()) + ": " + what + " than on rank 0");
   });
 }
 
@@ -470,6 +519,13 @@ void add_mesh(py::module_& module) {
             return reproducible_sum(*self.comm, values);
           },
           Released())
+      .def("raise_together", &raise_together, Released())
+      .def(
+          "agree",
+          [](const CoreMesh& self, const std::string& text, const std::string& what) {
+            agree(*self.comm, text, what);
+          },
+          Released())
       .def("layers", &layers_of)
       .def("quality", &quality_of_mesh)
       .def(
@@ -497,7 +553,13 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("cycles", [](const CoreCase& self) { return self.of->cycles(); })
       .def_property_readonly("warnings", [](const CoreCase& self) { return self.of->warnings(); })
       .def("mesh", &make_core_mesh)
-      .def("raise_together", &raise_together, Released());
+      .def("smoothed", &smoothed_mesh)
+      .def(
+          "agree",
+          [](const CoreCase& self, const std::string& text, const std::string& what) {
+            agree(*self.comm, text, what);
+          },
+          Released());
   py::class_<CoreAdaptation>(module, "Adaptation")
       .def(py::init<const CoreCase&, const std::string&, bool>())
       .def("begin_cycle", &CoreAdaptation::begin_cycle)
@@ -513,6 +575,7 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("smoothed", &CoreMorph::smoothed)
       .def("push_forward", &CoreMorph::push_forward)
       .def("pull_back", &CoreMorph::pull_back);
+  module.def("mesh_from_arrays", &mesh_from_arrays);
   module.def("read", &read_core_mesh);
   module.def("keys", &keys);
   module.def("finish", [] { communicators().finish(); });

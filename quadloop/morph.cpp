@@ -32,6 +32,13 @@ bool turns_left(const Communicator& comm, const Mesh& mesh, const std::string& b
   return sum > 0;
 }
 
+void require_boundary(const Communicator& comm, const Mesh& mesh, const std::string& boundary) {
+  comm.together([&] {
+    if (std::ranges::find(mesh.boundaries, boundary, &BoundaryEdges::name) == mesh.boundaries.end())
+      throw InputError(fmt::format("the mesh has no boundary '{}'", boundary));
+  });
+}
+
 /// Loops as a geometry; those that are flagged in reverse order.
 Geometry outline_of(const std::vector<MovingLoop>& loops, const std::vector<char>& reversed) {
   std::vector<Chain> chains;
@@ -86,8 +93,10 @@ struct Morph::Parts {
         const std::vector<MovingLoop>& to)
       : comm{comm_of_morph}, mesh{std::make_shared<Mesh>(before)} {
     std::vector<char> reversed;
-    for (const MovingLoop& loop : from)
+    for (const MovingLoop& loop : from) {
+      require_boundary(comm, before, loop.boundary);
       reversed.push_back((signed_area(loop.points) > 0) != turns_left(comm, before, loop.boundary) ? 1 : 0);
+    }
     comm.together([&] {
       require_like(from, to);
       old_outline = outline_of(from, reversed);
@@ -113,6 +122,34 @@ struct Morph::Parts {
   adapt::MorphReport report;
 };
 
+namespace {
+
+/// The loops between two states.
+std::vector<MovingLoop> between(const std::vector<MovingLoop>& from, const std::vector<MovingLoop>& to,
+                                double share) {
+  std::vector<MovingLoop> loops = to;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (std::size_t k = 0; k < loops[i].points.size(); ++k)
+      loops[i].points[k] = from[i].points[k] + share * (to[i].points[k] - from[i].points[k]);
+  }
+  return loops;
+}
+
+/// The share of the change up to which the worst quality stays above a bound, by bisection, rounded down.
+double share_with_quality(const Communicator& comm, const Mesh& mesh, const std::vector<MovingLoop>& from,
+                          const std::vector<MovingLoop>& to, double least_quality) {
+  constexpr int halvings = 6;
+  double low = 0, high = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    const Morph part(comm, mesh, from, between(from, to, middle));
+    (part.worst_quality() >= least_quality ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
 Morph::Morph(const Communicator& comm, const Mesh& mesh, const std::vector<MovingLoop>& from,
              const std::vector<MovingLoop>& to, double least_quality)
     : parts_{std::make_unique<Parts>(comm, mesh, from, to)} {
@@ -122,12 +159,19 @@ Morph::Morph(const Communicator& comm, const Mesh& mesh, const std::vector<Movin
                              "smaller steps, or generate a new mesh",
                              report.worst_place.x, report.worst_place.y, 100 * report.possible_way),
                  report.possible_way);
-  if (report.worst_after < least_quality)
+  if (report.worst_after >= least_quality) return;
+  if (report.worst_before < least_quality)
     throw TooFar(
-        fmt::format("the quality of the worst cell falls to {:.3g}, below {:.3g}; use smaller steps, or "
-                    "generate a new mesh",
-                    report.worst_after, least_quality),
-        report.possible_way);
+        fmt::format("the quality of the worst cell of the mesh itself is {:.3g}, below {:.3g}; generate "
+                    "a better mesh, or accept this quality",
+                    report.worst_before, least_quality),
+        0);
+  const double share = share_with_quality(comm, mesh, from, to, least_quality);
+  throw TooFar(
+      fmt::format("the quality of the worst cell falls from {:.3g} to {:.3g}, and below {:.3g} after "
+                  "{:.0f} % of the change; use smaller steps, or generate a new mesh",
+                  report.worst_before, report.worst_after, least_quality, 100 * share),
+      share);
 }
 
 Morph::~Morph() = default;

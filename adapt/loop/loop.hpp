@@ -59,9 +59,9 @@ struct LoopEnd {
 
 /// The start of a loop that does not begin with the case's own initial mesh.
 struct LoopStart {
-  int first = 0;                     ///< the first cycle
-  std::shared_ptr<CycleEnd> before;  ///< result of the cycle before it; null in cycle 0
-  FirstMesh mesh = {};               ///< of cycle 0, with the initial state; empty: the case's own
+  int first = 0;                          ///< the first cycle
+  std::shared_ptr<CycleEnd> before = {};  ///< result of the cycle before it; null in cycle 0
+  FirstMesh mesh = {};                    ///< of cycle 0, with the initial state; empty: the case's own
 };
 
 /// Meshes and adapts in memory, cycle by cycle: cycles `first` to adapt.cycles, each on the mesh that the

@@ -22,6 +22,7 @@ import atexit
 import dataclasses
 import json
 import os
+import traceback
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -31,7 +32,8 @@ from . import _core
 from ._core import InputError, OutputError, SolverError, TooFar
 
 __all__ = ["AdaptationCycle", "Case", "InputError", "LayerReport", "Mesh", "Morphed", "OutputError", "Outline", "QuadloopWarning",
-           "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "keys", "mesh", "polygon", "read", "spline"]
+           "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "from_arrays", "from_meshio", "keys", "mesh", "polygon", "read", "smooth",
+           "spline"]
 
 atexit.register(_core.finish)
 
@@ -48,13 +50,40 @@ def _warn(messages, rank=0, level=3):
 
 def _handle(comm):
     """Fortran handle of a communicator of mpi4py; None: this process alone."""
-    return None if comm is None else comm.py2f()
+    if comm is None:
+        return None
+    if not hasattr(comm, "py2f") or not comm:
+        raise InputError(f"comm is a communicator of mpi4py or None, not {comm!r}")
+    return comm.py2f()
+
+
+def _require(given, kind, what: str):
+    if not isinstance(given, kind):
+        raise TypeError(f"{what} is a {kind.__name__}, not {type(given).__name__}")
+    return given
+
+
+def _numbers(given, shape: tuple, what: str) -> np.ndarray:
+    """Finite real numbers of a shape, in which -1 stands for any number of rows."""
+    try:
+        array = np.asarray(given)
+        fits = array.ndim == len(shape) and all(a in (-1, b) for a, b in zip(shape, array.shape)) and array.dtype.kind in "iuf"
+    except ValueError:  # rows of different lengths
+        fits = False
+    if not fits:
+        wanted = ", ".join("n" if size == -1 else str(size) for size in shape)
+        found = f"{array.dtype} of shape {array.shape}" if isinstance(given, np.ndarray) else repr(given)[:60]
+        raise InputError(f"{what}: needs real numbers of shape ({wanted}), not {found}")
+    array = array.astype(float)
+    if not np.isfinite(array).all():
+        raise InputError(f"{what}: contains values that are not finite, the first in row {np.argwhere(~np.isfinite(array))[0][0]}")
+    return array
 
 
 # Outlines and cases
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Outline:
     """A curve through points, an array of shape (n, 2). See polygon(), spline() and curve()."""
     points: np.ndarray
@@ -62,10 +91,12 @@ class Outline:
     spline: bool = False
 
 
-def _points(points):
-    array = np.asarray(points, dtype=float)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InputError(f"an outline is an array of shape (n, 2), not {array.shape}")
+def _points(points, what: str = "outline"):
+    """A read-only copy of points."""
+    array = _numbers(points, (-1, 2), what)
+    if len(array) < 2:
+        raise InputError(f"{what}: needs at least two points, not {len(array)}")
+    array.setflags(write=False)
     return array
 
 
@@ -104,9 +135,20 @@ def _toml(value) -> str:
     raise InputError(f"{value!r} is no value of a case: use numbers, texts, True, False, lists and dictionaries")
 
 
-def _shape(name: str, given) -> dict:
-    outline = given if isinstance(given, Outline) else polygon(given)
-    return {"name": name, "kind": outline.kind, "points": outline.points, "spline": outline.spline}
+def _outlines(given) -> dict:
+    """Boundary -> the list of its Outlines."""
+    result = {}
+    for name, parts in _require(given if given is not None else {}, Mapping, "outlines").items():
+        is_list = isinstance(parts, (list, tuple)) and len(parts) > 0 and isinstance(parts[0], (Outline, np.ndarray))
+        try:
+            result[name] = [part if isinstance(part, Outline) else polygon(part) for part in (parts if is_list else [parts])]
+        except InputError as error:
+            raise InputError(f"outline '{name}': {str(error).removeprefix('outline: ')}") from None
+    return result
+
+
+def _shapes(outlines: Mapping) -> list:
+    return [{"name": name, "kind": part.kind, "points": part.points, "spline": part.spline} for name, parts in outlines.items() for part in parts]
 
 
 def _merged(tables: Mapping, changes: Mapping) -> dict:
@@ -137,29 +179,29 @@ class Case:
     """
 
     def __init__(self, outlines: Mapping | None = None, **tables):
-        shapes = list(tables.pop("shape", []))
-        for name, given in (outlines or {}).items():
-            parts = given if isinstance(given, (list, tuple)) and given and isinstance(given[0], (Outline, np.ndarray)) else [given]
-            shapes += [_shape(name, part) for part in parts]
-        self._outlines = dict(outlines or {})
-        self._file, self._tables = None, {**tables, **({"shape": shapes} if shapes else {})}
-        self._cores: dict = {}
+        self._set(None, tables, _outlines(outlines))
+
+    def _set(self, file, tables: Mapping, outlines: Mapping):
+        self._file, self._tables, self._outlines, self._cores = file, dict(tables), dict(outlines), {}
         self._core(None)
 
     @classmethod
     def from_file(cls, path, **tables) -> "Case":
         """The case of a file. Keyword arguments override keys of its tables."""
         case = cls.__new__(cls)
-        case._file, case._tables, case._cores, case._outlines = os.fspath(path), tables, {}, {}
-        case._core(None)
+        case._set(os.fspath(path), tables, {})
         return case
 
-    def changed(self, **tables) -> "Case":
-        """The same case with other values of some keys."""
+    def changed(self, outlines: Mapping | None = None, **tables) -> "Case":
+        """The same case with other values of some keys, or other points of some outlines. Lists such as `wake` are replaced."""
+        if outlines and self._file is not None:
+            raise InputError(f"{self._file}: outlines of a case file cannot be changed; name another file, geometry={{'file': ...}}")
         case = Case.__new__(Case)
-        case._file, case._tables, case._cores, case._outlines = self._file, _merged(self._tables, tables), {}, self._outlines
-        case._core(None)
+        case._set(self._file, _merged(self._tables, tables), {**self._outlines, **_outlines(outlines)})
         return case
+
+    def __reduce__(self):
+        return _case_of, (self._file, self._tables, self._outlines)
 
     @property
     def title(self) -> str:
@@ -173,7 +215,9 @@ class Case:
     @property
     def toml(self) -> str:
         """The case as the text of a case file; of a case from a file only what was changed."""
-        return "".join(f"{key} = {_toml(value)}\n" for key, value in self._tables.items())
+        shapes = [*self._tables.get("shape", []), *_shapes(self._outlines)]
+        tables = {**self._tables, "shape": shapes} if shapes else self._tables
+        return "".join(f"{key} = {_toml(value)}\n" for key, value in tables.items())
 
     def _core(self, comm):
         handle = _handle(comm)
@@ -183,9 +227,16 @@ class Case:
             else:
                 core = _core.Case(self._file, None, _assignments(self._tables), handle)
             if not self._cores:
-                _warn(core.warnings, core.rank, 4)
+                _warn(core.warnings, core.rank, 5)
+            core.agree(self.toml, "the case is another one")
             self._cores[handle] = core
         return self._cores[handle]
+
+
+def _case_of(file, tables, outlines) -> Case:
+    case = Case.__new__(Case)
+    case._set(file, tables, outlines)
+    return case
 
 
 def keys() -> dict:
@@ -280,11 +331,37 @@ class Mesh:
 
         solution  variable -> a value for each owned node, or for each cell (triangles, then quads)
         """
-        _warn(self._core.write(os.fspath(path), _rows(self, solution)), self._core.rank)
+        _warn(self._core.write(os.fspath(path), self._together(lambda: _rows(self, solution))), self._core.rank)
+
+    def _together(self, work):
+        """Runs work on each rank. Its error on one rank is raised there and, as SolverError or InputError, on all others. Collective."""
+        result, failure = None, None
+        try:
+            result = work()
+        except BaseException as error:  # raised below, when all ranks know
+            failure = error
+            if self._core.ranks > 1:
+                traceback.print_exc()  # at once, as other ranks may wait for this one in calls of their own
+        try:
+            self._core.raise_together("" if failure is None else f"{type(failure).__name__}: {failure}", isinstance(failure, InputError))
+        except (SolverError, InputError):
+            if failure is not None:
+                raise failure
+            raise
+        return result
 
     def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
         """A picture of the mesh, or of a nodal field of the solution, `size` pixels wide or high. Empty on all ranks but the first."""
-        return self._core.png(field, _rows(self, {field: (solution or {})[field]}) if field else (), size)
+        if not 50 <= size <= 20000:
+            raise InputError(f"size is a number of pixels from 50 to 20000, not {size}")
+        if not field:
+            return self._core.png("", (), size)
+        if field not in (solution or {}):
+            raise InputError(f"the solution has no variable '{field}'")
+        rows = self._together(lambda: _rows(self, {field: (solution or {})[field]}))
+        if rows[2]:
+            raise InputError(f"variable '{field}' is given in cells; a picture needs values at the nodes")
+        return self._core.png(field, rows, size)
 
     def _repr_png_(self):
         return self.png() if self._core.ranks == 1 else None
@@ -326,24 +403,24 @@ class Mesh:
         return grid
 
 
-def _rows(mesh: Mesh, solution: Mapping | None) -> _core.Tables:
-    """A solution as tables: names and values at nodes, names and values in cells."""
+def _rows(mesh: Mesh, solution) -> _core.Tables:
+    """A solution as tables: names and values at nodes, names and values in cells. Raises InputError for one that does not fit."""
     nodal, cellwise = [], []
     cells = len(mesh.triangles) + len(mesh.quads)
+    if solution is not None and not isinstance(solution, Mapping):
+        raise InputError(f"a solution is a dictionary of arrays by variable, not {type(solution).__name__}")
     for name, given in (solution or {}).items():
-        values = np.asarray(given, dtype=float)
-        if values.shape == (mesh.owned,):
-            nodal.append((name, values))
-        elif values.shape == (len(mesh.points),):  # with the copies of other ranks' nodes
+        if not isinstance(name, str) or not name or any(letter.isspace() for letter in name):
+            raise InputError(f"{name!r} is no name of a variable: use text without blanks")
+        values = _numbers(given, (-1,), f"variable '{name}'")
+        if len(values) in (mesh.owned, len(mesh.points)):  # perhaps with the copies of other ranks' nodes
             nodal.append((name, values[:mesh.owned]))
-        elif values.shape == (cells,):
+        elif len(values) == cells:
             cellwise.append((name, values))
         else:
-            nodal.append((name, values.ravel()))  # refused by the library on all ranks
+            raise InputError(f"variable '{name}': {len(values)} values for {mesh.owned} owned nodes and {cells} cells")
 
     def table(columns, rows):
-        if any(len(values) != rows for _, values in columns):
-            return np.concatenate([values for _, values in columns])
         return np.ascontiguousarray(np.column_stack([values for _, values in columns])) if columns else np.zeros((rows, 0))
 
     return ([name for name, _ in nodal], table(nodal, mesh.owned), [name for name, _ in cellwise], table(cellwise, cells))
@@ -356,7 +433,7 @@ def _solution(tables: _core.Tables) -> dict:
 
 def mesh(case: Case, comm=None) -> Mesh:
     """The initial mesh of a case, smoothed. Raises InputError, naming boundary and place, if the geometry cannot be meshed."""
-    core, messages = case._core(comm).mesh()
+    core, messages = _require(case, Case, "case")._core(comm).mesh()
     _warn(messages, core.rank)
     return Mesh(core, messages)
 
@@ -366,6 +443,38 @@ def read(path, comm=None) -> tuple:
     core, field, messages = _core.read(os.fspath(path), _handle(comm))
     _warn(messages, core.rank)
     return Mesh(core, messages), _solution(field)
+
+
+def from_arrays(points, triangles=(), quads=(), edges: Mapping | None = None) -> Mesh:
+    """A mesh of this process from arrays, e.g. to check it or to write it to a file: shapes (n, 2), (t, 3), (q, 4), and boundary -> (e, 2).
+
+    Cells are counter-clockwise; edges have the domain to their left. Raises InputError for numbers of nodes that do not exist.
+    """
+    def numbers(rows, width):
+        array = np.asarray(rows, dtype=np.int32).reshape(-1, width) if len(rows) == 0 else np.asarray(rows)
+        if array.ndim != 2 or array.shape[1] != width or not np.issubdtype(array.dtype, np.integer):
+            raise InputError(f"node numbers are whole numbers of shape (n, {width}), not {array.dtype} of shape {array.shape}")
+        return array
+    named = [(name, numbers(rows, 2)) for name, rows in (edges or {}).items()]
+    return Mesh(_core.mesh_from_arrays(_points(points), numbers(triangles, 3), numbers(quads, 4), named))
+
+
+def from_meshio(given) -> Mesh:
+    """The triangles and quadrilaterals of a meshio.Mesh. Cell sets of lines become boundaries."""
+    def joined(kind, width):
+        blocks = [block.data for block in given.cells if block.type == kind]
+        return np.vstack(blocks) if blocks else np.zeros((0, width), dtype=int)
+    edges = {}
+    for name, chosen in given.cell_sets.items():
+        lines = [block.data[rows] for block, rows in zip(given.cells, chosen) if block.type == "line" and rows is not None and len(rows)]
+        if lines:
+            edges[name] = np.vstack(lines)
+    return from_arrays(np.asarray(given.points)[:, :2], joined("triangle", 3), joined("quad", 4), edges)
+
+
+def smooth(case: Case, given: Mesh, comm=None) -> Mesh:
+    """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. On several ranks: collective."""
+    return Mesh(case._core(comm).smoothed(given._core))
 
 
 # Adaptation
@@ -384,9 +493,14 @@ class AdaptationCycle:
     warnings: list
 
     @property
-    def indicator(self) -> float:
-        """Mean of log10 of the sensor's indicator over the quadtree cells."""
-        return self.record["indicator"]["mean"]
+    def estimate(self) -> float | None:
+        """The estimated norm of the interpolation error, if adapt.norm is given."""
+        return self.record.get("estimate")
+
+    @property
+    def indicator(self) -> float | None:
+        """Mean of log10 of the sensor's indicator over the quadtree cells; None with adapt.norm, whose sizes follow from an error."""
+        return None if self.estimate is not None else self.record["indicator"]["mean"]
 
     @property
     def drift(self) -> dict:
@@ -402,28 +516,26 @@ def adapt(case: Case, solve, comm=None, folder=None, resume: bool = False, **key
     folder    each cycle writes the files of `quadloop adapt` there; resume=True continues after the last complete cycle
     keys      keys of the table [adapt], e.g. variable="u", cycles=6, max_nodes=50_000
 
-    An exception in `solve` on one rank becomes an error on all ranks: SolverError on the others.
+    The call checks case and keys; the cycles run as the result is iterated. An exception in `solve` on one rank is raised there and, as
+    SolverError, on all others, unless these wait for that rank in a call of their own. `python3 -m mpi4py program.py` ends all ranks then.
     """
+    _require(case, Case, "case")
+    if folder == "" or (resume and folder is None):
+        raise InputError("resume=True needs the folder of the run" if resume else "folder is empty; use None to write no files")
     if keys_of_adapt:
         case = case.changed(adapt=keys_of_adapt)
-    core = case._core(comm)
-    run = _core.Adaptation(core, "" if folder is None else os.fspath(folder), resume)
+    run = _core.Adaptation(case._core(comm), "" if folder is None else os.fspath(folder), resume)
+    return _cycles(run, solve)
+
+
+def _cycles(run, solve) -> Iterator[AdaptationCycle]:
     while run.begin_cycle():
         mesh_of_cycle = Mesh(run.mesh())
         start = _solution(run.initial_state()) or None
-        solution, failure = None, None
-        try:
-            solution = solve(mesh_of_cycle, start)
-        except Exception as error:  # raised below, when all ranks know
-            failure = error
-        try:
-            core.raise_together("" if failure is None else f"solve() failed: {type(failure).__name__}: {failure}")
-        except SolverError:
-            if failure is not None:
-                raise failure
-            raise
-        record, messages = run.finish_cycle(_rows(mesh_of_cycle, solution))
-        _warn(messages, core.rank)
+        rows = mesh_of_cycle._together(lambda: _rows(mesh_of_cycle, solve(mesh_of_cycle, start)))
+        mesh_of_cycle._core.agree(repr((rows[0], rows[2])), "solve() returned other variables, or values at nodes and in cells")
+        record, messages = run.finish_cycle(rows)
+        _warn(messages, mesh_of_cycle._core.rank)
         mesh_of_cycle.warnings = messages
         of_cycle = {key: value for key, value in json.loads(record).items() if not key.endswith("_digest")}
         yield AdaptationCycle(run.cycle, mesh_of_cycle, _solution(run.solution()), of_cycle, messages)
@@ -454,26 +566,27 @@ class Morphed:
         unknown = set(velocities) - set(self.outlines)
         if unknown:
             raise InputError(f"'{unknown.pop()}' is no boundary that moves; these are {', '.join(self.outlines)}")
-        return self._core.push_forward([np.asarray(velocities.get(name, np.zeros_like(points)), dtype=float) for name, points in self.outlines.items()])
+        return self._core.push_forward([_numbers(velocities.get(name, np.zeros_like(points)), points.shape, f"velocities of '{name}'")
+                                        for name, points in self.outlines.items()])
 
     def pull_back(self, gradient) -> dict:
         """The transpose: from dJ/dX at the owned nodes, shape (owned, 2), to boundary -> dJ/d(points), shape (n, 2). On several ranks: collective."""
-        return dict(zip(self.outlines, self._core.pull_back(np.asarray(gradient, dtype=float))))
+        rows = self.mesh._together(lambda: _numbers(gradient, (self.mesh.owned, 2), "gradient at the owned nodes"))
+        return dict(zip(self.outlines, self._core.pull_back(rows)))
 
 
 class Run:
     """A mesh of a case for designs: its outlines move, the mesh follows.
 
     mesh      the Mesh of the case
-    outlines  boundary -> its points, shape (n, 2), for the closed polygons of the case
+    outlines  boundary -> its points, shape (n, 2), read-only, for boundaries that are one closed polygon; only these can move
     """
 
     def __init__(self, case: Case, comm=None):
-        self.case = case
+        self.case = _require(case, Case, "case")
         self.mesh = mesh(case, comm)
-        polygons = {name: polygon(given) if not isinstance(given, Outline) else given for name, given in case._outlines.items()
-                    if isinstance(given, (Outline, np.ndarray)) or not isinstance(given[0], (Outline, np.ndarray))}
-        self.outlines = {name: outline.points for name, outline in polygons.items() if outline.kind == "polygon" and not outline.spline}
+        self.outlines = {name: parts[0].points for name, parts in case._outlines.items()
+                         if len(parts) == 1 and parts[0].kind == "polygon" and not parts[0].spline}
 
     def morph(self, outlines: Mapping, min_quality: float = 0.0) -> Morphed:
         """Moves the mesh to new outlines with as many points: boundary -> shape (n, 2). Other boundaries stay in place.
@@ -481,11 +594,18 @@ class Run:
         Raises TooFar if cells would become inverted, or the quality of the worst one would fall below `min_quality` (0 to 1).
         On several ranks: collective.
         """
-        unknown = set(outlines) - set(self.outlines)
-        if unknown:
-            raise InputError(f"'{unknown.pop()}' is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
+        if not 0 <= min_quality <= 1:
+            raise InputError(f"min_quality is from 0 to 1, not {min_quality}")
+        unknown = set(_require(outlines, Mapping, "outlines")) - set(self.outlines)
+        if unknown or not outlines:
+            raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
+        new = []
+        for name, given in outlines.items():
+            points = given.points if isinstance(given, Outline) else polygon(given).points
+            if len(points) != len(self.outlines[name]):
+                raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
+            new.append((name, points))
         old = [(name, self.outlines[name]) for name in outlines]
-        new = [(name, polygon(points).points) for name, points in outlines.items()]
         return Morphed(_core.Morph(self.mesh._core, old, new, min_quality), dict(new))
 
     def verify(self, outlines: Mapping, step: float = 1e-6, seed: int = 0) -> tuple:
@@ -494,6 +614,8 @@ class Run:
         Returns (largest deviation of a node velocity from the difference, deviation of the scalar products), relative to the
         largest velocity and product. `step` is relative to the extent of the outlines.
         """
+        if not 0 < step < 0.01:
+            raise InputError(f"step is above 0 and below 0.01, not {step}")
         random = np.random.default_rng(seed)
         here = self.morph(outlines)
         ways = {name: random.uniform(-1, 1, points.shape) for name, points in here.outlines.items()}

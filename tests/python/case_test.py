@@ -1,5 +1,6 @@
 """Cases from keys and values: every key of the case file, errors and warnings."""
 import json
+import pickle
 import tempfile
 import unittest
 import warnings
@@ -53,6 +54,13 @@ class Cases(unittest.TestCase):
             ql.Case(outlines={"edge": SQUARE}, spacing={"mx": 1})
         with self.assertRaisesRegex(ql.InputError, "must be a number"):
             ql.Case(outlines={"edge": SQUARE}, spacing={"max": "wide"})
+        for points in (np.full((4, 2), np.nan), [[0, 0], [1]], "abc", np.zeros((0, 2)), SQUARE + 1j):
+            with self.assertRaisesRegex(ql.InputError, "outline 'edge': "):
+                ql.Case(outlines={"edge": points})
+        with self.assertRaises(TypeError):
+            ql.Case(outlines=SQUARE)
+        with self.assertRaises(TypeError):
+            ql.mesh("case.toml")
         with self.assertRaisesRegex(ql.InputError, r"shape \(n, 2\)"):
             ql.Case(outlines={"edge": np.zeros((3, 3))})
         with self.assertRaisesRegex(ql.InputError, "no value of a case"):
@@ -69,6 +77,16 @@ class Cases(unittest.TestCase):
         between = on_bump[(on_bump[:, 0] > 0.3) & (on_bump[:, 0] < 0.45)]
         chord = np.interp(between[:, 0], bump[:, 0], bump[:, 1])
         self.assertTrue((between[:, 1] > chord + 1e-4).all(), "the nodes lie on the spline, above its chords")
+
+    def test_cases_keep_their_own_points_and_can_be_pickled(self):
+        points = SQUARE.astype(float)
+        case = ql.Case(outlines={"edge": points}, spacing={"max": 0.1})
+        before = case.toml
+        points *= 2
+        self.assertEqual(case.toml, before)
+        self.assertEqual(pickle.loads(pickle.dumps(case)).toml, before)
+        larger = case.changed(outlines={"edge": points})
+        self.assertGreater(ql.mesh(larger).nodes, 3 * ql.mesh(case).nodes)
 
     def test_warnings_of_the_case(self):
         with self.assertWarnsRegex(ql.QuadloopWarning, "."):

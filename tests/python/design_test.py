@@ -57,8 +57,19 @@ class Design(unittest.TestCase):
         with self.assertRaises(ql.TooFar) as caught:
             self.runs[0].morph({"body": changed(OVAL, 0.5)})
         self.assertTrue(0 < caught.exception.share < 1, caught.exception.share)
-        with self.assertRaises(ql.TooFar):
-            self.runs[0].morph({"body": changed(OVAL)}, min_quality=0.99)
+        quality = self.runs[0].morph({"body": OVAL}).worst_quality
+        with self.assertRaises(ql.TooFar) as caught:
+            self.runs[0].morph({"body": changed(OVAL, 0.3)}, min_quality=0.95 * quality)
+        share = caught.exception.share
+        self.assertTrue(0 < share < 1, share)
+        self.runs[0].morph({"body": OVAL + share * (changed(OVAL, 0.3) - OVAL)}, min_quality=0.95 * quality)
+        with self.assertRaises(ql.TooFar) as caught:
+            self.runs[0].morph({"body": OVAL}, min_quality=0.999)
+        self.assertEqual(caught.exception.share, 0)
+        with self.assertRaisesRegex(ql.InputError, "not finite"):
+            self.runs[0].morph({"body": OVAL * np.nan})
+        with self.assertRaisesRegex(ql.InputError, "shape"):
+            self.runs[0].morph({"body": OVAL}).pull_back(np.zeros((3, 2)))
         with self.assertRaisesRegex(ql.InputError, "other direction"):
             self.runs[0].morph({"body": OVAL[::-1]})
         with self.assertRaisesRegex(ql.InputError, "as many points"):

@@ -86,6 +86,23 @@ class Meshes(unittest.TestCase):
         self.assertGreater(report.coverage, 0.9)
         self.assertEqual(self.mesh.layers, {})
 
+    def test_meshes_from_arrays_and_smoothing(self):
+        mesh = self.mesh
+        copy = ql.from_arrays(mesh.points, mesh.triangles, mesh.quads, mesh.edges)
+        self.assertEqual(copy.check(), [])
+        np.testing.assert_array_equal(copy.edges["hole"], mesh.edges["hole"])
+        inside = np.setdiff1d(np.arange(mesh.owned), np.concatenate([edges.ravel() for edges in mesh.edges.values()]))
+        points = mesh.points.copy()
+        points[inside] += 0.08 * np.sin(1000 * points[inside, ::-1])
+        shaken = ql.from_arrays(points, mesh.triangles, mesh.quads, mesh.edges)
+        better = ql.smooth(CASE.changed(smooth={"sweeps": 5}, mesh={"quads": "all"}), shaken)
+        self.assertGreater(better.quality.mean_quality, shaken.quality.mean_quality)
+        self.assertEqual(better.check(), [])
+        with self.assertRaisesRegex(ql.InputError, "names node 9"):
+            ql.from_arrays([[0, 0], [1, 0], [0, 1]], [[0, 1, 9]])
+        with self.assertRaisesRegex(ql.InputError, "whole numbers"):
+            ql.from_arrays([[0, 0], [1, 0], [0, 1]], [[0.0, 1.0, 2.0]])
+
     def test_a_notebook_shows_picture_and_table(self):
         self.assertTrue(self.mesh._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("edges of hole", self.mesh._repr_html_())
@@ -97,6 +114,11 @@ class Meshes(unittest.TestCase):
         with mock.patch.dict(sys.modules, {"meshio": meshio}):
             converted = self.mesh.to_meshio({"x": self.mesh.points[:, 0]})
         self.assertEqual(set(converted.cell_sets), {"ring", "hole"})
+        given = types.SimpleNamespace(points=converted.points, cell_sets=converted.cell_sets,
+                                      cells=[types.SimpleNamespace(type=kind, data=data) for kind, data in converted.cells])
+        back = ql.from_meshio(given)
+        np.testing.assert_array_equal(back.quads, self.mesh.quads)
+        np.testing.assert_array_equal(back.edges["ring"], self.mesh.edges["ring"])
         lines = dict(zip(self.mesh.edges, converted.cells[2:]))
         np.testing.assert_array_equal(lines["hole"][1], self.mesh.edges["hole"])
         self.assertEqual([len(part) for part in converted.cell_sets["hole"]], [len(self.mesh.edges["hole"]) if name == "hole" else 0 for name in ("", "", *self.mesh.edges)])

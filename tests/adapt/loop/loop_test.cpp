@@ -79,9 +79,9 @@ TEST(Loop, BeginsWithTheLastFlowCarriedOver) {
 TEST(Loop, GoesOnFromWhatACycleCameTo) {
   Notes notes;
   const LoopEnd whole = run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes);
-  LoopEnd begun = run_loop(world(), square_in_eighths, options_of(1), solve_shock, notes);
+  const LoopEnd begun = run_loop(world(), square_in_eighths, options_of(1), solve_shock, notes);
   const LoopEnd resumed =
-      run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes, 2, std::move(begun.left));
+      run_loop(world(), square_in_eighths, options_of(2), solve_shock, notes, {2, begun.left, {}});
   EXPECT_EQ(resumed.first, 2);
   EXPECT_EQ(resumed.last, 2);
   EXPECT_EQ(all_nodes(world(), whole.left->solved.mesh), all_nodes(world(), resumed.left->solved.mesh));

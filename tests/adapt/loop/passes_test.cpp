@@ -68,8 +68,7 @@ TEST(Passes, StandInTheRecordOfTheFirstCycle) {
     std::vector<CycleRecord> records;
   } notes;
   AdaptOptions options = options_with(1);
-  run_loop(world(), square_in_eighths, options, solve_shock_with_lift, notes,
-           {.mesh = [&] {
+  run_loop(world(), square_in_eighths, options, solve_shock_with_lift, notes, {.mesh = [&] {
              return mesh_after_passes(world(), square_in_eighths, options, solve_shock_with_lift);
            }});
   ASSERT_EQ(notes.records.size(), 2U);

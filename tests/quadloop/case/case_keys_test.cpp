@@ -65,7 +65,7 @@ class Dump {
         f.choice.names.attribute, f.unit, f.spline);
   }
   void add_one(const Curve& c) { add(c.inner, c.spacing); }
-  void add_one(const Shape& s) { add(s.chain.name, s.chain.points, s.chain.curves, s.is_body); }
+  void add_one(const Shape& s) { add(s.chain.name, s.chain.open, s.chain.points, s.chain.curves, s.is_body, s.spline); }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }

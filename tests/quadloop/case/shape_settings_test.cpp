@@ -66,7 +66,7 @@ TEST_F(ShapeSettings, CurvesThatMeetFormAnOutline) {
   EXPECT_EQ(straight.boundaries().size(), 2U);
   EXPECT_FALSE(straight.has_curves());
   EXPECT_TRUE(bent.has_curves());
-  expect_refused(wall, "open");
+  expect_refused(wall, "not watertight");
   expect_refused("[[shape]]\nname = \"rod\"\nkind = \"circle\"\nradius = 1\nspline = true\n", "spline");
 }
 
