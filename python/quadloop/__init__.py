@@ -182,7 +182,8 @@ class Case:
         self._set(None, tables, _outlines(outlines))
 
     def _set(self, file, tables: Mapping, outlines: Mapping):
-        self._file, self._tables, self._outlines, self._cores = file, dict(tables), dict(outlines), {}
+        self._file, self._tables, self._outlines = file, dict(tables), dict(outlines)
+        self._cores: dict = {}
         self._core(None)
 
     @classmethod
@@ -403,7 +404,7 @@ class Mesh:
         return grid
 
 
-def _rows(mesh: Mesh, solution) -> _core.Tables:
+def _rows(mesh: Mesh, solution) -> _core._Tables:
     """A solution as tables: names and values at nodes, names and values in cells. Raises InputError for one that does not fit."""
     nodal, cellwise = [], []
     cells = len(mesh.triangles) + len(mesh.quads)
@@ -426,7 +427,7 @@ def _rows(mesh: Mesh, solution) -> _core.Tables:
     return ([name for name, _ in nodal], table(nodal, mesh.owned), [name for name, _ in cellwise], table(cellwise, cells))
 
 
-def _solution(tables: _core.Tables) -> dict:
+def _solution(tables: _core._Tables) -> dict:
     names, values, cell_names, cell_values = tables
     return {**{name: values[:, k] for k, name in enumerate(names)}, **{name: cell_values[:, k] for k, name in enumerate(cell_names)}}
 
