@@ -1,7 +1,6 @@
 #include "mesher/layers/front/followed_layers.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "mesher/layers/front/values_along_wall.hpp"
@@ -76,14 +75,15 @@ void limit_growth(const WallLine& line, std::span<const double> thickness, std::
 }
 
 /// Layers of at least this thickness whose last one is as high as the cells that adaptation requests at the
-/// front. Cells get larger with the distance from the wall, so the front moves outwards in steps.
+/// front, as far as the boundary's own thickness allows. Cells get larger with the distance from the wall, so
+/// the front moves outwards in steps.
 LayerSpec as_high_as_cells(const Station& station, const LayerSpec& spec, double first, double thickness,
                            const AdaptedSize& adapted) {
   constexpr int steps_outwards = 8;
   constexpr double outer_part = 0.8;  // the cells from here to the front are looked at
   LayerSpec layers = with_thickness(spec, first, thickness);
   if (!adapted) return layers;
-  const LayerSpec thickest = with_thickness(spec, first, std::numeric_limits<double>::infinity());
+  const LayerSpec thickest = with_thickness(spec, first, std::max(thickness, layers_thickness(spec)));
   const double highest = layer_heights(thickest).back();
   const auto above_wall = [&](double height) { return station.wall + height * station.direction; };
   for (int step = 0; step < steps_outwards; ++step) {

@@ -17,9 +17,9 @@ namespace quadloop {
 /// (LayerSpec::follows_flow): then it is 1.2 times that of the boundary layer at the nearest measured place,
 /// as far as growth ratios allow (with_thickness()), and within 0.1 to 10 times the boundary's estimate.
 /// Where adaptation requests larger cells, `adapted`, the layers continue outside the boundary layer until
-/// the last one is as high as these cells. Other boundaries are unchanged. Where no measured edge has the
-/// same direction, and where the thickness is unknown, the estimate is used. Depends on its arguments only;
-/// mirror images have mirrored results.
+/// the last one is as high as these cells or the thickness is the estimate. Other boundaries are unchanged.
+/// Where no measured edge has the same direction, and where the thickness is unknown, the estimate is used.
+/// Depends on its arguments only; mirror images have mirrored results.
 ///
 /// The factor: in a turbulent flat-plate flow of SU2 (Spalart-Allmaras) the eddy viscosity at 1.2 times the
 /// measured thickness is below 3 % of its maximum, at the thickness itself 7 %, and the velocity is above
