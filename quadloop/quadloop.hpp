@@ -9,7 +9,7 @@
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "flow/flow_solver.hpp"
-#include "io/input/case_file.hpp"
+#include "io/input/case_source.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/communicator.hpp"

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/input/case_source.hpp"
+
 namespace quadloop::io {
 
 /// Valid range of a number. Values that are not finite are never in range.
@@ -83,17 +85,6 @@ class CaseTable {
 /// Whether a word of the command line is KEY=VALUE with a TOML key path: neither an option nor the path of a
 /// file.
 bool is_assignment(std::string_view word);
-
-/// A case file, or a case as TOML text.
-struct CaseSource {
-  CaseSource(std::string file) : path{std::move(file)} {}
-  CaseSource(const char* file) : path{file} {}
-  /// `name` stands for the file in messages, without line numbers; relative paths begin at its folder.
-  CaseSource(std::string name, std::string toml) : path{std::move(name)}, text{std::move(toml)} {}
-
-  std::string path;
-  std::optional<std::string> text = {};
-};
 
 /// Reads a case (TOML) and applies `assignments` ("spacing.min=0.1", from --set) in their order. A value is
 /// TOML, else plain text. On the calling rank only. Throws InputError "file:line: ...".
