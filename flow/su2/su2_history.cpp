@@ -69,6 +69,9 @@ std::optional<bool> converged_by_log(const std::string& text) {
   return std::nullopt;
 }
 
-bool diverged_by_log(const std::string& text) { return text.find("SU2 has diverged") != std::string::npos; }
+bool diverged_by_log(const std::string& text) {
+  const auto has = [&](const char* words) { return text.find(words) != std::string::npos; };
+  return has("SU2 has diverged") || has("linear solver diverged");
+}
 
 }  // namespace quadloop::flow

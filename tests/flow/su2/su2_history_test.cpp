@@ -55,6 +55,7 @@ TEST(Su2Log, ItsErrorTellsThatItDiverged) {
       diverged_by_log("Error in \"void CSolver::SetResidual_RMS()\":\n---\n"
                       "SU2 has diverged (Residual > 10^20 detected).\n"));
   EXPECT_TRUE(diverged_by_log("SU2 has diverged (NaN detected).\n"));
+  EXPECT_TRUE(diverged_by_log("FGMRES orthogonalization failed, linear solver diverged.\n"));
   EXPECT_FALSE(diverged_by_log("Error in \"void CConfig\":\nmarker wall has no condition\n"));
 }
 
