@@ -1,0 +1,244 @@
+"""Meshes as arrays."""
+from __future__ import annotations
+
+import dataclasses
+import os
+import traceback
+from collections.abc import Mapping
+
+import numpy as np
+
+from . import _core
+from ._cases import Case, points_of
+from ._common import handle_of, numbers_of, require, warn
+from ._core import InputError, SolverError
+
+
+@dataclasses.dataclass(frozen=True)
+class Quality:
+    """Numbers of cells over all ranks, and the quality of their shapes: 1 for the best, 0 for a degenerate cell. Angles in degrees."""
+    nodes: int
+    triangles: int
+    quads: int
+    boundary_edges: int
+    smallest_angle: float
+    largest_angle: float
+    worst_quality: float
+    mean_quality: float
+
+
+@dataclasses.dataclass(frozen=True)
+class LayerReport:
+    """The layers of one boundary or line. Lengths in the unit of the geometry, normal to the wall."""
+    boundary: str
+    count: int  # requested number of layers
+    count_reached: int  # in the column with the fewest
+    columns: int
+    y_plus: float  # target of the first layer; 0: none
+    first: float  # smallest first height
+    growth: float  # smallest growth ratio
+    thickness: float  # requested
+    smallest_share: float  # of the requested thickness
+    coverage: float  # fraction of the wall with the requested thickness
+    thinnest_at: tuple
+
+
+class Mesh:
+    """A mesh, or the part of it that belongs to this rank. Arrays are read-only views, without copies.
+
+    points      (n, 2) float64: the `owned` nodes of this rank, then copies of other ranks' nodes that its cells use
+    triangles   (t, 3) int32: rows of `points`, counter-clockwise
+    quads       (q, 4) int32
+    edges       boundary -> (e, 2) int32, with the domain to the left
+    conditions  boundary -> its boundary condition, "" for none
+    blocks      {"names", "triangles", "quads"}: the block of each cell as index into the names; empty for one block
+    named_nodes name -> global number of a node
+    global_ids  (n,) int64: the number of each node over all ranks
+    """
+
+    def __init__(self, core, warnings=()):
+        self._core = core
+        self.warnings = list(warnings)
+
+    points = property(lambda self: self._core.points)
+    triangles = property(lambda self: self._core.triangles)
+    quads = property(lambda self: self._core.quads)
+    edges = property(lambda self: self._core.edges)
+    conditions = property(lambda self: self._core.conditions)
+    blocks = property(lambda self: self._core.blocks)
+    named_nodes = property(lambda self: self._core.named_nodes)
+    global_ids = property(lambda self: self._core.global_ids)
+    owned = property(lambda self: self._core.owned)
+
+    @property
+    def layers(self) -> dict:
+        """The layers of each boundary and line that has some, as LayerReport."""
+        return {row["boundary"]: LayerReport(**row) for row in self._core.layers()}
+
+    @property
+    def quality(self) -> Quality:
+        """On several ranks: collective."""
+        return Quality(**self._core.quality())
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes over all ranks. On several ranks: collective."""
+        return self.quality.nodes
+
+    def check(self) -> list:
+        """One line for each fault of the mesh, with its place; empty for a valid mesh. On several ranks: collective."""
+        return self._core.check()
+
+    def gathered(self) -> "Mesh":
+        """The whole mesh on rank 0, an empty one on the others. On several ranks: collective."""
+        return Mesh(self._core.gathered(), self.warnings)
+
+    def write(self, path, solution: Mapping | None = None):
+        """Writes the mesh, with a solution if the format can hold it; the suffix selects the format. On several ranks: collective.
+
+        solution  variable -> a value for each owned node, or for each cell (triangles, then quads)
+        """
+        warn(self._core.write(os.fspath(path), self._together(lambda: rows_of(self, solution))), self._core.rank)
+
+    def _together(self, work):
+        """Runs work on each rank. Its error on one rank is raised there and, as SolverError or InputError, on all others. Collective."""
+        result, failure = None, None
+        try:
+            result = work()
+        except BaseException as error:  # raised below, when all ranks know
+            failure = error
+            if self._core.ranks > 1:
+                traceback.print_exc()  # at once, as other ranks may wait for this one in calls of their own
+        try:
+            self._core.raise_together("" if failure is None else f"{type(failure).__name__}: {failure}", isinstance(failure, InputError))
+        except (SolverError, InputError):
+            if failure is not None:
+                raise failure
+            raise
+        return result
+
+    def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
+        """A picture of the mesh, or of a nodal field of the solution, `size` pixels wide or high. Empty on all ranks but the first."""
+        if not 50 <= size <= 20000:
+            raise InputError(f"size is a number of pixels from 50 to 20000, not {size}")
+        if not field:
+            return self._core.png("", (), size)
+        if field not in (solution or {}):
+            raise InputError(f"the solution has no variable '{field}'")
+        rows = self._together(lambda: rows_of(self, {field: (solution or {})[field]}))
+        if rows[2]:
+            raise InputError(f"variable '{field}' is given in cells; a picture needs values at the nodes")
+        return self._core.png(field, rows, size)
+
+    def _repr_png_(self):
+        return self.png() if self._core.ranks == 1 else None
+
+    def _repr_html_(self):
+        if self._core.ranks > 1:
+            return None
+        rows = [(name.replace("_", " "), f"{value:.4g}" if isinstance(value, float) else f"{value:,}")
+                for name, value in dataclasses.asdict(self.quality).items()]
+        rows += [(f"edges of {name}", f"{len(edges):,}") for name, edges in self.edges.items()]
+        return "<table>" + "".join(f"<tr><td>{name}</td><td>{value}</td></tr>" for name, value in rows) + "</table>"
+
+    def __repr__(self):
+        return f"<quadloop.Mesh: {self.owned} nodes, {len(self.triangles)} triangles, {len(self.quads)} quads on rank {self._core.rank} of {self._core.ranks}>"
+
+    def to_meshio(self, solution: Mapping | None = None):
+        """A meshio.Mesh with the names of boundaries and blocks as cell sets. For meshes on one rank."""
+        import meshio  # type: ignore
+        lines = list(self.edges.items())
+        cells = [("triangle", self.triangles), ("quad", self.quads)] + [("line", edges) for _, edges in lines]
+        empty = np.zeros(0, dtype=int)
+        sets = {name: [np.arange(len(edges)) if k == i + 2 else empty for k in range(len(cells))] for i, (name, edges) in enumerate(lines)}
+        blocks = self.blocks
+        for number, name in enumerate(blocks["names"]):
+            sets[name] = [np.flatnonzero(blocks[kind] == number) for kind in ("triangles", "quads")] + [empty] * len(lines)
+        data = {name: np.asarray(values) for name, values in (solution or {}).items()}
+        return meshio.Mesh(np.column_stack([self.points, np.zeros(len(self.points))]), cells, point_data=data, cell_sets=sets)
+
+    def to_pyvista(self, solution: Mapping | None = None):
+        """A pyvista.UnstructuredGrid of the cells; block numbers are the cell array `block`. For meshes on one rank."""
+        import pyvista  # type: ignore
+        faces = [np.column_stack([np.full(len(cells), cells.shape[1]), cells]).ravel() for cells in (self.triangles, self.quads)]
+        kinds = np.repeat([5, 9], [len(self.triangles), len(self.quads)])  # VTK_TRIANGLE, VTK_QUAD
+        grid = pyvista.UnstructuredGrid(np.concatenate(faces), kinds, np.column_stack([self.points, np.zeros(len(self.points))]))
+        for name, values in (solution or {}).items():
+            grid.point_data[name] = np.asarray(values)
+        if self.blocks["names"]:
+            grid.cell_data["block"] = np.concatenate([self.blocks["triangles"], self.blocks["quads"]])
+        return grid
+
+
+def rows_of(mesh: Mesh, solution) -> _core._Tables:
+    """A solution as tables: names and values at nodes, names and values in cells. Raises InputError for one that does not fit."""
+    nodal, cellwise = [], []
+    cells = len(mesh.triangles) + len(mesh.quads)
+    if solution is not None and not isinstance(solution, Mapping):
+        raise InputError(f"a solution is a dictionary of arrays by variable, not {type(solution).__name__}")
+    for name, given in (solution or {}).items():
+        if not isinstance(name, str) or not name or any(letter.isspace() for letter in name):
+            raise InputError(f"{name!r} is no name of a variable: use text without blanks")
+        values = numbers_of(given, (-1,), f"variable '{name}'")
+        if len(values) in (mesh.owned, len(mesh.points)):  # perhaps with the copies of other ranks' nodes
+            nodal.append((name, values[:mesh.owned]))
+        elif len(values) == cells:
+            cellwise.append((name, values))
+        else:
+            raise InputError(f"variable '{name}': {len(values)} values for {mesh.owned} owned nodes and {cells} cells")
+
+    def table(columns, rows):
+        return np.ascontiguousarray(np.column_stack([values for _, values in columns])) if columns else np.zeros((rows, 0))
+
+    return ([name for name, _ in nodal], table(nodal, mesh.owned), [name for name, _ in cellwise], table(cellwise, cells))
+
+
+def solution_of(tables: _core._Tables) -> dict:
+    names, values, cell_names, cell_values = tables
+    return {**{name: values[:, k] for k, name in enumerate(names)}, **{name: cell_values[:, k] for k, name in enumerate(cell_names)}}
+
+
+def mesh(case: Case, comm=None) -> Mesh:
+    """The initial mesh of a case, smoothed. Raises InputError, naming boundary and place, if the geometry cannot be meshed."""
+    core, messages = require(case, Case, "case")._core(comm).mesh()
+    warn(messages, core.rank)
+    return Mesh(core, messages)
+
+
+def read(path, comm=None) -> tuple:
+    """A mesh from a file and its solution, a dictionary of arrays: (Mesh, solution). The suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh."""
+    core, field, messages = _core.read(os.fspath(path), handle_of(comm))
+    warn(messages, core.rank)
+    return Mesh(core, messages), solution_of(field)
+
+
+def from_arrays(points, triangles=(), quads=(), edges: Mapping | None = None) -> Mesh:
+    """A mesh of this process from arrays, e.g. to check it or to write it to a file: shapes (n, 2), (t, 3), (q, 4), and boundary -> (e, 2).
+
+    Cells are counter-clockwise; edges have the domain to their left. Raises InputError for numbers of nodes that do not exist.
+    """
+    def numbers(rows, width):
+        array = np.asarray(rows, dtype=np.int32).reshape(-1, width) if len(rows) == 0 else np.asarray(rows)
+        if array.ndim != 2 or array.shape[1] != width or not np.issubdtype(array.dtype, np.integer):
+            raise InputError(f"node numbers are whole numbers of shape (n, {width}), not {array.dtype} of shape {array.shape}")
+        return array
+    named = [(name, numbers(rows, 2)) for name, rows in (edges or {}).items()]
+    return Mesh(_core.mesh_from_arrays(points_of(points), numbers(triangles, 3), numbers(quads, 4), named))
+
+
+def from_meshio(given) -> Mesh:
+    """The triangles and quadrilaterals of a meshio.Mesh. Cell sets of lines become boundaries."""
+    def joined(kind, width):
+        blocks = [block.data for block in given.cells if block.type == kind]
+        return np.vstack(blocks) if blocks else np.zeros((0, width), dtype=int)
+    edges = {}
+    for name, chosen in given.cell_sets.items():
+        lines = [block.data[rows] for block, rows in zip(given.cells, chosen) if block.type == "line" and rows is not None and len(rows)]
+        if lines:
+            edges[name] = np.vstack(lines)
+    return from_arrays(np.asarray(given.points)[:, :2], joined("triangle", 3), joined("quad", 4), edges)
+
+
+def smooth(case: Case, given: Mesh, comm=None) -> Mesh:
+    """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. On several ranks: collective."""
+    return Mesh(case._core(comm).smoothed(given._core))
