@@ -1,5 +1,6 @@
 #include "io/files/reading/separate_reader.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,8 +41,16 @@ Allowance allowance_for(const std::string& path) {
   return {5 + size / (std::uint64_t{1} << 19), (std::uint64_t{1} << 28) + 64 * size};
 }
 
-/// Returns the path in the environment variable; else next to the program, in the build, or where it is
-/// installed.
+/// The folder of the shared library that contains this code, e.g. of the Python package, or of the program.
+std::filesystem::path folder_of_code() {
+  Dl_info about{};
+  if (::dladdr(reinterpret_cast<const void*>(&allowance_for), &about) == 0 || about.dli_fname == nullptr)
+    return {};
+  return std::filesystem::path(about.dli_fname).parent_path();
+}
+
+/// Returns the path in the environment variable; else next to the program or the library, in the build, or
+/// where it is installed.
 std::string find_reader(const std::string& path) {
   std::vector<std::string> places;
   if (const char* named = std::getenv("QUADLOOP_READER"); named != nullptr) {
@@ -50,6 +59,8 @@ std::string find_reader(const std::string& path) {
     std::error_code unknown;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
     if (!unknown) places.push_back((program.parent_path() / QUADLOOP_READER_BESIDE).lexically_normal());
+    const std::filesystem::path folder = folder_of_code();
+    if (!folder.empty()) places.push_back(folder / "quadloop-reader");
     places.insert(places.end(), {QUADLOOP_READER_BUILT, QUADLOOP_READER_INSTALLED});
   }
   for (const std::string& place : places) {
