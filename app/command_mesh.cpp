@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "app/report/extent_report.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
+#include "generate/mesh_trial.hpp"
 #include "io/formats.hpp"
 #include "io/input/geom_text.hpp"
 #include "io/mesh_file.hpp"
@@ -22,6 +24,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/base/timer.hpp"
 #include "mesher/build/islands.hpp"
+#include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 #include "quadloop/case/case_input.hpp"
 
@@ -33,6 +36,7 @@ struct MeshArguments {
   std::string case_path, prefix, type, tree, geometry_out;
   std::vector<std::string> assignments;
   std::optional<double> max_cells;
+  bool dry_run = false;
 };
 
 /// Input known before mesh generation; the same on every rank.
@@ -148,6 +152,47 @@ Warnings first_mesh_warnings(const MeshInput& input) {
       setting)};
 }
 
+/// Returns the estimated size of a file of the mesh; empty if it is unknown.
+std::optional<double> bytes_of_file(const std::string& path, MeshType type, const MeshEstimate& estimate) {
+  constexpr double of_leaf = 33;  // in a tree file
+  if (path.ends_with(io::tree_suffix)) return of_leaf * estimate.leaves;
+  const io::FileFormat* const format = io::format_of(path);
+  if (format == nullptr || format->bytes_of_cell.quad == 0) return {};
+  const auto [of_quad, of_triangle] = format->bytes_of_cell;
+  return (has_triangles_alone(type) ? of_triangle : of_quad) * estimate.cells;
+}
+
+/// Formats the size of files as "12.3 MB".
+std::string text_of_size(double bytes) {
+  constexpr double megabyte = 1e6, gigabyte = 1e9;
+  return bytes < gigabyte ? fmt::format("{:.1f} MB", bytes / megabyte)
+                          : fmt::format("{:.1f} GB", bytes / gigabyte);
+}
+
+/// Reports the estimated cells, memory and file sizes of a mesh, which is not generated.
+void report_estimate(const CommandContext& context, const Prepared& prepared, const MeshEstimate& estimate) {
+  const MeshInput& input = *prepared.input.mesh;
+  const int ranks = context.comm.size();
+  Statistics statistics;
+  add_estimate(statistics, estimate, ranks);
+  statistics.add_raw("of all ranks", text_of_bytes(total_bytes(estimate, ranks)),
+                     json_of(std::round(total_bytes(estimate, ranks) / (1 << 20))), "total_memory_mib");
+  JsonObject sizes;
+  double all = 0;
+  for (const std::string& file : prepared.files) {
+    const std::optional<double> bytes = bytes_of_file(file, input.mesh.type, estimate);
+    if (!bytes) continue;
+    statistics.add_lines(fmt::format("  {:<24}{:>14}\n", file, text_of_size(*bytes)));
+    sizes.add(file, std::llround(*bytes));
+    all += *bytes;
+  }
+  statistics.add_raw("all files", text_of_size(all), json_of(std::round(all)), "bytes_of_files");
+  if (context.comm.is_root()) add_extents(statistics, prepared.input.extents);
+  context.record.statistics = statistics.record();
+  context.record.statistics.add("file_bytes", sizes);
+  if (context.shows_table()) std::cout << statistics.table(24) << "  nothing was written\n";
+}
+
 /// Reads on every rank (files are small compared with a mesh, and errors are then the same everywhere),
 /// generates the mesh, writes. Warnings are shown at the end, or before an error.
 void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
@@ -164,8 +209,10 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
                                 saved ? adapt::unchanged_splits(*saved, input) : std::vector<SplitDemand>{});
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
-  const GeneratedMesh generated =
-      generate_mesh(comm, input, demanded, saved ? saved->measured : MeasuredFlow{});
+  const MeasuredFlow measured = saved ? saved->measured : MeasuredFlow{};
+  if (arguments.dry_run)
+    return report_estimate(context, prepared, MeshTrial(input, measured).estimate(demanded));
+  const GeneratedMesh generated = generate_mesh(comm, input, demanded, measured);
   times.append(generated.times);
   times.begin("write");
   log::detail("writing " + prepared.input.settings.output_prefix + ".*");
@@ -208,6 +255,8 @@ void add_mesh_command(CommandLine& line, CommandContext& context) {
                   "write the geometry as meshed, without dropped islands")
       .value_name("OUT.geom");
   command.add_max_cells_option(arguments->max_cells);
+  command.add_flag("--dry-run", arguments->dry_run,
+                   "report the estimated cells, memory of a rank and file sizes; generate and write nothing");
   command.add_set_option(arguments->assignments, "spacing.min=0.1");
   command.set_work([&context, arguments] { run_mesh(context, *arguments); });
 }

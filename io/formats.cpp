@@ -51,11 +51,12 @@ MeshOfFile read_msh_or_fluent(const std::string& path) {
 
 /// One for each version that is written; both are read under either name.
 template <MshVersion version>
-FileFormat msh_row(const std::string& name) {
+FileFormat msh_row(const std::string& name, FileFormat::BytesOfCell bytes) {
   return {.name = name,
           .program = "Gmsh",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::nodes,
                      Content::mesh3d},
+          .bytes_of_cell = bytes,
           .read = read_msh_or_fluent,
           .write = [](OutputSet& outputs, const MeshStream& mesh,
                       const std::string& path) { write_msh(outputs, mesh, path, version); },
@@ -93,6 +94,7 @@ FileFormat medit_row() {
   return {.name = "medit",
           .program = "MMG, FreeFEM",
           .places = {Content::mesh, Content::blocks},
+          .bytes_of_cell = {56, 36},
           .read = read_medit,
           .write = write_medit,
           .boundary_names = medit_boundary_names,
@@ -105,11 +107,13 @@ std::vector<FileFormat> native_rows() {
   return {{.name = "mesh",
            .places = {mesh, solution, constants, blocks, block_names, layers, pairs, nodes},
            .by_default = true,
+           .bytes_of_cell = {55, 32},
            .read = read_native_or_medit,
            .write = write_native,
            .stores_lines = true},
           {.name = "qmesh",
            .places = {mesh, solution, constants, blocks, block_names, conditions, layers, pairs, nodes},
+           .bytes_of_cell = {31, 20},
            .read = [](const std::string& path) -> MeshOfFile { return read_binary(path); },
            .write = write_binary,
            .stores_lines = true}};
@@ -120,6 +124,7 @@ FileFormat cgns_row() {
   return {.name = "cgns",
           .places = {mesh, solution, blocks, block_names, conditions, layers, pairs, nodes, mesh3d},
           .by_default = true,
+          .bytes_of_cell = {35, 22},
           .read = read_cgns,
           .write = write_cgns,
           .boundary_names = cgns_boundary_names,
@@ -134,6 +139,7 @@ std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
            .places = {mesh, solution, blocks, block_names, layers, pairs, nodes, mesh3d},
+           .bytes_of_cell = {69, 50},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_vtu,
            .write = write_vtu,
@@ -141,6 +147,7 @@ std::vector<FileFormat> vtk_rows() {
           {.name = "pvtu",
            .program = "VTK",
            .places = {mesh, solution, blocks, block_names, layers, pairs, nodes, mesh3d},
+           .bytes_of_cell = {69, 50},
            .without_values = "let the solver save values at points (in ParaView: Cell Data to Point Data)",
            .read = read_pvtu,
            .write = write_pvtu,
@@ -151,6 +158,7 @@ std::vector<FileFormat> vtk_rows() {
 FileFormat su2_row() {
   return {.name = "su2",
           .places = {Content::mesh, Content::blocks, Content::block_names, Content::pairs, Content::mesh3d},
+          .bytes_of_cell = {65, 44},
           .read = read_su2,
           .write = write_su2,
           .boundary_names = su2_marker_names,
@@ -163,6 +171,7 @@ FileFormat fluent_row() {
   return {.name = "fluent.msh",
           .program = "Fluent",
           .places = {mesh, blocks, block_names, conditions, mesh3d},
+          .bytes_of_cell = {76, 49},
           .read = read_fluent,
           .write = write_fluent,
           .boundary_names = fluent_zone_names,
@@ -176,6 +185,7 @@ FileFormat plane_ugrid_row() {
   return {.name = "ugrid",
           .program = "AFLR2",
           .places = {Content::mesh, Content::blocks, Content::conditions},
+          .bytes_of_cell = {56, 36},
           .read = read_ugrid_plane,
           .write = write_ugrid_plane,
           .boundary_names = mapbc_names,
@@ -189,6 +199,7 @@ FileFormat foam_row() {
   return {.name = "polyMesh",
           .program = "OpenFOAM",
           .places = {mesh, blocks, block_names, conditions, pairs, mesh3d},
+          .bytes_of_cell = {215, 151},
           .read = read_foam,
           .write = write_foam,
           .boundary_names = foam_patch_names,
@@ -222,9 +233,9 @@ const std::vector<FileFormat>& file_formats() {
     all.push_back(cgns_row());
     std::ranges::move(vtk_rows(), std::back_inserter(all));
     for (const FileFormat& row :
-         {su2_row(), fluent_row(), msh_row<MshVersion::msh_2_2>("msh"), msh_row<MshVersion::msh_4_1>("msh41"),
-          ugrid_row<std::endian::big>("b8.ugrid"), ugrid_row<std::endian::little>("lb8.ugrid"),
-          plane_ugrid_row(), medit_row(), foam_row()})
+         {su2_row(), fluent_row(), msh_row<MshVersion::msh_2_2>("msh", {76, 54}),
+          msh_row<MshVersion::msh_4_1>("msh41", {72, 47}), ugrid_row<std::endian::big>("b8.ugrid"),
+          ugrid_row<std::endian::little>("lb8.ugrid"), plane_ugrid_row(), medit_row(), foam_row()})
       all.push_back(row);
     std::ranges::move(rows_of_solutions(), std::back_inserter(all));
     return all;

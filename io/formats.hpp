@@ -33,6 +33,11 @@ struct FileFormat {
   std::string program = {};     ///< program of the format, if the suffix does not tell
   std::vector<Content> places;  ///< supported data
   bool by_default = false;      ///< written by default, and in each cycle of a run
+  /// Approximate size of a plane mesh in bytes for each quadrilateral, if most cells are, and each triangle,
+  /// with numbers of six digits and without a solution.
+  struct BytesOfCell {
+    double quad = 0, triangle = 0;
+  } bytes_of_cell = {};
   /// What the user should do if a mesh has no solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 

@@ -59,14 +59,26 @@ std::string stage_table(const std::vector<StageRow>& stages) {
 
 namespace {
 
+void add_estimated_cells(Statistics& statistics, const MeshEstimate& estimate) {
+  statistics.add_raw("cells, estimated", text_of_cells(estimate.cells), json_of(std::round(estimate.cells)),
+                     "cells_estimated");
+}
+
+/// For one of `ranks` ranks.
+void add_estimated_memory(Statistics& statistics, const std::string& name, const MeshEstimate& estimate,
+                          int ranks) {
+  const double estimated = estimate.bytes / ranks + estimate.bytes_of_rank;
+  statistics.add_raw(name, text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
+                     "estimated_memory_mib");
+}
+
 void add_sizes(Statistics& statistics, const MeshResult& result) {
   const TreeAttributes& counts = result.tree.attributes;
   const MeshReport& report = result.report;
   statistics.add("nodes", counts.nodes);
   statistics.add("triangles", counts.triangles);
   statistics.add("quads", counts.quads);
-  statistics.add_raw("cells, estimated", text_of_cells(report.estimate.cells),
-                     json_of(std::round(report.estimate.cells)), "cells_estimated");
+  add_estimated_cells(statistics, report.estimate);
   statistics.add("blocks", std::max<std::int64_t>(1, std::ssize(result.mesh.blocks.names)));
   statistics.add("regions", report.regions);
   statistics.add("leaves", report.leaves);
@@ -82,15 +94,18 @@ void add_shapes(Statistics& statistics, const SolverStatistics& shape) {
   statistics.add("passage cells", shape.passage_cells);
 }
 
-/// `peak` in MiB; the estimate, in bytes, is for one of `ranks` ranks.
+/// `peak` in MiB; the estimate is for one of `ranks` ranks.
 void add_memory(Statistics& statistics, double peak, const MeshEstimate& estimate, int ranks) {
   statistics.add("peak memory", peak, "{:.0f} MiB", "peak_memory_mib");
-  const double estimated = estimate.bytes / ranks + estimate.bytes_of_rank;
-  statistics.add_raw("estimated", text_of_bytes(estimated), json_of(std::round(estimated / (1 << 20))),
-                     "estimated_memory_mib");
+  add_estimated_memory(statistics, "estimated", estimate, ranks);
 }
 
 }  // namespace
+
+void add_estimate(Statistics& statistics, const MeshEstimate& estimate, int ranks) {
+  add_estimated_cells(statistics, estimate);
+  add_estimated_memory(statistics, "memory of a rank", estimate, ranks);
+}
 
 MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files) {

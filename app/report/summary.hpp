@@ -38,6 +38,9 @@ struct MeshSummary {
 MeshSummary summarise(const Communicator& comm, const GeneratedMesh& generated, const StageSeconds& seconds,
                       const std::vector<std::string>& files);
 
+/// Adds the estimated number of cells, and the memory of one of `ranks` ranks.
+void add_estimate(Statistics& statistics, const MeshEstimate& estimate, int ranks);
+
 /// Returns the summary as a short table.
 std::string table_of(const MeshSummary& summary);
 

@@ -6,6 +6,7 @@ import json
 import math
 import re
 import resource
+import shutil
 import subprocess
 import unittest
 from pathlib import Path
@@ -102,6 +103,25 @@ class Estimate(ProgramTest):
             self.assertIn(setting, result.stderr)
             fits = float(re.search(r"causes most of them: (\S+) fits;", result.stderr)[1])
             self.done("mesh", self.case(outline, FEW.format(**{**usual, key: fits})), "-o", "out", "--max-cells", "30000", "--quiet")
+
+    def test_a_dry_run_tells_the_sizes_of_files_and_writes_none(self):
+        formats = ["mesh", "qmesh", "cgns", "vtu", "su2", "msh", "msh41", "fluent.msh", "ugrid", "medit", "polyMesh"]
+        for kind in ("hybrid", "delaunay"):
+            arguments = ["mesh", str(CASES / "naca4412_layers/case.toml"), "--type", kind, "-o", kind, "--set", f"output.formats={json.dumps(formats)}"]
+            told = [self.run_program(*arguments, "--dry-run", "--json", ranks=ranks) for ranks in (1, 3)]
+            self.assertEqual([run.returncode for run in told], [0, 0], told)
+            self.assertEqual(list(self.folder.iterdir()), [])
+            one, three = (json.loads(run.stdout) for run in told)
+            self.assertEqual(one["file_bytes"], three["file_bytes"])
+            self.assertLess(three["estimated_memory_mib"], one["estimated_memory_mib"])
+            self.done(*arguments, "--quiet")
+            for name, bytes_told in one["file_bytes"].items():
+                path = self.folder / name
+                written = sum(part.stat().st_size for part in path.iterdir()) if path.is_dir() else path.stat().st_size
+                self.assertLess(max(written, bytes_told), 1.7 * min(written, bytes_told), name)
+            self.assertEqual(len(one["file_bytes"]), len(formats) + 1)
+            for path in self.folder.iterdir():
+                shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def test_a_million_million_cells_are_refused(self):
         case = self.case(geom(("box", square(1))), "min = 1e-6\nmax = 2e-6")

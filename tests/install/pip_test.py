@@ -26,7 +26,7 @@ def main(build):
         for file in ("pyproject.toml", "setup.py", "README.md", "CMakeLists.txt"):
             shutil.copy(ROOT / file, source)
         shutil.copytree(ROOT / "python", source / "python")
-        subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "--quiet", "--disable-pip-version-check",
+        subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "--quiet", "--disable-pip-version-check", "--root-user-action=ignore",
                         "--target", target, source], env={**os.environ, "QUADLOOP_BUILD": build}, check=True)
         here = {key: value for key, value in os.environ.items() if key != "QUADLOOP_READER"}
         subprocess.run([sys.executable, "-c", PROGRAM.replace("FOLDER", str(target))], env={**here, "PYTHONPATH": str(target)}, cwd=work, check=True)
