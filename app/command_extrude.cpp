@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -27,7 +26,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
 
 namespace quadloop::app {
 
@@ -131,14 +130,6 @@ io::LoadedMesh load(const CommandContext& context, const ExtrudeArguments& argum
   return whole;
 }
 
-/// Distributes blocks in the given order, as scatter_mesh() distributes cells. *Collective.*
-void spread_blocks(const Communicator& comm, io::PlaneBlocks& blocks, const MeshOrder& order) {
-  blocks.names = broadcast_words(comm, blocks.names);
-  for (auto [of_cells, cells] :
-       {std::pair{&blocks.of_triangles, &order.triangles}, std::pair{&blocks.of_quads, &order.quads}})
-    *of_cells = scatter_ordered(comm, std::span<const std::int32_t>(*of_cells), *cells);
-}
-
 /// *Collective.*
 Plane spread(const Communicator& comm, io::LoadedMesh whole) {
   std::optional<io::PlaneBlocks> blocks;
@@ -146,7 +137,7 @@ Plane spread(const Communicator& comm, io::LoadedMesh whole) {
   if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution), std::move(blocks)};
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
   Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt, std::move(blocks)};
-  if (plane.blocks) spread_blocks(comm, *plane.blocks, order);
+  if (plane.blocks) *plane.blocks = scatter_blocks(comm, *plane.blocks, order);
   whole.mesh = {};  // freed before the 3D mesh is streamed
   if (comm.any(whole.solution.has_value()))
     plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);

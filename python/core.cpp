@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -301,31 +302,37 @@ class CoreAdaptation {
   std::unique_ptr<Adaptation> run_;
 };
 
-using PythonLoops = std::vector<std::pair<std::string, DoubleArray>>;
+/// Boundary, points, and whether the line is open.
+using PythonLines = std::vector<std::tuple<std::string, DoubleArray, bool>>;
 
-std::vector<MovingLoop> loops_from(const PythonLoops& given) {
-  std::vector<MovingLoop> loops;
-  for (const auto& [boundary, points] : given) loops.push_back({boundary, points_from(points)});
-  return loops;
+MorphGeometry geometry_from(const PythonLines& given) {
+  std::vector<GeometryLine> lines;
+  for (const auto& [boundary, points, open] : given) lines.push_back({boundary, points_from(points), open});
+  return MorphGeometry(std::move(lines));
 }
 
-/// A mesh moved to another outline.
+/// A mesh moved to another geometry.
 class CoreMorph {
  public:
-  CoreMorph(const CoreMesh& mesh, const PythonLoops& from, const PythonLoops& to, double least_quality)
+  CoreMorph(const CoreMesh& mesh, const PythonLines& from, const PythonLines& to, double least_quality)
       : before_{mesh} {
-    const std::vector<MovingLoop> old_loops = loops_from(from), new_loops = loops_from(to);
+    const MorphGeometry old_outline = geometry_from(from), new_outline = geometry_from(to);
     const py::gil_scoped_release released;
-    morph_ = std::make_unique<Morph>(*before_.comm, *before_.mesh, old_loops, new_loops, least_quality);
+    morph_ = std::make_unique<Morph>(*before_.comm, *before_.mesh, old_outline, new_outline, least_quality);
   }
 
   CoreMesh mesh() const { return {before_.comm, morph_->mesh(), nullptr, before_.layers, before_.of}; }
-  double worst_quality() const { return morph_->worst_quality(); }
-  bool smoothed() const { return morph_->smoothed(); }
+  double worst_quality() const { return morph_->report().worst_after; }
+  bool smoothed() const { return morph_->report().smoothed; }
   DoubleArray push_forward(const std::vector<DoubleArray>& of_points) const {
     std::vector<std::vector<Point>> lists;
     for (const DoubleArray& list : of_points) lists.push_back(points_from(list));
-    return array_of(morph_->push_forward(lists));
+    std::vector<Point> of_nodes;
+    {
+      const py::gil_scoped_release released;
+      of_nodes = morph_->push_forward(lists);
+    }
+    return array_of(of_nodes);
   }
   std::vector<DoubleArray> pull_back(const DoubleArray& of_nodes) const {
     const std::vector<Point> gradient = points_from(of_nodes);
@@ -472,7 +479,7 @@ PYBIND11_MODULE(_core, module) {
       .def("solution", &CoreAdaptation::solution)
       .def("finish_cycle", &CoreAdaptation::finish_cycle);
   py::class_<CoreMorph>(module, "Morph")
-      .def(py::init<const CoreMesh&, const PythonLoops&, const PythonLoops&, double>())
+      .def(py::init<const CoreMesh&, const PythonLines&, const PythonLines&, double>())
       .def("mesh", &CoreMorph::mesh)
       .def_property_readonly("worst_quality", &CoreMorph::worst_quality)
       .def_property_readonly("smoothed", &CoreMorph::smoothed)

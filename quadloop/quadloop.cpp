@@ -223,7 +223,7 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   std::vector<std::string> faults;
   if (comm.is_root()) {
-    for (const MeshFault& fault : validate(whole)) faults.push_back(text_of(fault));
+    for (const MeshFault& fault : validate(whole, cell_blocks(whole))) faults.push_back(text_of(fault));
   }
   return broadcast_words(comm, faults);
 }
