@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "app/mpi_singleton.hpp"
-#include "io/plot/mesh_plot.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "python/arrays.hpp"
 #include "quadloop/case/case_keys.hpp"
@@ -186,31 +185,37 @@ py::dict quality_of_mesh(const CoreMesh& self) {
   return result;
 }
 
-/// A PNG of the whole mesh on the root, no bytes on other ranks. *Collective.*
-py::bytes png_of(const CoreMesh& self, const std::string& name, const py::object& values, double size) {
-  Field field;
-  if (!name.empty()) field = field_on_all_ranks(self, values.cast<py::tuple>());
-  std::string picture;
+/// A picture of the whole mesh on the root, no bytes on other ranks. *Collective.*
+py::bytes picture_of(const CoreMesh& self, const std::string& format, const std::string& field,
+                     const py::tuple& values, double size) {
+  Field solution = field_on_all_ranks(self, values);
+  std::string bytes;
   {
     const py::gil_scoped_release released;
-    const Communicator& comm = *self.comm;
-    io::LoadedMesh loaded;
-    loaded.mesh = gather_whole(comm, *self.mesh);
-    if (!name.empty()) {
-      const std::vector<double> all = comm.all_gather_values(std::span<const double>(field.values));
-      loaded.solution = Field{field.names, all, {}};
-    }
-    comm.together([&] {
-      if (!comm.is_root()) return;
-      loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
-      loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
-      io::PlotOptions options;
-      options.field = name;
-      options.size = size;
-      picture = io::draw_mesh(loaded, options, io::PlotFormat::png);
-    });
+    PlotOptions options;
+    options.field = field;
+    options.size = size;
+    bytes = picture(*self.comm, *self.mesh, std::move(solution), options, io::plot_format_of("picture." + format));
   }
-  return py::bytes(picture);
+  return py::bytes(bytes);
+}
+
+void plot_mesh(const CoreMesh& self, const std::string& path, const std::string& field,
+               const py::tuple& values, double size) {
+  Field solution = field_on_all_ranks(self, values);
+  const py::gil_scoped_release released;
+  PlotOptions options;
+  options.field = field;
+  options.size = size;
+  plot(*self.comm, *self.mesh, path, std::move(solution), options);
+}
+
+std::vector<std::string> extrude_mesh(const CoreMesh& self, const std::vector<double>& heights,
+                                      const std::string& path, const py::tuple& values, bool along_y) {
+  const Field solution = field_on_all_ranks(self, values);
+  const py::gil_scoped_release released;
+  return extrude(*self.comm, *self.mesh, heights, path, solution,
+                 along_y ? ExtrusionAxis::y : ExtrusionAxis::z);
 }
 
 /// The whole mesh on the root, an empty one elsewhere. *Collective.*
@@ -440,7 +445,9 @@ void add_mesh(py::module_& module) {
       .def("quality", &quality_of_mesh)
       .def(
           "check", [](const CoreMesh& self) { return check(*self.comm, *self.mesh); }, Released())
-      .def("png", &png_of)
+      .def("picture", &picture_of)
+      .def("plot", &plot_mesh)
+      .def("extrude", &extrude_mesh)
       .def("gathered", &gathered)
       .def("write", &write_mesh);
 }

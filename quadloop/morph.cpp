@@ -78,6 +78,22 @@ std::vector<std::vector<std::int32_t>> vertices_of(const Geometry& geometry,
   return vertices;
 }
 
+/// Whether the chains have as many points, chain by chain.
+bool correspond(const std::vector<Chain>& from, const std::vector<Chain>& to) {
+  return std::ranges::equal(from, to, [](const Chain& a, const Chain& b) {
+    return a.name == b.name && a.points.size() == b.points.size() && a.curves.empty() && b.curves.empty();
+  });
+}
+
+/// The chains between two states that correspond.
+std::vector<Chain> chains_between(const std::vector<Chain>& from, std::vector<Chain> to, double share) {
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    for (std::size_t k = 0; k < to[i].points.size(); ++k)
+      to[i].points[k] = from[i].points[k] + share * (to[i].points[k] - from[i].points[k]);
+  }
+  return to;
+}
+
 }  // namespace
 
 MorphGeometry::MorphGeometry(std::vector<GeometryLine> lines)
@@ -111,7 +127,30 @@ struct Morph::Parts {
         places{mesh->points} {
     const bool closed = adapt::has_closed_boundaries(comm, *mesh);
     comm.together([&] { choose_geometries(closed); });
-    report = adapt::morph_mesh(comm, *mesh, change(), least_quality);
+    report =
+        adapt::morph_mesh(comm, *mesh, change(), correspond(from->chains, to->chains) ? 0 : least_quality);
+  }
+
+  Mesh original() const {
+    Mesh before = *mesh;
+    before.points = places;
+    return before;
+  }
+
+  /// The share of the change up to which the worst quality stays above a bound, rounded down. By bisection
+  /// between points that correspond; otherwise that of the movement. *Collective.*
+  double share_with_quality(double least_quality) const {
+    if (!correspond(from->chains, to->chains)) return report.possible_way;
+    constexpr int halvings = 6;
+    double low = 0, high = 1;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      const auto between = std::make_shared<const MorphGeometry::Parts>(
+          chains_between(from->chains, to->chains, middle), to->file, Warnings{});
+      const Parts part(comm, original(), from, between, 0);
+      (part.report.worst_after >= least_quality ? low : high) = middle;
+    }
+    return low;
   }
 
   // in messages
@@ -152,8 +191,7 @@ struct Morph::Parts {
     comm.together([&] {
       if (report.smoothed) throw InputError(adapt::text_of_smoothing(name()));
     });
-    original_ = *mesh;
-    original_.points = places;
+    original_ = original();
     change_.emplace(change());
     derivative_.emplace(comm, original_, *change_);
     places = {};
@@ -189,11 +227,12 @@ Morph::Morph(const Communicator& comm, Mesh mesh, const MorphGeometry& from, con
                     "a better mesh, or accept this quality",
                     report.worst_before, least_quality),
         0);
+  const double share = parts_->share_with_quality(least_quality);
   throw TooFar(
       fmt::format("the quality of the worst cell falls from {:.3g} to {:.3g}, and below {:.3g} after "
-                  "{:.0f} % of the movement; use smaller steps, or generate a new mesh",
-                  report.worst_before, report.worst_after, least_quality, 100 * report.possible_way),
-      report.possible_way);
+                  "{:.0f} % of the change; use smaller steps, or generate a new mesh",
+                  report.worst_before, report.worst_after, least_quality, 100 * share),
+      share);
 }
 
 Morph::~Morph() = default;

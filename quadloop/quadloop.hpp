@@ -12,6 +12,8 @@
 #include "flow/flow_solver.hpp"
 #include "io/input/case_source.hpp"
 #include "io/input/geometry_line.hpp"
+#include "io/model/extruded_mesh.hpp"
+#include "io/plot/plot_options.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/communicator.hpp"
@@ -27,7 +29,8 @@
 /// Life cycle: MPI must be initialised before the first Communicator is constructed and finalised after the
 /// last is destroyed. Every function here is *collective* over the communicator that it is given: all its
 /// ranks call it, in the same order, with the same case. Meshes and fields are distributed over the ranks;
-/// results are bitwise independent of the number of ranks. Only write() and write_solved() write files.
+/// results are bitwise independent of the number of ranks. Only write(), write_solved(), extrude(), plot()
+/// and an Adaptation with a folder write files.
 ///
 /// Shapes and units: a Mesh holds one rank's partition (mesh.hpp); a Field stores nodal values for owned
 /// nodes and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in
@@ -55,7 +58,8 @@ namespace quadloop {
 
 using adapt::MorphReport, adapt::SolvedMesh, adapt::TransferReport;
 using flow::FlowSolver, flow::SolvedFlow;
-using io::CaseSource, io::GeometryLine;
+using io::CaseSource, io::ExtrusionAxis, io::GeometryLine;
+using io::PlotFormat, io::PlotOptions;
 
 struct CaseParts;
 namespace adapt {
@@ -252,8 +256,8 @@ class Morph {
 /// rank. Gathers the mesh on one rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh read from a file. Its blocks are merged. Numbers of nodes and cells are those of the file if
-/// neighbours are close in it, as in meshes of this library; otherwise they follow a space-filling curve.
+/// A mesh read from a file, with its blocks and inner lines. Numbers of nodes and cells are those of the file
+/// if neighbours are close in it, as in meshes of this library; otherwise they follow a space-filling curve.
 struct MeshFile {
   Mesh mesh;
   Field field;  ///< no variables if the file has none
@@ -273,6 +277,25 @@ MeshFile read(const Communicator& comm, const std::string& path);
 /// support, or a field without a row for each owned node; OutputError if the file cannot be written.
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field = {});
+
+/// Writes the 3D mesh of prisms and hexahedra between levels at these heights, two or more, ascending, with
+/// the solution on each level. The suffix selects the format: .cgns, .vtu, .su2, .msh, .b8.ugrid, .fluent.msh
+/// or polyMesh (a folder). The 3D mesh is never stored. Returns warnings as write() does; throws as write()
+/// does, and InputError for other heights.
+std::vector<std::string> extrude(const Communicator& comm, Mesh mesh, const std::vector<double>& heights,
+                                 const std::string& path, const Field& solution = {},
+                                 ExtrusionAxis axis = ExtrusionAxis::z);
+
+/// Returns a picture of a mesh, or of the variable options.field of the solution, as the bytes of a file: on
+/// the root rank, where the mesh is gathered; none on other ranks. "mach" and "pressure_coefficient" are
+/// computed from a flow that lacks them. Throws InputError for a variable that does not exist, or a window
+/// without cells.
+std::string picture(const Communicator& comm, Mesh mesh, Field solution = {}, const PlotOptions& options = {},
+                    PlotFormat format = PlotFormat::png);
+
+/// Writes such a picture; the suffix selects the format: .png, .svg or .pdf. Throws OutputError, too.
+void plot(const Communicator& comm, Mesh mesh, const std::string& path, Field solution = {},
+          const PlotOptions& options = {});
 
 /// Writes a mesh returned by make_mesh() or remesh(), its tree and its solution to `stem`.mesh and
 /// `stem`.tree.h5, both or neither. Throws as write() does.
