@@ -1,5 +1,7 @@
 // The Python module quadloop._core: the library of quadloop/quadloop.hpp for the package in this folder,
 // which adds names, defaults and conversions. Collective calls are those of the library.
+#include "python/core.hpp"
+
 #include <mpi.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -22,9 +24,28 @@
 
 namespace quadloop::python {
 
-namespace {
+CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_ptr<const SolvedMesh> solved,
+                   LayerReport layers, const Case& of) {
+  std::shared_ptr<const Mesh> mesh(solved, &solved->mesh);
+  return {comm, std::move(mesh), std::move(solved), std::move(layers), of};
+}
 
-using Released = py::call_guard<py::gil_scoped_release>;
+Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given) {
+  Field field;
+  std::optional<std::string> fault;
+  try {
+    field = field_of(*mesh.mesh, python_field_from(given));
+  } catch (const InputError& error) {
+    fault = error.what();
+  }
+  const py::gil_scoped_release released;
+  mesh.comm->together([&] {
+    if (fault) throw InputError(*fault);
+  });
+  return field;
+}
+
+namespace {
 
 /// The communicators that were passed, by their Fortran handle. MPI is initialised with the first one if
 /// nobody has done it, and then finalised by finish().
@@ -62,27 +83,6 @@ class Communicators {
 Communicators& communicators() {
   static Communicators all;
   return all;
-}
-
-/// A case on a communicator.
-struct CoreCase {
-  std::shared_ptr<const Communicator> comm;
-  std::optional<Case> of;
-};
-
-/// A mesh that Python may hold as long as it likes. Its arrays are views.
-struct CoreMesh {
-  std::shared_ptr<const Communicator> comm;
-  std::shared_ptr<const Mesh> mesh;
-  std::shared_ptr<const SolvedMesh> solved;  ///< with its tree; null for a mesh from a file
-  LayerReport layers;
-  std::optional<Case> of;
-};
-
-CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_ptr<const SolvedMesh> solved,
-                   LayerReport layers, const Case& of) {
-  std::shared_ptr<const Mesh> mesh(solved, &solved->mesh);
-  return {comm, std::move(mesh), std::move(solved), std::move(layers), of};
 }
 
 py::array points_of(const py::object& self) {
@@ -149,22 +149,6 @@ py::list layers_of(const CoreMesh& self) {
     rows.append(entry);
   }
   return rows;
-}
-
-/// A mesh and its field on all ranks, made from those of Python. *Collective.*
-Field field_on_all_ranks(const CoreMesh& self, const py::tuple& given) {
-  Field field;
-  std::optional<std::string> fault;
-  try {
-    field = field_of(*self.mesh, python_field_from(given));
-  } catch (const InputError& error) {
-    fault = error.what();
-  }
-  const py::gil_scoped_release released;
-  self.comm->together([&] {
-    if (fault) throw InputError(*fault);
-  });
-  return field;
 }
 
 py::dict quality_of_mesh(const CoreMesh& self) {
@@ -274,38 +258,6 @@ CoreMesh smoothed_mesh(const CoreCase& of, const CoreMesh& given) {
   smooth(*of.comm, *of.of, *mesh);
   return {given.comm, std::move(mesh), nullptr, given.layers, of.of};
 }
-
-/// The adaptive loop of a case.
-class CoreAdaptation {
- public:
-  CoreAdaptation(const CoreCase& of, const std::string& folder, bool resume) : case_{of} {
-    const py::gil_scoped_release released;
-    run_ = std::make_unique<Adaptation>(*case_.comm, *case_.of, folder, resume);
-  }
-
-  bool begin_cycle() {
-    const py::gil_scoped_release released;
-    return run_->begin_cycle();
-  }
-  int cycle() const { return run_->cycle(); }
-  CoreMesh mesh() const { return core_mesh(case_.comm, run_->solved(), run_->layers(), *case_.of); }
-  py::tuple initial_state() const { return python_field(run_->initial_state()); }
-  py::tuple solution() const { return python_field(run_->solved()->solution); }
-  py::tuple finish_cycle(const py::tuple& values) {
-    SolvedFlow flow;
-    flow.solution = field_on_all_ranks(mesh(), values);
-    CycleReport report;
-    {
-      const py::gil_scoped_release released;
-      report = run_->finish_cycle(std::move(flow));
-    }
-    return py::make_tuple(report.record, report.warnings);
-  }
-
- private:
-  CoreCase case_;
-  std::unique_ptr<Adaptation> run_;
-};
 
 /// Boundary, points, and whether the line is open.
 using PythonLines = std::vector<std::tuple<std::string, DoubleArray, bool>>;
@@ -477,14 +429,7 @@ PYBIND11_MODULE(_core, module) {
             agree(*self.comm, text, what);
           },
           Released());
-  py::class_<CoreAdaptation>(module, "Adaptation")
-      .def(py::init<const CoreCase&, const std::string&, bool>())
-      .def("begin_cycle", &CoreAdaptation::begin_cycle)
-      .def_property_readonly("cycle", &CoreAdaptation::cycle)
-      .def("mesh", &CoreAdaptation::mesh)
-      .def("initial_state", &CoreAdaptation::initial_state)
-      .def("solution", &CoreAdaptation::solution)
-      .def("finish_cycle", &CoreAdaptation::finish_cycle);
+  add_adaptation(module);
   py::class_<CoreMorph>(module, "Morph")
       .def(py::init<const CoreMesh&, const PythonLines&, const PythonLines&, double>())
       .def("mesh", &CoreMorph::mesh)
