@@ -116,6 +116,21 @@ class Meshes(unittest.TestCase):
             with self.assertRaisesRegex(ql.InputError, "axis is"):
                 self.mesh.extrude(f"{folder}/module.vtu", [0, 1], axis="x")
 
+    def test_blocks_of_a_file_are_kept_as_by_convert(self):
+        sides = {"left": [[0.5, 1], [0, 1], [0, 0], [0.5, 0]], "right": [[0.5, 0], [1, 0], [1, 1], [0.5, 1]], "between": [[0.5, 0], [0.5, 1]]}
+        blocks = [{"name": "west", "boundaries": ["left", "between"]}, {"name": "east", "boundaries": ["right", "between"]}]
+        made = ql.mesh(ql.Case(outlines={name: ql.curve(points) for name, points in sides.items()}, spacing={"max": 0.1}, block=blocks))
+        self.assertEqual(made.check(), [])
+        with tempfile.TemporaryDirectory() as folder:
+            made.write(f"{folder}/a.vtu")
+            mesh, _ = ql.read(f"{folder}/a.vtu")
+            self.assertEqual(mesh.blocks["names"], ["west", "east"])
+            self.assertEqual(len(mesh.blocks["quads"]), len(mesh.quads))
+            self.assertEqual(mesh.check(), [])
+            mesh.write(f"{folder}/module.msh")
+            subprocess.run([PROGRAM, "convert", "a.vtu", "command.msh", "-q"], cwd=folder, check=True)
+            self.assertEqual(Path(folder, "module.msh").read_bytes(), Path(folder, "command.msh").read_bytes())
+
     def test_pictures_of_the_kinds_of_files(self):
         height = {"height": self.mesh.points[:, 1]}
         for kind, head in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
