@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -27,7 +26,9 @@
 #include "mesher/base/log.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 #include "mesher/mesh/check/quality.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
+#include "quadloop/quadloop.hpp"
+#include "quadloop/require_input.hpp"
 
 namespace quadloop::app {
 
@@ -67,20 +68,6 @@ void require_one_way(const ExtrudeArguments& arguments) {
     throw UsageError("extrude requires both --layers N and --thickness T, the total thickness of the layers");
 }
 
-/// Beyond these limits areas and volumes exceed the range of double precision.
-void require_in_range(const std::vector<double>& heights, const std::string& source) {
-  constexpr double least = 1e-100, most = 1e100;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    if (std::abs(heights[i]) > most)
-      throw InputError(fmt::format("{}: the level at {} is out of range; heights reach to {:g} at most",
-                                   source, heights[i], most));
-    if (i > 0 && heights[i] - heights[i - 1] < least)
-      throw InputError(
-          fmt::format("{}: the layer from {} to {} is out of range; layers are {:g} thick at least", source,
-                      heights[i - 1], heights[i], least));
-  }
-}
-
 /// Returns the heights, the same on every rank. *Collective.*
 std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments& arguments) {
   std::vector<double> heights;
@@ -89,23 +76,22 @@ std::vector<double> heights_of(const Communicator& comm, const ExtrudeArguments&
     if (std::ranges::adjacent_find(heights, std::ranges::greater_equal()) != heights.end())
       throw UsageError(
           fmt::format("--thickness {} is too small for {} layers", arguments.thickness, arguments.layers));
-    require_in_range(heights, "--thickness");
+    require_heights(heights, "--thickness");
     return heights;
   }
   comm.together([&] {
     if (!comm.is_root()) return;
     heights = read_heights(arguments.heights);
-    require_in_range(heights, arguments.heights);
+    require_heights(heights, arguments.heights);
   });
   comm.broadcast(heights);
   return heights;
 }
 
-/// The plane mesh, distributed in the order of its file, and its solution.
+/// The plane mesh with its blocks, distributed in the order of its file, and its solution.
 struct Plane {
   Mesh mesh;
-  std::optional<Field> solution;
-  std::optional<io::PlaneBlocks> blocks;  ///< if there are several
+  Field solution;
 };
 
 /// Returns the mesh that the root has read, without its inner boundaries; an empty one on other ranks.
@@ -127,29 +113,19 @@ io::LoadedMesh load(const CommandContext& context, const ExtrudeArguments& argum
     for (std::string& loss : io::drop_interfaces(whole, arguments.output))
       warnings.push_back(std::move(loss));
     io::list_inner_curves(whole);
+    if (whole.blocks > 1) whole.mesh.blocks = io::plane_blocks(whole);
   });
   return whole;
 }
 
-/// Distributes blocks in the given order, as scatter_mesh() distributes cells. *Collective.*
-void spread_blocks(const Communicator& comm, io::PlaneBlocks& blocks, const MeshOrder& order) {
-  blocks.names = broadcast_words(comm, blocks.names);
-  for (auto [of_cells, cells] :
-       {std::pair{&blocks.of_triangles, &order.triangles}, std::pair{&blocks.of_quads, &order.quads}})
-    *of_cells = scatter_ordered(comm, std::span<const std::int32_t>(*of_cells), *cells);
-}
-
 /// *Collective.*
 Plane spread(const Communicator& comm, io::LoadedMesh whole) {
-  std::optional<io::PlaneBlocks> blocks;
-  if (comm.any(whole.blocks > 1)) blocks = io::plane_blocks(whole);
-  if (comm.size() == 1) return {std::move(whole.mesh), std::move(whole.solution), std::move(blocks)};
+  if (comm.size() == 1) return {std::move(whole.mesh), whole.solution.value_or(Field{})};
   const MeshOrder order = comm.is_root() ? own_order(whole.mesh) : MeshOrder{};
-  Plane plane{scatter_mesh(comm, whole.mesh, order), std::nullopt, std::move(blocks)};
-  if (plane.blocks) spread_blocks(comm, *plane.blocks, order);
+  Plane plane{scatter_mesh(comm, whole.mesh, order), {}};
+  plane.mesh.blocks = scatter_blocks(comm, whole.mesh.blocks, order);
   whole.mesh = {};  // freed before the 3D mesh is streamed
-  if (comm.any(whole.solution.has_value()))
-    plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
+  plane.solution = scatter_field(comm, whole.solution.value_or(Field{}), plane.mesh, order);
   return plane;
 }
 
@@ -192,14 +168,15 @@ void require_room(const Communicator& comm, const io::ExtrudedCounts& counts,
   });
 }
 
-Statistics statistics_of(const io::ExtrudedCounts& counts, const io::ExtrudedMesh& mesh, double area) {
+Statistics statistics_of(const io::ExtrudedCounts& counts, const std::vector<double>& heights, double area) {
+  const double height = heights.back() - heights.front();
   Statistics statistics;
   statistics.add("nodes", counts.nodes);
   statistics.add("prisms", counts.prisms);
   statistics.add("hexahedra", counts.hexahedra);
-  statistics.add("layers", mesh.layers());
-  statistics.add("height", mesh.height(), "{:.6g}");
-  statistics.add("volume", area * mesh.height(), "{:.6g}");
+  statistics.add("layers", std::ssize(heights) - 1);
+  statistics.add("height", height, "{:.6g}");
+  statistics.add("volume", area * height, "{:.6g}");
   return statistics;
 }
 
@@ -208,22 +185,18 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
   const Communicator& comm = context.comm;
   require_one_way(arguments);
   std::vector<std::string>& warnings = context.record.noted;
-  std::vector<double> heights = heights_of(comm, arguments);
+  const std::vector<double> heights = heights_of(comm, arguments);
   io::LoadedMesh whole = load(context, arguments, warnings);
   const double area = comm.is_root() ? area_of(whole.mesh) : 0;
-  const Plane plane = spread(comm, std::move(whole));
-  io::ExtrudedMesh mesh = io::extruded(plane.mesh, std::move(heights),
-                                       arguments.axis == "y" ? io::ExtrusionAxis::y : io::ExtrusionAxis::z,
-                                       plane.solution ? &*plane.solution : nullptr);
-  mesh.blocks = plane.blocks ? &*plane.blocks : nullptr;
-  const io::ExtrudedCounts counts(comm, mesh);
+  Plane plane = spread(comm, std::move(whole));
+  const ExtrusionAxis axis = arguments.axis == "y" ? ExtrusionAxis::y : ExtrusionAxis::z;
+  const io::ExtrudedCounts counts(comm, io::extruded(plane.mesh, heights, axis));
   require_room(comm, counts, arguments);
-  for (std::string& loss : io::losses_in(mesh, arguments.output)) warnings.push_back(std::move(loss));
-  io::OutputSet outputs(comm);
-  io::write_mesh(outputs, mesh, arguments.output);
-  outputs.commit();
+  for (std::string& loss :
+       extrude(comm, std::move(plane.mesh), heights, arguments.output, plane.solution, axis))
+    warnings.push_back(std::move(loss));
   if (!comm.is_root()) return;
-  const Statistics statistics = statistics_of(counts, mesh, area);
+  const Statistics statistics = statistics_of(counts, heights, area);
   context.record.statistics = statistics.record();
   context.record.files = io::with_files_beside({arguments.output});
   if (context.shows_table())

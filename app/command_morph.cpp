@@ -5,34 +5,25 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
-#include "adapt/morph/morph_derivative.hpp"
-#include "adapt/morph/morph_mesh.hpp"
-#include "adapt/morph/outline_pieces.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/refusals.hpp"
 #include "app/report/statistics.hpp"
 #include "app/report/summary.hpp"
 #include "io/formats.hpp"
-#include "io/input/geometry_file.hpp"
 #include "io/input/point_table.hpp"
 #include "io/mesh_file.hpp"
-#include "io/model/interface_nodes.hpp"
 #include "io/model/tidy_mesh.hpp"
 #include "io/solution_file.hpp"
 #include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
-#include "mesher/geometry/assemble/assemble.hpp"
-#include "mesher/geometry/point_table.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
-#include "smoother/outline/outline_match.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
+#include "quadloop/quadloop.hpp"
 
 namespace quadloop::app {
 
@@ -54,9 +45,8 @@ const std::vector<std::string> velocity_names{"dx_ds", "dy_ds"};
 struct MorphInput {
   io::LoadedMesh whole;
   MeshOrder order;
-  std::optional<Geometry> to, from;
-  bool by_pieces = false;        ///< these are OutlinePieces
-  std::vector<Point> direction;  ///< for each point of `to`
+  MorphGeometry from, to;
+  io::PointVectors direction;  ///< for each point of each line of `to`
 };
 
 void require_outputs(const MorphArguments& arguments) {
@@ -100,45 +90,13 @@ void require_other_outputs(const MorphArguments& arguments) {
   require_other(table, mesh);
 }
 
-/// Reads both geometries piece by piece if the boundaries and inner lines of the mesh are no closed loops,
-/// else as outlines.
-void read_geometries(const MorphArguments& arguments, bool closed, MorphInput& input, Warnings& warnings) {
-  if (!closed && !arguments.from.empty()) {
-    Warnings told_already;
-    std::optional<adapt::OutlinePieces> pieces = adapt::pieces_of(
-        io::read_geometry(arguments.from, warnings), io::read_geometry(arguments.geometry, told_already));
-    if (!pieces)
-      throw InputError(fmt::format(
-          "{}: its pieces are not those of {}, with the same names and numbers of points in the "
-          "same order, as a mesh with inner lines, or with blocks that touch its boundary, requires",
-          arguments.geometry, arguments.from));
-    input.by_pieces = true;
-    input.to = std::move(pieces->to);
-    input.from = std::move(pieces->from);
-    return;
-  }
-  try {
-    input.to = io::read_outline(arguments.geometry, warnings);
-  } catch (const InputError& fault) {
-    if (closed) throw;
-    throw InputError(std::string(fault.what()) +
-                     "; for a mesh with inner lines, or with blocks that touch its boundary, give --from "
-                     "OLD.geom with the same pieces and numbers of points");
-  }
-  if (!arguments.from.empty()) input.from = io::read_outline(arguments.from, warnings);
-}
-
-/// Whether the boundaries of the mesh are closed loops and the mesh has no inner lines or baffles.
-bool is_closed(const io::LoadedMesh& whole) {
-  return whole.inner_curves.empty() && !PointTable(whole.mesh.points).any_twice() &&
-         adapt::has_closed_boundaries(whole.mesh);
-}
-
 /// *Collective.*
 MorphInput load(const CommandContext& context, const MorphArguments& arguments) {
   MorphInput input;
   Warnings& warnings = context.record.noted;
-  bool closed = true;
+  const auto append = [&](const Warnings& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
   context.comm.together([&] {
     io::require_readable_suffix(arguments.input);
     require_outputs(arguments);
@@ -149,37 +107,43 @@ MorphInput load(const CommandContext& context, const MorphArguments& arguments) 
     input.whole = io::read_mesh(arguments.input);
     io::tidy_mesh(input.whole, arguments.input);
     require_valid_input(input.whole, arguments.input);
-    const auto append = [&](const Warnings& more) {
-      warnings.insert(warnings.end(), more.begin(), more.end());
-    };
     append(input.whole.warnings);
     if (!arguments.output.empty()) append(io::losses_in(input.whole, arguments.output));
     input.order = space_filling_order(input.whole.mesh);
-    closed = is_closed(input.whole);
   });
-  closed = !context.comm.any(!closed);
+  input.to = MorphGeometry(context.comm, arguments.geometry);
+  append(input.to.warnings());
+  if (!arguments.from.empty()) input.from = MorphGeometry(context.comm, arguments.from);
+  append(input.from.warnings());
+  if (arguments.direction.empty()) return input;
   context.comm.together([&] {
-    read_geometries(arguments, closed, input, warnings);
-    if (!arguments.direction.empty())
-      input.direction = io::read_point_table(arguments.direction, *input.to, {"dx", "dy"});
+    input.direction = io::read_point_table(arguments.direction, input.to.lines(), {"dx", "dy"});
   });
   return input;
 }
 
-[[noreturn]] void refuse_way(const MorphArguments& arguments, const adapt::MorphReport& report) {
-  throw InputError(
-      fmt::format("{}: cannot morph to {}: cells near ({:g}, {:g}) become inverted after {:.0f} % of the "
-                  "movement; use smaller steps, or generate a new mesh",
-                  arguments.input, arguments.geometry, report.worst_place.x, report.worst_place.y,
-                  100 * report.possible_way));
+/// Distributes the mesh with its inner lines and blocks. *Collective.*
+Mesh distributed(const Communicator& comm, const MorphInput& input) {
+  Mesh part;
+  if (comm.any(!input.whole.inner_curves.empty())) {
+    io::LoadedMesh listed = input.whole;
+    io::list_inner_curves(listed);
+    part = scatter_mesh(comm, listed.mesh, input.order);
+  } else {
+    part = scatter_mesh(comm, input.whole.mesh, input.order);
+  }
+  part.blocks = scatter_blocks(comm, input.whole.mesh.blocks, input.order);
+  return part;
 }
 
-void require_derivative(const MorphArguments& arguments, const adapt::MorphReport& report) {
-  if (report.smoothed)
-    throw InputError(fmt::format(
-        "{}: the mesh had to be smoothed on {}, so the node positions have no derivative; start from a mesh "
-        "closer to that geometry",
-        arguments.input, arguments.geometry));
+/// *Collective.*
+Morph morphed(const Communicator& comm, const MorphArguments& arguments, const MorphInput& input) {
+  try {
+    return {comm, distributed(comm, input), input.from, input.to};
+  } catch (const TooFar& error) {
+    throw InputError(
+        fmt::format("{}: cannot morph to {}: {}", arguments.input, arguments.geometry, error.what()));
+  }
 }
 
 /// Adds the nodes' velocities to the whole mesh's solution. *Collective.*
@@ -200,8 +164,7 @@ void add_velocities(const Communicator& comm, const Mesh& part, const std::vecto
 
 /// Reads dJ/dX of the morphed mesh's nodes and writes dJ/d(points) of the geometry. *Collective.*
 void write_outline_gradient(const Communicator& comm, const MorphArguments& arguments,
-                            const MorphInput& input, const Mesh& part,
-                            const adapt::MorphDerivative& derivative) {
+                            const MorphInput& input, const Morph& morph) {
   Field of_whole;
   comm.together([&] {
     if (!comm.is_root()) return;
@@ -210,16 +173,17 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
     of_whole = selected(solution.solution, arguments.fields, arguments.nodal_gradient);
     of_whole.constants.clear();
   });
+  const Mesh& part = *morph.mesh();
   const Field field = scatter_field(comm, of_whole, part, input.order);
   std::vector<Point> of_nodes;
   for (const NodeId node : ids_below(NodeId{part.owned_nodes}))
     of_nodes.push_back({field.row(node)[0], field.row(node)[1]});
-  const std::vector<Point> gradient = derivative.gradient(of_nodes);
+  const io::PointVectors gradient = morph.pull_back(of_nodes);
   io::OutputSet outputs(comm);
   io::TextOutput file(outputs, arguments.outline_gradient);
   std::string text;
   comm.together([&] {
-    if (comm.is_root()) text = io::point_table(*input.to, arguments.geometry, gradient, "dJ_dx,dJ_dy");
+    if (comm.is_root()) text = io::point_table(input.to.lines(), gradient, "dJ_dx,dJ_dy");
   });
   file.write(text);
   file.close();
@@ -227,13 +191,16 @@ void write_outline_gradient(const Communicator& comm, const MorphArguments& argu
 }
 
 /// *Collective.*
-void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Mesh& part,
-                    const adapt::MorphDerivative& derivative, MorphInput& input) {
-  if (!arguments.direction.empty()) add_velocities(comm, part, derivative.velocity(input.direction), input);
-  if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, part, derivative);
+void use_derivative(const Communicator& comm, const MorphArguments& arguments, const Morph& morph,
+                    MorphInput& input) {
+  if (morph.report().smoothed)
+    throw InputError(arguments.input + ": " + adapt::text_of_smoothing(arguments.geometry));
+  if (!arguments.direction.empty())
+    add_velocities(comm, *morph.mesh(), morph.push_forward(input.direction), input);
+  if (!arguments.outline_gradient.empty()) write_outline_gradient(comm, arguments, input, morph);
 }
 
-Statistics statistics_of(const adapt::MorphReport& report) {
+Statistics statistics_of(const MorphReport& report) {
   Statistics statistics;
   statistics.add("nodes moved", report.moved);
   statistics.add("largest move", report.largest_move, "{:.4g}");
@@ -243,50 +210,21 @@ Statistics statistics_of(const adapt::MorphReport& report) {
   return statistics;
 }
 
-/// Distributes the mesh with its inner lines. *Collective.*
-Mesh distributed(const Communicator& comm, const MorphInput& input) {
-  if (!comm.any(!input.whole.inner_curves.empty())) return scatter_mesh(comm, input.whole.mesh, input.order);
-  io::LoadedMesh listed = input.whole;
-  io::list_inner_curves(listed);
-  return scatter_mesh(comm, listed.mesh, input.order);
-}
-
-/// Flags the nodes between blocks and those of inner lines; empty if there are none.
-NodeFlags inner_nodes(const io::LoadedMesh& whole) {
-  NodeFlags flags;
-  if (whole.blocks > 1) flags = io::interface_nodes(whole);
-  if (!whole.inner_curves.empty()) flags.resize(whole.mesh.points.size(), 0);
-  for (const BoundaryEdges& line : whole.inner_curves) {
-    for (const auto& edge : line.edges) flag_all(edge, flags);
-  }
-  return flags;
-}
-
 void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   const Communicator& comm = context.comm;
   StageTimes times;
   times.begin("read");
   MorphInput input = load(context, arguments);
-  Mesh part = distributed(comm, input);
-  NodeFlags inner;
-  if (comm.is_root()) inner = inner_nodes(input.whole);
-  inner = NodeFlags(scatter_nodes(comm, inner, input.order));
   times.begin("morph");
-  const adapt::OutlineChange change{*input.to, arguments.geometry, input.from ? &*input.from : nullptr,
-                                    arguments.from, input.by_pieces};
-  std::optional<adapt::MorphDerivative> derivative;
-  if (arguments.wants_derivative()) derivative.emplace(comm, part, change);
-  const adapt::MorphReport report = adapt::morph_mesh(comm, part, change, inner);
-  if (!report.valid()) refuse_way(arguments, report);
-  gather_mesh(comm, part, input.order, input.whole.mesh);
+  const Morph morph = morphed(comm, arguments, input);
+  gather_mesh(comm, *morph.mesh(), input.order, input.whole.mesh);
   comm.together([&] {
     if (comm.is_root())
       require_valid(input.whole, arguments.output.empty() ? arguments.geometry : arguments.output);
   });
-  if (derivative) {
-    require_derivative(arguments, report);
+  if (arguments.wants_derivative()) {
     times.begin("derivative");
-    use_derivative(comm, arguments, part, *derivative, input);
+    use_derivative(comm, arguments, morph, input);
   }
   times.begin("write");
   if (!arguments.output.empty()) io::write_mesh_of_root(comm, input.whole, arguments.output);
@@ -295,7 +233,7 @@ void run_morph(const CommandContext& context, const MorphArguments& arguments) {
   if (!arguments.output.empty()) context.record.files = io::with_files_beside({arguments.output});
   if (!arguments.outline_gradient.empty()) context.record.files.push_back(arguments.outline_gradient);
   if (!comm.is_root()) return;
-  const Statistics statistics = statistics_of(report);
+  const Statistics statistics = statistics_of(morph.report());
   context.record.statistics = statistics.record();
   context.record.statistics.add("seconds", record_of(stages));
   if (context.shows_table())

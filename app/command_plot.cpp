@@ -1,3 +1,5 @@
+#include <mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,20 +11,16 @@
 #include "app/command_line.hpp"
 #include "app/number_list.hpp"
 #include "app/plot_tables.hpp"
-#include "flow/euler/model/euler_options.hpp"
-#include "flow/postprocess/flow_quantities.hpp"
 #include "flow/postprocess/history.hpp"
-#include "flow/postprocess/run_constants.hpp"
 #include "flow/postprocess/wall_table.hpp"
 #include "io/files/output_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_file.hpp"
+#include "io/plot/canvas/colour_map.hpp"
 #include "io/plot/canvas/flow_charts.hpp"
-#include "io/plot/mesh_plot.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
-#include "mesher/base/suffix.hpp"
-#include "mesher/mesh/variable_names.hpp"
+#include "quadloop/quadloop.hpp"
 
 namespace quadloop::app {
 
@@ -43,15 +41,6 @@ struct PlotTask {
   io::PlotFormat format = io::PlotFormat::png;
   io::PlotOptions options;
 };
-
-io::PlotFormat picture_format_of(const std::string& path) {
-  const std::string suffix = suffix_of(path);
-  if (suffix == ".png") return io::PlotFormat::png;
-  if (suffix == ".svg") return io::PlotFormat::svg;
-  if (suffix == ".pdf") return io::PlotFormat::pdf;
-  throw InputError(path + ": a picture cannot be written in the format '" + suffix +
-                   "'; end its name in .png, .svg or .pdf");
-}
 
 /// X0,X1,Y0,Y1. A window without area is rejected by draw_mesh.
 Box window_of(const std::string& text) {
@@ -92,7 +81,7 @@ io::PlotOptions options_of(const PlotArguments& arguments) {
     options.range = {range[0], range[1]};
     if (!(range[0] < range[1])) throw UsageError(refusal + ", not '" + arguments.range + "'");
   }
-  options.map = io::colour_map_named(arguments.map);
+  options.map = arguments.map;
   options.smooth = arguments.shading == "smooth";
   if (!arguments.lines.empty()) options.lines = arguments.lines == "on";
   options.contours = arguments.contours;
@@ -109,7 +98,7 @@ Subject subject_of(const PlotArguments& arguments) {
 PlotTask task_of(const PlotArguments& arguments) {
   PlotTask task{subject_of(arguments), io::PlotFormat::png, {}};
   if (task.subject == Subject::mesh) io::require_readable_suffix(arguments.input);
-  task.format = picture_format_of(arguments.output);
+  task.format = io::plot_format_of(arguments.output);
   task.options = options_of(arguments);
   const io::PlotOptions& options = task.options;
   const bool is_of_field = options.range || options.contours > 0 || arguments.shading != "smooth";
@@ -118,30 +107,15 @@ PlotTask task_of(const PlotArguments& arguments) {
   return task;
 }
 
-/// Computes Mach number or pressure coefficient if the file lacks them.
-void add_quantity(io::LoadedMesh& loaded, const std::string& field) {
-  if (!loaded.solution || std::ranges::find(flow::quantity_names(), field) == flow::quantity_names().end())
-    return;
-  Field& solution = *loaded.solution;
-  if (std::ranges::find(solution.names, field) != solution.names.end()) return;
-  for (const char* name : flow::euler_names) {
-    if (variables_like(solution.names, name).size() != 1) return;
-  }
-  flow::FreeStream stream;
-  if (field == flow::pressure_coefficient_name) {
-    const std::optional<flow::RunConstants> run = flow::RunConstants::of(solution.constants);
-    if (!run) return;
-    stream.speed = run->mach;
-  }
-  solution = flow::with_quantities(solution, {field}, stream);
-}
-
 std::string picture_of_mesh(const PlotArguments& arguments, const PlotTask& task) {
   io::LoadedMesh loaded = io::read_mesh(arguments.input);
   io::list_inner_curves(loaded);
+  loaded.mesh.blocks = {std::move(loaded.block_names), std::move(loaded.triangle_to_block),
+                        std::move(loaded.quad_to_block)};
+  const Communicator alone(MPI_COMM_SELF);
   try {
-    add_quantity(loaded, task.options.field);
-    return io::draw_mesh(loaded, task.options, task.format);
+    return quadloop::picture(alone, std::move(loaded.mesh), loaded.solution.value_or(Field{}), task.options,
+                             task.format);
   } catch (const InputError& error) {
     throw InputError(arguments.input + ": " + error.what());
   }

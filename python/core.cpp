@@ -12,11 +12,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "app/mpi_singleton.hpp"
-#include "io/plot/mesh_plot.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "python/arrays.hpp"
 #include "quadloop/case/case_keys.hpp"
@@ -169,31 +169,37 @@ py::dict quality_of_mesh(const CoreMesh& self) {
   return result;
 }
 
-/// A PNG of the whole mesh on the root, no bytes on other ranks. *Collective.*
-py::bytes png_of(const CoreMesh& self, const std::string& name, const py::object& values, double size) {
-  Field field;
-  if (!name.empty()) field = field_on_all_ranks(self, values.cast<py::tuple>());
-  std::string picture;
+/// A picture of the whole mesh on the root, no bytes on other ranks. *Collective.*
+py::bytes picture_of(const CoreMesh& self, const std::string& format, const std::string& field,
+                     const py::tuple& values, double size) {
+  Field solution = field_on_all_ranks(self, values);
+  std::string bytes;
   {
     const py::gil_scoped_release released;
-    const Communicator& comm = *self.comm;
-    io::LoadedMesh loaded;
-    loaded.mesh = gather_whole(comm, *self.mesh);
-    if (!name.empty()) {
-      const std::vector<double> all = comm.all_gather_values(std::span<const double>(field.values));
-      loaded.solution = Field{field.names, all, {}};
-    }
-    comm.together([&] {
-      if (!comm.is_root()) return;
-      loaded.triangle_to_block.assign(loaded.mesh.triangles.size(), 0);
-      loaded.quad_to_block.assign(loaded.mesh.quads.size(), 0);
-      io::PlotOptions options;
-      options.field = name;
-      options.size = size;
-      picture = io::draw_mesh(loaded, options, io::PlotFormat::png);
-    });
+    PlotOptions options;
+    options.field = field;
+    options.size = size;
+    bytes = picture(*self.comm, *self.mesh, std::move(solution), options, io::plot_format_of("picture." + format));
   }
-  return py::bytes(picture);
+  return py::bytes(bytes);
+}
+
+void plot_mesh(const CoreMesh& self, const std::string& path, const std::string& field,
+               const py::tuple& values, double size) {
+  Field solution = field_on_all_ranks(self, values);
+  const py::gil_scoped_release released;
+  PlotOptions options;
+  options.field = field;
+  options.size = size;
+  plot(*self.comm, *self.mesh, path, std::move(solution), options);
+}
+
+std::vector<std::string> extrude_mesh(const CoreMesh& self, const std::vector<double>& heights,
+                                      const std::string& path, const py::tuple& values, bool along_y) {
+  const Field solution = field_on_all_ranks(self, values);
+  const py::gil_scoped_release released;
+  return extrude(*self.comm, *self.mesh, heights, path, solution,
+                 along_y ? ExtrusionAxis::y : ExtrusionAxis::z);
 }
 
 /// The whole mesh on the root, an empty one elsewhere. *Collective.*
@@ -253,31 +259,37 @@ CoreMesh smoothed_mesh(const CoreCase& of, const CoreMesh& given) {
   return {given.comm, std::move(mesh), nullptr, given.layers, of.of};
 }
 
-using PythonLoops = std::vector<std::pair<std::string, DoubleArray>>;
+/// Boundary, points, and whether the line is open.
+using PythonLines = std::vector<std::tuple<std::string, DoubleArray, bool>>;
 
-std::vector<MovingLoop> loops_from(const PythonLoops& given) {
-  std::vector<MovingLoop> loops;
-  for (const auto& [boundary, points] : given) loops.push_back({boundary, points_from(points)});
-  return loops;
+MorphGeometry geometry_from(const PythonLines& given) {
+  std::vector<GeometryLine> lines;
+  for (const auto& [boundary, points, open] : given) lines.push_back({boundary, points_from(points), open});
+  return MorphGeometry(std::move(lines));
 }
 
-/// A mesh moved to another outline.
+/// A mesh moved to another geometry.
 class CoreMorph {
  public:
-  CoreMorph(const CoreMesh& mesh, const PythonLoops& from, const PythonLoops& to, double least_quality)
+  CoreMorph(const CoreMesh& mesh, const PythonLines& from, const PythonLines& to, double least_quality)
       : before_{mesh} {
-    const std::vector<MovingLoop> old_loops = loops_from(from), new_loops = loops_from(to);
+    const MorphGeometry old_outline = geometry_from(from), new_outline = geometry_from(to);
     const py::gil_scoped_release released;
-    morph_ = std::make_unique<Morph>(*before_.comm, *before_.mesh, old_loops, new_loops, least_quality);
+    morph_ = std::make_unique<Morph>(*before_.comm, *before_.mesh, old_outline, new_outline, least_quality);
   }
 
   CoreMesh mesh() const { return {before_.comm, morph_->mesh(), nullptr, before_.layers, before_.of}; }
-  double worst_quality() const { return morph_->worst_quality(); }
-  bool smoothed() const { return morph_->smoothed(); }
+  double worst_quality() const { return morph_->report().worst_after; }
+  bool smoothed() const { return morph_->report().smoothed; }
   DoubleArray push_forward(const std::vector<DoubleArray>& of_points) const {
     std::vector<std::vector<Point>> lists;
     for (const DoubleArray& list : of_points) lists.push_back(points_from(list));
-    return array_of(morph_->push_forward(lists));
+    std::vector<Point> of_nodes;
+    {
+      const py::gil_scoped_release released;
+      of_nodes = morph_->push_forward(lists);
+    }
+    return array_of(of_nodes);
   }
   std::vector<DoubleArray> pull_back(const DoubleArray& of_nodes) const {
     const std::vector<Point> gradient = points_from(of_nodes);
@@ -385,7 +397,9 @@ void add_mesh(py::module_& module) {
       .def("quality", &quality_of_mesh)
       .def(
           "check", [](const CoreMesh& self) { return check(*self.comm, *self.mesh); }, Released())
-      .def("png", &png_of)
+      .def("picture", &picture_of)
+      .def("plot", &plot_mesh)
+      .def("extrude", &extrude_mesh)
       .def("gathered", &gathered)
       .def("write", &write_mesh);
 }
@@ -417,7 +431,7 @@ PYBIND11_MODULE(_core, module) {
           Released());
   add_adaptation(module);
   py::class_<CoreMorph>(module, "Morph")
-      .def(py::init<const CoreMesh&, const PythonLoops&, const PythonLoops&, double>())
+      .def(py::init<const CoreMesh&, const PythonLines&, const PythonLines&, double>())
       .def("mesh", &CoreMorph::mesh)
       .def_property_readonly("worst_quality", &CoreMorph::worst_quality)
       .def_property_readonly("smoothed", &CoreMorph::smoothed)

@@ -15,9 +15,10 @@
 #include "io/tree/tree_file.hpp"
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
 #include "quadloop/case/adaptive_input.hpp"
 #include "quadloop/case/case_input.hpp"
+#include "quadloop/require_input.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/smooth_mesh.hpp"
 
@@ -48,6 +49,8 @@ bool all_delaunay(const Communicator& comm, const Mesh& mesh) {
       is_delaunay(whole, smoother::blocks_for_flips(alone, whole, layer_places(alone, whole), {})));
 }
 
+}  // namespace
+
 void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field) {
   comm.together([&] {
     if (field.values.size() == field.width() * mesh.owned_nodes) return;
@@ -61,8 +64,6 @@ void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field
                                  field.cells.values.size(), comm.rank(), field.cells.width(), cells));
   });
 }
-
-}  // namespace
 
 Case::Case(const Communicator& comm, const CaseSource& source, const std::vector<std::string>& assignments) {
   auto parts = std::make_shared<CaseParts>(CaseParts{{}, {source, assignments, {}, {}}, {}});
@@ -223,7 +224,7 @@ std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   std::vector<std::string> faults;
   if (comm.is_root()) {
-    for (const MeshFault& fault : validate(whole)) faults.push_back(text_of(fault));
+    for (const MeshFault& fault : validate(whole, cell_blocks(whole))) faults.push_back(text_of(fault));
   }
   return broadcast_words(comm, faults);
 }
@@ -234,10 +235,12 @@ MeshFile read(const Communicator& comm, const std::string& path) {
   comm.together([&] {
     if (!comm.is_root()) return;
     loaded = io::read_mesh(path);
+    io::list_inner_curves(loaded);
     order = order_for_parts(loaded.mesh);
   });
   MeshFile file;
   file.mesh = scatter_mesh(comm, loaded.mesh, order);
+  file.mesh.blocks = scatter_blocks(comm, loaded.mesh.blocks, order);
   file.field = scatter_field(comm, loaded.solution.value_or(Field{}), file.mesh, order);
   file.warnings = broadcast_words(comm, loaded.warnings);
   return file;

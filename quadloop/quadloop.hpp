@@ -6,10 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "adapt/morph/morph_report.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
 #include "adapt/transfer/transfer.hpp"
 #include "flow/flow_solver.hpp"
 #include "io/input/case_source.hpp"
+#include "io/input/geometry_line.hpp"
+#include "io/model/extruded_mesh.hpp"
+#include "io/plot/plot_options.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/communicator.hpp"
@@ -25,7 +29,8 @@
 /// Life cycle: MPI must be initialised before the first Communicator is constructed and finalised after the
 /// last is destroyed. Every function here is *collective* over the communicator that it is given: all its
 /// ranks call it, in the same order, with the same case. Meshes and fields are distributed over the ranks;
-/// results are bitwise independent of the number of ranks. Only write() and write_solved() write files.
+/// results are bitwise independent of the number of ranks. Only write(), write_solved(), extrude(), plot()
+/// and an Adaptation with a folder write files.
 ///
 /// Shapes and units: a Mesh holds one rank's partition (mesh.hpp); a Field stores nodal values for owned
 /// nodes and, optionally, cell values, in the mesh's order, with the same names on all ranks. Lengths are in
@@ -51,9 +56,10 @@
 ///     now = remesh(comm, wing, sense(comm, wing, now), now).solved;
 namespace quadloop {
 
-using adapt::SolvedMesh, adapt::TransferReport;
+using adapt::MorphReport, adapt::SolvedMesh, adapt::TransferReport;
 using flow::FlowSolver, flow::SolvedFlow;
-using io::CaseSource;
+using io::CaseSource, io::ExtrusionAxis, io::GeometryLine;
+using io::PlotFormat, io::PlotOptions;
 
 struct CaseParts;
 namespace adapt {
@@ -187,43 +193,58 @@ class Adaptation {
   std::unique_ptr<Parts> parts_;
 };
 
-/// A boundary as a closed polygon, in either direction.
-struct MovingLoop {
-  std::string boundary;
-  std::vector<Point> points;
+/// A geometry to which a mesh is morphed, or on which it was made. Copies of the object share the data.
+class MorphGeometry {
+ public:
+  /// Lines through points. Open lines meet at their ends; without any line the geometry is not known.
+  explicit MorphGeometry(std::vector<GeometryLine> lines = {});
+  /// Reads a geometry file of any format. Throws InputError with the file and, for text formats, the line.
+  MorphGeometry(const Communicator& comm, const std::string& path);
+
+  std::vector<GeometryLine> lines() const;
+  const std::vector<std::string>& warnings() const;  ///< e.g. what was left out, or ends that were joined
+
+ private:
+  friend class Morph;
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
 };
 
-/// The cells of a mesh cannot follow a change of its outline.
+/// The cells of a mesh cannot follow a change of its geometry.
 class TooFar : public InputError {
  public:
   TooFar(const std::string& message, double possible_share) : InputError(message), share{possible_share} {}
-  double share;  ///< of the change, up to which no cell is inverted
+  double share;  ///< of the change, up to which no cell is inverted, or worse than required
 };
 
-/// A mesh moved from one outline to another with the same number of points: the cells stay, the nodes on the
-/// outline stay on their segments, and all others follow (docs/explanation/morphing.md).
+/// A mesh whose nodes have followed a change of its geometry; the cells are the same. The node positions are
+/// differentiable functions of the points of the new geometry. The derivatives are exact, in both directions.
 class Morph {
  public:
-  /// Moves a copy of the mesh. `from` has the loops of the mesh that move and `to` the same loops in the same
-  /// order, with as many points; other boundaries stay in place. `comm` must outlive the object. Throws
-  /// InputError for other loops, and if a node of the boundary is not on `from`; TooFar if cells would become
-  /// inverted, or if the quality of the worst cell would fall below `least_quality`, from 0 to 1.
-  Morph(const Communicator& comm, const Mesh& mesh, const std::vector<MovingLoop>& from,
-        const std::vector<MovingLoop>& to, double least_quality = 0);
+  /// Moves the nodes of the mesh. Boundaries that `to` lacks stay in place. If `from`, the geometry on which
+  /// the mesh was made, is known and has as many points, nodes stay on their segments; otherwise they keep
+  /// their relative arc length between corners. Meshes with inner lines or baffles, or with blocks that end
+  /// on a boundary, need a `from` with the same lines, in the same order and with as many points. `comm` must
+  /// outlive the object. Throws InputError for geometries that do not correspond, and if a node is not on
+  /// `from`; TooFar if cells would become inverted, or if the quality of the worst cell would fall below
+  /// `least_quality`, from 0 to 1.
+  Morph(const Communicator& comm, Mesh mesh, const MorphGeometry& from, const MorphGeometry& to,
+        double least_quality = 0);
   ~Morph();
   Morph(const Morph&) = delete;
   Morph& operator=(const Morph&) = delete;
 
   std::shared_ptr<const Mesh> mesh() const;
-  double worst_quality() const;  ///< of the cells outside layers: 1 for the best shape
-  /// Whether cells had to be smoothed. Then the nodes have no derivative.
-  bool smoothed() const;
+  const MorphReport& report() const;
 
-  /// Velocity of each owned node for given velocities of the points of `to`: one list for each loop, the same
-  /// on all ranks. Throws InputError for lists of other lengths, and if smoothed().
+  /// Velocity of each owned node for given velocities of the points of `to`: one list for each of its lines,
+  /// the same on all ranks. Points that coincide count once, where they occur first. The first call of
+  /// push_forward() or pull_back() prepares the derivatives, which takes as long as the morph and as much
+  /// memory as the mesh. Throws InputError for lists of other lengths, if cells had to be smoothed, without a
+  /// `from` with as many points, and for meshes that need the lines of `from`.
   std::vector<Point> push_forward(const std::vector<std::vector<Point>>& of_points) const;
   /// The transpose: from the gradient of a functional with respect to each owned node to that with respect to
-  /// the points of `to`, the same on all ranks and any number of them. *Collective.*
+  /// the points of `to`, the same on all ranks and any number of them. Throws as push_forward() does.
   std::vector<std::vector<Point>> pull_back(std::span<const Point> of_nodes) const;
 
  private:
@@ -235,8 +256,8 @@ class Morph {
 /// rank. Gathers the mesh on one rank.
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh);
 
-/// A mesh read from a file. Its blocks are merged. Numbers of nodes and cells are those of the file if
-/// neighbours are close in it, as in meshes of this library; otherwise they follow a space-filling curve.
+/// A mesh read from a file, with its blocks and inner lines. Numbers of nodes and cells are those of the file
+/// if neighbours are close in it, as in meshes of this library; otherwise they follow a space-filling curve.
 struct MeshFile {
   Mesh mesh;
   Field field;  ///< no variables if the file has none
@@ -256,6 +277,25 @@ MeshFile read(const Communicator& comm, const std::string& path);
 /// support, or a field without a row for each owned node; OutputError if the file cannot be written.
 std::vector<std::string> write(const Communicator& comm, const Mesh& mesh, const std::string& path,
                                const Field& field = {});
+
+/// Writes the 3D mesh of prisms and hexahedra between levels at these heights, two or more, ascending, with
+/// the solution on each level. The suffix selects the format: .cgns, .vtu, .su2, .msh, .b8.ugrid, .fluent.msh
+/// or polyMesh (a folder). The 3D mesh is never stored. Returns warnings as write() does; throws as write()
+/// does, and InputError for other heights.
+std::vector<std::string> extrude(const Communicator& comm, Mesh mesh, const std::vector<double>& heights,
+                                 const std::string& path, const Field& solution = {},
+                                 ExtrusionAxis axis = ExtrusionAxis::z);
+
+/// Returns a picture of a mesh, or of the variable options.field of the solution, as the bytes of a file: on
+/// the root rank, where the mesh is gathered; none on other ranks. "mach" and "pressure_coefficient" are
+/// computed from a flow that lacks them. Throws InputError for a variable that does not exist, or a window
+/// without cells.
+std::string picture(const Communicator& comm, Mesh mesh, Field solution = {}, const PlotOptions& options = {},
+                    PlotFormat format = PlotFormat::png);
+
+/// Writes such a picture; the suffix selects the format: .png, .svg or .pdf. Throws OutputError, too.
+void plot(const Communicator& comm, Mesh mesh, const std::string& path, Field solution = {},
+          const PlotOptions& options = {});
 
 /// Writes a mesh returned by make_mesh() or remesh(), its tree and its solution to `stem`.mesh and
 /// `stem`.tree.h5, both or neither. Throws as write() does.

@@ -115,17 +115,25 @@ BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh, bool by_p
   return Loops(all_edges(comm, mesh, by_pieces, names)).outline(boundaries);
 }
 
-bool has_closed_boundaries(const Mesh& whole) {
-  IdVector<NodeId, std::int32_t> leaving_less_arriving(whole.points.size(), 0);
-  for (const BoundaryEdges& boundary : whole.boundaries) {
-    if (boundary.inner_line) continue;
-    for (const auto& [from, to] : boundary.edges) {
-      ++leaving_less_arriving[from];
-      --leaving_less_arriving[to];
-    }
+bool has_closed_boundaries(const Communicator& comm, const Mesh& mesh) {
+  bool has_lines = false;
+  for (const BoundaryEdges& boundary : mesh.boundaries)
+    has_lines = has_lines || (boundary.inner_line && !boundary.edges.empty());
+  if (comm.any(has_lines)) return false;
+  std::vector<GlobalNodeId> left, reached;
+  std::vector<std::pair<Point, GlobalNodeId>> places;
+  for (const OutlineEdge& edge : all_edges(comm, mesh, false, {})) {
+    left.push_back(edge.from);
+    reached.push_back(edge.to);
+    places.emplace_back(edge.place, edge.from);
   }
-  return std::ranges::all_of(leaving_less_arriving.ids(),
-                             [&](NodeId node) { return leaving_less_arriving[node] == 0; });
+  std::ranges::sort(left);
+  std::ranges::sort(reached);
+  std::ranges::sort(places);
+  const auto is_twice = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second != b.second;
+  };
+  return left == reached && std::ranges::adjacent_find(places, is_twice) == places.end();
 }
 
 }  // namespace quadloop::adapt

@@ -24,7 +24,8 @@ struct BoundaryOutline {
 BoundaryOutline outline_of(const Communicator& comm, const Mesh& mesh, bool by_pieces = false,
                            const std::set<std::string>& names = {});
 
-/// Whether the boundaries of a mesh are closed loops, with each edge between two blocks walked once.
-bool has_closed_boundaries(const Mesh& whole);
+/// Whether the boundaries of a mesh are closed loops, with each edge between two blocks walked once, and it
+/// has neither inner lines nor two boundary nodes at one place, as on the sides of a baffle. *Collective.*
+bool has_closed_boundaries(const Communicator& comm, const Mesh& mesh);
 
 }  // namespace quadloop::adapt

@@ -59,6 +59,7 @@ class Morph {
   }
 
   bool moves() const { return motion_.reach() > 0; }
+  const HaloMesh& before() const { return halo_; }
   NodeFlags boundary_nodes() const {
     NodeFlags flags(halo_.owned_nodes(), 0);
     for (const NodeId node : flags.ids()) flags[node] = motion_.is_boundary(node) ? 1 : 0;
@@ -138,12 +139,39 @@ class Morph {
   const HaloMesh& halo_;  ///< with the original node positions
 };
 
-/// Smooths the cells outside layers whose quality has decreased too much, and those near them; boundary and
-/// layers do not move. *Collective.*
-void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, const NodeFlags& inner) {
+/// Flags the owned nodes that are shared by cells of two blocks. *Collective.*
+void flag_between_blocks(const Communicator& comm, const Mesh& mesh, const HaloMesh& halo, NodeFlags& flags) {
+  std::vector<std::int32_t> of_cells = mesh.blocks.of_triangles;
+  of_cells.insert(of_cells.end(), mesh.blocks.of_quads.begin(), mesh.blocks.of_quads.end());
+  const std::vector<std::int32_t> blocks = halo.spread(comm, of_cells);
+  IdVector<NodeId, std::int32_t> block_of(halo.points().size(), -1);
+  auto block = blocks.begin();
+  halo.for_each_cell([&](const auto& nodes) {
+    for (const NodeId node : nodes) {
+      if (halo.owns(node) && block_of[node] >= 0 && block_of[node] != *block) flags[node] = 1;
+      block_of[node] = *block;
+    }
+    ++block;
+  });
+}
+
+/// Flags the owned nodes of inner lines. *Collective.*
+void flag_inner_lines(const Communicator& comm, const Mesh& mesh, NodeFlags& flags) {
+  std::vector<GlobalNodeId> nodes;
+  for (const BoundaryEdges& line : mesh.boundaries) {
+    if (!line.inner_line) continue;
+    for (const auto& [a, b] : line.edges) nodes.insert(nodes.end(), {mesh.global(a), mesh.global(b)});
+  }
+  flag_at_owners(comm, NodeOwners(comm, mesh.first_node), nodes, flags);
+}
+
+/// Smooths the cells outside layers whose quality has decreased too much, and those near them; boundary,
+/// nodes between blocks, inner lines and layers do not move. *Collective.*
+void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph) {
   smoother::SmoothOptions options;
   options.pinned = morph.boundary_nodes();
-  for (const NodeId node : inner.ids()) options.pinned[node] |= inner[node];
+  if (!mesh.blocks.names.empty()) flag_between_blocks(comm, mesh, morph.before(), options.pinned);
+  flag_inner_lines(comm, mesh, options.pinned);
   const NodeFlags near = morph.nodes_near_suffering(mesh);
   for (const NodeId node : near.ids()) {
     if (near[node] == 0) options.pinned[node] = 1;
@@ -153,22 +181,35 @@ void smooth_inside(const Communicator& comm, Mesh& mesh, const Morph& morph, con
   smoother::smooth_mesh(comm, mesh, options);
 }
 
-/// Returns the largest fraction of the motion, to 1 in 2^bisections, after which no cell is inverted; leaves
-/// the mesh there. *Collective.*
-double possible_way(const Morph& morph, Mesh& mesh) {
+/// Returns the largest fraction of the motion, to 1 in 2^bisections, after which no cell is inverted, or
+/// worse than `least_quality`; leaves the mesh there. *Collective.*
+double possible_way(const Morph& morph, Mesh& mesh, double least_quality) {
   double possible = 0, impossible = 1;
   for (int k = 0; k < bisections; ++k) {
     const double middle = (possible + impossible) / 2;
     morph.move(middle, mesh);
-    (morph.worst_quality(mesh) > 0 ? possible : impossible) = middle;
+    const double worst = morph.worst_quality(mesh);
+    (worst > 0 && worst >= least_quality ? possible : impossible) = middle;
   }
   return possible;
 }
 
 }  // namespace
 
+std::string text_of_inversion(const MorphReport& report) {
+  return fmt::format("cells near ({:g}, {:g}) become inverted after {:.0f} % of the movement",
+                     report.worst_place.x, report.worst_place.y, 100 * report.possible_way);
+}
+
+std::string text_of_smoothing(const std::string& geometry) {
+  return fmt::format(
+      "the mesh had to be smoothed on {}, so the node positions have no derivative; start from a mesh closer "
+      "to that geometry",
+      geometry);
+}
+
 MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange& change,
-                       const NodeFlags& inner) {
+                       double least_quality) {
   MorphReport report;
   const Morph morph(comm, mesh, change);
   for (const PeriodicPair& pair : mesh.pairs) morph.require_alike(mesh, pair);
@@ -178,13 +219,13 @@ MorphReport morph_mesh(const Communicator& comm, Mesh& mesh, const OutlineChange
   report.worst_after = morph.worst_quality(mesh);
   if (report.worst_after < quality_kept * report.worst_before) {
     report.smoothed = true;
-    smooth_inside(comm, mesh, morph, inner);
+    smooth_inside(comm, mesh, morph);
     report.worst_after = morph.worst_quality(mesh);
   }
-  if (!report.valid()) {
-    report.worst_place = morph.worst_place(mesh);
+  if (!report.valid()) report.worst_place = morph.worst_place(mesh);
+  if (!report.valid() || report.worst_after < least_quality) {
     Mesh tried = mesh;
-    report.possible_way = possible_way(morph, tried);
+    report.possible_way = possible_way(morph, tried, least_quality);
   }
   std::int64_t moved = 0;
   double largest = 0;

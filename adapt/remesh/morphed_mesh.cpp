@@ -26,7 +26,7 @@ std::string first_fault(const Communicator& comm, const Mesh& mesh) {
   const Mesh whole = gather_whole(comm, mesh);
   std::vector<char> said;
   if (comm.is_root()) {
-    const std::vector<MeshFault> faults = validate(whole);
+    const std::vector<MeshFault> faults = validate(whole, cell_blocks(whole));
     if (!faults.empty()) said.assign(faults.front().what.begin(), faults.front().what.end());
   }
   comm.broadcast(said);
@@ -89,10 +89,7 @@ MorphedMesh morph_solved(const Communicator& comm, const MeshInput& input, const
   } catch (const InputError& error) {
     return {{}, error.what()};
   }
-  if (!report.valid())
-    return {{},
-            fmt::format("cells near ({:g}, {:g}) become inverted after {:.0f} % of the movement",
-                        report.worst_place.x, report.worst_place.y, 100 * report.possible_way)};
+  if (!report.valid()) return {{}, text_of_inversion(report)};
   if (report.worst_after < wish.least_quality)
     return {{}, fmt::format("the worst cell's quality fell to {:.3f}", report.worst_after)};
   if (const std::string fault = first_fault(comm, mesh); !fault.empty()) return {{}, fault};

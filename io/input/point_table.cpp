@@ -8,11 +8,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
-#include <utility>
 
 #include "io/files/reading/input_file.hpp"
-#include "io/input/geometry_file.hpp"
 #include "io/text/text_scanner.hpp"
 #include "mesher/base/error.hpp"
 
@@ -20,13 +19,28 @@ namespace quadloop::io {
 
 namespace {
 
-using Coordinates = std::pair<double, double>;
+/// A point of the geometry, where it occurs first, and the boundaries on which it occurs.
+struct TablePoint {
+  std::size_t line, number;
+  std::set<std::string> boundaries;
+};
+using PointsByPlace = std::map<Point, TablePoint>;
 
-std::map<Coordinates, std::int32_t> vertices_by_place(const Geometry& outline) {
-  std::map<Coordinates, std::int32_t> vertices;
-  for (std::int32_t v = 0; v < outline.size(); ++v)
-    vertices.emplace(Coordinates(outline.point(v).x, outline.point(v).y), v);
-  return vertices;
+PointsByPlace points_by_place(std::span<const GeometryLine> lines) {
+  PointsByPlace points;
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    for (std::size_t k = 0; k < lines[line].points.size(); ++k)
+      points.try_emplace(lines[line].points[k], TablePoint{line, k, {}})
+          .first->second.boundaries.insert(lines[line].boundary);
+  }
+  return points;
+}
+
+/// A zero for each point.
+PointVectors zeros(std::span<const GeometryLine> lines) {
+  PointVectors values;
+  for (const GeometryLine& line : lines) values.emplace_back(line.points.size());
+  return values;
 }
 
 /// Returns the fields of a row, without surrounding blanks and quotes.
@@ -83,21 +97,18 @@ PointRow row_of(const std::string& line, const Columns& columns, const std::stri
                    "order of the first line");
 }
 
-/// Returns the vertex of a row. Throws InputError if the geometry has none, or on other boundaries.
-std::int32_t vertex_of(const PointRow& row, const std::map<Coordinates, std::int32_t>& vertices,
-                       const Geometry& outline, const std::string& place) {
-  const auto vertex = vertices.find({row.place.x, row.place.y});
-  if (vertex == vertices.end())
+/// Returns the point of a row. Throws InputError if the geometry has none, or on other boundaries.
+const TablePoint& point_of(const PointRow& row, const PointsByPlace& points, const std::string& place) {
+  const auto point = points.find(row.place);
+  if (point == points.end())
     throw InputError(fmt::format(
         "{}: the geometry has no point ({}, {}); give its points with all their digits, as in its file",
         place, row.place.x, row.place.y));
-  const std::int32_t v = vertex->second;
-  const std::string& after = outline.boundary(outline.boundary_of(v)).name;
-  const std::string& before = outline.boundary(outline.boundary_of(outline.previous(v))).name;
-  if (row.boundary != after && row.boundary != before)
+  const std::set<std::string>& boundaries = point->second.boundaries;
+  if (!boundaries.contains(row.boundary))
     throw InputError(fmt::format("{}: ({}, {}) is a point of boundary '{}', not of '{}'; name its boundary",
-                                 place, row.place.x, row.place.y, after, row.boundary));
-  return v;
+                                 place, row.place.x, row.place.y, *boundaries.begin(), row.boundary));
+  return point->second;
 }
 
 bool is_no_line(const std::string& line) {
@@ -106,32 +117,29 @@ bool is_no_line(const std::string& line) {
 
 }  // namespace
 
-std::string point_table(const Geometry& outline, const std::string& path, std::span<const Point> values,
+std::string point_table(std::span<const GeometryLine> lines, const PointVectors& values,
                         const std::string& names) {
-  std::map<Coordinates, std::int32_t> left = vertices_by_place(outline);
+  const PointsByPlace points = points_by_place(lines);
   std::string text = "boundary,x,y," + names + "\n";
-  std::vector<std::string> reported_already;
-  for (const Chain& chain : read_geometry(path, reported_already)) {
-    for (const Point& p : chain.points) {
-      const auto found = left.find({p.x, p.y});
-      if (found == left.end()) continue;
-      const Point& value = values[found->second];
-      text += fmt::format("{},{},{},{},{}\n", chain.name, p.x, p.y, value.x, value.y);
-      left.erase(found);
+  for (std::size_t line = 0; line < lines.size(); ++line) {
+    for (std::size_t k = 0; k < lines[line].points.size(); ++k) {
+      const Point &p = lines[line].points[k], &value = values[line][k];
+      const TablePoint& first = points.at(p);
+      if (first.line != line || first.number != k) continue;
+      text += fmt::format("{},{},{},{},{}\n", lines[line].boundary, p.x, p.y, value.x, value.y);
     }
   }
   return text;
 }
 
-std::vector<Point> read_point_table(const std::string& path, const Geometry& outline,
-                                    const ComponentNames& components) {
-  const std::map<Coordinates, std::int32_t> vertices = vertices_by_place(outline);
-  std::vector<Point> values(outline.size());
-  std::vector<char> told(outline.size(), 0);
+PointVectors read_point_table(const std::string& path, std::span<const GeometryLine> of_geometry,
+                              const ComponentNames& components) {
+  const PointsByPlace points = points_by_place(of_geometry);
+  PointVectors values = zeros(of_geometry);
+  std::set<const TablePoint*> told;
   std::istringstream lines(read_input(path));
   std::string line;
   std::optional<Columns> columns;
-  bool has_rows = false;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (is_no_line(line)) continue;
     const std::string place = fmt::format("{}:{}", path, number);
@@ -140,15 +148,13 @@ std::vector<Point> read_point_table(const std::string& path, const Geometry& out
       continue;
     }
     const PointRow row = row_of(line, *columns, place);
-    const std::int32_t vertex = vertex_of(row, vertices, outline, place);
-    if (told[vertex] != 0)
+    const TablePoint& point = point_of(row, points, place);
+    if (!told.insert(&point).second)
       throw InputError(fmt::format("{}: ({}, {}) has a row already; give each point once", place, row.place.x,
                                    row.place.y));
-    told[vertex] = 1;
-    values[vertex] = row.value;
-    has_rows = true;
+    values[point.line][point.number] = row.value;
   }
-  if (!has_rows)
+  if (told.empty())
     throw InputError(path + ": has no row of a point; give boundary,x,y," + components[0] + "," +
                      components[1] + " of each point that moves, below a line with these names");
   return values;

@@ -1,9 +1,8 @@
 #include "io/parts/part_output.hpp"
 
 #include <optional>
-#include <span>
 
-#include "mesher/mesh/scatter_mesh.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
 #include "mesher/partition/partition.hpp"
 
 namespace quadloop::io {
@@ -33,9 +32,8 @@ PartStatistics write_parts_of_root(PartFiles& files, const Communicator& comm, c
   std::optional<Field> field;
   if (comm.any(whole.solution.has_value()))
     field = scatter_field(comm, whole.solution.value_or(Field{}), mesh, order);
-  const std::span<const std::int32_t> triangles(whole.triangle_to_block), quads(whole.quad_to_block);
-  mesh.blocks = {broadcast_words(comm, whole.block_names), scatter_ordered(comm, triangles, order.triangles),
-                 scatter_ordered(comm, quads, order.quads)};
+  mesh.blocks =
+      scatter_blocks(comm, {whole.block_names, whole.triangle_to_block, whole.quad_to_block}, order);
   return write_parts(files, comm, mesh, field ? &*field : nullptr, request);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/plot/canvas/colour_map.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/nearest_word.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -125,11 +126,19 @@ std::vector<double> means_of_corners(const Mesh& mesh, const std::vector<double>
   return means;
 }
 
+/// Throws InputError for an unknown name.
+ColourMap colour_map_of(const PlotOptions& options) {
+  const ColourMap map = colour_map_named(options.map);
+  if (map != nullptr) return map;
+  throw InputError(
+      fmt::format("'{}' is no colour map; these are {}", options.map, fmt::join(colour_map_names(), ", ")));
+}
+
 CellPaint paint_field(const LoadedMesh& loaded, const std::vector<std::size_t>& cells,
                       const PlotOptions& options) {
   const FieldValues field = field_values(loaded, options.field);
   ColourBar bar{options.field, std::numeric_limits<double>::infinity(),
-                -std::numeric_limits<double>::infinity(), options.map};
+                -std::numeric_limits<double>::infinity(), colour_map_of(options)};
   const auto include = [&](double value) {
     if (!std::isfinite(value)) return;
     bar.low = std::min(bar.low, value);

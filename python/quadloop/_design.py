@@ -29,7 +29,7 @@ class Morphed:
     def push_forward(self, velocities: Mapping) -> np.ndarray:
         """Velocities of the owned nodes, shape (owned, 2), for velocities of the points of outlines: boundary -> shape (n, 2); 0 for those not given.
 
-        The derivative of the node positions is exact. Raises InputError if the mesh was smoothed.
+        The derivative of the node positions is exact. Raises InputError if the mesh was smoothed. On several ranks: collective.
         """
         unknown = set(velocities) - set(self.outlines)
         if unknown:
@@ -41,6 +41,12 @@ class Morphed:
         """The transpose: from dJ/dX at the owned nodes, shape (owned, 2), to boundary -> dJ/d(points), shape (n, 2). On several ranks: collective."""
         rows = self.mesh._together(lambda: numbers_of(gradient, (self.mesh.owned, 2), "gradient at the owned nodes"))
         return dict(zip(self.outlines, self._core.pull_back(rows)))
+
+
+def _area(points) -> float:
+    """Twice the area of a polygon, positive if it is counter-clockwise."""
+    x, y = (points - points[0]).T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
 class Run:
@@ -72,9 +78,11 @@ class Run:
             points = given.points if isinstance(given, Outline) else polygon(given).points
             if len(points) != len(self.outlines[name]):
                 raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
-            new.append((name, points))
-        old = [(name, self.outlines[name]) for name in outlines]
-        return Morphed(_core.Morph(self.mesh._core, old, new, min_quality), dict(new))
+            if _area(points) * _area(self.outlines[name]) < 0:
+                raise InputError(f"outline '{name}': its points run in the other direction than the old ones; reverse them")
+            new.append((name, points, False))
+        old = [(name, self.outlines[name], False) for name in outlines]
+        return Morphed(_core.Morph(self.mesh._core, old, new, min_quality), {name: points for name, points, _ in new})
 
     def verify(self, outlines: Mapping, step: float = 1e-6, seed: int = 0) -> tuple:
         """Compares the derivatives at new outlines with central differences, and the transpose with the derivative.

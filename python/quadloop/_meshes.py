@@ -117,18 +117,41 @@ class Mesh:
             raise
         return result
 
-    def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
-        """A picture of the mesh, or of a nodal field of the solution, `size` pixels wide or high. Empty on all ranks but the first."""
+    def extrude(self, path, heights, solution: Mapping | None = None, axis: str = "z"):
+        """Writes the 3D mesh of prisms and hexahedra between levels at these heights; the suffix selects the format. On several ranks: collective.
+
+        heights   coordinates of the levels along the axis, two or more, ascending: [0, 1] for a mesh that is one cell thick
+        solution  as for write(); the same on each level
+        axis      "z", or "y": the y of the plane mesh becomes z
+
+        Formats: .cgns, .vtu, .su2, .msh, .b8.ugrid, .fluent.msh, polyMesh (a folder). With N levels, node n of the mesh is the nodes n N to n N + N - 1.
+        """
+        if axis not in ("y", "z"):
+            raise InputError(f"axis is 'y' or 'z', not {axis!r}")
+        rows = self._together(lambda: rows_of(self, solution))
+        warn(self._core.extrude(numbers_of(heights, (-1,), "heights").tolist(), os.fspath(path), rows, axis == "y"), self._core.rank)
+
+    def picture(self, format: str = "png", field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
+        """The file of a picture of the mesh, or of a variable of the solution, `size` pixels wide or high. Empty on all ranks but the first.
+
+        format    "png", "svg" or "pdf"
+        solution  as for write(); "mach" is computed from a flow that lacks it
+        """
+        if format not in ("png", "svg", "pdf"):
+            raise InputError(f"format is 'png', 'svg' or 'pdf', not {format!r}")
         if not 50 <= size <= 20000:
             raise InputError(f"size is a number of pixels from 50 to 20000, not {size}")
-        if not field:
-            return self._core.png("", (), size)
-        if field not in (solution or {}):
-            raise InputError(f"the solution has no variable '{field}'")
-        rows = self._together(lambda: rows_of(self, {field: (solution or {})[field]}))
-        if rows[2]:
-            raise InputError(f"variable '{field}' is given in cells; a picture needs values at the nodes")
-        return self._core.png(field, rows, size)
+        return self._core.picture(format, field, self._together(lambda: rows_of(self, solution if field else None)), size)
+
+    def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
+        """picture() as PNG."""
+        return self.picture("png", field, solution, size)
+
+    def plot(self, path, field: str = "", solution: Mapping | None = None, size: float = 800):
+        """Writes picture() to a file: .png, .svg or .pdf. On several ranks: collective."""
+        path = os.fspath(path)
+        rows = self._together(lambda: rows_of(self, solution if field else None))
+        self._core.plot(path, field, rows, size)
 
     def _repr_png_(self):
         return self.png() if self._core.ranks == 1 else None

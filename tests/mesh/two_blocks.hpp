@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesher/mesh/mesh.hpp"
+#include "mesher/mesh/scatter_blocks.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 
 namespace quadloop::test {
@@ -29,11 +29,7 @@ inline Mesh two_blocks(const Grid& grid) {
 /// Distributes the mesh in the given order, with the block of each cell. *Collective.*
 inline Mesh part_with_blocks(const Communicator& comm, const Mesh& whole, const MeshOrder& order) {
   Mesh part = scatter_mesh(comm, whole, order);
-  const auto spread = [&](const std::vector<std::int32_t>& blocks, const std::vector<std::int32_t>& cells) {
-    return scatter_ordered(comm, std::span<const std::int32_t>(blocks), cells);
-  };
-  part.blocks = {whole.blocks.names, spread(whole.blocks.of_triangles, order.triangles),
-                 spread(whole.blocks.of_quads, order.quads)};
+  part.blocks = scatter_blocks(comm, whole.blocks, order);
   return part;
 }
 

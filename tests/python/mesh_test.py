@@ -103,6 +103,49 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(ql.InputError, "whole numbers"):
             ql.from_arrays([[0, 0], [1, 0], [0, 1]], [[0.0, 1.0, 2.0]])
 
+    def test_a_mesh_is_extruded_as_by_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            height = {"height": self.mesh.points[:, 1]}
+            self.mesh.write(f"{folder}/a.mesh", height)
+            for axis in ("z", "y"):
+                subprocess.run([PROGRAM, "extrude", "a.mesh", "-o", "command.vtu", "--layers", "2", "--thickness", "1", "--axis", axis, "-q"], cwd=folder, check=True)
+                self.mesh.extrude(f"{folder}/module.vtu", [0, 0.5, 1], height, axis=axis)
+                self.assertEqual(Path(folder, "module.vtu").read_bytes(), Path(folder, "command.vtu").read_bytes())
+            with self.assertRaisesRegex(ql.InputError, "does not lie above"):
+                self.mesh.extrude(f"{folder}/module.vtu", [1, 0])
+            with self.assertRaisesRegex(ql.InputError, "axis is"):
+                self.mesh.extrude(f"{folder}/module.vtu", [0, 1], axis="x")
+
+    def test_blocks_of_a_file_are_kept_as_by_convert(self):
+        sides = {"left": [[0.5, 1], [0, 1], [0, 0], [0.5, 0]], "right": [[0.5, 0], [1, 0], [1, 1], [0.5, 1]], "between": [[0.5, 0], [0.5, 1]]}
+        blocks = [{"name": "west", "boundaries": ["left", "between"]}, {"name": "east", "boundaries": ["right", "between"]}]
+        made = ql.mesh(ql.Case(outlines={name: ql.curve(points) for name, points in sides.items()}, spacing={"max": 0.1}, block=blocks))
+        self.assertEqual(made.check(), [])
+        with tempfile.TemporaryDirectory() as folder:
+            made.write(f"{folder}/a.vtu")
+            mesh, _ = ql.read(f"{folder}/a.vtu")
+            self.assertEqual(mesh.blocks["names"], ["west", "east"])
+            self.assertEqual(len(mesh.blocks["quads"]), len(mesh.quads))
+            self.assertEqual(mesh.check(), [])
+            mesh.write(f"{folder}/module.msh")
+            subprocess.run([PROGRAM, "convert", "a.vtu", "command.msh", "-q"], cwd=folder, check=True)
+            self.assertEqual(Path(folder, "module.msh").read_bytes(), Path(folder, "command.msh").read_bytes())
+
+    def test_pictures_of_the_kinds_of_files(self):
+        height = {"height": self.mesh.points[:, 1]}
+        for kind, head in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
+            shown = self.mesh.picture(kind, "height", height)
+            self.assertTrue(shown.startswith(head), kind)
+            with tempfile.TemporaryDirectory() as folder:
+                self.mesh.plot(f"{folder}/a.{kind}", "height", height)
+                self.assertTrue(Path(folder, f"a.{kind}").read_bytes().startswith(head))
+        with self.assertRaisesRegex(ql.InputError, "format is"):
+            self.mesh.picture("gif")
+        with self.assertRaisesRegex(ql.InputError, "depth"):
+            self.mesh.png("depth", height)
+        flow = {"density": 1 + 0 * height["height"], "x_velocity": height["height"], "y_velocity": 0 * height["height"], "pressure": 1 + 0 * height["height"]}
+        self.assertTrue(self.mesh.png("mach", flow).startswith(b"\x89PNG"))
+
     def test_a_notebook_shows_picture_and_table(self):
         self.assertTrue(self.mesh._repr_png_().startswith(b"\x89PNG"))
         self.assertIn("edges of hole", self.mesh._repr_html_())

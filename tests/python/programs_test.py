@@ -49,7 +49,7 @@ def use_component(text):
     oval = component.inputs["outline"].copy()
     component.inputs["outline"] += 0.02 * np.sin(3 * oval[:, ::-1])
     component.compute(component.inputs, component.outputs)
-    way, weights = np.cos(oval), np.sin(component.outputs["nodes"])
+    way, weights = np.cos(oval), np.sin(1 + component.outputs["nodes"])  # terms that do not cancel
     ahead, back = {"nodes": np.zeros_like(weights)}, {"outline": np.zeros_like(oval)}
     component.compute_jacvec_product(component.inputs, {"outline": way}, ahead, "fwd")
     component.compute_jacvec_product(component.inputs, back, {"nodes": weights}, "rev")

@@ -133,38 +133,6 @@ TEST_F(Door, TheLoopHasTheMeshesOfItsSteps) {
                InputError);
 }
 
-TEST_F(Door, AMeshFollowsItsOutline) {
-  const Case square(world(), CaseSource("square", square_text));
-  const Mesh mesh = make_mesh(world(), square).solved.mesh;
-  const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, moved{{0, 0}, {1.2, 0.1}, {1, 1}, {0, 1}};
-  const Morph morph(world(), mesh, {{"side", corners}}, {{"side", moved}});
-  EXPECT_FALSE(morph.smoothed());
-  EXPECT_TRUE(check(world(), *morph.mesh()).empty());
-  const std::vector<Point> velocity = morph.push_forward({{{}, {1, 0}, {}, {}}});
-  ASSERT_EQ(velocity.size(), static_cast<std::size_t>(mesh.owned_nodes));
-  std::vector<double> products;
-  std::vector<Point> gradient;
-  for (std::int32_t i = 0; i < mesh.owned_nodes; ++i) {
-    gradient.push_back({morph.mesh()->points[i].y, 1});
-    products.push_back(dot(gradient.back(), velocity[i]));
-  }
-  const std::vector<std::vector<Point>> back = morph.pull_back(gradient);
-  EXPECT_NEAR(back.at(0).at(1).x, reproducible_sum(world(), products), 1e-9);
-  EXPECT_GT(back.at(0).at(1).x, 1);
-  EXPECT_THROW(Morph(world(), mesh, {{"side", corners}}, {{"side", {{0, 0}, {0, 1}, {1, 1}, {1, 0}}}}),
-               InputError);
-  const double quality = morph.worst_quality();
-  EXPECT_LT(quality, 0.95);
-  try {
-    const Morph too_bad(world(), mesh, {{"side", corners}}, {{"side", moved}}, 0.5 * (quality + 1));
-    ADD_FAILURE() << "accepted";
-  } catch (const TooFar& error) {
-    EXPECT_GT(error.share, 0.2);
-    EXPECT_LT(error.share, 0.9) << "of the change";
-  }
-  EXPECT_THROW(Morph(world(), mesh, {{"hole", corners}}, {{"hole", moved}}), InputError);
-}
-
 TEST_F(Door, WritesAndReadsTheSameMeshAndField) {
   const Case square(world(), case_path());
   const Mesh mesh = make_mesh(world(), square).solved.mesh;

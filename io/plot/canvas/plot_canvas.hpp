@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "io/plot/canvas/plot_format.hpp"
 #include "mesher/geometry/point.hpp"
 
 namespace quadloop::io {
-
-enum class PlotFormat { png, svg, pdf };
 
 /// Red, green and blue, each from 0 to 1.
 struct Colour {

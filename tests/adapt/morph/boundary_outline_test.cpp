@@ -78,5 +78,25 @@ TEST(BoundaryOutline, TwoBodiesThatTouchAreTwoLoops) {
   }
 }
 
+TEST(BoundaryOutline, KnowsClosedBoundaries) {
+  const auto is_closed = [](const Mesh& whole) {
+    const Mesh mesh = scatter_mesh(test::world(), whole, test::shuffled_order(whole, 3));
+    return has_closed_boundaries(test::world(), mesh);
+  };
+  const Mesh grid = test::Grid{4}.mesh();
+  EXPECT_TRUE(is_closed(grid));
+  EXPECT_TRUE(is_closed(with_two_holes(4))) << "two bodies that touch";
+  Mesh with_line = grid;
+  with_line.boundaries.push_back(
+      {"line", BoundaryCondition::none, {{NodeId{6}, NodeId{7}}}, {}, false, true});
+  EXPECT_FALSE(is_closed(with_line));
+  Mesh open = grid;
+  open.boundaries.front().edges.pop_back();
+  EXPECT_FALSE(is_closed(open));
+  Mesh with_crack = grid;
+  with_crack.points[1] = with_crack.points[3];
+  EXPECT_FALSE(is_closed(with_crack)) << "two nodes at one place";
+}
+
 }  // namespace
 }  // namespace quadloop::adapt

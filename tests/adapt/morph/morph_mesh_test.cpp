@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 
+#include "adapt/morph/mesh_motion.hpp"
 #include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/mesh/grid_mesh.hpp"
 #include "tests/mesh/layered_strip.hpp"
+#include "tests/mesh/two_blocks.hpp"
 #include "tests/support/world.hpp"
 
 namespace quadloop::adapt {
@@ -101,6 +103,43 @@ TEST(MorphMesh, NodesAreASmoothFunctionOfTheOutline) {
     EXPECT_LT(std::abs(ahead[i].y - 2 * at[i].y + back[i].y), 1e-8);
     EXPECT_NEAR((far[i].y - at[i].y) / (10 * h), slope, 3e-3);
   }
+}
+
+TEST(MorphMesh, SmoothsNeitherNodesBetweenBlocksNorThoseOfInnerLines) {
+  const test::Grid grid{12};
+  Mesh whole = test::two_blocks(grid);
+  whole.boundaries.pop_back();  // the edges between the blocks have no name
+  BoundaryEdges line{"line", BoundaryCondition::none, {}, {}, false, true};
+  for (std::int32_t node = 2 * 13 + 2; node < 2 * 13 + 5; ++node)
+    line.edges.push_back({NodeId{node}, NodeId{node + 1}});
+  whole.boundaries.push_back(line);
+  const double height = grid.place(2 * 13 + 2).y;
+  const auto is_pinned = [&](Point p) {
+    return p.x == 0.5 || (p.y == height && p.x > 1.5 / 12 && p.x < 5.5 / 12);
+  };
+  Mesh mesh = test::part_with_blocks(world(), whole, test::shuffled_order(whole, 5));
+  const std::vector<Point> before = mesh.points;
+  const Geometry old = outline_moved(mesh, [](Point p) { return p; });
+  const Geometry to = outline_moved(mesh, [](Point p) {
+    return p.y == 0 ? Point{p.x, 0.5 * std::sin(3.14159265 * p.x) * (1 - p.x)} : p;
+  });
+  const OutlineChange change{to, "to.geom", &old};
+  const MeshMotion motion(world(), mesh, change);
+  const InverseDistance field = motion.field(
+      motion.reach(), [&](std::int32_t foot) { return linear_motion(motion.boundary()[foot].motion); });
+  const MorphReport report = morph_mesh(world(), mesh, change);
+  ASSERT_TRUE(report.smoothed && report.valid());
+  bool moved = false;
+  for (const NodeId node : ids_below(NodeId{mesh.owned_nodes})) {
+    if (motion.foot(node) >= 0) continue;
+    const Point from = before[node.value()];
+    const double away = length(mesh.point(node) - from - field.displacement(from));
+    moved = moved || away > 1e-6;
+    if (is_pinned(from)) {
+      EXPECT_LT(away, 1e-14) << from.x << ' ' << from.y;
+    }
+  }
+  EXPECT_TRUE(world().any(moved)) << "by smoothing";
 }
 
 /// A quad in a corner of the outline has two sides there, which must not be turned in.

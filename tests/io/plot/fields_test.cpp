@@ -194,7 +194,7 @@ TEST(MeshPlot, ShowsWhatIsAskedFor) {
   draw();
   options.range = {0.0, 20.0};
   draw();
-  options.map = colour_map_named("grey");
+  options.map = "grey";
   draw();
   options.streamlines = 5;
   draw();

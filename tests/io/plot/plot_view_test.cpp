@@ -170,11 +170,11 @@ TEST(CellPaint, ARangeIsTakenAsItIsAskedFor) {
   EXPECT_EQ(smooth.bar->low, 0) << "the least of the nodes' values, not of the cells'";
   EXPECT_EQ(smooth.bar->high, loaded.mesh.owned_nodes - 1);
   options.range = {-3.0, 2.5};
-  options.map = colour_map_named("grey");
+  options.map = "grey";
   const CellPaint paint = paint_cells(loaded, all_cells(loaded.mesh), options);
   EXPECT_EQ(paint.bar->low, -3);
   EXPECT_EQ(paint.bar->high, 2.5);
-  EXPECT_EQ(paint.bar->colour, options.map);
+  EXPECT_EQ(paint.bar->colour, colour_map_named("grey"));
 }
 
 TEST(CellPaint, AConstantHasABarRoundIt) {
