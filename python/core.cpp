@@ -439,6 +439,7 @@ PYBIND11_MODULE(_core, module) {
       .def("pull_back", &CoreMorph::pull_back);
   module.def("mesh_from_arrays", &mesh_from_arrays);
   module.def("read", &read_core_mesh);
+  add_flow(module);
   module.def("keys", &keys);
   module.def("finish", [] { communicators().finish(); });
 }

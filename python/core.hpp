@@ -38,4 +38,7 @@ Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given);
 /// Adds the class Adaptation to the module.
 void add_adaptation(py::module_& module);
 
+/// Adds the built-in flow solver to the module.
+void add_flow(py::module_& module);
+
 }  // namespace quadloop::python

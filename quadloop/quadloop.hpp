@@ -57,7 +57,7 @@
 namespace quadloop {
 
 using adapt::MorphReport, adapt::SolvedMesh, adapt::TransferReport;
-using flow::FlowSolver, flow::SolvedFlow;
+using flow::BoundaryForce, flow::FlowSolver, flow::GoalValue, flow::SolvedFlow;
 using io::CaseSource, io::ExtrusionAxis, io::GeometryLine;
 using io::PlotFormat, io::PlotOptions;
 
@@ -110,8 +110,12 @@ void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
 /// The initial state and the solution have the variables density, x_velocity, y_velocity and pressure, in
 /// units of the free-stream density and speed of sound. The solution also has entries in Field::constants, in
-/// this order: steps, time, Mach number, angle of attack in degrees, CL, CD, residual. Throws InputError if
-/// the case selects another solver. The solver throws InputError for an initial state without these
+/// this order: steps, time, Mach number, angle of attack in degrees, CL, CD, residual. SolvedFlow has these
+/// as numbers, the force on each wall, and for each functional of solver.goal a GoalValue: its value, error
+/// and derivatives by angle of attack and Mach number. With solver.goal_adjoint = "write" the solution has
+/// the derivatives of each functional by the node positions, e.g. drag_by_x and drag_by_y (without the change
+/// of the other nodes), which Morph::pull_back() converts. Throws InputError if the case selects another
+/// solver. The solver throws InputError for an initial state without these
 /// variables, and SolverError, with the location, if the state becomes unphysical.
 FlowSolver built_in_solver(const Communicator& comm, const Case& of);
 

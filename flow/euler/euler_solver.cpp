@@ -46,17 +46,17 @@ FlowSolver euler_solver(EulerOptions options, AtEnd at_end) {
     const bool in_time = options.time == EulerOptions::Time::accurate;
     told.progress = [&, in_time](const EulerProgress& p) { flow.notes.push_back(line_of(p, in_time)); };
     const EulerResult result = solve_euler(comm, mesh, told, start, at_end);
-    for (const std::string& line : shortfalls(result, options))
-      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line));
+    const std::string prefix = cycle < 0 ? "" : fmt::format("cycle {}: ", cycle);
+    for (const std::string& line : shortfalls(result, options)) flow.warnings.push_back(prefix + line);
     static_cast<FlowTables&>(flow) = result;
-    if (result.unsteady)
-      flow.warnings.push_back(fmt::format("cycle {}: {}", cycle, line_of(*result.unsteady)));
+    if (result.unsteady) flow.warnings.push_back(prefix + line_of(*result.unsteady));
     flow.solution = flow_with_constants(result, options);
     flow.cl = result.cl;
     flow.cd = result.cd;
     flow.residual = result.residual;
     flow.stream = free_stream_of(options);
     flow.history = result.history;
+    flow.steps = result.iterations;
     return flow;
   };
 }

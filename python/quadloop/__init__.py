@@ -23,11 +23,12 @@ from ._adaptation import AdaptationCycle, adapt
 from ._cases import Case, Outline, curve, keys, polygon, spline
 from ._common import QuadloopWarning
 from ._core import InputError, OutputError, SolverError, TooFar
-from ._design import Morphed, Run
+from ._design import Evaluation, Morphed, Run
+from ._flow import Flow, Functional, solve
 from ._meshes import LayerReport, Mesh, Quality, from_arrays, from_meshio, mesh, read, smooth
 
-__all__ = ["AdaptationCycle", "Case", "InputError", "LayerReport", "Mesh", "Morphed", "OutputError", "Outline", "QuadloopWarning",
-           "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "from_arrays", "from_meshio", "keys", "mesh", "polygon", "read", "smooth",
-           "spline"]
+__all__ = ["AdaptationCycle", "Case", "Evaluation", "Flow", "Functional", "InputError", "LayerReport", "Mesh", "Morphed", "Outline", "OutputError",
+           "QuadloopWarning", "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "from_arrays", "from_meshio", "keys", "mesh", "polygon",
+           "read", "smooth", "solve", "spline"]
 
 atexit.register(_core.finish)

@@ -111,9 +111,10 @@ class Case:
     def __init__(self, outlines: Mapping | None = None, **tables):
         self._set(None, tables, _outlines(outlines))
 
-    def _set(self, file, tables: Mapping, outlines: Mapping):
+    def _set(self, file, tables: Mapping, outlines: Mapping, told=()):
         self._file, self._tables, self._outlines = file, dict(tables), dict(outlines)
         self._cores: dict = {}
+        self._told = set(told)  # warnings of the case from which this one was made
         self._core(None)
 
     @classmethod
@@ -128,7 +129,7 @@ class Case:
         if outlines and self._file is not None:
             raise InputError(f"{self._file}: outlines of a case file cannot be changed; name another file, geometry={{'file': ...}}")
         case = Case.__new__(Case)
-        case._set(self._file, _merged(self._tables, tables), {**self._outlines, **_outlines(outlines)})
+        case._set(self._file, _merged(self._tables, tables), {**self._outlines, **_outlines(outlines)}, self.warnings)
         return case
 
     def __reduce__(self):
@@ -158,7 +159,7 @@ class Case:
             else:
                 core = _core.Case(self._file, None, _assignments(self._tables), handle)
             if not self._cores:
-                warn(core.warnings, core.rank, 5)
+                warn([message for message in core.warnings if message not in self._told], core.rank, 5)
             core.agree(self.toml, "the case is another one")
             self._cores[handle] = core
         return self._cores[handle]

@@ -1,15 +1,24 @@
 """Meshes that follow their outlines, with derivatives."""
 from __future__ import annotations
 
-from collections.abc import Mapping
+import dataclasses
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
 from . import _core
+from ._adaptation import adapt
 from ._cases import Case, Outline, polygon
-from ._common import numbers_of, require
-from ._core import InputError
+from ._common import numbers_of, require, warn
+from ._core import InputError, TooFar
+from ._flow import Flow, solve
 from ._meshes import Mesh, mesh
+
+
+def _quality(least: float) -> float:
+    if not 0 <= least <= 1:
+        raise InputError(f"min_quality is from 0 to 1, not {least}")
+    return least
 
 
 class Morphed:
@@ -49,16 +58,57 @@ def _area(points) -> float:
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
+@dataclasses.dataclass(frozen=True)
+class Evaluation:
+    """The flow around a shape, with gradients. Made by Run.evaluate().
+
+    flow           the Flow
+    mesh           the Mesh on which it was solved
+    outlines       boundary -> its points, shape (n, 2)
+    gradients      functional -> boundary -> dJ/d(points), shape (n, 2)
+    by_alpha       functional -> dJ/d(angle of attack), per degree
+    remeshed       whether the mesh is a new one; values on it differ from those on the old one by the discretisation error
+    worst_quality  of the cells outside layers: 1 for the best shape
+    """
+    flow: Flow
+    mesh: Mesh
+    outlines: dict
+    gradients: dict
+    by_alpha: dict
+    remeshed: bool
+    worst_quality: float
+
+    cl = property(lambda self: self.flow.cl)
+    cd = property(lambda self: self.flow.cd)
+    cm = property(lambda self: self.flow.cm)
+
+
+def _morphed(before: Mesh, old: dict, new: dict, min_quality: float = 0.0) -> Morphed:
+    old_lines, new_lines = ([(name, points, False) for name, points in loops.items()] for loops in (old, new))
+    return Morphed(_core.Morph(before._core, old_lines, new_lines, min_quality), new)
+
+
 class Run:
     """A mesh of a case for designs: its outlines move, the mesh follows.
 
-    mesh      the Mesh of the case
+    case      the Case
+    mesh      its Mesh; with `adapted` that of the last cycle of adapt() with the built-in solver
     outlines  boundary -> its points, shape (n, 2), read-only, for boundaries that are one closed polygon; only these can move
     """
 
-    def __init__(self, case: Case, comm=None):
-        self.case = require(case, Case, "case")
-        self.mesh = mesh(case, comm)
+    def __init__(self, case: Case, comm=None, adapted: bool = False):
+        self._comm, self._adapted = comm, adapted
+        self._begin(require(case, Case, "case"), {})
+
+    def _begin(self, case: Case, keys_of_solver: Mapping):
+        """Makes the mesh of a case, adapted to the flow with these keys."""
+        if self._adapted:
+            solved = case.changed(solver=keys_of_solver)
+            for cycle in adapt(solved, lambda of_cycle, start: solve(solved, of_cycle, start).solution, self._comm):
+                made, flow = cycle.mesh, cycle.solution
+        else:
+            made, flow = mesh(case, self._comm), None
+        self.case, self.mesh, self._start, self._own_quality = case, made, flow, None
         self.outlines = {name: parts[0].points for name, parts in case._outlines.items()
                          if len(parts) == 1 and parts[0].kind == "polygon" and not parts[0].spline}
 
@@ -68,21 +118,68 @@ class Run:
         Raises TooFar if cells would become inverted, or the quality of the worst one would fall below `min_quality` (0 to 1).
         On several ranks: collective.
         """
-        if not 0 <= min_quality <= 1:
-            raise InputError(f"min_quality is from 0 to 1, not {min_quality}")
-        unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
-        if unknown or not outlines:
-            raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
-        new = []
-        for name, given in outlines.items():
-            points = given.points if isinstance(given, Outline) else polygon(given).points
-            if len(points) != len(self.outlines[name]):
-                raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
-            if _area(points) * _area(self.outlines[name]) < 0:
-                raise InputError(f"outline '{name}': its points run in the other direction than the old ones; reverse them")
-            new.append((name, points, False))
-        old = [(name, self.outlines[name], False) for name in outlines]
-        return Morphed(_core.Morph(self.mesh._core, old, new, min_quality), {name: points for name, points, _ in new})
+        return self._morph(self._points(outlines), _quality(min_quality))
+
+    def _points(self, outlines: Mapping) -> dict:
+        """New outlines as arrays; errors, and differences between ranks, are raised on all ranks."""
+        def arrays():
+            unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
+            if unknown or not outlines:
+                raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
+            new = {name: given.points if isinstance(given, Outline) else polygon(given).points for name, given in outlines.items()}
+            for name, points in new.items():
+                if len(points) != len(self.outlines[name]):
+                    raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
+                if _area(points) * _area(self.outlines[name]) < 0:
+                    raise InputError(f"outline '{name}': its points run in the other direction than the old ones; reverse them")
+            return new
+        new = self.mesh._together(arrays)
+        self.mesh._core.agree(repr([(name, points.tobytes().hex()) for name, points in new.items()]), "the outlines are others")
+        return new
+
+    def _morph(self, new: dict, min_quality: float = 0.0) -> Morphed:
+        return _morphed(self.mesh, {name: self.outlines[name] for name in new}, new, min_quality)
+
+    def evaluate(self, outlines: Mapping | None = None, gradient: str | Iterable[str] = (), min_quality: float = 0.0, **keys_of_solver) -> Evaluation:
+        """The flow around new outlines (boundary -> shape (n, 2)), by the built-in solver on the mesh moved to them.
+
+        gradient     functionals whose derivatives are wanted: "drag", "lift", "moment", "pressure"
+        min_quality  of the worst cell, 0 to 1; not more than 0.9 times that of the run's own mesh is required
+        keys         keys of the table [solver], e.g. alpha=2.0
+
+        If the cells cannot follow, or become worse than `min_quality`, a new mesh of these outlines is made, as that of the run was, and replaces it:
+        a QuadloopWarning says so. All flows on a mesh start from the same one: that of the last cycle of its adaptation, without adaptation the first
+        flow on this mesh, which starts from the free stream. So the values depend on the shape alone. Gradients are exact for the mesh that moves with
+        its outline; if cells had to be smoothed, they are those of the smoothed mesh.
+        On several ranks collective, with the same values on all. Raises InputError for outlines that cannot be meshed; SolverError.
+        """
+        goals = [gradient] if isinstance(gradient, str) else list(gradient)
+        new = {**self.outlines, **(self._points(outlines or {}) if outlines or not self.outlines else {})}
+        moved, reason = self._moved(new, _quality(min_quality))
+        if moved is None:
+            warn([f"a new mesh was generated: {reason}"], self.mesh._core.rank)
+            self._begin(self.case.changed(outlines={name: polygon(points) for name, points in new.items()}), keys_of_solver)
+            moved = self._morph(new)
+        adjoint = {"goal": goals, "goal_adjoint": "write"} if goals else {}
+        flow = solve(self.case, moved.mesh, self._start, **keys_of_solver, **adjoint)
+        self._start = self._start or flow.solution
+        follows = moved if not moved.smoothed else _morphed(moved.mesh, new, new)
+        by_nodes = {goal: np.column_stack([flow.solution[f"{goal}_by_x"], flow.solution[f"{goal}_by_y"]]) for goal in goals}
+        return Evaluation(flow, moved.mesh, new, {goal: follows.pull_back(rows) for goal, rows in by_nodes.items()},
+                          {goal: flow.functionals[goal].by_alpha for goal in goals}, bool(reason), moved.worst_quality)
+
+    def _moved(self, new: dict, min_quality: float) -> tuple:
+        """The mesh moved to new outlines, or None and the reason why it cannot follow."""
+        try:
+            moved = self._morph(new)
+        except TooFar as error:
+            return None, f"the cells can follow only {error.share:.0%} of the change of the outlines"
+        if min_quality > 0 and self._own_quality is None:
+            self._own_quality = self._morph(self.outlines).worst_quality
+        least = min(min_quality, 0.9 * self._own_quality) if min_quality > 0 else 0
+        if moved.worst_quality < least:
+            return None, f"the quality of the worst cell would be {moved.worst_quality:.2g}, below {least:.2g}"
+        return moved, ""
 
     def verify(self, outlines: Mapping, step: float = 1e-6, seed: int = 0) -> tuple:
         """Compares the derivatives at new outlines with central differences, and the transpose with the derivative.

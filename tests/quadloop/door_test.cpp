@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <type_traits>
 
 #include "mesher/mesh/check/delaunay_check.hpp"
@@ -218,6 +220,64 @@ TEST_F(Door, SolvesWithTheBuiltInSolver) {
     EXPECT_NEAR(state[0], 1, 1e-9);
     EXPECT_NEAR(std::hypot(state[1], state[2]), 0.5, 1e-9);
     EXPECT_NEAR(state[3], 1 / 1.4, 1e-9);
+  }
+}
+
+/// An oval as a polygon of 16 points, sheared upwards.
+std::vector<Point> oval(double up) {
+  std::vector<Point> points;
+  for (int i = 0; i < 16; ++i)
+    points.emplace_back(std::cos(i * M_PI / 8), 0.6 * std::sin(i * M_PI / 8) + up * std::cos(i * M_PI / 8));
+  return points;
+}
+
+Case flow_around_oval() {
+  std::ostringstream points;
+  points.precision(17);
+  for (const Point& p : oval(0)) points << (points.tellp() > 0 ? ", [" : "[") << p.x << ", " << p.y << "]";
+  const std::string text =
+      "[[shape]]\nname = \"body\"\nkind = \"polygon\"\npoints = [" + points.str() +
+      "]\n[geometry]\nfar_field = 5.0\n[spacing]\nmin = 0.15\nmax = 1.5\n"
+      "[boundary.body]\nspacing = 0.3\nbc = \"wall\"\n[boundary.farfield]\nbc = \"farfield\"\n"
+      "[solver]\nkind = \"euler\"\nmach = 0.3\nalpha = 2.0\niterations = 300\ntolerance = 1e-11\n"
+      "goal = [\"lift\", \"drag\"]\ngoal_adjoint = \"write\"\n";
+  return {world(), CaseSource("oval", text)};
+}
+
+/// The derivative of a functional by each owned node, from the solution.
+std::vector<Point> by_nodes(const Field& solution, const std::string& name) {
+  const auto x = std::ranges::find(solution.names, name + "_by_x") - solution.names.begin();
+  std::vector<Point> rows;
+  for (std::size_t i = x; i < solution.values.size(); i += solution.width())
+    rows.push_back({solution.values[i], solution.values[i + 1]});
+  return rows;
+}
+
+TEST_F(Door, GivesDerivativesOfTheFlowByTheOutline) {
+  const Case around = flow_around_oval();
+  const FlowSolver solver = built_in_solver(world(), around);
+  const Mesh mesh = make_mesh(world(), around).solved.mesh;
+  const auto corners = oval(0);
+  const auto moved_flow = [&](double up, const Field& start) {
+    return solver(world(), *Morph(world(), mesh, {{"body", corners}}, {{"body", oval(up)}}).mesh(), start,
+                  -1);
+  };
+  const SolvedFlow flow = moved_flow(0, {});
+  EXPECT_GT(flow.steps.value_or(0), 5);
+  EXPECT_TRUE(flow.warnings.empty()) << flow.warnings.front();
+  const double step = 2e-6;
+  const SolvedFlow above = moved_flow(step, flow.solution), below = moved_flow(-step, flow.solution);
+  const Morph morph(world(), mesh, {{"body", corners}}, {{"body", corners}});
+  ASSERT_EQ(flow.goals.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const GoalValue& goal = flow.goals[k];
+    EXPECT_NEAR(goal.value, k == 0 ? *flow.cl : *flow.cd, 1e-12);
+    const std::vector<Point> by_points = morph.pull_back(by_nodes(flow.solution, goal.name)).front();
+    double slope = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) slope += by_points[i].y * corners[i].x;
+    const double difference = (above.goals[k].value - below.goals[k].value) / (2 * step);
+    EXPECT_GT(std::abs(difference), 1e-3);
+    EXPECT_NEAR(slope, difference, 2e-5 * std::abs(difference)) << goal.name;
   }
 }
 

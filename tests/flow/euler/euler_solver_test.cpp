@@ -41,6 +41,9 @@ TEST(EulerSolver, SaysWhatTheSolverSays) {
   EXPECT_TRUE(flow.notes.back().starts_with("step 6: residual ")) << flow.notes.back();
   ASSERT_EQ(flow.warnings.size(), 1U) << "six steps are too few";
   EXPECT_TRUE(flow.warnings[0].starts_with("cycle 3: ")) << flow.warnings[0];
+  EXPECT_EQ(flow.steps, 6);
+  const SolvedFlow alone = euler_solver(short_run())(world(), mesh, {}, -1);
+  EXPECT_EQ("cycle 3: " + alone.warnings.at(0), flow.warnings[0]);
 }
 
 TEST(EulerSolver, TellsForcesOfEachBoundaryAndTheHistory) {
