@@ -33,8 +33,10 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, EdgeC
     if (share.boundary != boundary) {
       present_.push_back(&mesh.boundaries[share.boundary]);
       edges_.push_back(0);
+      before_own_.push_back(all_edges_);
     }
     boundary = share.boundary;
+    if (share.rank == comm.rank()) before_own_.back() = all_edges_;
     edges_.back() += share.edges;
     all_edges_ += share.edges;
   }
@@ -52,6 +54,22 @@ BoundaryStream::BoundaryStream(const Communicator& comm, const Mesh& mesh, std::
   }
   QUADLOOP_REQUIRE(at == instead.end() && std::ssize(instead_) == own_before_.back(),
                    "numbers for each boundary edge", instead.size(), own_before_.back());
+}
+
+std::vector<std::int64_t> BoundaryStream::own_rows(std::int64_t on_each) const {
+  std::vector<std::int64_t> rows;
+  for (const BoundaryEdges* boundary : present_) {
+    const std::ptrdiff_t b = boundary - mesh_.boundaries.data();
+    rows.push_back((own_before_[b + 1] - own_before_[b]) * on_each);
+  }
+  return rows;
+}
+
+BoundaryStream::Edge BoundaryStream::own_edge(std::size_t index, std::int64_t i) const {
+  const BoundaryEdges& boundary = *present_[index];
+  if (!instead_.empty()) return instead_[own_before_[&boundary - mesh_.boundaries.data()] + i];
+  const auto& [from, to] = boundary.edges[i];
+  return {mesh_.global(from).value(), mesh_.global(to).value()};
 }
 
 void BoundaryStream::run(const Begin& begin, const Put& put) const {

@@ -38,6 +38,13 @@ class BoundaryStream {
   const std::vector<const BoundaryEdges*>& present() const { return present_; }
   std::int64_t edges_of(std::size_t index) const { return edges_[index]; }
 
+  /// For each boundary of present(), its number of edges on this rank, times `on_each`.
+  std::vector<std::int64_t> own_rows(std::int64_t on_each = 1) const;
+  /// Returns edge i of those on this rank of a boundary of present().
+  Edge own_edge(std::size_t index, std::int64_t i) const;
+  /// Number of edges before those, over all boundaries and ranks.
+  std::int64_t before_own(std::size_t index) const { return before_own_[index]; }
+
   using Begin = std::function<void(std::size_t index)>;
   using Put = std::function<void(std::span<const Edge> edges)>;
   /// On rank 0, for each boundary with edges, calls `begin(n)` with its index in present(), then
@@ -70,7 +77,8 @@ class BoundaryStream {
   const Mesh& mesh_;
   EdgeChoice choice_;
   std::vector<const BoundaryEdges*> present_;
-  std::vector<std::int64_t> edges_;  ///< for each of them, over all ranks
+  std::vector<std::int64_t> edges_;       ///< for each of them, over all ranks
+  std::vector<std::int64_t> before_own_;  ///< for each of them
   /// Number of this rank's edges of the boundaries before each; the last entry counts all.
   std::vector<std::int64_t> own_before_;
   std::vector<Share> shares_;  ///< on rank 0: by boundary, then rank

@@ -1,10 +1,12 @@
-// Rows and boundary edges on their way through rank 0.
+// Rows and boundary edges that all ranks append to a file.
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
+#include <cstdint>
+#include <string>
 
 #include "io/files/boundary_stream.hpp"
-#include "io/files/row_stream.hpp"
+#include "io/files/row_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
@@ -13,47 +15,97 @@
 namespace quadloop::io {
 namespace {
 
-using test::world;
+using test::TemporaryFolder, test::world;
 
-std::vector<int> own_rows() {
-  std::vector<int> rows(world().rank() == 1 ? 0 : 3 + world().rank());
-  std::iota(rows.begin(), rows.end(), 100 * world().rank());
-  return rows;
+/// Some texts of different length on each rank, none on rank 1 and none of some sections.
+std::string text_of(int rank, std::size_t section, std::int64_t i) {
+  return std::to_string(rank) + "." + std::to_string(section) + "." + std::to_string(i * i * i) + ";";
+}
+std::int64_t rows_of(int rank, std::size_t section) {
+  return rank == 1 || section == 2 ? 0 : 3 + rank + static_cast<std::int64_t>(section);
 }
 
-TEST(RowStream, BringsAllRowsThroughRankZeroInOrder) {
-  const std::vector<int> own = own_rows();
-  for (const std::int64_t per_piece : {1, 2, 100}) {
-    std::vector<int> seen;
-    std::size_t longest = 0;
-    RowStream{world(), std::ssize(own), per_piece}.run<int>(
-        [&](std::int64_t begin, std::int64_t end) {
-          return std::vector<int>(own.begin() + begin, own.begin() + end);
-        },
-        [&](std::span<const int> piece) {
-          longest = std::max(longest, piece.size());
-          seen.insert(seen.end(), piece.begin(), piece.end());
-        });
-    const std::vector<int> all = world().all_gather_values(std::span<const int>(own));
-    EXPECT_EQ(seen, world().is_root() ? all : std::vector<int>{});
-    EXPECT_LE(longest, static_cast<std::size_t>(per_piece));
+std::string expected_text(std::size_t sections) {
+  std::string text = "head|";
+  for (std::size_t s = 0; s < sections; ++s) {
+    text += "section " + std::to_string(s) + ":";
+    for (int rank = 0; rank < world().size(); ++rank) {
+      for (std::int64_t i = 0; i < rows_of(rank, s); ++i) text += text_of(rank, s, i);
+    }
+  }
+  return text + "|end";
+}
+
+/// The file that all ranks write, in pieces of so many rows, as rank 0 reads it.
+std::string written_text(std::size_t sections, std::int64_t per_piece, std::int64_t most_held) {
+  const TemporaryFolder folder;
+  OutputSet outputs(world());
+  RowOutput file(outputs, outputs.stage(folder.file("a.txt")), most_held);
+  file.write("head");
+  file.write("|");
+  RowSections rows{.rows = {}, .rows_per_piece = per_piece};
+  for (std::size_t s = 0; s < sections; ++s) {
+    rows.rows.push_back(rows_of(world().rank(), s));
+    if (world().is_root()) rows.heads.push_back("section " + std::to_string(s) + ":");
+  }
+  std::string piece;
+  file.write_sections(rows, [&](std::size_t section, std::int64_t begin, std::int64_t end) {
+    EXPECT_LE(end - begin, per_piece);
+    piece.clear();
+    for (std::int64_t i = begin; i < end; ++i) piece += text_of(world().rank(), section, i);
+    return std::string_view(piece);
+  });
+  file.write("|end");
+  file.close();
+  outputs.commit();
+  std::string text = world().is_root() ? test::bytes_of(folder.file("a.txt")) : std::string();
+  world().barrier();
+  return text;
+}
+
+TEST(RowOutput, HasTheRowsOfEachSectionInTheOrderOfRanks) {
+  for (const std::size_t sections : {1, 4}) {
+    const std::string expected = world().is_root() ? expected_text(sections) : std::string();
+    for (const std::int64_t per_piece : {1, 2, 100}) {
+      for (const std::int64_t most_held : {0, 20, 1 << 20})
+        EXPECT_EQ(written_text(sections, per_piece, most_held), expected) << per_piece << " " << most_held;
+    }
   }
 }
 
-TEST(RowStream, AFailureOfAnyRankEndsOnAll) {
-  const std::vector<int> own = own_rows();
-  const RowStream stream{world(), std::ssize(own), 1};
-  const auto make = [&](std::int64_t begin, std::int64_t end) {
-    return std::vector<int>(own.begin() + begin, own.begin() + end);
-  };
-  EXPECT_THROW(stream.run<int>(make, [](std::span<const int>) { throw OutputError("full"); }), OutputError);
+TEST(RowOutput, WritesNumbersAtAPlace) {
+  const TemporaryFolder folder;
+  OutputSet outputs(world());
+  RowOutput file(outputs, outputs.stage(folder.file("a.bin")));
+  const std::int64_t own = 2 + world().rank(), all = world().sum(own), before = world().exclusive_sum(own);
+  const std::int64_t second_place = 8 * all;
+  file.move_to(second_place);
+  file.write_shared_rows(all, [](std::int64_t i) { return std::array{-i, i}; });
+  file.move_to(0);
+  file.write_rows(own, [&](std::int64_t i) { return std::array{100 + before + i}; });
+  file.close();
+  outputs.commit();
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t i = 0; i < all; ++i) numbers.push_back(100 + i);
+  for (std::int64_t i = 0; i < all; ++i) numbers.insert(numbers.end(), {-i, i});
+  if (world().is_root()) {
+    EXPECT_EQ(test::bytes_of(folder.file("a.bin")), bytes_of(std::span<const std::int64_t>(numbers)));
+  }
+  world().barrier();
+}
+
+TEST(RowOutput, AFailureOfAnyRankEndsOnAll) {
+  const TemporaryFolder folder;
   const int last = world().size() - 1;
-  const auto failing = [&](std::int64_t begin, std::int64_t end) {
-    if (world().rank() == last && begin == 1) throw InputError("broken");
-    return make(begin, end);
-  };
-  if (last != 1) {  // which has no row
-    EXPECT_THROW(stream.run<int>(failing, [](std::span<const int>) {}), InputError);
+  for (const std::int64_t row_bytes : {0, 1}) {
+    OutputSet outputs(world());
+    RowOutput file(outputs, outputs.stage(folder.file("a.txt")));
+    EXPECT_THROW(file.write_sections({{2}, row_bytes, 1},
+                                     [&](std::size_t, std::int64_t begin, std::int64_t) {
+                                       if (world().rank() == last && begin == 1) throw InputError("broken");
+                                       return "x";
+                                     }),
+                 InputError);
   }
 }
 
@@ -65,34 +117,28 @@ Mesh spread_mesh() {
   return part;
 }
 
-TEST(BoundaryStream, BringsEachBoundarysEdgesTogether) {
+TEST(BoundaryStream, HasTheEdgesOfEachBoundaryTogether) {
   const Mesh part = spread_mesh();
   const BoundaryStream stream(world(), part);
   ASSERT_EQ(stream.present().size(), 2U) << "the one without edges is left out";
   EXPECT_EQ(stream.present()[0]->name, "wall");
   EXPECT_EQ(stream.all_edges(), stream.edges_of(0) + stream.edges_of(1));
-  std::vector<std::vector<BoundaryStream::Edge>> seen;
-  stream.run(
-      [&](std::size_t place) {
-        EXPECT_EQ(place, seen.size());
-        seen.emplace_back();
-      },
-      [&](std::span<const BoundaryStream::Edge> edges) {
-        seen.back().insert(seen.back().end(), edges.begin(), edges.end());
-      });
+  const std::vector<std::int64_t> rows = stream.own_rows();
   for (std::size_t b = 1; b < part.boundaries.size(); ++b) {
     std::vector<BoundaryStream::Edge> own;
     for (const auto& [from, to] : part.boundaries[b].edges)
       own.push_back({part.global(from).value(), part.global(to).value()});
     const auto all = world().all_gather_values(std::span<const BoundaryStream::Edge>(own));
     EXPECT_EQ(stream.edges_of(b - 1), std::ssize(all));
-    if (world().is_root()) {
-      EXPECT_EQ(seen.at(b - 1), all);
-    }
+    ASSERT_EQ(rows.at(b - 1), std::ssize(own));
+    for (std::int64_t i = 0; i < std::ssize(own); ++i) EXPECT_EQ(stream.own_edge(b - 1, i), own[i]);
+    if (own.empty()) continue;
+    EXPECT_EQ(stream.before_own(b - 1) - (b == 2 ? stream.edges_of(0) : 0),
+              std::ranges::find(all, own[0]) - all.begin());
   }
 }
 
-TEST(BoundaryStream, BringsOtherNumbersInThePlaceOfNodes) {
+TEST(BoundaryStream, HasOtherNumbersInThePlaceOfNodes) {
   Mesh part = spread_mesh();
   part.boundaries[1].inner_line = true;  // is not chosen, so that its numbers are left out
   std::vector<BoundaryStream::Edge> instead;
@@ -106,30 +152,17 @@ TEST(BoundaryStream, BringsOtherNumbersInThePlaceOfNodes) {
   }
   const BoundaryStream stream(world(), part, std::move(instead), EdgeChoice::boundaries);
   std::int64_t sum = 0, edges = 0;
-  stream.run([](std::size_t) {},
-             [&](std::span<const BoundaryStream::Edge> some) {
-               for (const auto& [number, seven] : some) {
-                 EXPECT_EQ(seven, 7);
-                 sum += number;
-                 ++edges;
-               }
-             });
-  wanted = world().sum(wanted);
-  if (world().is_root()) {
-    EXPECT_EQ(sum, wanted);
-    EXPECT_EQ(edges, stream.all_edges());
+  const std::vector<std::int64_t> rows = stream.own_rows();
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    for (std::int64_t i = 0; i < rows[n]; ++i) {
+      const auto [number, seven] = stream.own_edge(n, i);
+      EXPECT_EQ(seven, 7);
+      sum += number;
+      ++edges;
+    }
   }
-}
-
-TEST(BoundaryStream, AFailureEndsOnAllRanks) {
-  const Mesh part = spread_mesh();
-  const BoundaryStream stream(world(), part);
-  EXPECT_THROW(stream.run([](std::size_t) { throw OutputError("full"); },
-                          [](std::span<const BoundaryStream::Edge>) {}),
-               OutputError);
-  EXPECT_THROW(stream.run([](std::size_t) {},
-                          [](std::span<const BoundaryStream::Edge>) { throw OutputError("full"); }),
-               OutputError);
+  EXPECT_EQ(sum, wanted);
+  EXPECT_EQ(world().sum(edges), stream.all_edges());
 }
 
 }  // namespace
