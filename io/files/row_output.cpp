@@ -131,6 +131,8 @@ void RowOutput::move_to(std::int64_t offset) {
 /// Rank 0 knows where its first section begins before any length is known, and where all do if it is alone.
 void RowOutput::write_sections(RowSections sections, const Make& make) {
   if (sections.rows.empty()) return;
+  QUADLOOP_REQUIRE(sections.places.empty() || (sections.row_bytes > 0 && waiting_.empty()),
+                   "places are for rows of one length");
   if (!waiting_.empty()) {
     sections.heads.resize(sections.rows.size());
     sections.heads[0].insert(0, std::exchange(waiting_, {}));
@@ -141,15 +143,17 @@ void RowOutput::write_sections(RowSections sections, const Make& make) {
     file_.together([&] { at_once ? own.write_from(file_, end_) : own.measure(most_held_); });
   }
   const bool is_written = at_once && sections.row_bytes == 0;
-  const std::vector<std::int64_t> places = take_places(own.lengths());
+  const std::vector<std::int64_t> places = take_places(sections, own.lengths());
   file_.together([&] {
     if (!is_written) own.write_at(file_, places);
   });
 }
 
-/// Returns where this rank's part of each section begins; adds all lengths to the end. *Collective.*
-std::vector<std::int64_t> RowOutput::take_places(const std::vector<std::int64_t>& lengths) {
+/// Returns where this rank's part of each section begins; the end is then that of the last one. *Collective.*
+std::vector<std::int64_t> RowOutput::take_places(const RowSections& sections,
+                                                 const std::vector<std::int64_t>& lengths) {
   const Communicator& comm = communicator();
+  if (!sections.places.empty()) end_ = sections.places[0];
   if (lengths.size() == 1) {
     const std::int64_t place = end_ + comm.exclusive_sum(lengths[0]);
     end_ += comm.sum(lengths[0]);
@@ -165,7 +169,10 @@ std::vector<std::int64_t> RowOutput::take_places(const std::vector<std::int64_t>
   std::vector<Share> all = comm.all_gather_values(std::span<const Share>(own));
   std::ranges::stable_sort(all, {}, &Share::section);
   std::vector<std::int64_t> places(lengths.size(), end_);
+  std::int64_t section = 0;
   for (const Share& share : all) {
+    if (share.section != section && !sections.places.empty()) end_ = sections.places[share.section];
+    section = share.section;
     if (share.rank == comm.rank()) places[share.section] = end_;
     end_ += share.bytes;
   }

@@ -16,10 +16,12 @@ namespace quadloop::io {
 
 /// The rows of one rank, which are appended to a file section by section.
 struct RowSections {
-  std::vector<std::int64_t> rows;  ///< of this rank in each section; all ranks have the same sections
-  std::int64_t row_bytes = 0;      ///< of each row; 0 if it varies
-  std::int64_t rows_per_piece = 1;  ///< limits the memory
+  std::vector<std::int64_t> rows;       ///< of this rank in each section; all ranks have the same sections
+  std::int64_t row_bytes = 0;           ///< of each row; 0 if it varies
+  std::int64_t rows_per_piece = 1;      ///< limits the memory
   std::vector<std::string> heads = {};  ///< on rank 0: the bytes before each section; may be empty
+  /// Where each section begins, in space that was reserved; empty: each follows the one before it.
+  std::vector<std::int64_t> places = {};
 };
 
 /// A file to which all ranks append rows at once: of each section first the rows of rank 0, then those of
@@ -54,7 +56,7 @@ class RowOutput {
   /// the file. *Collective.*
   template <class Make>
   void write_rows(std::int64_t rows, const Make& make) {
-    write_made<decltype(make(std::int64_t{0}))>({rows},
+    write_made<decltype(make(std::int64_t{0}))>({{rows}},
                                                 [&](std::size_t, std::int64_t i) { return make(i); });
   }
   /// Appends `count` rows, given by their number over all ranks, which share the work. *Collective.*
@@ -63,11 +65,13 @@ class RowOutput {
     const auto [begin, end] = share_of(count);
     write_rows(end - begin, [&, first = begin](std::int64_t i) { return make(first + i); });
   }
-  /// Appends `on_each` rows for each boundary edge: `make(edge, k)`. *Collective.*
+  /// Appends `on_each` rows for each boundary edge: `make(edge, k)`; those of each boundary at its place, if
+  /// there are `places`. *Collective.*
   template <class Make>
-  void write_edges(const BoundaryStream& edges, std::int64_t on_each, const Make& make) {
+  void write_edges(const BoundaryStream& edges, std::int64_t on_each, const Make& make,
+                   std::vector<std::int64_t> places = {}) {
     write_made<decltype(make(BoundaryStream::Edge{}, std::int64_t{0}))>(
-        edges.own_rows(on_each),
+        {.rows = edges.own_rows(on_each), .places = std::move(places)},
         [&](std::size_t n, std::int64_t i) { return make(edges.own_edge(n, i / on_each), i % on_each); });
   }
 
@@ -76,19 +80,20 @@ class RowOutput {
 
  private:
   template <class Row, class Make>
-  void write_made(std::vector<std::int64_t> rows, const Make& make) {
+  void write_made(RowSections sections, const Make& make) {
     std::vector<Row> made;
-    constexpr std::int64_t row_bytes = sizeof(Row);
-    write_sections({std::move(rows), row_bytes, bytes_per_piece / row_bytes},
-                   [&](std::size_t section, std::int64_t begin, std::int64_t end) {
-                     made.clear();
-                     for (std::int64_t i = begin; i < end; ++i) made.push_back(make(section, i));
-                     return bytes_of(std::span<const Row>(made));
-                   });
+    sections.row_bytes = sizeof(Row);
+    sections.rows_per_piece = bytes_per_piece / sections.row_bytes;
+    write_sections(std::move(sections), [&](std::size_t section, std::int64_t begin, std::int64_t end) {
+      made.clear();
+      for (std::int64_t i = begin; i < end; ++i) made.push_back(make(section, i));
+      return bytes_of(std::span<const Row>(made));
+    });
   }
 
   std::pair<std::int64_t, std::int64_t> share_of(std::int64_t count) const;
-  std::vector<std::int64_t> take_places(const std::vector<std::int64_t>& lengths);
+  std::vector<std::int64_t> take_places(const RowSections& sections,
+                                        const std::vector<std::int64_t>& lengths);
 
   static constexpr std::int64_t bytes_per_piece = std::int64_t{1} << 20;
 

@@ -98,8 +98,7 @@ void SharedOutput::write_of_others() {
 void SharedOutput::write_of(int rank) {
   std::exception_ptr failure;
   while (true) {
-    const std::int64_t offset =
-        detail::from_bytes<std::int64_t>(communicator().receive_bytes(rank)).front();
+    const std::int64_t offset = detail::from_bytes<std::int64_t>(communicator().receive_bytes(rank)).front();
     if (offset == no_more) break;
     const std::vector<std::byte> bytes = communicator().receive_bytes(rank);
     if (failure) continue;

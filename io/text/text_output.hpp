@@ -101,8 +101,7 @@ class TextOutput {
   /// `put(text, section, i)` appends at most `width` numbers. It may be called twice for a row.
   template <class Put>
   void write_sections(RowSections sections, std::size_t width, const Put& put) {
-    sections.rows_per_piece =
-        std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(width));
+    sections.rows_per_piece = std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(width));
     file_.write_sections(std::move(sections), [&](std::size_t n, std::int64_t begin, std::int64_t end) {
       text_.clear(end - begin, width);
       for (std::int64_t i = begin; i < end; ++i) put(text_, n, i);

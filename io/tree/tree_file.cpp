@@ -75,11 +75,7 @@ class TreeFrame {
   void create_dataset(const char* name, const std::array<Value LeafRecord::*, width>&) {
     const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows_), width};
     const Hdf5Handle space(H5Screate_simple(width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose);
-    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation.id(), false);
-    H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
-    H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
-    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+    const Hdf5Handle creation = creation_of_reserved_space();
     Hdf5Handle dataset(
         H5Dcreate2(file_.id(), name, file_type<Value>(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
         H5Dclose);
@@ -154,8 +150,7 @@ void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& p
   const Communicator& comm = outputs.communicator();
   const StagedFile staged = outputs.stage(path);
   RowOutput file(outputs, staged);
-  const std::vector<std::int64_t> places =
-      write_frame(comm, tree, staged, comm.sum(std::ssize(tree.leaves)));
+  const std::vector<std::int64_t> places = write_frame(comm, tree, staged, comm.sum(std::ssize(tree.leaves)));
   auto place = places.begin();
   for_each_tree_dataset([&](const char*, const auto& members) {
     file.move_to(*place++);

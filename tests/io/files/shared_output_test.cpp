@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -95,7 +96,7 @@ TEST(SharedOutput, WritesTheBytesOfARankThatCannotOpenTheFile) {
     EXPECT_THROW(file->together([&] { file->write_at(3 * world().rank(), own); }), InputError);
   }
   EXPECT_THROW(file->together([&] {
-    if (world().rank() == 1) file->write_at(-1, own);
+    if (world().rank() == 1) file->write_at(std::numeric_limits<std::int64_t>::max(), own);
   }),
                OutputError);
   file->close();

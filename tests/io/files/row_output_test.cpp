@@ -1,4 +1,6 @@
 // Rows and boundary edges that all ranks append to a file.
+#include "io/files/row_output.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <string>
 
 #include "io/files/boundary_stream.hpp"
-#include "io/files/row_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "tests/io/sample_mesh.hpp"
