@@ -6,24 +6,19 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "io/files/hdf5_handle.hpp"
-#include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
 
-/// An open CGNS file; a failed call throws `Failure`. Serial: used by one rank. A file that could not be
-/// written is never closed, as the libraries may crash on it.
-template <class Failure>
+/// A CGNS file that is open for reading; a failed call throws InputError. Serial: used by one rank.
 class CgnsFile {
  public:
   /// `shown` is the name of the file in messages.
-  CgnsFile(const std::string& path, std::string shown, int mode) : shown_{std::move(shown)} {
-    check(cg_open(path.c_str(), mode, &id_));
-    hdf5_.listen();
+  CgnsFile(const std::string& path, std::string shown) : shown_{std::move(shown)} {
+    check(cg_open(path.c_str(), CG_MODE_READ, &id_));
     open_ = true;
   }
   ~CgnsFile() {
@@ -38,11 +33,7 @@ class CgnsFile {
   /// Checks the status of a library call; to be used for every call.
   void check(int status) const {
     if (status == CG_OK) return;
-    if constexpr (std::is_same_v<Failure, OutputError>) {
-      open_ = false;
-      if (hdf5_.reason() != 0) refuse_output(shown_, hdf5_.reason());
-    }
-    throw Failure(shown_ + ": the CGNS library refuses: " + cg_get_error());
+    throw InputError(shown_ + ": the CGNS library refuses: " + cg_get_error());
   }
   /// Returns the text of the last descriptor of this name below the current node, if there is one.
   std::optional<std::string> descriptor_here(const std::string& name) const {
@@ -58,17 +49,12 @@ class CgnsFile {
     }
     return result;
   }
-  /// Writing buffered data may fail only here; the destructor cannot report it.
-  void close() {
-    open_ = false;
-    check(cg_close(id_));
-  }
 
  private:
   QuietHdf5 hdf5_;
   std::string shown_;
   int id_ = 0;
-  mutable bool open_ = false;
+  bool open_ = false;
 };
 
 /// The first base of a file; meshes are read only from this one.
@@ -76,7 +62,7 @@ struct CgnsBase {
   int cell_dimension = 0, zones = 0;
 };
 
-inline CgnsBase first_base(const CgnsFile<InputError>& file) {
+inline CgnsBase first_base(const CgnsFile& file) {
   CgnsBase base;
   int bases = 0, physical_dimension = 0;
   char name[33] = {};

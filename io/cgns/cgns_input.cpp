@@ -25,7 +25,7 @@ namespace quadloop::io {
 
 namespace {
 
-using File = CgnsFile<InputError>;
+using File = CgnsFile;
 using Name = std::array<char, 33>;
 
 std::string range_text(cgsize_t first, cgsize_t last) {
@@ -468,7 +468,7 @@ void require_whole_solution(const FileMesh& mesh, const std::string& path) {
 }  // namespace
 
 FileMesh read_cgns_by_library(const std::string& path) {
-  const File file(path, path, CG_MODE_READ);
+  const File file(path, path);
   const auto [cell_dimension, zones] = first_base(file);
   if (cell_dimension != 2 && cell_dimension != 3)
     throw InputError(path + ": its cells are " + std::to_string(cell_dimension) + "D; 2D and 3D can be read");

@@ -1,6 +1,7 @@
 #include "io/cgns/cgns_nodes.hpp"
 
 #include <array>
+#include <utility>
 
 #include "io/files/output_path.hpp"
 #include "mesher/base/error.hpp"
@@ -30,10 +31,9 @@ Hdf5Handle creation_of_datasets(H5D_layout_t layout) {
 
 }  // namespace
 
-CgnsNodes::CgnsNodes(const StagedFile& staged) : shown_{staged.path} {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  file_ = checked(H5Fopen(staged.temporary.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
+CgnsNodes::CgnsNodes(const StagedFile& staged, State state, int size_bytes)
+    : shown_{staged.path}, size_bytes_{size_bytes} {
+  file_ = open(staged, state);
   name_type_ = text_type(name_size);
   type_type_ = text_type(type_size);
   const hsize_t one = 1;
@@ -45,6 +45,36 @@ CgnsNodes::CgnsNodes(const StagedFile& staged) : shown_{staged.path} {
                              H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);  // order of the children
   small_data_ = creation_of_datasets(H5D_COMPACT);
   large_data_ = creation_of_datasets(H5D_CONTIGUOUS);
+  reserved_data_ = creation_of_reserved_space();
+  if (state == State::created) put_root();
+}
+
+Hdf5Handle CgnsNodes::open(const StagedFile& staged, State state) const {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+  const char* const name = staged.temporary.c_str();
+  if (state == State::existing) return checked(H5Fopen(name, H5F_ACC_RDWR, access.id()), H5Fclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  H5Pset_link_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  return checked(H5Fcreate(name, H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+}
+
+/// As ADF's root, by which libcgns knows its files; texts with the terminating 0.
+void CgnsNodes::put_root() const {
+  const Node root = at("/");
+  put_text_attribute(root, "name", name_type_, "HDF5 MotherNode");
+  put_text_attribute(root, "label", name_type_, "Root Node of HDF5 File");
+  put_text_attribute(root, "type", type_type_, "MT");
+  std::string version = "HDF5 Version " + std::to_string(H5_VERS_MAJOR) + "." +
+                        std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
+  version.resize(name_size);
+  for (const auto& [name, text] :
+       {std::pair(" format", std::string("IEEE_LITTLE_32") + '\0'), std::pair(" hdf5version", version)}) {
+    const hsize_t length = text.size();
+    const Hdf5Handle data = dataset(root, name, H5T_STD_I8LE, std::span(&length, 1));
+    check(H5Dwrite(data.id(), H5T_NATIVE_CHAR, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0);
+  }
 }
 
 /// After a failure the file is not touched: HDF5 may crash on a file that it could not write.
@@ -76,12 +106,25 @@ CgnsNodes::Node CgnsNodes::add_text(const Node& parent, const std::string& name,
   return node;
 }
 
+template <class Number>
+void CgnsNodes::put_table(const Node& node, hid_t file_type, std::span<const Number> values,
+                          std::size_t columns) const {
+  const std::array<hsize_t, 2> size{columns == 0 ? values.size() : values.size() / columns, columns};
+  put_data(node, file_type, memory_type<Number>(), std::span(size).first(columns == 0 ? 1 : 2),
+           values.data());
+}
+
 CgnsNodes::Node CgnsNodes::add_integers(const Node& parent, const std::string& name, const char* label,
                                         std::span<const std::int32_t> values, std::size_t columns) const {
   Node node = group(parent, name, label, "I4");
-  const std::array<hsize_t, 2> size{columns == 0 ? values.size() : values.size() / columns, columns};
-  put_data(node, file_type<std::int32_t>(), memory_type<std::int32_t>(),
-           std::span(size).first(columns == 0 ? 1 : 2), values.data());
+  put_table(node, file_type<std::int32_t>(), values, columns);
+  return node;
+}
+
+CgnsNodes::Node CgnsNodes::add_sizes(const Node& parent, const std::string& name, const char* label,
+                                     std::span<const std::int64_t> values, std::size_t columns) const {
+  Node node = group(parent, name, label, size_type());
+  put_table(node, size_type_in_file(), values, columns);
   return node;
 }
 
@@ -93,20 +136,38 @@ CgnsNodes::Node CgnsNodes::add_reals(const Node& parent, const std::string& name
   return node;
 }
 
-CgnsNodes::Array CgnsNodes::add_array(const Node& parent, const std::string& name, const char* label,
-                                      std::int64_t count) const {
-  const hsize_t size = count;
-  return {*this, dataset(group(parent, name, label, "I4"), file_type<std::int32_t>(), std::span(&size, 1))};
+CgnsNodes::Node CgnsNodes::add_array(const Node& parent, const std::string& name, std::int64_t count) {
+  return reserve(parent, name, "R8", file_type<double>(), count);
 }
 
-void CgnsNodes::Array::put(std::span<const std::int32_t> values) {
-  const hsize_t count = values.size();
-  const Hdf5Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose),
-      file(H5Dget_space(dataset_.id()), H5Sclose);
-  nodes_->check(H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &next_, nullptr, &count, nullptr) >= 0);
-  nodes_->check(H5Dwrite(dataset_.id(), memory_type<std::int32_t>(), memory.id(), file.id(), H5P_DEFAULT,
-                         values.data()) >= 0);
-  next_ += count;
+CgnsNodes::Node CgnsNodes::add_array_of_sizes(const Node& parent, const std::string& name,
+                                              std::int64_t count) {
+  return reserve(parent, name, size_type(), size_type_in_file(), count);
+}
+
+CgnsNodes::Node CgnsNodes::reserve(const Node& parent, const std::string& name, const char* type,
+                                   hid_t file_type, std::int64_t count) {
+  Node node = group(parent, name, "DataArray_t", type);
+  const hsize_t size = count;
+  const Hdf5Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Hdf5Handle data = checked(
+      H5Dcreate2(node.id(), data_name, file_type, space.id(), H5P_DEFAULT, reserved_data_.id(), H5P_DEFAULT),
+      H5Dclose);
+  const auto place = static_cast<std::int64_t>(H5Dget_offset(data.id()));
+  check(place >= 0 || count == 0);
+  std::string path(H5Iget_name(node.id(), nullptr, 0), '\0');
+  H5Iget_name(node.id(), path.data(), path.size() + 1);
+  places_[path] = place;
+  return node;
+}
+
+CgnsNodes::Node CgnsNodes::add_section(const Node& zone, const std::string& name, std::int32_t type,
+                                       const std::array<std::int64_t, 2>& range, std::int64_t nodes_of_each) {
+  const std::array<std::int32_t, 2> type_and_parents{type, 0};
+  Node section = add_integers(zone, name, "Elements_t", type_and_parents);
+  add_sizes(section, "ElementRange", "IndexRange_t", range);
+  add_array_of_sizes(section, elements_name, (range[1] - range[0] + 1) * nodes_of_each);
+  return section;
 }
 
 void CgnsNodes::close() { check(file_.close() >= 0); }
@@ -136,18 +197,19 @@ void CgnsNodes::put_text_attribute(const Node& node, const char* name, const Hdf
   check(H5Awrite(attribute.id(), type.id(), padded.data()) >= 0);
 }
 
-Hdf5Handle CgnsNodes::dataset(const Node& node, hid_t file_type, std::span<const hsize_t> size) const {
+Hdf5Handle CgnsNodes::dataset(const Node& node, const char* name, hid_t file_type,
+                              std::span<const hsize_t> size) const {
   hsize_t count = 1;
   for (const hsize_t length : size) count *= length;
   const Hdf5Handle space = checked(H5Screate_simple(size32(size), size.data(), nullptr), H5Sclose);
   const hid_t creation = count <= largest_small_data ? small_data_.id() : large_data_.id();
-  return checked(H5Dcreate2(node.id(), data_name, file_type, space.id(), H5P_DEFAULT, creation, H5P_DEFAULT),
+  return checked(H5Dcreate2(node.id(), name, file_type, space.id(), H5P_DEFAULT, creation, H5P_DEFAULT),
                  H5Dclose);
 }
 
 void CgnsNodes::put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size,
                          const void* data) const {
-  const Hdf5Handle whole = dataset(node, file_type, size);
+  const Hdf5Handle whole = dataset(node, data_name, file_type, size);
   check(H5Dwrite(whole.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 // For io/ only: includes the HDF5 library.
+#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 
@@ -10,15 +12,20 @@
 
 namespace quadloop::io {
 
-/// Adds nodes to a CGNS file that libcgns has written and closed. For each child libcgns traverses all its
-/// siblings, so that its time is quadratic in the number of boundaries (40 s for 5000); this is linear. A
-/// node is a group with its name, label and type as attributes and a dataset " data", as specified by the
-/// CGNS mapping to HDF5. Failures are OutputErrors that name the output.
+/// Adds nodes to a CGNS file, on one rank; the contents of large arrays are written later, by all ranks,
+/// where space was reserved for them. A node is a group with its name, label and type as attributes and a
+/// dataset " data", as specified by the CGNS mapping to HDF5. libcgns is not used, because it cannot reserve
+/// space, stores times, and has 32-bit sizes; its time is quadratic in the number of boundaries (40 s for
+/// 5000), as it traverses all siblings of each child. Failures are OutputErrors that name the output.
 class CgnsNodes {
  public:
   using Node = Hdf5Handle;
 
-  explicit CgnsNodes(const StagedFile& staged);
+  /// Whether the file exists, or is created with a root only.
+  enum class State { existing, created };
+
+  /// `size_bytes`: of the numbers of nodes and elements in the file, 4 or 8.
+  CgnsNodes(const StagedFile& staged, State state, int size_bytes = 4);
 
   /// Returns the node at a path of names ("/Base/domain").
   Node at(const std::string& path) const;
@@ -30,22 +37,20 @@ class CgnsNodes {
                 const std::string& text) const;
   Node add_integers(const Node& parent, const std::string& name, const char* label,
                     std::span<const std::int32_t> values, std::size_t columns = 0) const;
+  Node add_sizes(const Node& parent, const std::string& name, const char* label,
+                 std::span<const std::int64_t> values, std::size_t columns = 0) const;
   Node add_reals(const Node& parent, const std::string& name, const char* label,
                  std::span<const float> values) const;
 
-  /// A list of `count` integers written in pieces; must be destroyed before the file.
-  class Array {
-   public:
-    void put(std::span<const std::int32_t> values);
-
-   private:
-    friend class CgnsNodes;
-    Array(const CgnsNodes& nodes, Hdf5Handle dataset) : nodes_{&nodes}, dataset_{std::move(dataset)} {}
-    const CgnsNodes* nodes_;
-    Hdf5Handle dataset_;
-    hsize_t next_ = 0;
-  };
-  Array add_array(const Node& parent, const std::string& name, const char* label, std::int64_t count) const;
+  /// Add a list of `count` reals, or of numbers of nodes or elements, for which only space is reserved.
+  Node add_array(const Node& parent, const std::string& name, std::int64_t count);
+  Node add_array_of_sizes(const Node& parent, const std::string& name, std::int64_t count);
+  /// Adds a section: the elements `range` of a type of libcgns, with space for their nodes.
+  Node add_section(const Node& zone, const std::string& name, std::int32_t type,
+                   const std::array<std::int64_t, 2>& range, std::int64_t nodes_of_each);
+  static constexpr const char* elements_name = "ElementConnectivity";
+  /// Offsets of these lists in the file, by their paths.
+  const std::map<std::string, std::int64_t>& places() const { return places_; }
 
   void close();
 
@@ -55,14 +60,28 @@ class CgnsNodes {
   Node group(const Node& parent, const std::string& name, const char* label, const char* type) const;
   void put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type,
                           const std::string& text) const;
-  Hdf5Handle dataset(const Node& node, hid_t file_type, std::span<const hsize_t> size) const;
+  Hdf5Handle dataset(const Node& node, const char* name, hid_t file_type,
+                     std::span<const hsize_t> size) const;
+  Hdf5Handle open(const StagedFile& staged, State state) const;
+  void put_root() const;
+  Node reserve(const Node& parent, const std::string& name, const char* type, hid_t file_type,
+               std::int64_t count);
+  const char* size_type() const { return size_bytes_ == 8 ? "I8" : "I4"; }
+  hid_t size_type_in_file() const {
+    return size_bytes_ == 8 ? file_type<std::int64_t>() : file_type<std::int32_t>();
+  }
+  template <class Number>
+  void put_table(const Node& node, hid_t file_type, std::span<const Number> values,
+                 std::size_t columns) const;
   void put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size,
                 const void* data) const;
 
   QuietHdf5 quiet_;  // first, so that it outlives what the handles release
   std::string shown_;
   mutable Hdf5Handle file_;  ///< abandoned after a failed write
-  Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_;
+  int size_bytes_;
+  Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_, reserved_data_;
+  std::map<std::string, std::int64_t> places_;
 };
 
 }  // namespace quadloop::io

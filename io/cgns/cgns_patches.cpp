@@ -1,43 +1,31 @@
 #include "io/cgns/cgns_patches.hpp"
 
+#include <array>
+#include <utility>
 #include <vector>
 
+#include "io/cgns/cgns_layout.hpp"
 #include "io/cgns/cgns_names.hpp"
-#include "io/cgns/cgns_sink.hpp"
 #include "io/model/layers_text.hpp"
 
 namespace quadloop::io {
 
-namespace {
-
-std::int64_t nodes_of(ElementType_t type) { return type == BAR_2 ? 2 : type == TRI_3 ? 3 : 4; }
-
-}  // namespace
-
-CgnsPatches::CgnsPatches(const StagedFile& staged) : nodes_{staged}, base_{nodes_.at(CgnsSink::base_path)} {}
+CgnsPatches::CgnsPatches(CgnsNodes& nodes) : nodes_{nodes}, base_{nodes_.at(CgnsLayout::base_path)} {}
 
 void CgnsPatches::begin_zone(const std::string& zone, std::int64_t first_element) {
-  zone_ = nodes_.at(CgnsSink::path_of_zone(zone));
-  next_ = static_cast<cgsize_t>(first_element);
+  zone_ = nodes_.at(CgnsLayout::path_of_zone(zone));
+  next_ = first_element;
 }
 
 /// HDF5 keeps a file open as long as any object in it is open.
 void CgnsPatches::end_zone() {
-  elements_.reset();
   zone_ = {};
   conditions_ = {};
 }
 
-CgnsNodes::Node CgnsPatches::begin_section(const std::string& name, ElementType_t type,
-                                           std::int64_t elements) {
-  const std::array<cgsize_t, 2> range{next_, next_ + static_cast<cgsize_t>(elements) - 1};
-  next_ = range[1] + 1;
-  const std::array<std::int32_t, 2> type_and_parents{type, 0};
-  CgnsNodes::Node section = nodes_.add_integers(zone_, name, "Elements_t", type_and_parents);
-  nodes_.add_integers(section, "ElementRange", "IndexRange_t", range);
-  elements_.emplace(
-      nodes_.add_array(section, "ElementConnectivity", "DataArray_t", nodes_of(type) * elements));
-  return section;
+CgnsNodes::Node CgnsPatches::add_section(const std::string& name, ElementType_t type, std::int64_t elements) {
+  const std::int64_t first = std::exchange(next_, next_ + elements);
+  return nodes_.add_section(zone_, name, type, {first, next_ - 1}, CgnsLayout::nodes_of(type));
 }
 
 void CgnsPatches::put_full_name(const CgnsNodes::Node& node, const std::string& in_file,
@@ -47,7 +35,7 @@ void CgnsPatches::put_full_name(const CgnsNodes::Node& node, const std::string& 
 
 void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& boundary,
                                 GridLocation_t location) {
-  const std::array<cgsize_t, 2> range{first_, next_ - 1};
+  const std::array<std::int64_t, 2> range{first_, next_ - 1};
   const std::string type = cg_BCTypeName(static_cast<BCType_t>(cgns_condition(boundary.condition)));
   if (families_.insert(name).second) {
     const CgnsNodes::Node family = nodes_.add(base_, name, "Family_t");
@@ -56,22 +44,12 @@ void CgnsPatches::put_condition(const std::string& name, const BoundaryEdges& bo
   if (!conditions_.valid()) conditions_ = nodes_.add(zone_, "ZoneBC", "ZoneBC_t");
   const CgnsNodes::Node condition =
       nodes_.add_text(conditions_, name, "BC_t", cg_BCTypeName(FamilySpecified));
-  nodes_.add_integers(condition, "PointRange", "IndexRange_t", range, 1);
+  nodes_.add_sizes(condition, "PointRange", "IndexRange_t", range, 1);
   nodes_.add_text(condition, "GridLocation", "GridLocation_t", cg_GridLocationName(location));
   nodes_.add_text(condition, "FamilyName", "FamilyName_t", name);
   put_full_name(condition, name, boundary.name);
   if (boundary.layers.count > 0)
     nodes_.add_text(condition, layers_descriptor, "Descriptor_t", text_of_layers(boundary.layers));
-}
-
-void CgnsPatches::put(std::span<const BoundaryStream::Edge> edges) {
-  std::vector<cgsize_t> ends;
-  ends.reserve(2 * edges.size());
-  for (const auto& [from, to] : edges) {
-    ends.push_back(static_cast<cgsize_t>(from + 1));
-    ends.push_back(static_cast<cgsize_t>(to + 1));
-  }
-  put(std::span<const cgsize_t>(ends));
 }
 
 void CgnsPatches::put_comments(const std::string& comments) {
@@ -81,11 +59,11 @@ void CgnsPatches::put_comments(const std::string& comments) {
 void CgnsPatches::put_pair(const std::string& zone, const std::string& name, const PeriodicPair& pair,
                            const PairedNodes& nodes) {
   const auto numbers_of = [](const BoundaryLine& line) {
-    std::vector<cgsize_t> numbers;
-    for (const GlobalNodeId node : line.nodes) numbers.push_back(static_cast<cgsize_t>(node.value() + 1));
+    std::vector<std::int64_t> numbers;
+    for (const GlobalNodeId node : line.nodes) numbers.push_back(node.value() + 1);
     return numbers;
   };
-  const std::vector<cgsize_t> from = numbers_of(nodes.from), to = numbers_of(nodes.to);
+  const std::vector<std::int64_t> from = numbers_of(nodes.from), to = numbers_of(nodes.to);
   const CgnsNodes::Node forth = put_connection(zone, name, zone, from, to),
                         back = put_connection(zone, name + "_back", zone, to, from);
   if (pair.rotates()) return;
@@ -111,10 +89,10 @@ void CgnsPatches::put_translation(const CgnsNodes::Node& connection, Point trans
 }
 
 CgnsNodes::Node CgnsPatches::put_connection(const std::string& zone, const std::string& name,
-                                            const std::string& donor, std::span<const cgsize_t> nodes,
-                                            std::span<const cgsize_t> of_donor) {
+                                            const std::string& donor, std::span<const std::int64_t> nodes,
+                                            std::span<const std::int64_t> of_donor) {
   constexpr const char* list = "ZoneGridConnectivity";
-  const std::string path = CgnsSink::path_of_zone(zone);
+  const std::string path = CgnsLayout::path_of_zone(zone);
   const CgnsNodes::Node all = connected_.insert(zone).second
                                   ? nodes_.add(nodes_.at(path), list, "ZoneGridConnectivity_t")
                                   : nodes_.at(path + "/" + list);
@@ -122,21 +100,15 @@ CgnsNodes::Node CgnsPatches::put_connection(const std::string& zone, const std::
   nodes_.add_text(here, "GridConnectivityType", "GridConnectivityType_t",
                   cg_GridConnectivityTypeName(Abutting1to1));
   nodes_.add_text(here, "GridLocation", "GridLocation_t", cg_GridLocationName(Vertex));
-  nodes_.add_integers(here, "PointList", "IndexArray_t", nodes, 1);
-  nodes_.add_integers(here, "PointListDonor", "IndexArray_t", of_donor, 1);
+  nodes_.add_sizes(here, "PointList", "IndexArray_t", nodes, 1);
+  nodes_.add_sizes(here, "PointListDonor", "IndexArray_t", of_donor, 1);
   return here;
 }
 
 void CgnsPatches::put_block(const std::string& zone, std::int32_t number, const std::string& name) {
-  const CgnsNodes::Node node = nodes_.at(CgnsSink::path_of_zone(zone));
+  const CgnsNodes::Node node = nodes_.at(CgnsLayout::path_of_zone(zone));
   nodes_.add_integers(node, "Ordinal", "Ordinal_t", std::array{number});
   put_full_name(node, zone, name);
-}
-
-void CgnsPatches::close() {
-  end_zone();
-  base_ = {};
-  nodes_.close();
 }
 
 }  // namespace quadloop::io

@@ -13,7 +13,7 @@ namespace quadloop::io {
 
 /// A zone of an open file, with its declared numbers of nodes and cells.
 struct CgnsZone {
-  const CgnsFile<InputError>& file;
+  const CgnsFile& file;
   int base = 1, zone = 1;
   cgsize_t nodes = 0, cells = 0;
 };

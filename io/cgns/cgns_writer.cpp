@@ -1,30 +1,31 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <deque>
 #include <limits>
+#include <map>
 #include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/cgns/cgns_elements.hpp"
 #include "io/cgns/cgns_file.hpp"
+#include "io/cgns/cgns_layout.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/cgns/cgns_patches.hpp"
-#include "io/cgns/cgns_sink.hpp"
+#include "io/files/row_output.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/stream/block_meshes.hpp"
 #include "io/stream/mesh_stream.hpp"
 #include "io/stream/stream_blocks.hpp"
 #include "io/stream/stream_cell_values.hpp"
-#include "mesher/base/error.hpp"
+#include "mesher/base/parallel/exchange.hpp"
 
 namespace quadloop::io {
 
 namespace {
-
-/// Returns rows of an array type as one list of numbers.
-template <class Number, std::size_t width>
-std::span<const Number> flat(std::span<const std::array<Number, width>> rows) {
-  return {rows.empty() ? nullptr : rows.front().data(), rows.size() * width};
-}
 
 /// Names of patches in the file, the same in all zones.
 class CgnsPatchNames {
@@ -54,264 +55,297 @@ class CgnsPatchNames {
   std::size_t sides_ = 0, patches_ = 0;
 };
 
+/// Offsets of the arrays in the file, by their paths, on every rank.
+class CgnsPlaces {
+ public:
+  /// `at_root` is used on rank 0. *Collective.*
+  CgnsPlaces(const Communicator& comm, const std::map<std::string, std::int64_t>& at_root) {
+    std::vector<std::string> paths;
+    std::vector<std::int64_t> places;
+    for (const auto& [path, place] : at_root) {
+      paths.push_back(path);
+      places.push_back(place);
+    }
+    paths = broadcast_words(comm, paths);
+    comm.broadcast(places);
+    for (std::size_t i = 0; i < paths.size(); ++i) places_[paths[i]] = places[i];
+  }
+
+  std::int64_t of(const std::string& path) const { return places_.at(path); }
+
+ private:
+  std::map<std::string, std::int64_t> places_;
+};
+
 /// Writes one zone.
 class CgnsZoneWriter {
  public:
-  /// `sink` and `patches` exist on rank 0 only.
-  CgnsZoneWriter(const MeshStream& stream, std::string zone, std::unique_ptr<CgnsSink>& sink,
-                 std::unique_ptr<CgnsPatches>& patches)
-      : stream_{stream},
-        zone_{std::move(zone)},
-        cells_{stream},
-        names_{stream},
-        sink_{sink},
-        patches_{patches} {}
+  CgnsZoneWriter(const MeshStream& stream, std::string zone)
+      : stream_{stream}, zone_{std::move(zone)}, cells_{stream}, names_{stream} {}
 
   const MeshStream& stream() const { return stream_; }
   const std::string& zone() const { return zone_; }
 
-  void write_contents() {
-    stream_.on_root([&] {
-      sink_->begin_zone(zone_, stream_.counts().nodes, stream_.counts().cells());
-      sink_->begin_rows();
-    });
-    stream_.is_plane() ? write_points<2>() : write_points<3>();
-    for_each_kind([&]<CellKind kind>() { write_cells<kind>(); });
-    if (!stream_.variables().empty()) write_solution();
-    if (!cells_.names().empty()) write_solution_of_cells();
-  }
-
-  /// libcgns must have closed the file.
-  void write_boundaries() {
-    stream_.on_root([&] { patches_->begin_zone(zone_, stream_.counts().cells() + 1); });
-    if (!stream_.patches().empty()) stream_.is_plane() ? write_edges() : write_patches();
-    stream_.on_root([&] { patches_->end_zone(); });
-  }
-
- private:
-  template <std::size_t dimension>
-  void write_points() {
-    stream_.rows(
-        stream_.point_rows(),
-        [&](std::int64_t i) {
-          const Point3 p = stream_.point(i);
-          if constexpr (dimension == 2) return std::array{p.x, p.y};
-          if constexpr (dimension == 3) return std::array{p.x, p.y, p.z};
-        },
-        [&](auto rows) { sink_->put_coordinates(flat<double>(rows)); });
-  }
-
-  auto put() {
-    return [this](auto faces) { patches_->put(flat<cgsize_t>(faces)); };
-  }
-
-  template <CellKind kind>
-  void write_cells() {
-    const std::int64_t all = stream_.counts().of(kind);
-    if (all == 0) return;
-    const ElementType_t type = cgns_type_of<kind>;
-    stream_.on_root([&] { sink_->begin_section(cg_ElementTypeName(type), type, all); });
-    stream_.rows(
-        stream_.cell_rows<kind>(), [&](std::int64_t i) { return as<cgsize_t>(stream_.cell<kind>(i), 1); },
-        [&](auto some) { sink_->put_elements(flat<cgsize_t>(some), cell_width<kind>); });
-  }
-
-  void write_solution() {
-    const std::vector<std::string> names = stream_.variables();
-    begin_solution(Vertex);
-    write_values(names, stream_.point_rows(),
-                 [&](std::int64_t row, std::size_t variable) { return stream_.value(row, variable); });
-  }
-
-  /// In the order of the elements.
-  void write_solution_of_cells() {
-    const std::vector<std::string> names = cells_.names();
-    begin_solution(CellCenter);
+  /// Adds the nodes of the zone, on rank 0.
+  void lay_out(CgnsLayout& layout) const {
+    layout.begin_zone(zone_, stream_.counts().nodes, stream_.counts().cells());
+    layout.add_coordinates();
     for_each_kind([&]<CellKind kind>() {
-      write_values(names, stream_.cell_rows<kind>(), [&](std::int64_t row, std::size_t variable) {
-        return cells_.of_cell<kind>(row, variable);
-      });
+      if (stream_.counts().of(kind) > 0)
+        layout.add_section(section_name<kind>(), cgns_type_of<kind>, stream_.counts().of(kind));
     });
+    if (!stream_.variables().empty()) layout.add_solution(Vertex, stream_.variables());
+    if (!cells_.names().empty()) layout.add_solution(CellCenter, cells_.names());
+    layout.end_zone();
   }
 
-  void begin_solution(GridLocation_t location) {
-    stream_.on_root([&] {
-      sink_->begin_solution(location);
-      sink_->begin_rows();
-    });
+  /// Adds the nodes of its boundaries, on rank 0.
+  void lay_out_boundaries(CgnsPatches& patches) const {
+    patches.begin_zone(zone_, stream_.counts().cells() + 1);
+    for (std::size_t n = 0; n < stream_.patches().size(); ++n)
+      stream_.is_plane() ? lay_out_line(patches, n) : lay_out_patch(patches, n);
+    if (stream_.is_plane()) patches.put_comments(comments_of(stream_.extruded()->plane));
+    patches.end_zone();
   }
 
-  /// Writes the next rows of all ranks in the current solution.
-  template <class Value>
-  void write_values(const std::vector<std::string>& names, std::int64_t count, const Value& value) {
-    const std::size_t wide = names.size();
-    const RowStream rows{stream_.communicator(), count,
-                         std::max<std::int64_t>(1, numbers_per_piece / static_cast<std::int64_t>(wide))};
-    rows.run<double>(
-        [&](std::int64_t begin, std::int64_t end) {
-          std::vector<double> values;
-          values.reserve((end - begin) * wide);
-          for (std::int64_t i = begin; i < end; ++i) {
-            for (std::size_t k = 0; k < wide; ++k) values.push_back(value(i, k));
-          }
-          return values;
-        },
-        [&](std::span<const double> values) { sink_->put_solution(values, names); });
-  }
-
-  void write_edges() {
-    const std::vector<BoundaryEdges>& boundaries = stream_.extruded()->plane.boundaries;
-    stream_.boundaries()->run(
-        [&](std::size_t n) {
-          const BoundaryEdges* const boundary = stream_.boundaries()->present()[n];
-          const std::string& name = names_.of(boundary - boundaries.data());
-          patches_->begin_patch();
-          const CgnsNodes::Node section = patches_->begin_section(name, BAR_2, stream_.patches()[n].edges);
-          if (boundary->inner_line)
-            patches_->put_full_name(section, name, boundary->name);
-          else
-            patches_->put_condition(name, *boundary, EdgeCenter);
-        },
-        [&](std::span<const BoundaryStream::Edge> edges) { patches_->put(edges); });
+  /// Adds the pairs of a plane mesh. *Collective.*
+  void lay_out_pairs(CgnsPatches* patches) const {
+    if (!stream_.is_plane()) return;
     const Mesh& mesh = stream_.extruded()->plane;
-    stream_.on_root([&] { patches_->put_comments(comments_of(mesh)); });
     for (const PeriodicPair& pair : mesh.pairs) {
       const PairedNodes nodes = paired_nodes(stream_.communicator(), mesh, pair);
       const std::ptrdiff_t number = &pair - mesh.pairs.data() + 1;
-      stream_.on_root([&] { patches_->put_pair(zone_, "pair_" + std::to_string(number), pair, nodes); });
+      stream_.on_root([&] { patches->put_pair(zone_, "pair_" + std::to_string(number), pair, nodes); });
     }
   }
 
-  void write_patches() {
-    stream_.sides([&](std::size_t n) { begin(n, 0, stream_.patches()[n].quads); }, number_nodes, put());
-    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) write_patch(n);
+  /// Writes the arrays; `Size` is the type of numbers of nodes. *Collective.*
+  template <class Size>
+  void write(RowOutput& file, const CgnsPlaces& places) const {
+    for (int k = 0; k < dimension(); ++k) {
+      file.move_to(places.of(CgnsLayout::path_of_coordinate(zone_, k)));
+      write_reals(file, stream_.point_rows(), [&](std::int64_t i) {
+        const Point3 p = stream_.point(i);
+        return k == 0 ? p.x : k == 1 ? p.y : p.z;
+      });
+    }
+    for_each_kind([&]<CellKind kind>() {
+      if (stream_.counts().of(kind) == 0) return;
+      file.move_to(places.of(CgnsLayout::path_of_elements(zone_, section_name<kind>())));
+      write_elements<Size>(file, stream_.cell_rows<kind>(),
+                           [&](std::int64_t i) { return stream_.cell<kind>(i); });
+    });
+    write_solutions(file, places);
+    write_sides<Size>(file, places);
+    for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n)
+      write_patch<Size>(file, places, n);
   }
 
-  /// Begins a patch, on rank 0: its section of quads, then one of triangles.
-  void begin(std::size_t patch, std::int64_t triangles, std::int64_t quads) {
-    const StreamedPatch& about = stream_.patches()[patch];
-    patches_->begin_patch();
-    if (quads > 0) patches_->begin_section(names_.of(patch), QUAD_4, quads);
-    if (triangles == 0)
-      patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
+ private:
+  int dimension() const { return stream_.is_plane() ? 2 : 3; }
+  template <CellKind kind>
+  static std::string section_name() {
+    return cg_ElementTypeName(cgns_type_of<kind>);
+  }
+
+  void lay_out_line(CgnsPatches& patches, std::size_t n) const {
+    const BoundaryEdges& boundary = *stream_.boundaries()->present()[n];
+    const std::string name = section_of_side(n);
+    patches.begin_patch();
+    const CgnsNodes::Node section = patches.add_section(name, BAR_2, stream_.patches()[n].edges);
+    if (boundary.inner_line)
+      patches.put_full_name(section, name, boundary.name);
+    else
+      patches.put_condition(name, boundary, EdgeCenter);
+  }
+
+  /// A section of quads, then one of triangles.
+  void lay_out_patch(CgnsPatches& patches, std::size_t n) const {
+    const StreamedPatch& about = stream_.patches()[n];
+    if (about.faces() == 0) return;
+    patches.begin_patch();
+    if (about.quads > 0) patches.add_section(names_.of(n), QUAD_4, about.quads);
+    if (about.triangles > 0) patches.add_section(section_of_triangles(n), TRI_3, about.triangles);
+    patches.put_condition(names_.of(n), {about.name, about.condition, {}}, FaceCenter);
+  }
+
+  /// Name of the section of a boundary of a plane or extruded mesh.
+  std::string section_of_side(std::size_t n) const {
+    if (!stream_.is_plane()) return names_.of(n);
+    return names_.of(stream_.boundaries()->present()[n] - stream_.extruded()->plane.boundaries.data());
+  }
+  std::string section_of_triangles(std::size_t patch) const {
+    return stream_.patches()[patch].quads > 0 ? names_.of_triangles(patch) : names_.of(patch);
+  }
+
+  template <class Value>
+  static void write_reals(RowOutput& file, std::int64_t rows, const Value& value) {
+    file.write_rows(rows,
+                    [&](std::int64_t i) { return std::array{in_order<std::endian::little>(value(i))}; });
+  }
+  /// `nodes(i)`: numbers from 0.
+  template <class Size, class Nodes>
+  static void write_elements(RowOutput& file, std::int64_t rows, const Nodes& nodes) {
+    file.write_rows(rows, [&](std::int64_t i) { return in_file<Size>(nodes(i)); });
+  }
+  template <class Size, std::size_t width>
+  static std::array<Size, width> in_file(const std::array<NodeNumber, width>& nodes) {
+    return in_order<std::endian::little>(as<Size>(nodes, 1));
+  }
+
+  void write_solutions(RowOutput& file, const CgnsPlaces& places) const {
+    const auto begin = [&](GridLocation_t location, const std::vector<std::string>& names, std::size_t k) {
+      file.move_to(places.of(CgnsLayout::path_of_variable(zone_, location, cgns_variable_names(names)[k])));
+    };
+    for (std::size_t k = 0; k < stream_.variables().size(); ++k) {
+      begin(Vertex, stream_.variables(), k);
+      write_reals(file, stream_.point_rows(), [&](std::int64_t i) { return stream_.value(i, k); });
+    }
+    for (std::size_t k = 0; k < cells_.names().size(); ++k) {  // in the order of the elements
+      begin(CellCenter, cells_.names(), k);
+      for_each_kind([&]<CellKind kind>() {
+        write_reals(file, stream_.cell_rows<kind>(),
+                    [&](std::int64_t i) { return cells_.of_cell<kind>(i, k); });
+      });
+    }
+  }
+
+  template <class Size>
+  void write_sides(RowOutput& file, const CgnsPlaces& places) const {
+    if (stream_.boundaries() == nullptr) return;
+    std::vector<std::int64_t> begin;
+    for (std::size_t n = 0; n < stream_.boundaries()->present().size(); ++n)
+      begin.push_back(places.of(CgnsLayout::path_of_elements(zone_, section_of_side(n))));
+    if (stream_.is_plane())
+      file.write_edges(
+          *stream_.boundaries(), 1,
+          [](const BoundaryStream::Edge& edge, std::int64_t) { return in_file<Size>(edge); },
+          std::move(begin));
+    else
+      file.write_edges(
+          *stream_.boundaries(), stream_.layers(),
+          [&](const BoundaryStream::Edge& edge, std::int64_t layer) {
+            return in_file<Size>(stream_.side(edge, layer));
+          },
+          std::move(begin));
   }
 
   /// Writes a patch that is not a side.
-  void write_patch(std::size_t patch) {
-    const StreamedPatch& about = stream_.patches()[patch];
-    if (about.faces() == 0) return;
-    stream_.on_root([&] { begin(patch, about.triangles, about.quads); });
-    if (about.quads > 0) stream_.faces<4>(patch, number_nodes, put());
-    if (about.triangles == 0) return;
-    stream_.on_root([&] {
-      patches_->begin_section(about.quads > 0 ? names_.of_triangles(patch) : names_.of(patch), TRI_3,
-                              about.triangles);
-      patches_->put_condition(names_.of(patch), {about.name, about.condition, {}}, FaceCenter);
-    });
-    stream_.faces<3>(patch, number_nodes, put());
+  template <class Size>
+  void write_patch(RowOutput& file, const CgnsPlaces& places, std::size_t n) const {
+    const StreamedPatch& about = stream_.patches()[n];
+    const auto write_section = [&]<std::size_t width>(const std::string& name) {
+      file.move_to(places.of(CgnsLayout::path_of_elements(zone_, name)));
+      write_elements<Size>(file, stream_.face_rows<width>(n),
+                           [&](std::int64_t i) { return stream_.face<width>(n, i); });
+    };
+    if (about.quads > 0) write_section.template operator()<4>(names_.of(n));
+    if (about.triangles > 0) write_section.template operator()<3>(section_of_triangles(n));
   }
-
-  static constexpr auto number_nodes = [](const auto& nodes) { return as<cgsize_t>(nodes, 1); };
-  static constexpr std::int64_t numbers_per_piece = std::int64_t{1} << 17;
 
   const MeshStream& stream_;
   std::string zone_;
   const StreamCellValues cells_;
   const CgnsPatchNames names_;
-  std::unique_ptr<CgnsSink>& sink_;
-  std::unique_ptr<CgnsPatches>& patches_;
 };
 
 /// Writes a zone for each block; a mesh of one block is the zone "domain".
 class CgnsWriter {
  public:
-  CgnsWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path) : stream_{stream} {
-    refuse_too_large(path);
+  CgnsWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path, CgnsSizes sizes)
+      : stream_{stream},
+        outputs_{outputs},
+        is_wide_{sizes == CgnsSizes::always_64_bits || needs_64_bits(stream)} {
     const StreamBlocks blocks(stream);
     if (blocks.several()) blocks_ = block_meshes(stream, path);
     const std::vector<std::string> names =
         cgns_zone_names(blocks.names(), blocks.several() ? CgnsPatchNames(blocks_[0]->stream()).all()
                                                          : std::vector<std::string>());
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-      zones_.emplace_back(blocks_[b]->stream(), names[b], sink_, patches_);
-    if (blocks_.empty()) zones_.emplace_back(stream, CgnsSink::only_zone, sink_, patches_);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) zones_.emplace_back(blocks_[b]->stream(), names[b]);
+    if (blocks_.empty()) zones_.emplace_back(stream, CgnsLayout::only_zone);
     staged_ = outputs.stage(path);
-    stream_.on_root([&] {
-      sink_ = std::make_unique<CgnsSink>(staged_, stream_.is_plane() ? 2 : 3);
-      sink_->begin_base();
-    });
   }
 
   void write() {
-    for (CgnsZoneWriter& zone : zones_) zone.write_contents();
-    stream_.on_root([&] {
-      sink_->close();
-      patches_ = std::make_unique<CgnsPatches>(staged_);
-    });
-    for (CgnsZoneWriter& zone : zones_) zone.write_boundaries();
-    connect_zones();
-    stream_.on_root([&] { patches_->close(); });
+    const CgnsPlaces places(stream_.communicator(), lay_out());
+    RowOutput file(outputs_, staged_);
+    for (const CgnsZoneWriter& zone : zones_)
+      is_wide_ ? zone.write<std::int64_t>(file, places) : zone.write<std::int32_t>(file, places);
+    file.close();
   }
 
  private:
-  void refuse_too_large(const std::string& path) const {
-    const StreamCounts& counts = stream_.counts();
+  static bool needs_64_bits(const MeshStream& stream) {
+    const StreamCounts& counts = stream.counts();
     std::int64_t elements = counts.cells();
-    for (const StreamedPatch& patch : stream_.patches()) elements += patch.faces();
-    if (elements <= largest_cgns_size && counts.largest_array() <= largest_cgns_size) return;
-    throw OutputError(path + ": " + std::to_string(counts.nodes) + " nodes and " + std::to_string(elements) +
-                      " elements are more than this CGNS library can count (32-bit sizes); write a " +
-                      (stream_.is_plane() ? ".mesh" : ".vtu") + " file instead");
+    for (const StreamedPatch& patch : stream.patches()) elements += patch.faces();
+    return std::max(elements, counts.largest_array()) > std::numeric_limits<std::int32_t>::max();
+  }
+
+  /// Creates the file, except for the contents of its arrays; returns their places on rank 0. *Collective.*
+  std::map<std::string, std::int64_t> lay_out() {
+    std::unique_ptr<CgnsNodes> nodes;  // on rank 0 only, like the next one
+    std::unique_ptr<CgnsPatches> patches;
+    stream_.on_root([&] {
+      nodes = std::make_unique<CgnsNodes>(staged_, CgnsNodes::State::created, is_wide_ ? 8 : 4);
+      CgnsLayout layout(*nodes, stream_.is_plane() ? 2 : 3);
+      for (const CgnsZoneWriter& zone : zones_) zone.lay_out(layout);
+      patches = std::make_unique<CgnsPatches>(*nodes);
+      for (const CgnsZoneWriter& zone : zones_) zone.lay_out_boundaries(*patches);
+    });
+    for (const CgnsZoneWriter& zone : zones_) zone.lay_out_pairs(patches.get());
+    connect_zones(patches.get());
+    std::map<std::string, std::int64_t> places;
+    stream_.on_root([&] {
+      patches.reset();
+      nodes->close();
+      places = nodes->places();
+    });
+    return places;
   }
 
   /// Lists the nodes that two zones have in common, in both.
-  void connect_zones() {
+  void connect_zones(CgnsPatches* patches) const {
     for (std::size_t first = 0; first < blocks_.size(); ++first) {
-      for (std::size_t second = first + 1; second < blocks_.size(); ++second) connect(first, second);
+      for (std::size_t second = first + 1; second < blocks_.size(); ++second) connect(patches, first, second);
     }
     stream_.on_root([&] {
       for (std::size_t b = 0; b < blocks_.size(); ++b)
-        patches_->put_block(zones_[b].zone(), static_cast<std::int32_t>(b + 1), blocks_[b]->name());
+        patches->put_block(zones_[b].zone(), static_cast<std::int32_t>(b + 1), blocks_[b]->name());
     });
   }
 
-  void connect(std::size_t first, std::size_t second) {
-    std::vector<std::array<cgsize_t, 2>> common;
+  void connect(CgnsPatches* patches, std::size_t first, std::size_t second) const {
+    std::vector<std::array<std::int64_t, 2>> common;
     for (std::int64_t row = 0; row < stream_.point_rows(); ++row) {
       const NodeNumber here = blocks_[first]->node_of_row(row), there = blocks_[second]->node_of_row(row);
-      if (here >= 0 && there >= 0)
-        common.push_back({static_cast<cgsize_t>(here + 1), static_cast<cgsize_t>(there + 1)});
+      if (here >= 0 && there >= 0) common.push_back({here + 1, there + 1});
     }
-    std::vector<cgsize_t> of_first, of_second;
-    stream_.rows(
-        std::ssize(common), [&](std::int64_t i) { return common[i]; },
-        [&](auto rows) {
-          for (const auto& [here, there] : rows) {
-            of_first.push_back(here);
-            of_second.push_back(there);
-          }
-        });
+    std::vector<std::int64_t> of_first, of_second;
+    for (const auto& [here, there] : gather_at_root(stream_.communicator(), common)) {
+      of_first.push_back(here);
+      of_second.push_back(there);
+    }
     stream_.on_root([&] {
       if (of_first.empty()) return;
-      patches_->put_connection(zones_[first].zone(), zones_[second].zone(), zones_[second].zone(), of_first,
-                               of_second);
-      patches_->put_connection(zones_[second].zone(), zones_[first].zone(), zones_[first].zone(), of_second,
-                               of_first);
+      const std::string &zone = zones_[first].zone(), &other = zones_[second].zone();
+      patches->put_connection(zone, other, other, of_first, of_second);
+      patches->put_connection(other, zone, zone, of_second, of_first);
     });
   }
 
   const MeshStream& stream_;
+  OutputSet& outputs_;
+  bool is_wide_;  ///< whether numbers of nodes and elements have 64 bits
   StagedFile staged_;
   std::vector<std::unique_ptr<BlockMesh>> blocks_;
-  std::unique_ptr<CgnsSink> sink_;  ///< on rank 0 only, like the next one
-  std::unique_ptr<CgnsPatches> patches_;
   std::deque<CgnsZoneWriter> zones_;
 };
 
 }  // namespace
 
-void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
-  CgnsWriter(mesh, outputs, path).write();
+void write_cgns(OutputSet& outputs, const MeshStream& mesh, const std::string& path, CgnsSizes sizes) {
+  CgnsWriter(mesh, outputs, path, sizes).write();
 }
 
 }  // namespace quadloop::io

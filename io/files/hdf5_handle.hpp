@@ -50,14 +50,11 @@ class QuietHdf5 {
     static const herr_t nothing_at_exit = H5dont_atexit();
     static_cast<void>(nothing_at_exit);
     H5Eget_auto2(H5E_DEFAULT, &printer_, &data_);
-    listen();
+    H5Eset_auto2(H5E_DEFAULT, &QuietHdf5::note, this);
   }
   ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, printer_, data_); }
   QuietHdf5(const QuietHdf5&) = delete;
   QuietHdf5& operator=(const QuietHdf5&) = delete;
-
-  /// Installs the handler again, after another library has silenced HDF5.
-  void listen() { H5Eset_auto2(H5E_DEFAULT, &QuietHdf5::note, this); }
 
   /// The errno of the first system call that failed within HDF5; 0 if none is known.
   int reason() const { return reason_; }
@@ -81,6 +78,17 @@ class QuietHdf5 {
   void* data_ = nullptr;
   int reason_ = 0;
 };
+
+/// Returns the creation properties of a dataset of which only the space is reserved, as one piece of the file
+/// that is not filled: its contents are written later at H5Dget_offset(), without HDF5.
+inline Hdf5Handle creation_of_reserved_space() {
+  Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
+  H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  return creation;
+}
 
 /// Types of a number in memory and in a file: always little-endian in files.
 template <class T>

@@ -68,7 +68,8 @@ void put_foam_face(TextRows& text, const std::array<Node, width>& nodes) {
 class FoamWriter {
  public:
   FoamWriter(OutputSet& outputs, const MeshStream& stream, const std::string& path)
-      : comm_{outputs.communicator()},
+      : outputs_{outputs},
+        comm_{outputs.communicator()},
         stream_{stream},
         faces_{stream, StreamFaces::CellNumbers::as_streamed, path},
         blocks_{stream},
@@ -86,7 +87,7 @@ class FoamWriter {
 
  private:
   void write_points() {
-    TextOutput file(comm_, staged_[0]);
+    TextOutput file(outputs_, staged_[0]);
     file.write(foam_head("vectorField", "points") + std::to_string(stream_.counts().nodes) + "\n(\n");
     file.write_rows(stream_.point_rows(), 4, [&](TextRows& text, std::int64_t i) {
       const Point3 p = stream_.point(i);
@@ -100,7 +101,7 @@ class FoamWriter {
   }
 
   void write_faces() {
-    TextOutput file(comm_, staged_[1]);
+    TextOutput file(outputs_, staged_[1]);
     file.write(foam_head("faceList", "faces") + std::to_string(faces_.all()) + "\n(\n");
     faces_.write_internal(file, 5, [](TextRows& text, const auto& nodes, std::int64_t, std::int64_t) {
       put_foam_face(text, nodes);
@@ -122,7 +123,7 @@ class FoamWriter {
 
   /// Writes the cell of lower number of each face.
   void write_owner() {
-    TextOutput file(comm_, staged_[2]);
+    TextOutput file(outputs_, staged_[2]);
     file.write(foam_head("labelList", "owner", counts_note()) + std::to_string(faces_.all()) + "\n(\n");
     faces_.write_internal(file, 1, [](TextRows& text, const auto&, std::int64_t owner, std::int64_t) {
       text.put(owner, '\n');
@@ -135,7 +136,7 @@ class FoamWriter {
   }
 
   void write_neighbour() {
-    TextOutput file(comm_, staged_[3]);
+    TextOutput file(outputs_, staged_[3]);
     file.write(foam_head("labelList", "neighbour", counts_note()) + std::to_string(faces_.internal()) +
                "\n(\n");
     faces_.write_internal(file, 1, [](TextRows& text, const auto&, std::int64_t, std::int64_t neighbour) {
@@ -148,7 +149,7 @@ class FoamWriter {
   void write_boundary() {
     const std::vector<StreamedPatch>& patches = stream_.patches();
     const std::vector<std::string> names = foam_patch_names(stream_.patch_names());
-    TextOutput file(comm_, staged_[4]);
+    TextOutput file(outputs_, staged_[4]);
     std::string text = foam_head("polyBoundaryMesh", "boundary") + std::to_string(names.size()) + "\n(\n";
     std::int64_t start = faces_.internal();
     for (std::size_t n = 0; n < names.size(); ++n) {
@@ -197,7 +198,7 @@ class FoamWriter {
 
   /// Writes the file `cellZones`: a zone for each block.
   void write_cell_zones() {
-    TextOutput file(comm_, staged_[5]);
+    TextOutput file(outputs_, staged_[5]);
     const std::vector<std::string> names = foam_patch_names(blocks_.names());
     file.write(foam_head("regIOobject", "cellZones") + std::to_string(names.size()) + "\n(\n");
     for (std::int32_t block = 0; block < blocks_.count(); ++block) {
@@ -219,7 +220,7 @@ class FoamWriter {
 
   /// Writes the file `faceZones`: a zone for each inner line. A face is flipped if its owner is on the right.
   void write_face_zones() {
-    TextOutput file(comm_, staged_.back());
+    TextOutput file(outputs_, staged_.back());
     const std::map<std::int64_t, std::string> lines = names_of_lines(stream_);
     const std::vector<StreamFaces::LineFace> faces = faces_.inner_line_faces();
     std::vector<std::string> names;
@@ -247,6 +248,7 @@ class FoamWriter {
   }
   static std::string no_head(std::size_t) { return {}; }
 
+  OutputSet& outputs_;
   const Communicator& comm_;
   const MeshStream& stream_;
   StreamFaces faces_;

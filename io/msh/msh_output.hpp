@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/model/point3.hpp"
@@ -82,14 +83,16 @@ class MshOutput {
   template <std::size_t width, class Nodes>
   void write_on_boundaries(const BoundaryStream& boundaries, int type, std::int64_t on_each,
                            const Nodes& nodes) {
-    std::int64_t number = next_;
-    file_.write_boundaries(
-        boundaries, (5 + width) * on_each,
-        [&](std::int64_t n) { return block_head(type, n + 1, boundaries.edges_of(n) * on_each); },
-        [&](TextRows& text, std::int64_t n, const BoundaryStream::Edge& edge) {
-          for (std::int64_t k = 0; k < on_each; ++k)
-            put_element<width>(text, number++, type, n + 1, nodes(edge, k));
-        });
+    RowSections sections{boundaries.own_rows()};
+    for (std::int64_t n = 0; communicator().is_root() && n < std::ssize(sections.rows); ++n)
+      sections.heads.push_back(block_head(type, n + 1, boundaries.edges_of(n) * on_each));
+    file_.write_sections(std::move(sections), (5 + width) * on_each,
+                         [&](TextRows& text, std::int64_t n, std::int64_t i) {
+                           const BoundaryStream::Edge edge = boundaries.own_edge(n, i);
+                           const std::int64_t first = next_ + (boundaries.before_own(n) + i) * on_each;
+                           for (std::int64_t k = 0; k < on_each; ++k)
+                             put_element<width>(text, first + k, type, n + 1, nodes(edge, k));
+                         });
     next_ += boundaries.all_edges() * on_each;
   }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "io/files/binary_output.hpp"
-#include "io/files/shared_output.hpp"
+#include "io/files/row_output.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/native/binary_file.hpp"
 #include "io/native/binary_header.hpp"
@@ -39,8 +39,7 @@ class BinaryWriter {
   }
 
   void write() {
-    const std::string head = text_of(header_);
-    at_root(head);
+    file_.write(text_of(header_));
     write_rows(mesh_.owned_nodes, [&](std::size_t i) {
       return std::array{mesh_.points[i].x, mesh_.points[i].y};
     });
@@ -64,32 +63,11 @@ class BinaryWriter {
                                 comm_.sum(std::ranges::count(blocks_->of_quads, b))});
   }
 
-  /// Writes rank 0's bytes.
-  void at_root(std::string_view bytes) {
-    comm_.together([&] {
-      if (comm_.is_root()) file_.write_at(end_, bytes);
-    });
-    end_ += std::ssize(bytes);
-  }
-
   /// Writes the rows of all ranks in the order of ranks, each an array `make(i)`.
   template <class Make>
   void write_rows(std::size_t rows, const Make& make) {
-    using Row = decltype(make(0));
-    constexpr std::size_t rows_of_piece = (std::size_t{1} << 20) / sizeof(Row);
-    const auto own = static_cast<std::int64_t>(rows);
-    const std::int64_t begin = end_ + comm_.exclusive_sum(own) * std::int64_t{sizeof(Row)};
-    end_ += comm_.sum(own) * std::int64_t{sizeof(Row)};
-    comm_.together([&] {
-      std::vector<Row> piece;
-      for (std::size_t first = 0; first < rows; first += rows_of_piece) {
-        const std::size_t last = std::min(rows, first + rows_of_piece);
-        piece.clear();
-        for (std::size_t i = first; i < last; ++i) piece.push_back(in_order<std::endian::little>(make(i)));
-        file_.write_at(begin + static_cast<std::int64_t>(first * sizeof(Row)),
-                       bytes_of(std::span<const Row>(piece)));
-      }
-    });
+    file_.write_rows(static_cast<std::int64_t>(rows),
+                     [&](std::int64_t i) { return in_order<std::endian::little>(make(i)); });
   }
 
   template <class Number>
@@ -112,21 +90,13 @@ class BinaryWriter {
     write_edges<Number>();
   }
 
-  /// Boundary by boundary, the order in which they arrive on rank 0.
+  /// Boundary by boundary.
   template <class Number>
   void write_edges() {
-    std::int64_t at = end_;
-    boundaries_.run([](std::size_t) {},
-                    [&](std::span<const BoundaryStream::Edge> edges) {
-                      std::vector<std::array<Number, 2>> rows;
-                      for (const auto& [from, to] : edges)
-                        rows.push_back(in_order<std::endian::little>(
-                            std::array{static_cast<Number>(from), static_cast<Number>(to)}));
-                      const auto bytes = bytes_of(std::span<const std::array<Number, 2>>(rows));
-                      file_.write_at(at, bytes);
-                      at += std::ssize(bytes);
-                    });
-    end_ += header_.edges() * 2 * header_.node_bytes;
+    file_.write_edges(boundaries_, 1, [](const BoundaryStream::Edge& edge, std::int64_t) {
+      return in_order<std::endian::little>(
+          std::array{static_cast<Number>(edge[0]), static_cast<Number>(edge[1])});
+    });
   }
 
   /// Writes the rows of one kind of cells, block by block.
@@ -142,7 +112,7 @@ class BinaryWriter {
   void write_solution(const Field& solution) {
     std::vector<double> constants;
     for (const double value : solution.constants) constants.push_back(in_order<std::endian::little>(value));
-    at_root(bytes_of(std::span<const double>(constants)));
+    file_.write(bytes_of(std::span<const double>(constants)));
     write_values(solution.values.data(), mesh_.owned_nodes * solution.width());
     const std::size_t width = solution.cells.width(), triangles = mesh_.triangles.size() * width;
     const std::span<const double> of_cells(solution.cells.values);
@@ -159,9 +129,8 @@ class BinaryWriter {
   const Field* solution_;
   const PlaneBlocks* blocks_;  ///< null: one block
   const BoundaryStream& boundaries_;
-  SharedOutput file_;
+  RowOutput file_;
   BinaryHeader header_;
-  std::int64_t end_ = 0;  ///< end of the written data, over all ranks
 };
 
 }  // namespace

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "io/cgns/cgns_layout.hpp"
 #include "io/cgns/cgns_nodes.hpp"
-#include "io/cgns/cgns_sink.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
 
 void put_part_into_cgns(const StagedFile& staged, const MeshPart& part, std::int32_t parts) {
   constexpr const char *data = "UserDefinedData_t", *array = "DataArray_t";
-  CgnsNodes nodes(staged);
+  CgnsNodes nodes(staged, CgnsNodes::State::existing);
   {  // HDF5 keeps a file open as long as any object in it is open
-    const CgnsNodes::Node zone = nodes.at(CgnsSink::path_of_zone(CgnsSink::only_zone)),
+    const CgnsNodes::Node zone = nodes.at(CgnsLayout::path_of_zone(CgnsLayout::only_zone)),
                           here = nodes.add(zone, "Part", data);
     const auto put = [&](const CgnsNodes::Node& parent, const std::string& name, const auto& numbers,
                          const auto& number_of) {

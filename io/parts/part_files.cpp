@@ -36,13 +36,9 @@ LoadedMesh loaded_part(const MeshPart& part, const std::vector<std::string>& blo
 std::vector<PartIndex::Line> lines_at_root(const Communicator& comm, const Mesh& mesh) {
   const BoundaryStream stream(comm, mesh, EdgeChoice::inner_lines);
   std::vector<PartIndex::Line> lines;
-  stream.run(
-      [&](std::size_t n) {
-        lines.push_back({stream.present()[n]->name, {}});
-      },
-      [&](std::span<const BoundaryStream::Edge> edges) {
-        lines.back().edges.insert(lines.back().edges.end(), edges.begin(), edges.end());
-      });
+  std::vector<std::vector<BoundaryStream::Edge>> edges = stream.gather(comm);
+  for (std::size_t n = 0; comm.is_root() && n < edges.size(); ++n)
+    lines.push_back({stream.present()[n]->name, std::move(edges[n])});
   return lines;
 }
 

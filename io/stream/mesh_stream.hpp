@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "io/files/boundary_stream.hpp"
-#include "io/files/row_stream.hpp"
 #include "io/model/extruded_mesh.hpp"
 #include "io/model/file_mesh.hpp"
 #include "io/model/loaded_mesh.hpp"
@@ -38,9 +37,9 @@ struct StreamCounts {
   std::int64_t largest_array() const;
 };
 
-/// A mesh that is written to a file by rank 0 in bounded pieces: a plane or extruded mesh, of which each rank
-/// creates its own rows, or one stored on the only rank as it was in a file. Rows are those of this rank,
-/// from 0. Members are *collective* where stated.
+/// A mesh that all ranks write to a file: a plane or extruded mesh, of which each rank creates its own rows,
+/// or one stored on the only rank as it was in a file. Rows are those of this rank, from 0. Members are
+/// *collective* where stated.
 class MeshStream {
  public:
   /// The mesh and its data must outlive the object. *Collective.*
@@ -64,8 +63,8 @@ class MeshStream {
   const StreamCounts& counts() const { return counts_; }
   /// For an extruded mesh: boundaries with edges in their order, the back, the front.
   const std::vector<StreamedPatch>& patches() const { return patches_; }
-  /// Number of leading patches that sides() streams: those of an extruded mesh except its ends, all of a
-  /// plane mesh. The others have face_rows().
+  /// Number of leading patches whose faces are at the edges of boundaries(): those of an extruded mesh except
+  /// its ends, all of a plane mesh. The others have face_rows().
   std::size_t side_patches() const { return side_patches_; }
   std::vector<std::string> patch_names() const;
   std::int64_t patch_triangles() const;  ///< of all patches
@@ -111,8 +110,8 @@ class MeshStream {
     return patch == side_patches_ ? extruded_->back_face(cell) : extruded_->front_face(cell);
   }
 
-  /// For text formats, instead of sides(): the boundary edges of a plane or extruded mesh, null for a stored
-  /// mesh; each edge of an extruded mesh has one face per layer.
+  /// The boundary edges of a plane or extruded mesh, null for a stored mesh; each edge of an extruded mesh
+  /// has one face per layer, side().
   const BoundaryStream* boundaries() const { return boundaries_ ? &*boundaries_ : nullptr; }
   std::int64_t layers() const { return extruded_ != nullptr ? extruded_->layers() : 0; }
   std::array<NodeNumber, 4> side(const BoundaryStream::Edge& edge, std::int64_t layer) const {
@@ -135,51 +134,6 @@ class MeshStream {
     comm_.together([&] {
       if (comm_.is_root()) action();
     });
-  }
-
-  /// Streams the rows of all ranks, each an array or a number: `make(i)` creates this rank's row i, `put(span
-  /// of rows)` receives them on rank 0. *Collective.*
-  template <class Make, class Put>
-  void rows(std::int64_t count, const Make& make, const Put& put) const {
-    using Row = decltype(make(std::int64_t{0}));
-    const RowStream stream{comm_, count, bytes_per_piece / std::int64_t{sizeof(Row)}};
-    stream.run<Row>(
-        [&](std::int64_t begin, std::int64_t end) {
-          std::vector<Row> made;
-          made.reserve(end - begin);
-          for (std::int64_t i = begin; i < end; ++i) made.push_back(make(i));
-          return made;
-        },
-        put);
-  }
-
-  /// Streams the side faces of an extruded mesh: calls `begin(patch)`, then `put` for pieces of its faces,
-  /// converted by `make(nodes)`, all on rank 0. *Collective.*
-  template <class Begin, class Make, class Put>
-  void sides(const Begin& begin, const Make& make, const Put& put) const {
-    using Row = decltype(make(std::array<NodeNumber, 4>{}));
-    constexpr std::size_t most = bytes_per_piece / sizeof(Row);
-    std::vector<Row> made;
-    if (!boundaries_) return;
-    boundaries_->run(begin, [&](std::span<const BoundaryStream::Edge> edges) {
-      for (const BoundaryStream::Edge& edge : edges) {
-        for (std::int64_t layer = 0; layer < layers(); ++layer) {
-          made.push_back(make(side(edge, layer)));
-          if (made.size() < most) continue;
-          put(std::span<const Row>(made));
-          made.clear();
-        }
-      }
-      put(std::span<const Row>(made));
-      made.clear();
-    });
-  }
-
-  /// Streams the triangles, or quads, of a patch that is not a side. *Collective.*
-  template <std::size_t width, class Make, class Put>
-  void faces(std::size_t patch, const Make& make, const Put& put) const {
-    rows(
-        face_rows<width>(patch), [&](std::int64_t i) { return make(face<width>(patch, i)); }, put);
   }
 
  private:
@@ -206,8 +160,6 @@ class MeshStream {
     if constexpr (width == 3) return extruded_->plane.triangles;
     if constexpr (width == 4) return extruded_->plane.quads;
   }
-
-  static constexpr std::int64_t bytes_per_piece = std::int64_t{1} << 20;
 
   const Communicator& comm_;
   const ExtrudedMesh* extruded_ = nullptr;  ///< either this or the next is set

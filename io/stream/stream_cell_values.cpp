@@ -44,7 +44,9 @@ double StreamCellValues::of_plane(std::int64_t cell, std::size_t variable) const
   return column == ExtrudedVariable::zero ? 0 : plane.values[cell * plane.width() + column];
 }
 
-BoundaryStream StreamCellValues::along_sides(std::size_t variable) const {
+/// Instead of node numbers each edge has the bits of the value.
+std::optional<BoundaryStream> StreamCellValues::at_sides(std::size_t variable) const {
+  if (held_ != nullptr || names_.empty()) return {};
   const ExtrudedMesh& mesh = *stream_.extruded();
   const std::size_t width = mesh.solution->cells.width();
   const std::int64_t column = columns_[variable];
@@ -53,7 +55,7 @@ BoundaryStream StreamCellValues::along_sides(std::size_t variable) const {
     const double value = column == ExtrudedVariable::zero ? 0 : at_edges_[row + column];
     bits.push_back({std::bit_cast<std::int64_t>(value), 0});
   }
-  return {stream_.communicator(), mesh.plane, std::move(bits), stream_.boundaries()->choice()};
+  return BoundaryStream(stream_.communicator(), mesh.plane, std::move(bits), stream_.boundaries()->choice());
 }
 
 /// Among the occurrences of a face patches come first.

@@ -2,7 +2,7 @@
 
 #include <bit>
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,20 +40,11 @@ class StreamCellValues {
     return of_plane(row + (width == 4 ? plane_triangles() : 0), variable);
   }
 
-  /// Streams the values at the side faces, in the stream's order: `put` receives pieces of them on rank 0.
-  /// *Collective.*
-  template <class Put>
-  void sides(std::size_t variable, const Put& put) const {
-    if (held_ != nullptr || names_.empty()) return;
-    std::vector<double> values;
-    along_sides(variable).run([](std::size_t) {},
-                              [&](std::span<const BoundaryStream::Edge> edges) {
-                                for (const BoundaryStream::Edge& edge : edges) {
-                                  values.assign(layers_, std::bit_cast<double>(edge[0]));
-                                  put(std::span<const double>(values));
-                                }
-                              });
-  }
+  /// The plane's boundary edges, each with the value of its cell, value_of(), which is that of its
+  /// sides_on_edge() side faces; none of a stored mesh and without values. *Collective.*
+  std::optional<BoundaryStream> at_sides(std::size_t variable) const;
+  static double value_of(const BoundaryStream::Edge& edge) { return std::bit_cast<double>(edge[0]); }
+  std::int64_t sides_on_edge() const { return layers_; }
 
  private:
   /// Returns the row among all stored cells, kind after kind.
@@ -66,8 +57,6 @@ class StreamCellValues {
   }
   std::int64_t plane_triangles() const { return std::ssize(stream_.extruded()->plane.triangles); }
   double of_plane(std::int64_t cell, std::size_t variable) const;
-  /// The plane's boundary edges; instead of node numbers each has the bits of the adjacent cell's value.
-  BoundaryStream along_sides(std::size_t variable) const;
   void find_cells_beside();
 
   const MeshStream& stream_;

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <memory>
 
 #include "io/files/binary_output.hpp"
 #include "io/files/reading/input_file.hpp"
-#include "io/files/row_stream.hpp"
+#include "io/files/row_output.hpp"
 #include "io/su2/su2_restart_table.hpp"
 #include "mesher/base/error.hpp"
 
@@ -129,30 +128,25 @@ void write_su2_dat(OutputSet& outputs, const Mesh& mesh, const std::string& path
     throw OutputError(
         path + ": " + std::to_string(nodes) +
         " nodes are more than this format can count (32-bit numbers); write a .csv file instead");
-  const StagedFile staged = outputs.stage(path);
-  std::unique_ptr<OutputFile> file;
-  comm.together([&] {
-    if (!comm.is_root()) return;
-    file = std::make_unique<OutputFile>(staged);
-    file->write(head_of(table.names(), nodes));
-  });
+  RowOutput file(outputs, outputs.stage(path));
+  file.write(head_of(table.names(), nodes));
   const auto width = static_cast<std::int64_t>(table.names().size()) + 2;
-  const auto rows_of = [&](std::int64_t begin, std::int64_t end) {
-    std::vector<double> rows;
-    rows.reserve((end - begin) * width);
-    for (std::int64_t i = begin; i < end; ++i) {
-      rows.push_back(mesh.points[i].x);
-      rows.push_back(mesh.points[i].y);
-      table.for_each_value(std::span(solution.values).subspan(i * solution.width(), solution.width()),
-                           [&](double value) { rows.push_back(value); });
-    }
-    return rows;
-  };
-  const RowStream stream{comm, mesh.owned_nodes, std::max<std::int64_t>(1, numbers_per_piece / width)};
-  stream.run<double>(rows_of, [&](std::span<const double> rows) { file->write(bytes_of(rows)); });
-  comm.together([&] {
-    if (comm.is_root()) file->close();
-  });
+  std::vector<double> rows;
+  file.write_sections({{mesh.owned_nodes},
+                       width * std::int64_t{sizeof(double)},
+                       std::max<std::int64_t>(1, numbers_per_piece / width)},
+                      [&](std::size_t, std::int64_t begin, std::int64_t end) {
+                        rows.clear();
+                        for (std::int64_t i = begin; i < end; ++i) {
+                          rows.push_back(mesh.points[i].x);
+                          rows.push_back(mesh.points[i].y);
+                          table.for_each_value(
+                              std::span(solution.values).subspan(i * solution.width(), solution.width()),
+                              [&](double value) { rows.push_back(value); });
+                        }
+                        return bytes_of(std::span<const double>(rows));
+                      });
+  file.close();
 }
 
 }  // namespace quadloop::io

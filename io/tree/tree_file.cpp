@@ -9,17 +9,13 @@
 #include "io/files/binary_output.hpp"
 #include "io/files/hdf5_handle.hpp"
 #include "io/files/output_path.hpp"
-#include "io/files/row_stream.hpp"
-#include "io/files/shared_output.hpp"
+#include "io/files/row_output.hpp"
 #include "io/tree/tree_layout.hpp"
 #include "mesher/base/error.hpp"
 
 namespace quadloop::io {
 
 namespace {
-
-/// Number of leaves converted to columns at a time.
-constexpr std::int64_t rows_per_piece = std::int64_t{1} << 15;
 
 /// The file without its leaves, for which only space is reserved: HDF5 writes it on rank 0.
 class TreeFrame {
@@ -79,11 +75,7 @@ class TreeFrame {
   void create_dataset(const char* name, const std::array<Value LeafRecord::*, width>&) {
     const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows_), width};
     const Hdf5Handle space(H5Screate_simple(width == 1 ? 1 : 2, size.data(), nullptr), H5Sclose);
-    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation.id(), false);
-    H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
-    H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
-    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+    const Hdf5Handle creation = creation_of_reserved_space();
     Hdf5Handle dataset(
         H5Dcreate2(file_.id(), name, file_type<Value>(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
         H5Dclose);
@@ -115,36 +107,16 @@ class TreeFrame {
   std::vector<std::int64_t> places_;
 };
 
-/// The file's leaves, which each rank writes itself.
-class LeafColumns {
- public:
-  LeafColumns(SharedOutput& file, std::vector<std::int64_t> places)
-      : file_{file}, places_{std::move(places)} {}
-
-  /// `first`: global index of the first of them.
-  void write(std::int64_t first, std::span<const LeafRecord> leaves) {
-    auto place = places_.begin();
-    for_each_tree_dataset(
-        [&](const char*, const auto& members) { write_column(*place++, first, members, leaves); });
-  }
-
- private:
-  template <class Value, std::size_t width>
-  void write_column(std::int64_t place, std::int64_t first,
-                    const std::array<Value LeafRecord::*, width>& members,
-                    std::span<const LeafRecord> leaves) {
-    std::vector<Value> column;
-    column.reserve(leaves.size() * width);
-    for (const LeafRecord& leaf : leaves) {
-      for (const auto member : members) column.push_back(in_order<std::endian::little>(leaf.*member));
-    }
-    file_.write_at(place + first * std::int64_t{width * sizeof(Value)},
-                   bytes_of(std::span<const Value>(column)));
-  }
-
-  SharedOutput& file_;
-  std::vector<std::int64_t> places_;
-};
+/// Writes one dataset: a row for each leaf.
+template <class Value, std::size_t width>
+void write_column(RowOutput& file, const std::array<Value LeafRecord::*, width>& members,
+                  const std::vector<LeafRecord>& leaves) {
+  file.write_rows(std::ssize(leaves), [&](std::int64_t i) {
+    std::array<Value, width> row;
+    for (std::size_t k = 0; k < width; ++k) row[k] = in_order<std::endian::little>(leaves[i].*members[k]);
+    return row;
+  });
+}
 
 /// Writes everything except the leaves; returns the offsets of the datasets on every rank. *Collective.*
 std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord& tree,
@@ -176,33 +148,14 @@ std::vector<std::int64_t> write_frame(const Communicator& comm, const TreeRecord
 
 void write_tree(OutputSet& outputs, const TreeRecord& tree, const std::string& path) {
   const Communicator& comm = outputs.communicator();
-  const auto own = std::ssize(tree.leaves);
-  const std::int64_t all = comm.sum(own), before = comm.exclusive_sum(own);
   const StagedFile staged = outputs.stage(path);
-  const bool shared = reached_by_all(comm, staged);
-  SharedOutput file(outputs, staged, shared ? SharedOutput::Writers::all : SharedOutput::Writers::root);
-  LeafColumns columns(file, write_frame(comm, tree, staged, all));
-  const RowStream stream{comm, own, rows_per_piece};
-  const auto piece = [&](std::int64_t begin, std::int64_t end) {
-    return std::span(tree.leaves).subspan(begin, end - begin);
-  };
-  if (shared) {
-    comm.together([&] {
-      for (std::int64_t k = 0; k < stream.pieces(); ++k)
-        columns.write(before + stream.begin_of(k), piece(stream.begin_of(k), stream.begin_of(k + 1)));
-    });
-  } else {
-    std::int64_t written = 0;
-    stream.run<LeafRecord>(
-        [&](std::int64_t begin, std::int64_t end) {
-          const auto leaves = piece(begin, end);
-          return std::vector<LeafRecord>(leaves.begin(), leaves.end());
-        },
-        [&](std::span<const LeafRecord> leaves) {
-          columns.write(written, leaves);
-          written += std::ssize(leaves);
-        });
-  }
+  RowOutput file(outputs, staged);
+  const std::vector<std::int64_t> places = write_frame(comm, tree, staged, comm.sum(std::ssize(tree.leaves)));
+  auto place = places.begin();
+  for_each_tree_dataset([&](const char*, const auto& members) {
+    file.move_to(*place++);
+    write_column(file, members, tree.leaves);
+  });
   file.close();
 }
 

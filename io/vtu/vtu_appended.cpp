@@ -12,17 +12,6 @@ constexpr std::array<const char*, 4> data_elements = {"Points", "Cells", "PointD
 
 }  // namespace
 
-VtuAppended::VtuAppended(OutputSet& outputs, const std::string& path) : comm_{outputs.communicator()} {
-  const StagedFile staged = outputs.stage(path);
-  on_root([&] { file_ = std::make_unique<OutputFile>(staged); });
-}
-
-void VtuAppended::on_root(const std::function<void()>& action) const {
-  comm_.together([&] {
-    if (comm_.is_root()) action();
-  });
-}
-
 std::string VtuAppended::tags_of(const std::string& element, std::int64_t& offset) const {
   std::string tags;
   for (const Array& array : arrays_) {
@@ -40,19 +29,17 @@ void VtuAppended::write(const std::string& head) {
   std::int64_t offset = 0;
   for (const char* element : data_elements) text += tags_of(element, offset);
   text += "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  on_root([&] { file_->write(text); });
+  file_.write(text);
   for (const char* element : data_elements) {
     for (const Array& array : arrays_) {
       if (array.element != element) continue;
       const std::array size{in_order<std::endian::little>(static_cast<std::uint64_t>(array.bytes))};
-      on_root([&] { put(std::span<const std::uint64_t>(size)); });
+      file_.write(bytes_of(std::span(size)));
       array.write();
     }
   }
-  on_root([&] {
-    file_->write("\n</AppendedData>\n</VTKFile>\n");
-    file_->close();
-  });
+  file_.write("\n</AppendedData>\n</VTKFile>\n");
+  file_.close();
 }
 
 }  // namespace quadloop::io

@@ -24,24 +24,29 @@ struct Run {
   std::int32_t patch;  ///< from 1; 0: cells
 };
 
-/// Collects numbers that rank 0 creates one by one.
-template <class Number>
-class Gathered {
+/// The runs of a file, found by the numbers of their elements, which are asked for in ascending order.
+class RunsInOrder {
  public:
-  explicit Gathered(VtuAppended& file) : file_{file} {}
-  void add(Number number) {
-    numbers_.push_back(in_order<std::endian::little>(number));
-    if (numbers_.size() == most) flush();
+  explicit RunsInOrder(const std::vector<Run>& runs) : runs_{runs} {}
+
+  const Run& of(std::int64_t element) {
+    while (element >= first_ + runs_[at_].count) {
+      first_ += runs_[at_].count;
+      entries_ += runs_[at_].count * runs_[at_].nodes;
+      ++at_;
+    }
+    return runs_[at_];
   }
-  void flush() {
-    file_.put(std::span<const Number>(numbers_));
-    numbers_.clear();
+  /// Number of nodes of all elements up to this one.
+  std::int64_t entries_to(std::int64_t element) {
+    const std::int64_t nodes = of(element).nodes;
+    return entries_ + (element - first_ + 1) * nodes;
   }
 
  private:
-  static constexpr std::size_t most = std::size_t{1} << 17;
-  VtuAppended& file_;
-  std::vector<Number> numbers_;
+  const std::vector<Run>& runs_;
+  std::size_t at_ = 0;
+  std::int64_t first_ = 0, entries_ = 0;  ///< elements, and nodes, before the current run
 };
 
 class VtuWriter {
@@ -140,17 +145,15 @@ class VtuWriter {
   void add_cells() {
     file_.add<std::int64_t>("Cells", "connectivity", 1, entries_, [this] { put_connectivity(); });
     file_.add<std::int64_t>("Cells", "offsets", 1, elements_, [this] {
-      std::int64_t end = 0;
-      put_of_runs<std::int64_t>([&](const Run& run) { return end += run.nodes; });
+      RunsInOrder runs(runs_);
+      file_.put_shared_rows(elements_, [&](std::int64_t i) { return std::array{runs.entries_to(i)}; });
     });
-    file_.add<std::uint8_t>("Cells", "types", 1, elements_,
-                            [this] { put_of_runs<std::uint8_t>([](const Run& run) { return run.type; }); });
+    file_.add<std::uint8_t>("Cells", "types", 1, elements_, [this] { put_of_runs(&Run::type); });
   }
 
   /// Adds boundary and block numbers.
   void add_flags() {
-    file_.add<std::int32_t>("CellData", "boundary", 1, elements_,
-                            [this] { put_of_runs<std::int32_t>([](const Run& run) { return run.patch; }); });
+    file_.add<std::int32_t>("CellData", "boundary", 1, elements_, [this] { put_of_runs(&Run::patch); });
     if (blocks_.are_named())
       file_.add<std::int32_t>("CellData", "block", 1, elements_, [this] { put_blocks(); });
   }
@@ -161,40 +164,40 @@ class VtuWriter {
       file_.put_rows(stream_.cell_rows<kind>(),
                      [&](std::int64_t i) { return std::array{blocks_.of<kind>(i) + 1}; });
     });
-    stream_.on_root([&] {
-      Gathered<std::int32_t> none(file_);
-      for (std::int64_t i = stream_.counts().cells(); i < elements_; ++i) none.add(0);
-      none.flush();
-    });
+    file_.put_shared_rows(elements_ - stream_.counts().cells(),
+                          [](std::int64_t) { return std::array{std::int32_t{0}}; });
   }
 
   void put_connectivity() {
-    const auto make = [](const auto& nodes) { return in_order<std::endian::little>(nodes); };
-    const auto put = [this](auto rows) { file_.put(rows); };
     for_each_kind([&]<CellKind kind>() {
       file_.put_rows(stream_.cell_rows<kind>(),
                      [&](std::int64_t i) { return in_vtk_order(stream_.cell<kind>(i)); });
     });
-    if (stream_.is_plane())
-      file_.put_edges(*stream_.boundaries(), [](const BoundaryStream::Edge& edge) { return edge; });
-    else
-      stream_.sides([](std::size_t) {}, make, put);
+    if (stream_.is_plane()) {
+      file_.put_edges(*stream_.boundaries(), 1,
+                      [](const BoundaryStream::Edge& edge, std::int64_t) { return edge; });
+    } else if (stream_.boundaries() != nullptr) {
+      file_.put_edges(
+          *stream_.boundaries(), stream_.layers(),
+          [&](const BoundaryStream::Edge& edge, std::int64_t layer) { return stream_.side(edge, layer); });
+    }
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
-      stream_.faces<3>(n, make, put);
-      stream_.faces<4>(n, make, put);
+      put_faces<3>(n);
+      put_faces<4>(n);
     }
   }
 
-  /// Writes one value for each cell and boundary element, in bounded pieces.
-  template <class Number, class Value>
-  void put_of_runs(const Value& value) {
-    stream_.on_root([&] {
-      Gathered<Number> numbers(file_);
-      for (const Run& run : runs_) {
-        for (std::int64_t i = 0; i < run.count; ++i) numbers.add(Number{value(run)});
-      }
-      numbers.flush();
-    });
+  template <std::size_t width>
+  void put_faces(std::size_t patch) {
+    file_.put_rows(stream_.face_rows<width>(patch),
+                   [&](std::int64_t i) { return stream_.face<width>(patch, i); });
+  }
+
+  /// Writes one value for each cell and boundary element.
+  template <class Number>
+  void put_of_runs(Number Run::*value) {
+    RunsInOrder runs(runs_);
+    file_.put_shared_rows(elements_, [&](std::int64_t i) { return std::array{runs.of(i).*value}; });
   }
 
   void add_node_values() {
@@ -227,11 +230,10 @@ class VtuWriter {
       file_.put_rows(stream_.cell_rows<kind>(),
                      [&](std::int64_t i) { return std::array{cells_.of_cell<kind>(i, variable)}; });
     });
-    Gathered<double> at_sides(file_);
-    cells_.sides(variable, [&](std::span<const double> values) {
-      for (const double value : values) at_sides.add(value);
-    });
-    stream_.on_root([&] { at_sides.flush(); });
+    if (const auto sides = cells_.at_sides(variable))
+      file_.put_edges(*sides, cells_.sides_on_edge(), [](const BoundaryStream::Edge& edge, std::int64_t) {
+        return std::array{StreamCellValues::value_of(edge)};
+      });
     for (std::size_t n = stream_.side_patches(); n < stream_.patches().size(); ++n) {
       file_.put_rows(stream_.face_rows<3>(n),
                      [&](std::int64_t i) { return std::array{cells_.of_face<3>(n, i, variable)}; });

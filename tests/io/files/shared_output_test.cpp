@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,7 @@ TEST(SharedOutput, HoldsWhatEachRankWroteAtItsPlace) {
   const test::TemporaryFolder folder;
   OutputSet outputs(world());
   SharedOutput file(outputs, outputs.stage(folder.file("a.bin")));
-  world().together([&] {
+  file.together([&] {
     for (int part = 1; part >= 0; --part)  // in no order
       file.write_at(2 * world().rank() + part,
                     std::string(1, static_cast<char>('a' + 2 * world().rank() + part)));
@@ -42,7 +43,7 @@ TEST(SharedOutput, AFailureOfAnyRankEndsOnAll) {
   const StagedFile staged = outputs.stage(folder.file("a.bin"));
   SharedOutput file(outputs, staged);
   const int last = world().size() - 1;
-  EXPECT_THROW(world().together([&] {
+  EXPECT_THROW(file.together([&] {
     if (world().rank() == last) file.write_at(-1, "x");
   }),
                OutputError);
@@ -71,14 +72,50 @@ class NoFurtherFile {
   rlimit before_{};
 };
 
-TEST(SharedOutput, NoRankKeepsAFileOpenThatAnotherCouldNotOpen) {
+TEST(SharedOutput, WritesTheBytesOfARankThatCannotOpenTheFile) {
+  if (world().size() == 1) return;
+  const test::TemporaryFolder folder;
+  OutputSet outputs(world());
+  const StagedFile staged = outputs.stage(folder.file("a.bin"));
+  std::optional<SharedOutput> file;
+  {
+    std::optional<NoFurtherFile> limit;
+    if (world().rank() != 0) limit.emplace();
+    file.emplace(outputs, staged);
+  }
+  const std::string own(3, static_cast<char>('a' + world().rank()));
+  file->together([&] { file->write_at(3 * world().rank(), own); });
+  EXPECT_THROW(file->together([&] {
+    if (world().rank() == world().size() - 1) throw InputError("broken");
+    file->write_at(3 * world().rank(), own);
+  }),
+               InputError);
+  if (world().rank() == 0) {  // a failure there leaves no rank waiting
+    EXPECT_THROW(file->together([&] { throw InputError("broken"); }), InputError);
+  } else {
+    EXPECT_THROW(file->together([&] { file->write_at(3 * world().rank(), own); }), InputError);
+  }
+  EXPECT_THROW(file->together([&] {
+    if (world().rank() == 1) file->write_at(std::numeric_limits<std::int64_t>::max(), own);
+  }),
+               OutputError);
+  file->close();
+  outputs.commit();
+  if (world().is_root()) {
+    EXPECT_EQ(test::bytes_of(folder.file("a.bin")),
+              std::string("aaabbbcccdddeee").substr(0, 3 * world().size()));
+  }
+  world().barrier();
+}
+
+TEST(SharedOutput, NoRankKeepsAFileOpenThatRankZeroCouldNotOpen) {
   const test::TemporaryFolder folder;
   OutputSet outputs(world());
   const StagedFile staged = outputs.stage(folder.file("a.bin"));
   const std::ptrdiff_t before = open_files();
   {
     std::optional<NoFurtherFile> limit;
-    if (world().rank() == world().size() - 1) limit.emplace();
+    if (world().is_root()) limit.emplace();
     EXPECT_THROW(SharedOutput(outputs, staged), OutputError);
   }
   EXPECT_EQ(open_files(), before);
