@@ -5,8 +5,8 @@
 #include "mesher/base/log.hpp"
 #include "quadloop/case/adaptive_input.hpp"
 #include "quadloop/case_parts.hpp"
-#include "quadloop/require_input.hpp"
 #include "quadloop/quadloop.hpp"
+#include "quadloop/require_input.hpp"
 
 namespace quadloop {
 
