@@ -47,8 +47,8 @@ class WordDigest {
     }
   }
   void add(const LayerLine& line) {
-    const auto& [names, path, length, spacing, layers, where, at, across, on_streamline] =
-        line;  // across follows from mirror
+    const auto& [names, path, length, spacing, layers, where, at, across, on_streamline, without_layers,
+                 spacing_at_end] = line;  // across follows from mirror
     const std::string from = fmt::format("{}", fmt::join(names, "\n"));
     add(from.size());
     for (const unsigned char byte : from) add(std::uint64_t{byte});
@@ -58,6 +58,7 @@ class WordDigest {
     add(length);
     add(spacing);
     if (on_streamline) add(std::uint64_t{1});
+    if (without_layers) add(spacing_at_end);
     if (!layers) return;
     const auto& [first, growth, growth_to, count, equal, y_plus, follows_flow] = *layers;
     add(first);
@@ -97,7 +98,8 @@ std::uint64_t digest_of_rows(std::span<const double> values, std::size_t width, 
 }  // namespace
 
 // Structured bindings, so that a new option does not compile before it is considered here.
-std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines) {
+std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines,
+                          const std::vector<LayerLine>& wakes_without_layers) {
   const auto& [type, quads, size, snap, may_vanish, limit, mirror, pairs, points] = options;
   // may_vanish and limit do not affect the mesh
   const auto& [min, max, aim, gradation, curvature, gap, sources, root, periods] = size;
@@ -123,6 +125,7 @@ std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLin
   }
   digest.add(snap);
   for (const LayerLine& line : lines) digest.add(line);
+  for (const LayerLine& wake : wakes_without_layers) digest.add(wake);
   if (mirror) digest.add(std::uint64_t{*mirror == MirrorAxis::x ? 1U : 2U});
   for (const PeriodicPair& pair : pairs) {
     digest.add(text_digest(pair.from));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/build/build_mesh.hpp"
@@ -12,7 +13,8 @@
 namespace quadloop {
 
 /// Returns a hash of all settings that affect the mesh, except the geometry.
-std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines = {});
+std::uint64_t case_digest(const MeshOptions& options, const std::vector<LayerLine>& lines = {},
+                          const std::vector<LayerLine>& wakes_without_layers = {});
 
 /// Returns a hash of a text.
 std::uint64_t text_digest(const std::string& text);

@@ -17,6 +17,7 @@
 #include "generate/nearer_chords.hpp"
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
+#include "generate/sizes_of_wakes.hpp"
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/build/outline_losses.hpp"
@@ -332,8 +333,6 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   fill_layers(comm, input, front, generated.result);
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh);
   if (wants_y_plus(input.geometry)) generated.result.tree.measured.walls = measured.walls;
-  if (std::ranges::any_of(input.lines, &LayerLine::follows_flow))
-    generated.result.tree.measured.wakes = measured.wakes;
   if (wants_thickness_of_flow(input.geometry)) generated.result.tree.measured.thickness = measured.thickness;
   times.end();
   generated.times = times;
@@ -360,11 +359,16 @@ smoother::SmoothOptions smooth_options_for(const MeshInput& input, int finest_le
   return options;
 }
 
-GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& input, const DemandedSplits& demanded,
+GeneratedMesh generate_mesh(const Communicator& comm, const MeshInput& given, const DemandedSplits& demanded,
                             const MeasuredFlow& measured, const MeshChange& change) {
+  std::vector<std::string> warnings;
+  const std::optional<MeshInput> sized = with_sizes_of_wakes(given, measured, warnings);
+  const MeshInput& input = sized ? *sized : given;
   GeneratedMesh generated = has_layers(input) ? generate_layered(comm, input, demanded, measured, change)
                                               : generate_plain(comm, input, demanded, change);
   MeshResult& result = generated.result;
+  result.report.warnings.insert(result.report.warnings.end(), warnings.begin(), warnings.end());
+  if (wants_streamlines(input)) result.tree.measured.wakes = measured.wakes;
   generated.times.begin("check");
   place_images(comm, input.mesh.pairs, result.mesh);
   result.mesh.named_nodes = nodes_at(comm, input.mesh.required_points, result.mesh);

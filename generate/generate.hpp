@@ -23,11 +23,13 @@ struct MeshInput {
   MeshOptions mesh;
   smoother::SmoothOptions smooth;  ///< its geometry is not set: smooth_options_for() sets it
   std::uint64_t digest = 0;        ///< case_digest() of the case's mesh options and lines
-  /// Wakes and interior layer lines.
+  /// Wakes and interior layer lines, with layers.
   std::vector<LayerLine> lines = {};
   /// Maximum aspect ratio for r-adaptation (relative to the quadtree cell; adapt/r_adaptation); empty: no
   /// r-adaptation.
   std::optional<double> stretch = {};
+  /// Wakes that request cell sizes instead of layers (sources_of_wakes()).
+  std::vector<LayerLine> wakes_without_layers = {};
 
   /// Returns the background grid of the whole domain. The mesh outside the layers uses the same grid.
   TreeGrid grid() const { return choose_root(geometry, mesh.size); }

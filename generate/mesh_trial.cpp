@@ -2,16 +2,17 @@
 
 #include <utility>
 
+#include "generate/sizes_of_wakes.hpp"
 #include "mesher/build/count_nodes.hpp"
 #include "mesher/build/mesh_estimate.hpp"
 
 namespace quadloop {
 
 MeshTrial::MeshTrial(const MeshInput& input, const MeasuredFlow& measured)
-    : input_{input}, measured_{measured} {
+    : sized_{with_sizes_of_wakes(input, measured)}, input_{sized_ ? *sized_ : input}, measured_{measured} {
   if (!has_layers(input)) return;
   MeshReport dropped;  // reported when the mesh is made
-  geometry_.emplace(geometry_with_layers(input, dropped));
+  geometry_.emplace(geometry_with_layers(input_, dropped));
   of_case_.emplace(layered({}));
 }
 

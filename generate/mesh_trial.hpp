@@ -32,6 +32,7 @@ class MeshTrial {
   };
   Layered layered(const DemandedSplits& demanded) const;
 
+  std::optional<MeshInput> sized_;  ///< with the sizes that wakes without layers request
   const MeshInput& input_;
   MeasuredFlow measured_;
   std::optional<Geometry> geometry_;

@@ -31,6 +31,11 @@ bool wants_thickness_of_flow(const Geometry& geometry) {
                              [](const Boundary& b) { return b.layers && b.layers->follows_flow; });
 }
 
+bool wants_streamlines(const MeshInput& input) {
+  return std::ranges::any_of(input.lines, &LayerLine::follows_flow) ||
+         std::ranges::any_of(input.wakes_without_layers, &LayerLine::follows_flow);
+}
+
 Geometry geometry_with_layers(const MeshInput& input, MeshReport& dropped) {
   Geometry kept = without_small_islands(input.geometry, input.mesh.size.min, dropped);
   if (!input.mesh.may_vanish && !dropped.boundaries_vanished.empty()) {

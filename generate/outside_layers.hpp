@@ -15,6 +15,9 @@ bool wants_y_plus(const Geometry& geometry);
 /// Whether any wall's layers have the thickness of the boundary layer of a computed flow.
 bool wants_thickness_of_flow(const Geometry& geometry);
 
+/// Whether any wake, with layers or without, follows the flow.
+bool wants_streamlines(const MeshInput& input);
+
 /// Returns the geometry without islands that are too small for any quadtree cell to resolve; the mesh would
 /// lose them without layers too. They are recorded in `dropped`. Throws InputError if a boundary that must be
 /// kept is lost.

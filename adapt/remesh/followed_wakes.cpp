@@ -7,6 +7,7 @@
 
 #include "adapt/remesh/demands/mirrored_leaves.hpp"
 #include "adapt/remesh/streamlines.hpp"
+#include "generate/outside_layers.hpp"
 #include "mesher/geometry/nearest_on_segment.hpp"
 
 namespace quadloop::adapt {
@@ -57,26 +58,46 @@ std::string warning_of(const Streamline& line, const PlacedLine& placed, bool ke
       placed.place, placed.name, at.x, at.y);
 }
 
-/// Whether a point of the first path is farther from the second one than a fifth of the column width.
-bool deviates(const PlacedLine& line, const std::vector<Point>& path) {
-  constexpr double share = 0.2, widening = 0.1;
+/// Whether a point of the first path is farther from the second one than a fifth of the column width; of a
+/// wake without layers, than half the cell size at its edge.
+bool deviates(const PlacedLine& line, bool without_layers, const std::vector<Point>& path) {
+  constexpr double share = 0.2, widening = 0.1, share_of_cell = 0.5;
   const double at_edge = layers_thickness(line.layers);
   double s = 0;
   for (std::size_t i = 1; i < line.path.size(); ++i) {
     s += length(line.path[i] - line.path[i - 1]);
-    if (distance_to_polyline(line.path[i], path) > share * std::min(line.spacing, at_edge + widening * s))
-      return true;
+    const double allowed = without_layers ? share_of_cell * line.spacing
+                                          : share * std::min(line.spacing, at_edge + widening * s);
+    if (distance_to_polyline(line.path[i], path) > allowed) return true;
   }
   return false;
+}
+
+/// A wake that follows the flow: straight, and with its course in the last mesh.
+struct LineToFollow {
+  const LayerLine* line;
+  PlacedLine straight, last;
+};
+
+/// Those with layers, and then those without.
+std::vector<LineToFollow> lines_to_follow(const MeshInput& input, const MeasuredFlow& measured) {
+  std::vector<LineToFollow> lines;
+  for (const std::vector<LayerLine>* some : {&input.lines, &input.wakes_without_layers}) {
+    const std::vector<PlacedLine> straight = place_lines(input.geometry, *some),
+                                  last = place_lines(input.geometry, *some, measured.wakes);
+    for (std::size_t i = 0; i < some->size(); ++i) {
+      if ((*some)[i].follows_flow) lines.push_back({&(*some)[i], straight[i], last[i]});
+    }
+  }
+  return lines;
 }
 
 }  // namespace
 
 FollowedWakes wakes_to_follow(const Communicator& comm, const MeshInput& input, const SolvedMesh& solved) {
   FollowedWakes followed;
-  if (std::ranges::none_of(input.lines, &LayerLine::follows_flow)) return followed;
-  const std::vector<PlacedLine> straight = place_lines(input.geometry, input.lines),
-                                last = place_lines(input.geometry, input.lines, solved.tree.measured.wakes);
+  if (!wants_streamlines(input)) return followed;
+  const std::vector<LineToFollow> wakes = lines_to_follow(input, solved.tree.measured);
   const std::optional<Field> direction = flow_direction(comm, solved.mesh, solved.solution);
   if (!direction) {
     followed.paths = solved.tree.measured.wakes;
@@ -85,19 +106,16 @@ FollowedWakes wakes_to_follow(const Communicator& comm, const MeshInput& input, 
         "y_velocity, or x_momentum and y_momentum");
     return followed;
   }
-  std::vector<std::size_t> which;
   std::vector<StreamlineStart> starts;
-  for (std::size_t i = 0; i < straight.size(); ++i) {
-    if (!input.lines[i].follows_flow) continue;
-    which.push_back(i);
-    starts.push_back(start_of(input.lines[i], straight[i], input.geometry));
-  }
+  for (const LineToFollow& wake : wakes)
+    starts.push_back(start_of(*wake.line, wake.straight, input.geometry));
   const std::vector<Streamline> lines = streamlines(comm, solved.mesh, *direction, starts);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const bool kept = lines[k].points.size() < 3;  // the edge, the start and one more
-    const std::string warning = warning_of(lines[k], straight[which[k]], kept);
+    const std::string warning = warning_of(lines[k], wakes[k].straight, kept);
     if (!warning.empty()) followed.warnings.push_back(warning);
-    followed.paths.push_back(kept ? last[which[k]].path : course_along(lines[k].points));
+    if (kept && wakes[k].last.is_guess && wakes[k].line->without_layers) continue;
+    followed.paths.push_back(kept ? wakes[k].last.path : course_along(lines[k].points));
   }
   if (input.mesh.mirror) agree_with_images(*input.mesh.mirror, followed.paths);
   return followed;
@@ -105,10 +123,14 @@ FollowedWakes wakes_to_follow(const Communicator& comm, const MeshInput& input, 
 
 bool other_wakes(const MeshInput& input, const MeasuredFlow& before, const MeasuredFlow& now) {
   if (before.wakes == now.wakes) return false;
-  const std::vector<PlacedLine> old_lines = place_lines(input.geometry, input.lines, before.wakes),
-                                new_lines = place_lines(input.geometry, input.lines, now.wakes);
+  const std::vector<LineToFollow> old_lines = lines_to_follow(input, before),
+                                  new_lines = lines_to_follow(input, now);
   for (std::size_t i = 0; i < new_lines.size(); ++i) {
-    if (deviates(new_lines[i], old_lines[i].path) || deviates(old_lines[i], new_lines[i].path)) return true;
+    const PlacedLine &old_line = old_lines[i].last, &new_line = new_lines[i].last;
+    const bool without_layers = new_lines[i].line->without_layers;
+    if (deviates(new_line, without_layers, old_line.path) ||
+        deviates(old_line, without_layers, new_line.path))
+      return true;
   }
   return false;
 }

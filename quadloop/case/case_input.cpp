@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -84,8 +85,9 @@ CaseInput load_case(const CaseArguments& arguments, Warnings& warnings) {
   if (std::optional<std::string> warning = unit_warning(input.extents, options, geometry))
     warnings.push_back(std::move(*warning));
   for (std::string& warning : spacing_warnings(options, geometry)) warnings.push_back(std::move(warning));
-  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth,
-                               case_digest(options, settings.lines), settings.lines, settings.stretch});
+  const std::uint64_t digest = case_digest(options, settings.lines, settings.wakes_without_layers);
+  input.mesh.emplace(MeshInput{std::move(geometry), options, settings.smooth, digest, settings.lines,
+                               settings.stretch, settings.wakes_without_layers});
   if (arguments.saved) adapt::keep_root(*arguments.saved, *input.mesh);
   return input;
 }

@@ -80,6 +80,13 @@ WakeCourse read_course(const io::CaseTable& table, const std::string& key) {
   return {{}, true};
 }
 
+WakeSpacing read_wake_spacing(const io::CaseTable& table, const std::string& key) {
+  const std::vector<double> sizes = table.numbers_or_one(key, io::Range::positive());
+  if (sizes.empty() || sizes.size() > 2 || sizes.front() > sizes.back())
+    table.refuse(key, "must be a number above 0, or two of which the second is not less");
+  return {sizes.front(), sizes.back()};
+}
+
 ValueForm<std::vector<Point>> path() { return {"`[[x, y], ...]`", "[[1, 1], [2, 2]]", read_path}; }
 
 /// Combines the keys read from a table to layers.
@@ -160,8 +167,8 @@ const KeyTable<WakeKeys>& wake_keys() {
       "wake",
       {key<&WakeKeys::line, &LayerLine::from>(
            "from", texts(),
-           "The boundary with layers at whose sharp or blunt trailing edge the wake begins; a list if "
-           "several boundaries meet there.",
+           "The boundary at whose sharp or blunt trailing edge the wake begins; a list if several boundaries "
+           "meet there. With layers in the wake they have layers too.",
            {.example = "\"box\"",
             .required =
                 {{"the boundary whose edge, sharp or blunt, the wake begins at, or a list of those that "
@@ -182,9 +189,17 @@ const KeyTable<WakeKeys>& wake_keys() {
            "streamline from the trailing edge in the solution of the previous cycle, see "
            "[boundary layers](../how-to/boundary-layers.md#wakes-that-follow-the-flow).",
            {.fallback = "straight"}),
-       key<&WakeKeys::line, &LayerLine::spacing>(
-           "spacing", number(io::Range::positive()), "Target cell length along the line.",
-           {.unit = "length", .required = {{"the length of cells along the line"}}})}};
+       key<&WakeKeys::spacing>(
+           "spacing", ValueForm<WakeSpacing>{"number, above 0, or two", "0.1", read_wake_spacing},
+           "Target cell length along the line. Without layers: cells that intersect the line are no larger "
+           "than this; `[0.001, 0.004]`: the size at the trailing edge and, growing linearly, at the end of "
+           "the length.",
+           {.unit = "length", .required = {{"the length of cells along the line"}}}),
+       key<&WakeKeys::has_layers>(
+           "layers", flag(),
+           "`false`: the wake has no layers; the cells along its line have the size `spacing`. See "
+           "[boundary layers](../how-to/boundary-layers.md#wakes-without-layers).",
+           {.example = "false"})}};
   return keys;
 }
 
@@ -274,6 +289,11 @@ LayerLine read_wake(const io::CaseTable& table) {
   wake.where = table.place();
   wake.path = std::move(keys.course.points);
   wake.follows_flow = keys.course.follows_flow;
+  wake.without_layers = !keys.has_layers;
+  wake.spacing = keys.spacing.at_edge;
+  if (wake.without_layers) wake.spacing_at_end = keys.spacing.at_end;
+  if (keys.has_layers && keys.spacing.at_end != keys.spacing.at_edge)
+    table.refuse("spacing", "is two sizes, which only a wake with layers = false can have; give one");
   std::erase(wake.from, "");
   if (wake.from.empty()) table.refuse("from", "is empty; name the boundary that the wake begins at");
   return wake;
@@ -335,7 +355,7 @@ void require_mirrored_lines(std::vector<LayerLine>& lines, MirrorAxis axis) {
     const std::vector<Point> image = image_of(axis, line.path);
     const auto is_image = [&](const LayerLine& other) {
       return other.path == image && other.spacing == line.spacing && other.layers == line.layers &&
-             other.follows_flow == line.follows_flow;
+             other.follows_flow == line.follows_flow && other.spacing_at_end == line.spacing_at_end;
     };
     if (std::ranges::any_of(lines, is_image)) continue;
     if (line.from.empty() && std::ranges::equal(image, line.path | std::views::reverse)) {

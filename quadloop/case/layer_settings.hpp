@@ -52,10 +52,19 @@ struct WakeCourse {
   friend bool operator==(const WakeCourse&, const WakeCourse&) = default;
 };
 
+/// Sizes along a wake. Only without layers they may differ.
+struct WakeSpacing {
+  double at_edge = 0, at_end = 0;
+
+  friend bool operator==(const WakeSpacing&, const WakeSpacing&) = default;
+};
+
 /// The table [[wake]].
 struct WakeKeys {
   LayerLine line;
   WakeCourse course;
+  WakeSpacing spacing;
+  bool has_layers = true;
 };
 
 /// The table [[layer_line]].

@@ -99,11 +99,17 @@ void read_tables(const CaseTable& root, Settings& settings) {
     settings.mesh.size.sources.push_back(read_source(source));
   for (const CaseTable& block : root.tables("block")) settings.outline.blocks.push_back(read_block(block));
   for (const CaseTable& line : root.tables("line")) read_line(line, settings);
-  for (const CaseTable& wake : root.tables("wake")) settings.lines.push_back(read_wake(wake));
+  for (const CaseTable& table : root.tables("wake")) {
+    const LayerLine wake = read_wake(table);
+    (wake.without_layers ? settings.wakes_without_layers : settings.lines).push_back(wake);
+  }
   for (const CaseTable& line : root.tables("layer_line"))
     settings.lines.push_back(read_layer_line(line, settings));
   read_table(root, "mesh", [&](const CaseTable& table) { read_mesh_table(table, settings); });
-  if (settings.mesh.mirror) require_mirrored_lines(settings.lines, *settings.mesh.mirror);
+  if (settings.mesh.mirror) {
+    require_mirrored_lines(settings.lines, *settings.mesh.mirror);
+    require_mirrored_lines(settings.wakes_without_layers, *settings.mesh.mirror);
+  }
   if (settings.half) require_lines_beside(settings.lines, settings.half->axis);
   read_table(root, "smooth", [&](const CaseTable& table) { read_smooth_table(table, settings); });
   settings.adapt = read_adapt_table(root);
@@ -146,7 +152,8 @@ void require_blocks_alone(const Settings& settings) {
   if (outline.blocks.empty() && outline.lines.empty()) return;
   const bool lines = !outline.lines.empty();
   const Excluded others[] = {
-      {!settings.lines.empty(), "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
+      {!settings.lines.empty() || !settings.wakes_without_layers.empty(),
+       "wakes and free lines with layers; remove [[wake]] and [[layer_line]]"},
       {settings.mesh.mirror.has_value() || (!outline.blocks.empty() && settings.half),
        "mirror images; remove mesh.mirror"},
       {outline.unite_islands, "a union of islands; remove geometry.overlap"},
@@ -318,6 +325,7 @@ MeshOptions mesh_options(const Settings& settings, const Geometry& geometry) {
       smallest = std::min(smallest, at_corner);
   }
   for (const SizeSource& source : options.size.sources) smallest = std::min(smallest, source.spacing);
+  for (const LayerLine& wake : settings.wakes_without_layers) smallest = std::min(smallest, wake.spacing);
   const double aim = cells_of_far_field(settings) * size_to_meet(settings, geometry, smallest);
   if (!settings.min) smallest = std::min(smallest, leaf_wanted_by_layers(geometry, settings.lines));
   const double max = settings.max.value_or(std::max(side / 16, settings.min.value_or(0)));

@@ -93,6 +93,7 @@ struct Settings {
   smoother::SmoothOptions smooth;  ///< without the geometry
   std::optional<double> stretch;   ///< MeshInput::stretch
   std::vector<LayerLine> lines;    ///< wakes and free lines with layers
+  std::vector<LayerLine> wakes_without_layers;
   std::optional<FlowSettings> flow;
   bool wants_y_plus = false;  ///< whether some layers specify a y+, which needs [flow]
   SolverSettings solver;
@@ -133,10 +134,10 @@ Geometry load_geometry(const Settings& settings, Warnings& warnings,
 
 /// Returns the options with defaults for the sizes that the case leaves open. max: 1/16 of the longer side of
 /// the geometry's bounding box (or min if larger). min: half the smallest spacing that follows from its
-/// points, boundaries, corners, layers, lines with layers or the case's sources, at least 2^-20 of that side
-/// and at most half of max. The size that the root meets: the smallest that the case specifies for a
-/// boundary, by its spacing or by twice the height of its last layer, else spacing.max, else the smallest of
-/// the sizes above; within min and max.
+/// points, boundaries, corners, layers, lines with layers, wakes or the case's sources, at least 2^-20 of
+/// that side and at most half of max. The size that the root meets: the smallest that the case specifies for
+/// a boundary, by its spacing or by twice the height of its last layer, else spacing.max, else the smallest
+/// of the sizes above; within min and max.
 MeshOptions mesh_options(const Settings& settings, const Geometry& geometry);
 
 /// Returns a line for each boundary, sharp corner or source whose spacing is smaller than the smallest

@@ -47,9 +47,11 @@ class WakeWall {
       const auto found = walls.by_name.find(name);
       if (found == walls.by_name.end()) refuse_unknown(name, said);
       const BoundaryId boundary = found->second;
-      if (!g.boundary(boundary).layers)
+      if (!line.without_layers && !g.boundary(boundary).layers)
         throw InputError(fmt::format(
-            "{}: boundary '{}' has no layers that a wake could continue; add layers to it", said, name));
+            "{}: boundary '{}' has no layers that a wake could continue; add layers to it, or set layers = "
+            "false for a wake that only requests cell sizes",
+            said, name));
       if (has(boundary)) continue;
       boundaries_.push_back(boundary);
       segments_.insert(segments_.end(), walls.segments[boundary].begin(), walls.segments[boundary].end());
@@ -204,8 +206,8 @@ PlacedLine named(const LayerLine& line, std::ptrdiff_t number, std::ptrdiff_t al
   return placed;
 }
 
-/// The course of a wake after its edge, whose bisector has the direction `on`.
-std::vector<Point> course_of(const LayerLine& line, Point edge, Point on,
+/// The known course of a wake after its edge; empty without points or a streamline.
+std::vector<Point> course_of(const LayerLine& line, Point edge,
                              const std::vector<std::vector<Point>>& streamlines) {
   if (!line.path.empty()) return {line.path.begin() + (line.path[0] == edge ? 1 : 0), line.path.end()};
   const auto distance = [&](const std::vector<Point>& path) { return length(path[0] - edge); };
@@ -219,7 +221,7 @@ std::vector<Point> course_of(const LayerLine& line, Point edge, Point on,
       return course;
     }
   }
-  return {edge + line.length * on};
+  return {};
 }
 
 void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line,
@@ -228,8 +230,10 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line,
   const auto [first, last] = edge_of(g, wall, line, said(placed, line));
   std::vector<Point> path{middle_of(g, {first, last})};
   const Point on = unit(direction_of_segment(g, g.previous(first)) - direction_of_segment(g, last));
-  const std::vector<Point> course = course_of(line, path[0], on, streamlines);
+  const std::vector<Point> course = course_of(line, path[0], streamlines);
+  placed.is_guess = line.follows_flow && course.empty();
   path.insert(path.end(), course.begin(), course.end());
+  if (line.path.empty() && course.empty()) path.push_back(path[0] + line.length * on);
   if (line.follows_flow) placed.clear_of_all_but = wall.boundaries();
   if (path.size() > 1)
     placed.turn_degrees =
@@ -237,7 +241,8 @@ void place_wake(const Geometry& g, const Walls& walls, const LayerLine& line,
   placed.edge = first;
   placed.base_end = last;
   placed.path = std::move(path);
-  placed.layers = *g.boundary(g.boundary_of(first)).layers;
+  placed.layers = g.boundary(g.boundary_of(first)).layers.value_or(LayerSpec{});
+  if (line.without_layers) return;
   const Boundary &before = g.boundary(g.boundary_of(g.previous(first))),
                  &after = g.boundary(g.boundary_of(last));
   if (before.layers->count != after.layers->count)
@@ -264,6 +269,12 @@ std::vector<Point> beginning_of(const std::vector<Point>& path, double length) {
     length -= far;
   }
   return beginning;
+}
+
+double length_of(const std::vector<Point>& path) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += length(path[i] - path[i - 1]);
+  return sum;
 }
 
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines,

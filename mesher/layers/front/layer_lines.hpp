@@ -12,7 +12,8 @@
 namespace quadloop {
 
 /// A line within the domain with layers on both sides, as specified in a case: a wake, which begins at the
-/// trailing edge of a wall and continues its layers, or a free line with layers of its own.
+/// trailing edge of a wall and continues its layers, or a free line with layers of its own. A wake without
+/// layers requests only cell sizes along its line.
 struct LayerLine {
   /// For a wake: the boundary with the edge, or the boundaries that meet there; empty for a free line.
   std::vector<std::string> from;
@@ -24,11 +25,16 @@ struct LayerLine {
   std::optional<Point> at = {};     ///< of a wake: near the edge that it begins at, of several
   /// Of a free line whose path, read backwards, is its own mirror image in an axis: its layers are, too.
   std::optional<MirrorAxis> across = {};
-  bool follows_flow = false;  ///< of a wake with a length: along a streamline, if one is known
+  bool follows_flow = false;    ///< of a wake with a length: along a streamline, if one is known
+  bool without_layers = false;  ///< of a wake: `spacing` is the size of the cells that meet it
+  /// Of a wake without layers: the size of cells at the end of its length, at least `spacing`. Between, it
+  /// varies linearly.
+  double spacing_at_end = 0;
 
   friend bool operator==(const LayerLine& a, const LayerLine& b) {
     const auto made_of = [](const LayerLine& l) {
-      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers, l.follows_flow);
+      return std::tie(l.from, l.at, l.path, l.length, l.spacing, l.layers, l.follows_flow, l.without_layers,
+                      l.spacing_at_end);
     };
     return made_of(a) == made_of(b);
   }
@@ -60,6 +66,7 @@ struct PlacedLine {
   /// Of a wake that follows the flow: the boundaries at which it begins. Its layers keep clear of all others.
   std::vector<BoundaryId> clear_of_all_but = {};
   std::optional<ShortenedWake> shortened = {};
+  bool is_guess = false;  ///< of a wake that follows the flow: straight, as no streamline is known
 };
 
 /// Finds the edges at which wakes begin. An edge is a vertex where the wall turns away from the domain by
@@ -69,12 +76,13 @@ struct PlacedLine {
 /// twentieth of the box from it. A wake without a path is straight and bisects the walls at the edge; one
 /// that follows the flow has the course of the streamline, if any, whose first point is the nearest to the
 /// edge, at most the requested spacing away: moved to the edge, and cut off at the requested length. Throws
-/// InputError for an unknown boundary or one without layers, for no or several matching edges (also for half
-/// an edge on a symmetry boundary), and for two wakes at one edge.
+/// InputError for an unknown boundary, for one without layers unless the wake has none, for no or several
+/// matching edges (also for half an edge on a symmetry boundary), and for two wakes at one edge.
 std::vector<PlacedLine> place_lines(const Geometry& geometry, const std::vector<LayerLine>& lines,
                                     const std::vector<std::vector<Point>>& streamlines = {});
 
 /// The first part of a polyline, of this length; the whole polyline if it is not longer.
 std::vector<Point> beginning_of(const std::vector<Point>& path, double length);
+double length_of(const std::vector<Point>& path);
 
 }  // namespace quadloop

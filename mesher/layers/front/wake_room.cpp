@@ -14,12 +14,6 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 bool keeps_clear(const PlacedLine& line) { return !line.clear_of_all_but.empty(); }
 
-double length_of(const std::vector<Point>& path) {
-  double sum = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) sum += length(path[i] - path[i - 1]);
-  return sum;
-}
-
 std::vector<Point> points_of(const WallLine& walls) {
   std::vector<Point> points;
   for (std::int32_t i = 0; i < walls.size(); ++i) points.push_back(walls[i].wall);

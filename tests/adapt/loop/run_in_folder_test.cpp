@@ -194,9 +194,9 @@ TEST(RunInFolder, FirstHeightsFollowTheFlowAndItsTreeKeepsThem) {
 }
 
 /// Inviscid flow at 6 degrees past a body with a sharp trailing edge, whose wake follows it; a few steps.
-AdaptiveCase wake_case(int cycles) {
+AdaptiveCase wake_case(int cycles, bool with_layers) {
   Boundary far{"far", 1, 30, "farfield"}, body{"body", 0.2, 30, "wall"};
-  body.layers = LayerSpec{0.02, 1.2, 1.2, 4, 1};
+  if (with_layers) body.layers = LayerSpec{0.02, 1.2, 1.2, 4, 1};
   flow::EulerOptions euler;
   euler.mach = 0.5;
   euler.alpha = 6;
@@ -221,17 +221,19 @@ AdaptiveCase wake_case(int cycles) {
   wake.length = 2;
   wake.spacing = 0.2;
   wake.follows_flow = true;
-  adaptive.mesh.lines = {wake};
+  wake.spacing_at_end = with_layers ? 0 : 0.4;
+  wake.without_layers = !with_layers;
+  (with_layers ? adaptive.mesh.lines : adaptive.mesh.wakes_without_layers) = {wake};
   adaptive.adapt.cycles = cycles;
   return adaptive;
 }
 
-TEST(RunInFolder, AWakeFollowsTheFlowAndItsTreeKeepsIt) {
+void expect_wake_kept(bool with_layers) {
   const TemporaryFolder folder;
   Heard whole, begun, resumed;
-  whole.run(wake_case(2), folder.file("whole"), false);
-  begun.run(wake_case(1), folder.file("parts"), false);
-  resumed.run(wake_case(2), folder.file("parts"), true);
+  whole.run(wake_case(2, with_layers), folder.file("whole"), false);
+  begun.run(wake_case(1, with_layers), folder.file("parts"), false);
+  resumed.run(wake_case(2, with_layers), folder.file("parts"), true);
   EXPECT_EQ(resumed.cycles, (std::vector<int>{2}));
   world().barrier();
   EXPECT_TRUE(io::read_tree(world(), folder.file("whole/cycle_00/mesh.tree.h5")).measured.empty());
@@ -245,6 +247,11 @@ TEST(RunInFolder, AWakeFollowsTheFlowAndItsTreeKeepsIt) {
                 test::bytes_of(folder.file("parts/cycle_02/") + name))
         << name;
   world().barrier();
+}
+
+TEST(RunInFolder, AWakeFollowsTheFlowAndItsTreeKeepsIt) {
+  expect_wake_kept(true);
+  expect_wake_kept(false);
 }
 
 TEST(RunInFolder, ThicknessFollowsTheFlowAndItsTreeKeepsIt) {

@@ -30,6 +30,17 @@ MeshInput input_with_wake() {
   return input;
 }
 
+/// The same with a wake without layers.
+MeshInput input_with_sizes() {
+  MeshInput input = input_with_wake();
+  LayerLine wake = input.lines[0];
+  wake.without_layers = true;
+  wake.spacing_at_end = 0.4;
+  input.lines.clear();
+  input.wakes_without_layers = {wake};
+  return input;
+}
+
 /// A uniform flow at an angle, in degrees.
 SolvedMesh solved(MeshResult made, double degrees) {
   SolvedMesh solved{std::move(made.mesh), std::move(made.tree), {{"density", "u", "v"}, {}, {}}, "flow.mesh"};
@@ -50,8 +61,7 @@ AdaptOptions by_density() {
   return options;
 }
 
-TEST(FollowedWakes, TheNextMeshHasTheFlowsWakeAndSoHasItsRestart) {
-  const MeshInput input = input_with_wake();
+void expect_wake_of_flow(const MeshInput& input) {
   const SolvedMesh flow = solved(world(), input, 8);
   EXPECT_TRUE(flow.tree.measured.empty());
   const AdaptationPlan plan = plan_adaptation(world(), input, by_density(), flow);
@@ -77,8 +87,28 @@ TEST(FollowedWakes, TheNextMeshHasTheFlowsWakeAndSoHasItsRestart) {
             made.tree.attributes.coordinate_digest);
 }
 
-TEST(FollowedWakes, SmallChangesOfTheFlowChangeNoMesh) {
-  const MeshInput input = input_with_wake();
+TEST(FollowedWakes, TheNextMeshHasTheFlowsWakeAndSoHasItsRestart) {
+  expect_wake_of_flow(input_with_wake());
+  expect_wake_of_flow(input_with_sizes());
+}
+
+TEST(FollowedWakes, WakesWithAndWithoutLayersStandSideBySide) {
+  MeshInput input = input_with_wake();
+  input.wakes_without_layers = input_with_sizes().wakes_without_layers;
+  input.wakes_without_layers[0].at = Point{-2, 0};
+  const FollowedWakes both = wakes_to_follow(world(), input, solved(world(), input, 8));
+  ASSERT_EQ(both.paths.size(), 1U) << "the other one is against the flow and knows no course";
+  EXPECT_EQ(both.paths[0][0], (Point{2, 0}));
+  EXPECT_EQ(both.warnings.size(), 1U);
+  input.lines[0].at = Point{-2, 0};
+  input.wakes_without_layers[0].at = Point{2, 0};
+  const FollowedWakes others = wakes_to_follow(world(), input, solved(world(), input, 8));
+  ASSERT_EQ(others.paths.size(), 2U);
+  EXPECT_EQ(others.paths[0], (std::vector<Point>{{-2, 0}, {-5, 0}})) << "it keeps its course";
+  EXPECT_EQ(others.paths[1][0], (Point{2, 0}));
+}
+
+void expect_small_changes_ignored(const MeshInput& input) {
   const AdaptationPlan plan = plan_adaptation(world(), input, by_density(), solved(world(), input, 8));
   const auto changes = [&](double degrees) {
     MeshResult made = generate_mesh(world(), input, {}, plan.measured).result;
@@ -87,6 +117,11 @@ TEST(FollowedWakes, SmallChangesOfTheFlowChangeNoMesh) {
   EXPECT_FALSE(changes(8));
   EXPECT_FALSE(changes(8.2));
   EXPECT_TRUE(changes(12));
+}
+
+TEST(FollowedWakes, SmallChangesOfTheFlowChangeNoMesh) {
+  expect_small_changes_ignored(input_with_wake());
+  expect_small_changes_ignored(input_with_sizes());
 }
 
 TEST(FollowedWakes, KeepTheirCourseWithoutAFlowToFollow) {

@@ -58,14 +58,18 @@ class Dump {
   void add_one(const HalfDomain& h) { add(h.axis, h.boundary); }
   void add_one(const flow::Goal& g) { add(g.quantity, g.boundaries, g.about, g.weight); }
   void add_one(const LayerSpec& s) { add(s.first, s.growth, s.growth_to, s.count, s.equal, s.y_plus); }
-  void add_one(const LayerLine& l) { add(l.from, l.path, l.length, l.spacing, l.layers, l.at); }
+  void add_one(const LayerLine& l) {
+    add(l.from, l.path, l.length, l.spacing, l.layers, l.at, l.without_layers, l.spacing_at_end);
+  }
   void add_one(const GeometryInput& f) {
     const Transform& t = f.transform;
     add(f.path, t.scale, t.rotate_degrees, t.translate, t.rotate_about, f.choice.layers, f.choice.names.from,
         f.choice.names.attribute, f.unit, f.spline);
   }
   void add_one(const Curve& c) { add(c.inner, c.spacing); }
-  void add_one(const Shape& s) { add(s.chain.name, s.chain.open, s.chain.points, s.chain.curves, s.is_body, s.spline); }
+  void add_one(const Shape& s) {
+    add(s.chain.name, s.chain.open, s.chain.points, s.chain.curves, s.is_body, s.spline);
+  }
   void add_one(const BoundaryRule& r) {
     add(r.pattern, r.spacing, r.corner_degrees, r.condition, r.corner_spacing, r.layers, r.layers_in);
   }
@@ -92,8 +96,8 @@ std::string text_of(const Settings& s) {
   const SizeOptions& size = s.mesh.size;
   const flow::EulerOptions& e = s.solver.euler;
   Dump dump;
-  dump.add(s.title, s.files, s.shapes, s.inside, s.half, s.min, s.max, s.stretch, s.lines, s.flow, s.adapt,
-           s.morph_to);
+  dump.add(s.title, s.files, s.shapes, s.inside, s.half, s.min, s.max, s.stretch, s.lines,
+           s.wakes_without_layers, s.flow, s.adapt, s.morph_to);
   dump.add(s.far_field, s.output_prefix, s.formats, s.fields, s.partitions);
   dump.add(s.outline.rules, s.outline.default_corner_degrees, s.outline.join, s.outline.unite_islands,
            s.outline.blocks, s.outline.lines);

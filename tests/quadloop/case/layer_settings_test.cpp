@@ -197,6 +197,24 @@ TEST_F(LayerTables, ReadsAWakeThatFollowsTheFlow) {
   EXPECT_FALSE(read("[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = 0.1\n").lines[0] == wake);
 }
 
+TEST_F(LayerTables, ReadsAWakeWithoutLayers) {
+  const std::string text = "[[wake]]\nfrom = \"box\"\nlength = 3\nlayers = false\nspacing = ";
+  const Settings settings = read(text + "[0.1, 0.3]\n");
+  EXPECT_TRUE(settings.lines.empty());
+  ASSERT_EQ(settings.wakes_without_layers.size(), 1U);
+  const LayerLine& wake = settings.wakes_without_layers[0];
+  EXPECT_TRUE(wake.without_layers);
+  EXPECT_EQ(wake.spacing, 0.1);
+  EXPECT_EQ(wake.spacing_at_end, 0.3);
+  EXPECT_EQ(read(text + "0.1\n").wakes_without_layers[0].spacing_at_end, 0.1);
+  EXPECT_NE(refused(text + "[0.3, 0.1]\n").find("spacing' must be a number above 0, or two"),
+            std::string::npos)
+      << refused(text + "[0.3, 0.1]\n");
+  EXPECT_NE(refused("[[wake]]\nfrom = \"box\"\nlength = 3\nspacing = [0.1, 0.3]\n")
+                .find("only a wake with layers = false"),
+            std::string::npos);
+}
+
 TEST_F(LayerTables, RefusesBadWakesAndFreeLines) {
   const auto wake = [&](const std::string& text) { return refused("[[wake]]\n" + text + "\n"); };
   const auto line = [&](const std::string& text) { return refused("[[layer_line]]\n" + text + "\n"); };

@@ -83,11 +83,11 @@ TEST_F(SettingsTest, AMisspeltKeyThatIsNeededIsUnknownAndNotMissing) {
             "case.toml:4: unknown key 'boundary.box.layers.cuont'; known here: first, growth, count, "
             "thickness, equal; do you mean 'count'?");
   EXPECT_EQ(refused("[[wake]]\nfrom = \"box\"\nlenght = 3\nspacing = 1\n"),
-            "case.toml:5: unknown key 'wake.0.lenght'; known here: from, at, length, path, spacing; do you "
-            "mean 'length'?");
+            "case.toml:5: unknown key 'wake.0.lenght'; known here: from, at, length, path, spacing, layers; "
+            "do you mean 'length'?");
   EXPECT_EQ(refused("[[wake]]\nfrm = \"box\"\n"),
-            "case.toml:4: unknown key 'wake.0.frm'; known here: from, at, length, path, spacing; do you mean "
-            "'from'?");
+            "case.toml:4: unknown key 'wake.0.frm'; known here: from, at, length, path, spacing, layers; do "
+            "you mean 'from'?");
 }
 
 TEST_F(SettingsTest, RefusesEveryBadKey) {
