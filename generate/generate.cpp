@@ -18,6 +18,7 @@
 #include "generate/outside_layers.hpp"
 #include "generate/refine_front.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/build/outline_losses.hpp"
 #include "mesher/build/required_points.hpp"
 #include "mesher/build/split_quads.hpp"
@@ -215,6 +216,7 @@ void change(const Communicator& comm, const MeshInput& input, const MeshChange& 
             GeneratedMesh& generated) {
   if (!change) return;
   generated.times.begin("stretch");
+  const progress::SharedStage stage(comm, "stretching");
   change(input, generated.result);
   generated.times.end();
   require_area(comm, input.geometry, generated.result.report.area_dropped, generated.result.mesh, true);
@@ -321,6 +323,7 @@ GeneratedMesh generate_layered(const Communicator& comm, const MeshInput& input,
   add_strips_to(front, divides_layers(input.mesh.type), generated.result.report.estimate);
   times.append(generated.times);
   times.begin("layers");
+  const progress::SharedStage stage(comm, "layers");
   generated.layers = report_layers(comm, front, generated.result.mesh);
   for (std::string& warning : warnings_of(generated.layers))
     generated.result.report.warnings.push_back(std::move(warning));

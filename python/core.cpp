@@ -45,6 +45,20 @@ Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given) {
   return field;
 }
 
+bool StageReports::report(const Progress& progress) {
+  const py::gil_scoped_acquire acquired;
+  try {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (function_.is_none()) return true;
+    const py::object cycle = progress.cycle < 0 ? py::object(py::none()) : py::int_(progress.cycle);
+    return !function_(progress.stage, progress.share, cycle).is(py::bool_(false));
+  } catch (const py::error_already_set& error) {
+    raised_.emplace(error);
+    const std::string text = error.what();  // with the traceback in further lines
+    throw Cancelled(text.substr(0, text.find('\n')));
+  }
+}
+
 namespace {
 
 /// The communicators that were passed, by their Fortran handle. MPI is initialised with the first one if
@@ -216,12 +230,10 @@ std::vector<std::string> write_mesh(const CoreMesh& self, const std::string& pat
   return write(*self.comm, *self.mesh, path, field);
 }
 
-py::tuple make_core_mesh(const CoreCase& self) {
+py::tuple make_core_mesh(const CoreCase& self, const py::object& progress) {
+  StageReports reports(progress);
   std::optional<NewMesh> made;
-  {
-    const py::gil_scoped_release released;
-    made = make_mesh(*self.comm, *self.of);
-  }
+  reports.watch([&] { made = make_mesh(*self.comm, *self.of, reports.callback()); });
   auto solved = std::make_shared<const SolvedMesh>(std::move(made->solved));
   return py::make_tuple(core_mesh(self.comm, std::move(solved), std::move(made->layers), *self.of),
                         made->warnings);
@@ -252,10 +264,10 @@ CoreMesh mesh_from_arrays(const DoubleArray& points, const IntArray& triangles, 
 }
 
 /// A smoothed copy of a mesh of a case. *Collective.*
-CoreMesh smoothed_mesh(const CoreCase& of, const CoreMesh& given) {
-  const py::gil_scoped_release released;
+CoreMesh smoothed_mesh(const CoreCase& of, const CoreMesh& given, const py::object& progress) {
+  StageReports reports(progress);
   auto mesh = std::make_shared<Mesh>(*given.mesh);
-  smooth(*of.comm, *of.of, *mesh);
+  reports.watch([&] { smooth(*of.comm, *of.of, *mesh, reports.callback()); });
   return {given.comm, std::move(mesh), nullptr, given.layers, of.of};
 }
 
@@ -325,6 +337,22 @@ void agree(const Communicator& comm, const std::string& text, const std::string&
   });
 }
 
+/// Log lines go to a function of Python, with their level. An error of the function does not reach the
+/// library.
+void log_to(const py::object& function) {
+  log::send_to([function](log::Level level, const std::string& line) {
+    const py::gil_scoped_acquire acquired;
+    try {
+      function(static_cast<int>(level), line);
+    } catch (py::error_already_set& error) {
+      if (error.matches(PyExc_KeyboardInterrupt))
+        PyErr_SetInterrupt();  // takes effect at the next stage
+      else
+        error.discard_as_unraisable("quadloop log");
+    }
+  });
+}
+
 /// Every key of a case, by table.
 py::dict keys() {
   py::dict tables;
@@ -342,6 +370,7 @@ void add_errors(py::module_& module) {
   static py::exception<SolverError> solver(module, "SolverError", PyExc_RuntimeError);
   static py::exception<TooFar> too_far(module, "TooFar", input.ptr());
   static py::exception<OutputError> output(module, "OutputError", PyExc_OSError);
+  static py::exception<Cancelled> cancelled(module, "Cancelled", PyExc_Exception);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -355,6 +384,8 @@ void add_errors(py::module_& module) {
       solver(error.what());
     } catch (const OutputError& error) {
       output(error.what());
+    } catch (const Cancelled& error) {
+      cancelled(error.what());
     }
   });
 }
@@ -440,7 +471,11 @@ PYBIND11_MODULE(_core, module) {
   module.def("mesh_from_arrays", &mesh_from_arrays);
   module.def("read", &read_core_mesh);
   module.def("keys", &keys);
-  module.def("finish", [] { communicators().finish(); });
+  module.def("log_to", &log_to);
+  module.def("finish", [] {
+    log::send_to({});
+    communicators().finish();
+  });
 }
 
 }  // namespace quadloop::python

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "python/arrays.hpp"
 #include "quadloop/quadloop.hpp"
@@ -34,6 +35,35 @@ CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_
 /// A field of a mesh from that of Python on each rank. Throws an error of one rank on all ranks.
 /// *Collective.*
 Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given);
+
+/// Reports the stages of calls to a function of Python, which may be None. Signals such as Ctrl-C take effect
+/// at each stage.
+class StageReports {
+ public:
+  explicit StageReports(py::object function) : function_{std::move(function)} {}
+
+  /// The object must outlive the callback.
+  ProgressCallback callback() {
+    return [this](const Progress& progress) { return report(progress); };
+  }
+  /// Runs work without the interpreter lock. If an error of Python cancelled it on this rank, that is raised.
+  template <class Work>
+  auto watch(const Work& work) {
+    try {
+      const py::gil_scoped_release released;
+      return work();
+    } catch (const Cancelled&) {
+      if (raised_) throw py::error_already_set(*std::exchange(raised_, {}));
+      throw;
+    }
+  }
+
+ private:
+  bool report(const Progress& progress);
+
+  py::object function_;
+  std::optional<py::error_already_set> raised_;
+};
 
 /// Adds the class Adaptation to the module.
 void add_adaptation(py::module_& module);

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "adapt/loop/run_in_folder.hpp"
 #include "adapt/remesh/own_mesh.hpp"
 #include "adapt/remesh/remesh.hpp"
 #include "flow/adjoint/estimate_goals.hpp"
@@ -16,25 +15,14 @@
 #include "mesher/mesh/check/delaunay_check.hpp"
 #include "mesher/mesh/check/validate.hpp"
 #include "mesher/mesh/scatter_blocks.hpp"
-#include "quadloop/case/adaptive_input.hpp"
-#include "quadloop/case/case_input.hpp"
+#include "quadloop/case_parts.hpp"
 #include "quadloop/require_input.hpp"
 #include "smoother/keep_layers.hpp"
 #include "smoother/smooth_mesh.hpp"
 
 namespace quadloop {
 
-struct CaseParts {
-  CaseInput input;
-  CaseArguments arguments;
-  Warnings warnings;
-};
-
 namespace {
-
-const MeshInput& mesh_input(const Case& of) { return *of.parts().input.mesh; }
-
-const std::string& path_of(const Case& of) { return of.parts().arguments.source.path; }
 
 std::string text_of(const MeshFault& fault) {
   return fmt::format("{}: {} at ({}, {})", name_of(fault.rule), fault.what, fault.place.x, fault.place.y);
@@ -65,6 +53,14 @@ void require_rows(const Communicator& comm, const Mesh& mesh, const Field& field
   });
 }
 
+progress::Observer observer_of(const ProgressCallback& callback, const std::function<int()>& cycle) {
+  if (!callback) return {};
+  return [&callback, cycle](const std::string& stage, double share) {
+    if (!callback({stage, share, cycle ? cycle() : -1}))
+      throw Cancelled("the progress callback returned false");
+  };
+}
+
 Case::Case(const Communicator& comm, const CaseSource& source, const std::vector<std::string>& assignments) {
   auto parts = std::make_shared<CaseParts>(CaseParts{{}, {source, assignments, {}, {}}, {}});
   comm.together([&] { parts->input = load_case(parts->arguments, parts->warnings); });
@@ -81,7 +77,8 @@ int Case::cycles() const {
 
 const std::vector<std::string>& Case::warnings() const { return parts_->warnings; }
 
-NewMesh make_mesh(const Communicator& comm, const Case& of) {
+NewMesh make_mesh(const Communicator& comm, const Case& of, const ProgressCallback& progress) {
+  const progress::Observed observed(comm, observer_of(progress));
   GeneratedMesh generated = generate_mesh(comm, mesh_input(of));
   MeshResult& made = generated.result;
   return {{std::move(made.mesh), std::move(made.tree), {}, {}},
@@ -90,7 +87,8 @@ NewMesh make_mesh(const Communicator& comm, const Case& of) {
           std::move(generated.layers)};
 }
 
-void smooth(const Communicator& comm, const Case& of, Mesh& mesh) {
+void smooth(const Communicator& comm, const Case& of, Mesh& mesh, const ProgressCallback& progress) {
+  const progress::Observed observed(comm, observer_of(progress));
   const MeshInput& input = mesh_input(of);
   const TreeGrid grid = input.grid();
   smoother::SmoothOptions options = smooth_options_for(input, grid.finest_level(input.mesh.size.min));
@@ -131,7 +129,8 @@ RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh
 }
 
 NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
-               const SolvedMesh& before) {
+               const SolvedMesh& before, const ProgressCallback& progress) {
+  const progress::Observed observed(comm, observer_of(progress));
   require_rows(comm, before.mesh, before.solution);
   const TreeAttributes& tree = before.tree.attributes;
   comm.together([&] {
@@ -144,80 +143,6 @@ NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& 
           std::move(remeshed.report),
           std::move(made.report.warnings),
           std::move(remeshed.generated.layers)};
-}
-
-namespace {
-
-/// Keeps the record of a cycle.
-struct LastRecord final : adapt::CycleObserver {
-  void finished(adapt::CycleRecord record, const std::vector<std::string>& /*notes*/,
-                const std::vector<std::string>& warnings) override {
-    report = report_of(record, warnings);
-  }
-  static CycleReport report_of(const adapt::CycleRecord& record, const std::vector<std::string>& warnings) {
-    return {record.cycle, adapt::statistics_of(record).text(), warnings};
-  }
-  CycleReport report;
-};
-
-}  // namespace
-
-struct Adaptation::Parts {
-  Parts(const Communicator& comm_of_run, const Case& of, const std::string& folder, bool resume)
-      : comm{comm_of_run} {
-    comm.together([&] {
-      adaptive = adaptive_input(of.parts().input, of.parts().arguments, SolvedBy::caller).adaptive;
-    });
-    if (folder.empty()) {
-      alone.emplace(comm, adaptive->mesh, adaptive->adapt, record);
-      return;
-    }
-    adapt::RunReport report;
-    report.warning = [this](const std::string& warning) { early_warnings.push_back(warning); };
-    report.cycle = [this](const adapt::CycleRecord& of_cycle, const std::vector<std::string>& warnings) {
-      record.report = LastRecord::report_of(of_cycle, warnings);
-    };
-    in_folder.emplace(comm, *adaptive, folder, resume, report);
-  }
-  adapt::AdaptiveLoop& loop() { return in_folder ? in_folder->loop() : *alone; }
-
-  const Communicator& comm;
-  std::optional<adapt::AdaptiveCase> adaptive;
-  LastRecord record;
-  std::vector<std::string> early_warnings;  ///< before the first cycle
-  std::optional<adapt::AdaptiveLoop> alone;
-  std::optional<adapt::FolderRun> in_folder;
-};
-
-Adaptation::Adaptation(const Communicator& comm, const Case& of, const std::string& folder, bool resume)
-    : parts_{std::make_unique<Parts>(comm, of, folder, resume)} {}
-
-Adaptation::~Adaptation() = default;
-
-bool Adaptation::begin_cycle() { return parts_->loop().begin_cycle(); }
-
-int Adaptation::cycle() const { return parts_->loop().cycle(); }
-
-std::shared_ptr<const SolvedMesh> Adaptation::solved() const {
-  const adapt::AdaptiveLoop& loop = parts_->loop();
-  const std::shared_ptr<const adapt::CycleEnd> end = loop.under_way() ? loop.under_way() : loop.end().left;
-  return end ? std::shared_ptr<const SolvedMesh>(end, &end->solved) : nullptr;
-}
-
-const Field& Adaptation::initial_state() const { return parts_->loop().initial_state(); }
-
-const TransferReport& Adaptation::transferred() const { return parts_->loop().remeshed().report; }
-
-const LayerReport& Adaptation::layers() const { return parts_->loop().remeshed().generated.layers; }
-
-CycleReport Adaptation::finish_cycle(SolvedFlow flow) {
-  const std::shared_ptr<const SolvedMesh> solved_mesh = solved();
-  require_rows(parts_->comm, solved_mesh->mesh, flow.solution);
-  parts_->loop().finish_cycle(std::move(flow));
-  CycleReport report = parts_->record.report;
-  const std::vector<std::string> early = std::exchange(parts_->early_warnings, {});
-  report.warnings.insert(report.warnings.begin(), early.begin(), early.end());
-  return report;
 }
 
 std::vector<std::string> check(const Communicator& comm, const Mesh& mesh) {

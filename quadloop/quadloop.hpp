@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 #include "mesher/base/log.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/layers/boundary_layer_report.hpp"
 #include "mesher/mesh/check/quality.hpp"
 #include "mesher/mesh/field.hpp"
@@ -47,7 +49,8 @@
 /// and remedy. Fault is an internal error. Other exceptions are documented at the function. User code that
 /// may fail on a single rank must run inside comm.together(), which raises the error on all ranks.
 ///
-/// Warnings are returned, the same on all ranks. Nothing is printed unless log::configure() enables it.
+/// Warnings are returned, the same on all ranks. Log lines go to stderr, warnings only, unless
+/// log::configure() or log::send_to() says otherwise.
 ///
 ///     const Communicator comm(MPI_COMM_WORLD);
 ///     const Case wing(comm, "wing.toml");
@@ -60,6 +63,7 @@ using adapt::MorphReport, adapt::SolvedMesh, adapt::TransferReport;
 using flow::FlowSolver, flow::SolvedFlow;
 using io::CaseSource, io::ExtrusionAxis, io::GeometryLine;
 using io::PlotFormat, io::PlotOptions;
+using progress::Cancelled;
 
 struct CaseParts;
 namespace adapt {
@@ -85,6 +89,18 @@ class Case {
   std::shared_ptr<const CaseParts> parts_;
 };
 
+/// A stage of a call, as it begins and as it advances.
+struct Progress {
+  std::string stage;  ///< e.g. "refinement", "cutting", "cells", "smoothing", "transfer", "solving"
+  double share = 0;   ///< done, from 0 to 1; stays 0 if it is not known
+  int cycle = -1;     ///< of an Adaptation; -1 in other calls
+};
+
+/// Called on each rank that has one, at the same stages on all ranks; returns false to cancel the call, on
+/// one rank or on several. An exception also cancels it. Then all ranks throw Cancelled, with the message of
+/// the exception, and files are complete or absent.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
 /// A generated mesh with its solution.
 struct NewMesh {
   SolvedMesh solved;           ///< transferred solution; empty for the initial mesh
@@ -94,8 +110,8 @@ struct NewMesh {
 };
 
 /// Generates the initial mesh of the case, smoothed with the case's settings. Throws InputError, naming the
-/// boundary, if the geometry cannot be meshed or the mesh would exceed free memory.
-NewMesh make_mesh(const Communicator& comm, const Case& of);
+/// boundary, if the geometry cannot be meshed or the mesh would exceed free memory; Cancelled.
+NewMesh make_mesh(const Communicator& comm, const Case& of, const ProgressCallback& progress = {});
 
 /// Smooths a mesh with the case's settings; boundary nodes slide along the case's geometry. The mesh may be
 /// any mesh of that geometry that is valid except for inverted cells. Connectivity is preserved, with one
@@ -104,8 +120,8 @@ NewMesh make_mesh(const Communicator& comm, const Case& of);
 /// smoothing tries to keep parallelograms. make_mesh() then splits the quadrilaterals that are not
 /// parallelograms into triangles; smooth() leaves them as they are. The nodes of layer cells do not move. The
 /// quality of the worst cell does not decrease. Inverted cells are untangled as far as possible; check()
-/// reports those that remain.
-void smooth(const Communicator& comm, const Case& of, Mesh& mesh);
+/// reports those that remain. Throws Cancelled; then the mesh may be partly smoothed.
+void smooth(const Communicator& comm, const Case& of, Mesh& mesh, const ProgressCallback& progress = {});
 
 /// Returns the built-in 2D Euler solver with the case's settings, for any mesh of the case's geometry.
 /// The initial state and the solution have the variables density, x_velocity, y_velocity and pressure, in
@@ -130,7 +146,7 @@ class RefinementFlags {
   RefinementFlags(const SolvedMesh& of, std::shared_ptr<const adapt::AdaptationPlan> plan);
   friend RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh& solved);
   friend NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
-                        const SolvedMesh& before);
+                        const SolvedMesh& before, const ProgressCallback& progress);
 
   std::uint64_t case_digest_, coordinate_digest_;  ///< digests of the mesh's tree
   std::shared_ptr<const adapt::AdaptationPlan> plan_;
@@ -144,9 +160,9 @@ RefinementFlags sense(const Communicator& comm, const Case& of, const SolvedMesh
 
 /// Returns the next mesh, smoothed, with all variables transferred from the previous mesh (transfer()).
 /// `flags` must be the result of sense() for `before`; the nodes of `before` may have moved since. Throws
-/// InputError as make_mesh() and sense() do, and if `flags` belongs to another mesh.
+/// InputError as make_mesh() and sense() do, and if `flags` belongs to another mesh; Cancelled.
 NewMesh remesh(const Communicator& comm, const Case& of, const RefinementFlags& flags,
-               const SolvedMesh& before);
+               const SolvedMesh& before, const ProgressCallback& progress = {});
 
 /// The results of one cycle of an Adaptation.
 struct CycleReport {
@@ -155,25 +171,41 @@ struct CycleReport {
   std::vector<std::string> warnings;
 };
 
-/// The adaptive loop of a case, with a solver of the caller: cycles 0 to adapt.cycles, each on the mesh that
-/// the cycle before it planned, from its transferred solution. Meshes and solutions have the same bits as
-/// those of the command `quadloop adapt` with the same solver.
+/// Who solves in an Adaptation.
+enum class Solving {
+  by_caller,         ///< whose solution is given to finish_cycle()
+  by_solver_of_case  ///< the built-in one, SU2, OpenFOAM or another command: Adaptation::solve()
+};
+
+struct AdaptationOptions {
+  /// Each cycle writes the files of `quadloop adapt` there; empty: no files.
+  std::string folder = {};
+  bool resume = false;  ///< continue after the last complete cycle in the folder
+  Solving solving = Solving::by_caller;
+  ProgressCallback progress = {};  ///< called in each member function that works
+};
+
+/// The adaptive loop of a case: cycles 0 to adapt.cycles, each on the mesh that the cycle before it planned,
+/// from its transferred solution. Meshes and solutions have the same bits as those of the command `quadloop
+/// adapt` with the same solver.
 ///
 ///     Adaptation run(comm, wing);
 ///     while (run.begin_cycle())
 ///       run.finish_cycle(my_solver(comm, run.solved()->mesh, run.initial_state(), run.cycle()));
 class Adaptation {
  public:
-  /// With a folder, each cycle writes the files of the command there. With `resume` the loop continues after
-  /// the last complete cycle in the folder. `comm` must outlive the object. Throws InputError, e.g. if the
-  /// case has no table [adapt], or if the folder belongs to another case; OutputError.
-  Adaptation(const Communicator& comm, const Case& of, const std::string& folder = {}, bool resume = false);
+  /// `comm` must outlive the object. Throws InputError, e.g. if the case has no table [adapt], if the folder
+  /// belongs to another case, or if the solver of the case is another program and no folder is given;
+  /// OutputError.
+  Adaptation(const Communicator& comm, const Case& of, AdaptationOptions options = {});
+  /// Removes the files of a cycle that was not finished, unless an error other than Cancelled stopped it.
   ~Adaptation();
   Adaptation(const Adaptation&) = delete;
   Adaptation& operator=(const Adaptation&) = delete;
 
   /// Generates the next mesh and the initial state on it. Returns false if the loop has ended: after
-  /// adapt.cycles, if the mesh would not change, or as adapt.until says. Throws as make_mesh() does.
+  /// adapt.cycles, if the mesh would not change, or as adapt.until says. Throws as make_mesh() does. After
+  /// Cancelled, begin_cycle() repeats the cycle.
   bool begin_cycle();
   int cycle() const;  ///< the cycle under way, or the last one
   /// The mesh of this cycle, with the solution after finish_cycle(). Null before the first cycle. It does not
@@ -184,8 +216,11 @@ class Adaptation {
   /// Its conservation error.
   const TransferReport& transferred() const;
   const LayerReport& layers() const;  ///< of the mesh under way
+  /// Runs the solver of the case on the mesh under way. Throws InputError for Solving::by_caller,
+  /// SolverError, Cancelled.
+  SolvedFlow solve();
   /// Takes the solution, writes the files and plans the next mesh. Throws InputError if the solution lacks
-  /// the variable of the sensor or is not finite.
+  /// the variable of the sensor or is not finite; Cancelled.
   CycleReport finish_cycle(SolvedFlow flow);
 
  private:

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mesher/base/error.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/delaunay/restore/restore_delaunay.hpp"
 #include "mesher/geometry/predicates.hpp"
 #include "mesher/mesh/check/quality.hpp"
@@ -201,15 +201,15 @@ WorstCell worst_triangle(const Communicator& comm, const Mesh& mesh) {
 
 /// Sweeps until almost no node moves, at most `sweeps` times. Sweeps after the open ones are compared with
 /// the busiest of these later ones, as fewer nodes move there. *Collective.*
-void sweep_until_settled(Sweeper& sweeper, int sweeps, SmoothReport& report) {
-  progress::Stage stage("smoothing", sweeps, "sweeps");
+void sweep_until_settled(const Communicator& comm, Sweeper& sweeper, int sweeps, SmoothReport& report) {
+  progress::SharedStage stage(comm, "smoothing", sweeps, "sweeps");
   std::int64_t moves = 1, busiest = 0;
   for (int sweep = 0; sweep < sweeps && moves > 0 && moves >= busiest / few; ++sweep, ++report.sweeps) {
     moves = sweeper.sweep();
     busiest = sweep == Sweeper::open_sweeps ? moves : std::max(busiest, moves);
     report.moves += moves;
     stage.say("sweep " + std::to_string(sweep + 1) + ", " + std::to_string(moves) + " nodes moved");
-    stage.advance(sweep + 1);
+    stage.advance_together(sweep + 1);
   }
 }
 
@@ -251,7 +251,7 @@ void sweep_in_rounds(const Communicator& comm, HaloMesh& halo, BoundarySlide& sl
                              threshold,       surveyed.tangled,
                              targets.empty(), even_up_to(round, options, !targets.empty())};
     Sweeper sweeper(comm, halo, stars, slide, rule, bad, stale);
-    sweep_until_settled(sweeper, options.sweeps, report);
+    sweep_until_settled(comm, sweeper, options.sweeps, report);
     report.free_nodes = comm.sum(std::ssize(stars));
   }
 }

@@ -59,8 +59,8 @@ void CycleFolders::lock() {
   if (lock_ < 0) io::refuse_output(folder_, errno);
   // Some network file systems do not support such locks; the run then proceeds without one.
   if (::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  throw InputError(
-      folder_ + ": another run is using this folder; wait until it ends, or choose another folder with -o");
+  throw InputError(folder_ +
+                   ": another run is using this folder; wait until it ends, or choose another folder");
 }
 
 int CycleFolders::count_whole() const {
@@ -72,9 +72,10 @@ int CycleFolders::count_whole() const {
     if (std::sscanf(name.c_str(), "cycle_%d", &later) != 1 || later <= cycles ||
         fs::path(whole(later)).filename() != name)
       continue;
-    throw InputError(fmt::format(
-        "{}: is missing, but {} exists; restore it, or remove the later cycles, and --resume repeats them",
-        whole(cycles), name));
+    throw InputError(
+        fmt::format("{}: is missing, but {} exists; restore it, or remove the later cycles and resume the "
+                    "run, which repeats them",
+                    whole(cycles), name));
   }
   return cycles;
 }
@@ -87,13 +88,14 @@ void CycleFolders::settle_start(bool resume, const std::string& start) const {
   const bool has_begun = !before.empty() || fs::exists(under_way(0));
   if (resume && has_begun && digest_of_start(before) != digest_of_start(start)) {
     if (before.empty())
-      throw InputError(folder_ +
-                       ": the run in it was started without --from and has no complete cycle yet; resume it "
-                       "without --from, or choose another folder with -o");
-    throw InputError(
-        fmt::format("{}: the run in it was started with --from, by {}, and has no complete cycle yet; resume "
-                    "it with the same --from, or choose another folder with -o",
-                    folder_, before.substr(before.find(' ') + 1)));
+      throw InputError(
+          folder_ +
+          ": the run in it began with the mesh of its case and has no complete cycle yet; resume "
+          "it so, or choose another folder");
+    throw InputError(fmt::format(
+        "{}: the run in it began with the mesh of {} and has no complete cycle yet; resume it with "
+        "the same one, or choose another folder",
+        folder_, before.substr(before.find(' ') + 1)));
   }
   fs::remove(start_file());
   if (start.empty()) return;
@@ -114,8 +116,7 @@ int CycleFolders::open(bool resume, const std::string& start) {
       fs::create_directories(folder_);
       lock();
       if (!resume && !holds_nothing_whole(folder_, under_way(0), start_file())) {
-        throw InputError(
-            folder_ + ": is not empty; --resume continues the run in it, or choose another folder with -o");
+        throw InputError(folder_ + ": is not empty; resume the run in it, or choose another folder");
       }
       cycles = count_whole();
       if (cycles == 0) settle_start(resume, start);
@@ -133,6 +134,11 @@ void CycleFolders::begin(int cycle) {
       if (!fs::create_directory(under_way(cycle))) io::refuse_output(under_way(cycle), EEXIST);
     });
   });
+}
+
+void CycleFolders::discard(int cycle) {
+  std::error_code ignored;
+  if (comm_.is_root()) fs::remove_all(under_way(cycle), ignored);
 }
 
 void CycleFolders::finish(int cycle) {

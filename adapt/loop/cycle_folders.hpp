@@ -31,6 +31,8 @@ class CycleFolders {
 
   /// Creates an empty folder for the cycle, replacing an earlier one.
   void begin(int cycle);
+  /// Removes the folder of the cycle under way. On the root; no error is reported. Not collective.
+  void discard(int cycle);
   /// Flushes the folder to disk and renames it.
   void finish(int cycle);
 

@@ -18,7 +18,8 @@ namespace quadloop::adapt {
 namespace {
 
 std::string cure_of(const std::string& folder) {
-  return "; restore the file, or remove the folder " + folder + ", and --resume repeats that cycle";
+  return "; restore the file, or remove the folder " + folder +
+         " and resume the run, which repeats that cycle";
 }
 
 std::string text_of_record(const std::string& path, const std::string& folder) {

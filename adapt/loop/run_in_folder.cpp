@@ -95,6 +95,12 @@ flow::FlowSolver rough_solver(const AdaptiveCase& adaptive) {
   return built_in_solver(rough);
 }
 
+/// Returns the initial mesh of a case with passes; without passes an empty function.
+FirstMesh mesh_of_passes(const Communicator& comm, const AdaptiveCase& adaptive) {
+  if (adaptive.adapt.passes == 0) return {};
+  return [&] { return mesh_after_passes(comm, adaptive.mesh, adaptive.adapt, rough_solver(adaptive)); };
+}
+
 /// Returns the result of the last complete cycle of an earlier run, from its files. The files of a finished
 /// run are checked too, so that damage is reported. *Collective.*
 CycleEnd left_by_earlier_run(const Communicator& comm, const AdaptiveCase& adaptive,
@@ -145,15 +151,28 @@ LoopStart FolderRun::start_of(bool resume, const RunReport& report, const std::o
     of_loop.mesh = [this, &start] {
       return continued_mesh(comm_, adaptive_.mesh, start->solved, start->wish, adapt_.transfer);
     };
-  } else if (adapt_.passes > 0) {
-    of_loop.mesh = [this] {
-      return mesh_after_passes(comm_, adaptive_.mesh, adapt_, rough_solver(adaptive_));
-    };
+  } else {
+    of_loop.mesh = mesh_of_passes(comm_, adaptive_);
   }
   return of_loop;
 }
 
+void FolderRun::discard_unfinished() { folders_.discard(loop_->cycle()); }
+
 flow::FlowSolver FolderRun::solver() const { return solver_in(folders_, adaptive_); }
+
+bool is_external(const ChosenSolver& solver) { return !std::holds_alternative<flow::EulerOptions>(solver); }
+
+LoopStart start_in_memory(const Communicator& comm, const AdaptiveCase& adaptive) {
+  require_min_in_tree(adaptive.mesh, adaptive.adapt);
+  LoopStart start;
+  start.mesh = mesh_of_passes(comm, adaptive);
+  return start;
+}
+
+flow::FlowSolver solver_in_memory(const AdaptiveCase& adaptive) {
+  return built_in_solver(std::get<flow::EulerOptions>(adaptive.solver));
+}
 
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,
                       bool resume, const RunReport& report, const std::optional<DesignStart>& start) {

@@ -57,6 +57,8 @@ class FolderRun {
   AdaptiveLoop& loop() { return *loop_; }
   /// The solver of the case. The object must outlive it.
   flow::FlowSolver solver() const;
+  /// Removes the files of a cycle under way. On the root; no error is reported. Not collective.
+  void discard_unfinished();
 
  private:
   LoopStart start_of(bool resume, const RunReport& report, const std::optional<DesignStart>& start);
@@ -68,6 +70,14 @@ class FolderRun {
   std::optional<CycleFiles> files_;
   std::optional<AdaptiveLoop> loop_;
 };
+
+/// Whether the solver is another program, which reads and writes files.
+bool is_external(const ChosenSolver& solver);
+
+/// The start and the solver of a loop without files; `adaptive` must outlive the start. The solver must not
+/// be external.
+LoopStart start_in_memory(const Communicator& comm, const AdaptiveCase& adaptive);
+flow::FlowSolver solver_in_memory(const AdaptiveCase& adaptive);
 
 /// Runs all cycles with the solver of the case. Throws InputError, SolverError, OutputError. *Collective.*
 LoopEnd run_in_folder(const Communicator& comm, const AdaptiveCase& adaptive, const std::string& folder,

@@ -21,6 +21,7 @@
 #include "generate/leaf_quadrant.hpp"
 #include "mesher/base/counted.hpp"
 #include "mesher/base/error.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/geometry/facets.hpp"
 #include "mesher/grid/tree_grid.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
@@ -318,6 +319,7 @@ void plan_by_metric(const Communicator& comm, const MeshInput& input, const Adap
 
 AdaptationPlan plan_adaptation(const Communicator& comm, const MeshInput& input, const AdaptOptions& options,
                                const SolvedMesh& solved) {
+  const progress::SharedStage stage(comm, "planning");
   AdaptationPlan plan;
   plan.transfer = options.transfer;
   FollowedWakes wakes = wakes_to_follow(comm, input, solved);

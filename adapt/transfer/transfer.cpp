@@ -19,6 +19,7 @@
 #include "adapt/transfer/point_values.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/mesh/cells/block_part.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/cells/cells_round_nodes.hpp"
@@ -263,6 +264,7 @@ Transferred transfer_by_block(const Communicator& comm, const Mesh& old_mesh, co
 
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind) {
+  const progress::SharedStage stage(comm, "transfer");
   const bool by_block = has_blocks(old_mesh) || has_blocks(new_mesh);
   return (by_block ? transfer_by_block : transfer_in_block)(comm, old_mesh, old_field, new_mesh, kind);
 }

@@ -17,7 +17,7 @@
 #include "flow/command/log_tail.hpp"
 #include "flow/command/program.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 
 namespace quadloop::flow {
 
@@ -157,7 +157,7 @@ std::string solver_message(const SolverCommand& command, const SolverFiles& file
 
 void run_solver(const Communicator& comm, const SolverCommand& command, const SolverFiles& files) {
   std::exception_ptr outcome;
-  const progress::Stage stage("the solver runs");
+  const progress::SharedStage stage(comm, "the solver runs");
   try {
     if (comm.is_root()) run_here(command, files);
   } catch (...) {

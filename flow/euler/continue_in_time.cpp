@@ -6,7 +6,7 @@
 #include "flow/euler/in_time/runge_kutta.hpp"
 #include "flow/euler/march.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop::flow::euler {
@@ -96,7 +96,7 @@ void continue_in_time(FlowRun& run, EulerResult& result, TimeAverage& average) {
   run.residual.release_limiter();
   try {
     const TimePlan plan = plan_of(run);
-    const progress::Stage stage("continuing in time", plan.end, "units of time");
+    const progress::SharedStage stage(run.comm, "continuing in time", plan.end, "units of time");
     march_in_time(run, plan, result, average);
     if (!result.converged) failure = early_end(result.iterations - steady.iterations, result.time, plan);
   } catch (const SolverError& error) {  // the same on all ranks

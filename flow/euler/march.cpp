@@ -9,7 +9,7 @@
 #include "flow/euler/forces.hpp"
 #include "flow/euler/in_time/time_scheme.hpp"
 #include "mesher/base/parallel/reproducible_sum.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 
 namespace quadloop::flow::euler {
 
@@ -25,10 +25,10 @@ namespace {
 
 /// Reports progress to the caller's stage: steps, or time if that determines the end of the run.
 void tell_progress(const EulerResult& result, bool in_time) {
-  progress::Stage* const stage = progress::current();
+  progress::SharedStage* const stage = progress::SharedStage::current();
   if (stage == nullptr) return;
   stage->say(fmt::format("step {}  residual {:.1e}", result.iterations, result.residual));
-  stage->advance(in_time ? result.time : result.iterations);
+  stage->advance_together(in_time ? result.time : result.iterations);
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ void report(const FlowRun& run, EulerResult& result, double cfl, bool at_end, co
   if (is_kept)
     result.history.push_back({result.iterations, result.residual, forces.cl, forces.cd, result.time});
   if (!is_told) return;
-  if (progress::Stage* stage = progress::current())
+  if (progress::SharedStage* stage = progress::SharedStage::current())
     stage->say_then(fmt::format("cl {:.4f}  cd {:.5f}", forces.cl, forces.cd));
   run.options.progress({result.iterations, result.residual, forces.cl, forces.cd, result.time, cfl});
 }

@@ -10,7 +10,7 @@
 #include "flow/euler/march.hpp"
 #include "flow/euler/vortex.hpp"
 #include "mesher/base/error.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/mesh/box_over_ranks.hpp"
 
 namespace quadloop::flow {
@@ -107,7 +107,7 @@ EulerResult march_to_end_time(FlowRun& run, TimeAverage& average) {
         "the time {:.6g} in steps of {:.3g} takes more than {:.0f} of them; give a "
         "time_step of {:.3g} or more",
         options.end_time, *options.time_step, most_steps_in_time, options.end_time / most_steps_in_time));
-  const progress::Stage stage("solving", options.end_time, "units of time");
+  const progress::SharedStage stage(run.comm, "solving", options.end_time, "units of time");
   EulerResult result;
   march_in_time(run, {options.end_time, options.average_from, options.time_step, options.iterations}, result,
                 average);
@@ -115,7 +115,7 @@ EulerResult march_to_end_time(FlowRun& run, TimeAverage& average) {
 }
 
 EulerResult march_as_steady(FlowRun& run) {
-  const progress::Stage stage("solving", run.options.iterations, "steps");
+  const progress::SharedStage stage(run.comm, "solving", run.options.iterations, "steps");
   return march_to_steady(run);
 }
 

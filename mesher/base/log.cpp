@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <utility>
 
 #include "mesher/base/progress.hpp"
 #include "mesher/base/utf8.hpp"
@@ -25,7 +26,24 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+Sink& sink() {
+  static Sink instance;
+  return instance;
+}
+
+// The message is passed as an argument, not as a format string, as file names may contain braces. It may
+// quote damaged input.
+void log(Level level, spdlog::level::level_enum of_logger, const std::string& message) {
+  progress::clear();
+  if (sink())
+    sink()(level, printable(message));
+  else
+    logger().log(of_logger, "{}", printable(message));
+}
+
 }  // namespace
+
+void send_to(Sink to) { sink() = std::move(to); }
 
 void configure(const Options& options) {
   const bool names_rank = options.verbose && options.ranks > 1;
@@ -40,21 +58,10 @@ void configure(const Options& options) {
   }
 }
 
-// The message is passed as an argument, not as a format string, as file names may contain braces. It may
-// quote damaged input.
-void warning(const std::string& message) {
-  progress::clear();
-  logger().warn("{}", printable(message));
-}
+void warning(const std::string& message) { log(Level::warning, spdlog::level::warn, message); }
 
-void information(const std::string& message) {
-  progress::clear();
-  logger().info("{}", printable(message));
-}
+void information(const std::string& message) { log(Level::information, spdlog::level::info, message); }
 
-void detail(const std::string& message) {
-  progress::clear();
-  logger().debug("{}", printable(message));
-}
+void detail(const std::string& message) { log(Level::detail, spdlog::level::debug, message); }
 
 }  // namespace quadloop::log

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace quadloop::log {
@@ -14,6 +15,15 @@ struct Options {
 
 /// Sets the verbosity. Before the first call only warnings are shown, on every rank. Logs go to stderr.
 void configure(const Options& options);
+
+enum class Level { detail, information, warning };
+
+/// Called for each line, on every rank.
+using Sink = std::function<void(Level, const std::string&)>;
+
+/// From now on lines of all levels go to `sink` instead of stderr; to stderr again if it is empty. For the
+/// whole process, like configure().
+void send_to(Sink sink);
 
 void warning(const std::string& message);
 void information(const std::string& message);

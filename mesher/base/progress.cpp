@@ -20,9 +20,18 @@ struct Terminal {
   bool shown = false;
   bool dirty = false;    ///< whether the line is displayed
   double next_line = 0;  ///< earliest time of the next update
+};
+
+/// What a thread works on.
+struct Running {
   std::string prefix;
   Stage* stage = nullptr;
 };
+
+Running& running() {
+  static thread_local Running of_thread;
+  return of_thread;
+}
 
 Terminal& terminal() {
   static Terminal instance;
@@ -70,9 +79,9 @@ void show() {
   t.next_line = now() + short_run;
 }
 
-void set_prefix(const std::string& prefix) { terminal().prefix = prefix; }
+void set_prefix(const std::string& prefix) { running().prefix = prefix; }
 
-Stage* current() { return terminal().stage; }
+Stage* current() { return running().stage; }
 
 void clear() {
   Terminal& t = terminal();
@@ -83,13 +92,13 @@ void clear() {
 }
 
 Stage::Stage(const char* name, double total, const char* unit)
-    : name_{name}, unit_{unit}, total_{total}, started_{now()}, outer_{terminal().stage} {
-  terminal().stage = this;
+    : name_{name}, unit_{unit}, total_{total}, started_{now()}, outer_{running().stage} {
+  running().stage = this;
   look();
 }
 
 Stage::~Stage() {
-  terminal().stage = outer_;
+  running().stage = outer_;
   clear();
 }
 
@@ -111,7 +120,8 @@ void Stage::look() {
 
 void Stage::draw() {
   const double seconds = now() - started_, share = total_ > 0 ? std::min(done_ / total_, 1.0) : 0;
-  std::string line = terminal().prefix.empty() ? std::string(name_) : terminal().prefix + ": " + name_;
+  const std::string& prefix = running().prefix;
+  std::string line = prefix.empty() ? std::string(name_) : prefix + ": " + name_;
   if (total_ > 0) line += formatted("  %3.0f %%", 100 * share);
   for (const std::string* text : {&text_, &then_}) line += text->empty() ? "" : "  " + *text;
   if (done_ > 0 && seconds > 0) line += "  " + rate_text(done_ / seconds) + " " + unit_ + "/s";

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/build/number_nodes.hpp"
 #include "mesher/sizes/size_tree.hpp"
 
@@ -156,7 +156,7 @@ void assemble_mesh(const Communicator& comm, const Geometry& geometry, const Siz
   auto& leaves = result.tree.leaves;
   leaves.reserve(cut.states.size());
   std::int32_t triangles = 0, quads = 0;  // so far
-  progress::Stage stage("cells", graph.local_size(), "leaves");
+  progress::SharedStage stage(comm, "cells", graph.local_size(), "leaves");
   for (const LeafId leaf : graph.local()) {
     stage.advance(graph.local_index(leaf));
     assembler.add(leaf);

@@ -6,7 +6,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/build/assemble_mesh.hpp"
 #include "mesher/build/islands.hpp"
 #include "mesher/build/make_delaunay.hpp"
@@ -123,7 +123,7 @@ MeshResult build_mesh(const Communicator& comm, const Geometry& given, const Mes
   };
   if (has_triangles_alone(options.type)) {
     times.begin("delaunay");
-    const progress::Stage stage("delaunay");
+    const progress::SharedStage stage(comm, "delaunay");
     make_delaunay(comm, domain.grid, rank_of, graph, cut, result.mesh, result.tree.leaves);
   }
   if (options.type == MeshType::hybrid && options.quads == QuadChoice::parallel) {

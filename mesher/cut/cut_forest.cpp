@@ -9,7 +9,7 @@
 
 #include "mesher/base/error.hpp"
 #include "mesher/base/ids.hpp"
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/cut/opposed_chords.hpp"
 #include "mesher/forest/leaf_finder.hpp"
 #include "mesher/sizes/size_cursor.hpp"
@@ -64,9 +64,8 @@ class ForestCutter {
   }
 
   /// Cuts all local leaves.
-  void cut_all(const std::vector<LeafSnap>& snaps) {
+  void cut_all(const std::vector<LeafSnap>& snaps, progress::SharedStage& stage) {
     auto next = snaps.begin();
-    progress::Stage stage("cutting", graph_.local_size(), "leaves");
     for (const LeafId leaf : graph_.local()) {
       stage.advance(graph_.local_index(leaf));
       const auto first = next;
@@ -296,7 +295,8 @@ CutForest cut_forest(const Communicator& comm, const LeafGraph& graph, SizeTree&
   for (const Snap& s : snaps) standing.push_back(&s);
   std::vector<LeafSnap> leaf_snaps = snaps_of_leaves(graph, snaps);
   ForestCutter cutter(graph, sizes.grid(), outline, inside, traced);
-  comm.together([&] { cutter.cut_all(leaf_snaps); });
+  progress::SharedStage stage(comm, "cutting", graph.local_size(), "leaves");
+  comm.together([&] { cutter.cut_all(leaf_snaps, stage); });
   while (true) {
     const std::vector<Point> opposed_ends = cutter.veto_opposed_chords(comm, standing);
     const std::vector<GridPoint> own = cutter.take_vetoes();

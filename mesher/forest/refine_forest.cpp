@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mesher/base/progress.hpp"
+#include "mesher/base/parallel/shared_stage.hpp"
 #include "mesher/forest/outside_splits.hpp"
 #include "mesher/sizes/gradation.hpp"
 #include "mesher/sizes/size_cursor.hpp"
@@ -161,7 +161,8 @@ LeafGraph refine_forest(const Communicator& comm, SizeTree& sizes, const LeafEst
   sizes.expect_cut_leaves(expected.cut / comm.size());
   SizedSplits splits(sizes);
   Forest forest(comm, sizes.grid());
-  progress::Stage stage("refinement", expected.all() * quadrants_of_leaf / comm.size(), "quadrants");
+  progress::SharedStage stage(comm, "refinement", expected.all() * quadrants_of_leaf / comm.size(),
+                              "quadrants");
   if (comm.size() > 1) share_out_quadrants(comm, sizes, expected.sample, splits, forest);
   double looked_at = 0;
   int refined = 0;

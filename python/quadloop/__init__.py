@@ -14,20 +14,22 @@ order. The mesh is the same, bit for bit, on any number of ranks. Lengths are in
 Errors: InputError (a ValueError) for a case, mesh or field that cannot be used; TooFar (an InputError) for a mesh that cannot
 follow a change of its outline, with the share of the change that it can follow; SolverError (a RuntimeError);
 OutputError (an OSError). The message names the key or the place, and a remedy. Warnings go to `warnings.warn` with
-the category QuadloopWarning.
+the category QuadloopWarning, log lines to the logger "quadloop", which is silent without a handler. Ctrl-C takes effect at the
+next stage of a call.
 """
 import atexit
 
 from . import _core
 from ._adaptation import AdaptationCycle, adapt
 from ._cases import Case, Outline, curve, keys, polygon, spline
-from ._common import QuadloopWarning
-from ._core import InputError, OutputError, SolverError, TooFar
+from ._common import Progress, QuadloopWarning, log
+from ._core import Cancelled, InputError, OutputError, SolverError, TooFar
 from ._design import Morphed, Run
 from ._meshes import LayerReport, Mesh, Quality, from_arrays, from_meshio, mesh, read, smooth
 
-__all__ = ["AdaptationCycle", "Case", "InputError", "LayerReport", "Mesh", "Morphed", "OutputError", "Outline", "QuadloopWarning",
+__all__ = ["AdaptationCycle", "Cancelled", "Case", "InputError", "LayerReport", "Mesh", "Morphed", "OutputError", "Outline", "Progress", "QuadloopWarning",
            "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "from_arrays", "from_meshio", "keys", "mesh", "polygon", "read", "smooth",
            "spline"]
 
+_core.log_to(log)
 atexit.register(_core.finish)

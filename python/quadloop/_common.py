@@ -1,11 +1,39 @@
 """Warnings, communicators, and checks of arguments."""
 from __future__ import annotations
 
+import dataclasses
+import logging
 import warnings
 
 import numpy as np
 
 from ._core import InputError
+
+
+@dataclasses.dataclass(frozen=True)
+class Progress:
+    """A stage of a call, as it begins and as it advances."""
+    stage: str  # e.g. "refinement", "cutting", "cells", "smoothing", "transfer", "solving"
+    share: float  # done, from 0 to 1; 0 if it is not known
+    cycle: int | None  # of adapt(); None in other calls
+
+
+def reporter(progress):
+    """A function of stage, share and cycle that calls progress(Progress)."""
+    if progress is None:
+        return None
+    if not callable(progress):
+        raise TypeError(f"progress is a function of a Progress, not {type(progress).__name__}")
+    return lambda stage, share, cycle: progress(Progress(stage, share, cycle))
+
+
+LOGGER = logging.getLogger("quadloop")
+LOGGER.addHandler(logging.NullHandler())  # silent until the program adds a handler
+_LEVELS = (logging.DEBUG, logging.INFO, logging.WARNING)  # of log::Level
+
+
+def log(level: int, line: str):
+    LOGGER.log(_LEVELS[level], "%s", line)
 
 
 class QuadloopWarning(UserWarning):
@@ -44,6 +72,8 @@ def numbers_of(given, shape: tuple, what: str) -> np.ndarray:
         wanted = ", ".join("n" if size == -1 else str(size) for size in shape)
         found = f"{array.dtype} of shape {array.shape}" if isinstance(given, np.ndarray) else repr(given)[:60]
         raise InputError(f"{what}: needs real numbers of shape ({wanted}), not {found}")
+    if np.ma.is_masked(given):
+        raise InputError(f"{what}: contains masked values, the first in row {np.argwhere(np.ma.getmaskarray(given))[0][0]}; leave them out")
     array = array.astype(float)
     if not np.isfinite(array).all():
         raise InputError(f"{what}: contains values that are not finite, the first in row {np.argwhere(~np.isfinite(array))[0][0]}")

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._cases import Case, points_of
-from ._common import handle_of, numbers_of, require, warn
+from ._common import handle_of, numbers_of, reporter, require, warn
 from ._core import InputError, SolverError
 
 
@@ -29,17 +29,30 @@ class Quality:
 
 @dataclasses.dataclass(frozen=True)
 class LayerReport:
-    """The layers of one boundary or line. Lengths in the unit of the geometry, normal to the wall."""
+    """The layers of one boundary or line, over all ranks. Lengths in the unit of the geometry, normal to the wall.
+
+    boundary        name of the boundary or line
+    count           requested number of layers
+    count_reached   number of layers in the column with the fewest
+    columns         number of columns of layer cells
+    y_plus          requested y+ of the first layer, from which its heights follow; 0: heights are given
+    first           smallest first height
+    growth          smallest growth ratio
+    thickness       requested thickness of all layers together
+    smallest_share  of the requested thickness that the thinnest column has
+    coverage        share of the length of the wall with the requested thickness, from 0 to 1
+    thinnest_at     (x, y) of the thinnest column
+    """
     boundary: str
-    count: int  # requested number of layers
-    count_reached: int  # in the column with the fewest
+    count: int
+    count_reached: int
     columns: int
-    y_plus: float  # target of the first layer; 0: none
-    first: float  # smallest first height
-    growth: float  # smallest growth ratio
-    thickness: float  # requested
-    smallest_share: float  # of the requested thickness
-    coverage: float  # fraction of the wall with the requested thickness
+    y_plus: float
+    first: float
+    growth: float
+    thickness: float
+    smallest_share: float
+    coverage: float
     thinnest_at: tuple
 
 
@@ -221,9 +234,13 @@ def solution_of(tables: _core._Tables) -> dict:
     return {**{name: values[:, k] for k, name in enumerate(names)}, **{name: cell_values[:, k] for k, name in enumerate(cell_names)}}
 
 
-def mesh(case: Case, comm=None) -> Mesh:
-    """The initial mesh of a case, smoothed. Raises InputError, naming boundary and place, if the geometry cannot be meshed."""
-    core, messages = require(case, Case, "case")._core(comm).mesh()
+def mesh(case: Case, comm=None, progress=None) -> Mesh:
+    """The initial mesh of a case, smoothed. Raises InputError, naming boundary and place, if the geometry cannot be meshed.
+
+    progress  progress(Progress) is called at each stage, on several ranks on each that has one; if it returns False on one
+              of them, all raise Cancelled. Its exception, or Ctrl-C, is raised on its rank, and Cancelled on the others.
+    """
+    core, messages = require(case, Case, "case")._core(comm).mesh(reporter(progress))
     warn(messages, core.rank)
     return Mesh(core, messages)
 
@@ -262,6 +279,6 @@ def from_meshio(given) -> Mesh:
     return from_arrays(np.asarray(given.points)[:, :2], joined("triangle", 3), joined("quad", 4), edges)
 
 
-def smooth(case: Case, given: Mesh, comm=None) -> Mesh:
-    """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. On several ranks: collective."""
-    return Mesh(case._core(comm).smoothed(given._core))
+def smooth(case: Case, given: Mesh, comm=None, progress=None) -> Mesh:
+    """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. `progress` as in mesh(). On several ranks: collective."""
+    return Mesh(case._core(comm).smoothed(given._core, reporter(progress)))

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace quadloop {
 namespace {
 
@@ -36,6 +40,17 @@ TEST(Log, VerboseIsEveryRankWithItsNumber) {
             "quadloop: warning: a {} b\nquadloop: info: info\nquadloop: debug: detail\n");
   EXPECT_EQ(said({1, 2, false, true}),
             "quadloop[1]: warning: a {} b\nquadloop[1]: info: info\nquadloop[1]: debug: detail\n");
+}
+
+TEST(Log, ASinkGetsEveryLineInsteadOfStderr) {
+  std::vector<std::pair<log::Level, std::string>> lines;
+  log::send_to([&](log::Level level, const std::string& line) { lines.emplace_back(level, line); });
+  EXPECT_EQ(said(), "");
+  log::send_to({});
+  using enum log::Level;
+  EXPECT_EQ(lines, (std::vector<std::pair<log::Level, std::string>>{
+                       {warning, "a {} b"}, {information, "info"}, {detail, "detail"}}));
+  EXPECT_NE(said(), "");
 }
 
 }  // namespace

@@ -58,6 +58,36 @@ class Adaptation(unittest.TestCase):
                 self.assertEqual(meshes[0], meshes[1])
                 self.assertEqual(meshes[0], meshes[2])
 
+    def same_files_as_the_command(self, case, folder):
+        Path(folder, "case.toml").write_text(case.toml)
+        subprocess.run([PROGRAM, "-q", "adapt", "case.toml", "-o", "command"], cwd=folder, check=True)
+        for cycle in ql.adapt(case, folder=Path(folder, "own")):
+            for name in ("mesh.mesh", "mesh.tree.h5"):
+                files = [Path(folder, run, f"cycle_{cycle.number:02}", name).read_bytes() for run in ("own", "command")]
+                self.assertEqual(files[0], files[1], name)
+        return cycle
+
+    def test_the_solver_of_the_case_runs_without_a_function(self):
+        of_flow = ql.Case(outlines={"edge": [[0, 0], [1, 0], [1, 1], [0, 1]]}, spacing={"max": 0.05}, boundary={"edge": {"bc": "farfield"}},
+                          solver={"mach": 0.3, "iterations": 5}, adapt={"cycles": 1, "variable": "density", "passes": 1})
+        with tempfile.TemporaryDirectory() as folder:
+            last = self.same_files_as_the_command(of_flow, folder)
+            self.assertIn("density", last.solution)
+            *_, in_memory = ql.adapt(of_flow)
+            np.testing.assert_array_equal(in_memory.solution["density"], last.solution["density"])
+            with self.assertRaisesRegex(ql.InputError, "passes"):
+                next(ql.adapt(of_flow, front))
+
+    def test_a_program_as_the_solver_of_the_case_needs_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "solver.py").write_text(SOLVER)
+            case = CASE.changed(solver={"kind": "command", "command": [sys.executable, "-B", str(Path(folder, "solver.py"))], "mesh": "mesh.mesh", "solution": "solution.mesh"})
+            with self.assertRaisesRegex(ql.InputError, "give a folder"):
+                next(ql.adapt(case))
+            last = self.same_files_as_the_command(case, folder)
+            self.assertEqual(last.number, 3)
+            np.testing.assert_array_equal(last.solution["u"], front(last.mesh, None)["u"])
+
     def test_keys_of_adapt_can_be_given(self):
         cycles = list(ql.adapt(CASE, front, cycles=1, max_nodes=800))
         self.assertEqual(len(cycles), 2)

@@ -63,6 +63,9 @@ class Cases(unittest.TestCase):
             ql.mesh("case.toml")
         with self.assertRaisesRegex(ql.InputError, r"shape \(n, 2\)"):
             ql.Case(outlines={"edge": np.zeros((3, 3))})
+        hidden = np.ma.masked_array([[0, 0], [1, 0], [1, 1]], mask=[[0, 0], [0, 1], [0, 0]])
+        with self.assertRaisesRegex(ql.InputError, "outline 'edge': contains masked values, the first in row 1"):
+            ql.Case(outlines={"edge": hidden})
         with self.assertRaisesRegex(ql.InputError, "no value of a case"):
             ql.Case(outlines={"edge": SQUARE}, spacing={"max": object()})
         with self.assertRaisesRegex(ql.InputError, "none.toml"):

@@ -70,8 +70,11 @@ def digest(path):
 
 
 def main():
-    airfoil, adaptation, component = programs(sys.argv[1])
+    airfoil, adaptation, progress, component = programs(sys.argv[1])
     use_component(component)
+    *stages, reason = run(progress)
+    assert "refinement: 0%" in stages and stages[-1] == "smoothing: 0%", stages
+    assert reason == "cancelled in stage 'smoothing': the progress callback returned false", reason
     folder = comm.bcast(tempfile.mkdtemp() if comm.rank == 0 else None)
     alone = Path(folder, f"alone{comm.rank}")
     alone.mkdir()

@@ -102,7 +102,7 @@ TEST_F(Door, TheLoopHasTheMeshesOfItsSteps) {
   const Case square(world(), CaseSource("square", square_text));
   SolvedMesh step = make_mesh(world(), square).solved;
   Adaptation run(world(), square);
-  auto in_folder = std::make_unique<Adaptation>(world(), square, file("run"));
+  auto in_folder = std::make_unique<Adaptation>(world(), square, AdaptationOptions{.folder = file("run")});
   EXPECT_EQ(run.solved(), nullptr);
   std::vector<std::shared_ptr<const SolvedMesh>> kept;
   for (int cycle = 0; run.begin_cycle(); ++cycle) {
@@ -125,11 +125,12 @@ TEST_F(Door, TheLoopHasTheMeshesOfItsSteps) {
   EXPECT_FALSE(in_folder->begin_cycle());
   in_folder.reset();  // which holds the folder
   EXPECT_LT(nodes(kept[0]->mesh), nodes(kept[2]->mesh)) << "meshes live as long as they are held";
-  Adaptation again(world(), square, file("run"), true);
+  Adaptation again(world(), square, {.folder = file("run"), .resume = true});
   EXPECT_FALSE(again.begin_cycle()) << "all cycles exist";
   EXPECT_EQ(gather_whole(world(), again.solved()->mesh).points, gather_whole(world(), step.mesh).points)
       << "which files distribute in another way";
-  EXPECT_THROW(Adaptation(world(), Case(world(), case_path(), {"spacing.max=0.2"}), file("run"), true),
+  EXPECT_THROW(Adaptation(world(), Case(world(), case_path(), {"spacing.max=0.2"}),
+                          {.folder = file("run"), .resume = true}),
                InputError);
 }
 

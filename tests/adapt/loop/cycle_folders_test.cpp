@@ -66,7 +66,7 @@ TEST(CycleFolders, ResumingCountsWholeCyclesAndDropsTheOneUnderWay) {
   run.emplace(world(), temporary.file("run"));  // the lock goes with the earlier one
   EXPECT_NE(test::refusal_text([&] {
               CycleFolders(world(), temporary.file("run")).open(false);
-            }).find("--resume continues"),
+            }).find("resume the run in it"),
             std::string::npos);
   EXPECT_EQ(run->open(true), 2);
   EXPECT_FALSE(fs::exists(run->under_way(2)));
@@ -117,7 +117,7 @@ TEST(CycleFolders, AFirstCycleIsResumedAsItWasBegun) {
   };
   begin("0123456789abcdef base/mesh.mesh");
   for (const char* other : {"", "fedcba9876543210 base/mesh.mesh"})
-    EXPECT_NE(refusal_to_resume(temporary, other).find("started with --from, by base/mesh.mesh"),
+    EXPECT_NE(refusal_to_resume(temporary, other).find("began with the mesh of base/mesh.mesh"),
               std::string::npos)
         << other;
   {
@@ -125,7 +125,7 @@ TEST(CycleFolders, AFirstCycleIsResumedAsItWasBegun) {
     EXPECT_EQ(run.open(true, "0123456789abcdef elsewhere/mesh.mesh"), 0);  // the same mesh
   }
   begin("");  // anew, with a mesh of its own
-  EXPECT_NE(refusal_to_resume(temporary, "0123456789abcdef base").find("started without --from"),
+  EXPECT_NE(refusal_to_resume(temporary, "0123456789abcdef base").find("began with the mesh of its case"),
             std::string::npos);
   CycleFolders run(world(), temporary.file("run"));
   EXPECT_EQ(run.open(true), 0);

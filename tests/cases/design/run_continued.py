@@ -164,7 +164,7 @@ def check_first_cycle_resumed(runs):
     (runs.folder / "killed/cycle_00.part").mkdir(parents=True)
     shutil.copy(runs.folder / "near_1/start.txt", runs.folder / "killed")
     for others in ([], ["--from", runs.folder / "first/cycle_00"]):
-        runs.refused(["started with --from, by", "first/cycle_01"], "--resume", "-o", runs.folder / "killed", *words, *others)
+        runs.refused(["began with the mesh of", "first/cycle_01"], "--resume", "-o", runs.folder / "killed", *words, *others)
     runs.adapt("killed", "--resume", "--from", runs.folder / "first", *words)
     require_same(runs.folder / "near_1", runs.folder / "killed")
 
