@@ -215,8 +215,12 @@ TEST(ConvertMesh3d, FacesOfAnExtrudedMeshHaveThemToo) {
   for (std::int64_t row = 0; row < 4; ++row) EXPECT_EQ(cells.of_face<3>(back, row, 0), row);
   for (std::int64_t row = 0; row < 2; ++row) EXPECT_EQ(cells.of_face<4>(front, row, 0), 4 + row);
   std::vector<double> found, wanted;
-  cells.sides(
-      0, [&](std::span<const double> values) { found.insert(found.end(), values.begin(), values.end()); });
+  const std::optional<BoundaryStream> sides = cells.at_sides(0);
+  ASSERT_TRUE(sides);
+  for (std::size_t b = 0; b < sides->present().size(); ++b) {
+    for (std::int64_t i = 0; i < sides->edges_of(b); ++i)
+      found.insert(found.end(), cells.sides_on_edge(), StreamCellValues::value_of(sides->own_edge(b, i)));
+  }
   const EdgeTable table(plane);
   for (const BoundaryEdges& boundary : plane.boundaries) {
     for (const auto& [from, to] : boundary.edges)
