@@ -1,9 +1,12 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "python/arrays.hpp"
 #include "python/core.hpp"
@@ -13,15 +16,77 @@ namespace quadloop::python {
 
 namespace {
 
+template <class Number, std::size_t width>
+py::array_t<Number> table_of_rows(const std::vector<std::array<GlobalNodeId, width>>& rows) {
+  py::array_t<Number> table({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(width)});
+  for (std::size_t i = 0; i < rows.size() * width; ++i)
+    table.mutable_data()[i] = rows[i / width][i % width].value();
+  return table;
+}
+
+/// *Collective.*
+CoreMap map_between(const CoreMesh& old_mesh, const CoreMesh& new_mesh) {
+  if (old_mesh.comm != new_mesh.comm) throw InputError("the two meshes have different communicators");
+  const py::gil_scoped_release released;
+  return {old_mesh.comm, std::make_shared<const TransferMap>(*old_mesh.comm, *old_mesh.mesh, *new_mesh.mesh),
+          old_mesh.mesh->owned_nodes};
+}
+
+/// Rows of the map, or their weighted sums, from a table of values at the owned nodes of the old mesh.
+/// *Collective.*
+DoubleArray mapped(const CoreMap& self, const DoubleArray& values, bool sums) {
+  const auto width = static_cast<std::size_t>(values.shape(1));
+  std::vector<double> of_old(values.data(), values.data() + values.size());
+  std::vector<double> rows;
+  {
+    const py::gil_scoped_release released;
+    self.comm->together([&] {
+      if (of_old.size() != static_cast<std::size_t>(self.old_nodes) * width)
+        throw InputError("the values are not those of the old mesh's owned nodes");
+    });
+    rows = sums ? self.map->interpolate(of_old, width) : self.map->rows(of_old, width);
+  }
+  return table_of(rows, width);
+}
+
+void add_map(py::module_& module) {
+  py::class_<CoreMap>(module, "TransferMap")
+      .def(py::init(&map_between))
+      .def_property_readonly(
+          "nodes", [](const CoreMap& self) { return table_of_rows<std::int64_t>(self.map->nodes()); })
+      .def_property_readonly(
+          "weights",
+          [](const py::object& self) {
+            const auto& rows = self.cast<const CoreMap&>().map->weights();
+            return view<double>(rows.data(), {static_cast<py::ssize_t>(rows.size()), 3}, self);
+          })
+      .def_property_readonly("same",
+                             [](const py::object& self) {
+                               const auto& ids = self.cast<const CoreMap&>().map->same();
+                               static_assert(sizeof(GlobalNodeId) == sizeof(std::int64_t));
+                               return view<std::int64_t>(ids.data(), {static_cast<py::ssize_t>(ids.size())},
+                                                         self);
+                             })
+      .def_property_readonly("same_cells",
+                             [](const py::object& self) {
+                               const auto& ids = self.cast<const CoreMap&>().map->same_cells();
+                               return view<std::int64_t>(ids.data(), {static_cast<py::ssize_t>(ids.size())},
+                                                         self);
+                             })
+      .def("rows", [](const CoreMap& self, const DoubleArray& values) { return mapped(self, values, false); })
+      .def("interpolate",
+           [](const CoreMap& self, const DoubleArray& values) { return mapped(self, values, true); });
+}
+
 /// The adaptive loop of a case.
 class CoreAdaptation {
  public:
   CoreAdaptation(const CoreCase& of, const std::string& folder, bool resume, bool solver_of_case,
-                 const py::object& progress)
-      : case_{of}, reports_{progress} {
+                 const py::object& progress, const py::object& transfer)
+      : case_{of}, reports_{progress}, transfer_{transfer} {
     const AdaptationOptions options{folder, resume,
                                     solver_of_case ? Solving::by_solver_of_case : Solving::by_caller,
-                                    reports_.callback()};
+                                    reports_.callback(), transfer_by()};
     const py::gil_scoped_release released;
     run_ = std::make_unique<Adaptation>(*case_.comm, *case_.of, options);
   }
@@ -46,6 +111,18 @@ class CoreAdaptation {
   void close() { run_.reset(); }
 
  private:
+  /// A transfer by a function of Python, which gets the old mesh, its solution and the new mesh.
+  TransferFunction transfer_by() {
+    if (transfer_.is_none()) return {};
+    return [this](const Mesh& /*old_mesh*/, const Field& old, const Mesh& new_mesh) {
+      return reports_.call([&] {
+        const CoreMesh before = mesh();
+        CoreMesh after{case_.comm, std::make_shared<const Mesh>(new_mesh), nullptr, {}, case_.of};
+        const py::tuple rows = transfer_(before, python_field(old), after);
+        return field_of(*after.mesh, python_field_from(rows));
+      });
+    };
+  }
   Adaptation& run() const {
     if (!run_) throw InputError("the adaptive loop has ended");
     return *run_;
@@ -58,14 +135,16 @@ class CoreAdaptation {
 
   CoreCase case_;
   StageReports reports_;
+  py::object transfer_;
   std::unique_ptr<Adaptation> run_;
 };
 
 }  // namespace
 
 void add_adaptation(py::module_& module) {
+  add_map(module);
   py::class_<CoreAdaptation>(module, "Adaptation")
-      .def(py::init<const CoreCase&, const std::string&, bool, bool, const py::object&>())
+      .def(py::init<const CoreCase&, const std::string&, bool, bool, const py::object&, const py::object&>())
       .def("begin_cycle", &CoreAdaptation::begin_cycle)
       .def_property_readonly("cycle", &CoreAdaptation::cycle)
       .def("mesh", &CoreAdaptation::mesh)

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/mpi_singleton.hpp"
+#include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "python/arrays.hpp"
 #include "quadloop/case/case_keys.hpp"
@@ -46,17 +47,12 @@ Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given) {
 }
 
 bool StageReports::report(const Progress& progress) {
-  const py::gil_scoped_acquire acquired;
-  try {
+  return call([&] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (function_.is_none()) return true;
     const py::object cycle = progress.cycle < 0 ? py::object(py::none()) : py::int_(progress.cycle);
     return !function_(progress.stage, progress.share, cycle).is(py::bool_(false));
-  } catch (const py::error_already_set& error) {
-    raised_.emplace(error);
-    const std::string text = error.what();  // with the traceback in further lines
-    throw Cancelled(text.substr(0, text.find('\n')));
-  }
+  });
 }
 
 namespace {
@@ -124,6 +120,17 @@ py::array_t<std::int64_t> global_ids(const CoreMesh& self) {
   py::array_t<std::int64_t> ids(static_cast<py::ssize_t>(mesh.points.size()));
   auto into = ids.mutable_unchecked<1>();
   for (std::int32_t n = 0; n < size32(mesh.points); ++n) into(n) = mesh.global(NodeId{n}).value();
+  return ids;
+}
+
+py::array_t<std::int64_t> cell_ids(const CoreMesh& self) {
+  std::optional<CellOwners> owners;
+  {
+    const py::gil_scoped_release released;
+    owners.emplace(*self.comm, *self.mesh);
+  }
+  py::array_t<std::int64_t> ids(static_cast<py::ssize_t>(self.mesh->cell_count()));
+  for (py::ssize_t i = 0; i < ids.size(); ++i) ids.mutable_data()[i] = owners->number(i);
   return ids;
 }
 
@@ -405,6 +412,7 @@ void add_mesh(py::module_& module) {
       .def_property_readonly("blocks", &blocks_of)
       .def_property_readonly("named_nodes", &named_nodes_of)
       .def_property_readonly("global_ids", &global_ids)
+      .def("cell_ids", &cell_ids)
       .def_property_readonly("owned", [](const CoreMesh& self) { return self.mesh->owned_nodes; })
       .def_property_readonly("rank", [](const CoreMesh& self) { return self.comm->rank(); })
       .def_property_readonly("ranks", [](const CoreMesh& self) { return self.comm->size(); })

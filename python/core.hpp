@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "python/arrays.hpp"
@@ -36,6 +37,13 @@ CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_
 /// *Collective.*
 Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given);
 
+/// The map from a mesh to another one.
+struct CoreMap {
+  std::shared_ptr<const Communicator> comm;
+  std::shared_ptr<const TransferMap> map;
+  std::int32_t old_nodes;  ///< owned by this rank
+};
+
 /// Reports the stages of calls to a function of Python, which may be None. Signals such as Ctrl-C take effect
 /// at each stage.
 class StageReports {
@@ -55,6 +63,19 @@ class StageReports {
     } catch (const Cancelled&) {
       if (raised_) throw py::error_already_set(*std::exchange(raised_, {}));
       throw;
+    }
+  }
+
+  /// Runs work with the interpreter lock, within watch(). An error of Python cancels the call.
+  template <class Work>
+  auto call(const Work& work) {
+    const py::gil_scoped_acquire acquired;
+    try {
+      return work();
+    } catch (const py::error_already_set& error) {
+      raised_.emplace(error);
+      const std::string text = error.what();  // with the traceback in further lines
+      throw Cancelled(text.substr(0, text.find('\n')));
     }
   }
 

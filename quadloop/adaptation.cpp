@@ -105,7 +105,9 @@ struct Adaptation::Parts {
 };
 
 Adaptation::Adaptation(const Communicator& comm, const Case& of, AdaptationOptions options)
-    : parts_{std::make_unique<Parts>(comm, of, std::move(options))} {}
+    : parts_{std::make_unique<Parts>(comm, of, std::move(options))} {
+  parts_->loop().transfer_by(parts_->options.transfer);
+}
 
 Adaptation::~Adaptation() = default;
 

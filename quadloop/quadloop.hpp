@@ -9,7 +9,8 @@
 
 #include "adapt/morph/morph_report.hpp"
 #include "adapt/remesh/demands/solved_mesh.hpp"
-#include "adapt/transfer/transfer.hpp"
+#include "adapt/transfer/transfer_by.hpp"
+#include "adapt/transfer/transfer_map.hpp"
 #include "flow/flow_solver.hpp"
 #include "io/input/case_source.hpp"
 #include "io/input/geometry_line.hpp"
@@ -59,7 +60,8 @@
 ///     now = remesh(comm, wing, sense(comm, wing, now), now).solved;
 namespace quadloop {
 
-using adapt::MorphReport, adapt::SolvedMesh, adapt::TransferReport;
+using adapt::MorphReport, adapt::SolvedMesh;
+using adapt::TransferFunction, adapt::TransferMap, adapt::TransferReport;
 using flow::BoundaryForce, flow::FlowSolver, flow::GoalValue, flow::SolvedFlow;
 using io::CaseSource, io::ExtrusionAxis, io::GeometryLine;
 using io::PlotFormat, io::PlotOptions;
@@ -187,6 +189,9 @@ struct AdaptationOptions {
   bool resume = false;  ///< continue after the last complete cycle in the folder
   Solving solving = Solving::by_caller;
   ProgressCallback progress = {};  ///< called in each member function that works
+  /// Transfers the solutions instead of the transfer that the case chooses; TransferMap helps. An error on
+  /// one rank must be thrown on all.
+  TransferFunction transfer = {};
 };
 
 /// The adaptive loop of a case: cycles 0 to adapt.cycles, each on the mesh that the cycle before it planned,

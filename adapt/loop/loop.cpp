@@ -55,7 +55,7 @@ AdaptiveLoop::AdaptiveLoop(const Communicator& comm, const MeshInput& mesh, cons
       cycle_{start.first - 1} {}
 
 RemeshedSolution AdaptiveLoop::next_mesh() const {
-  if (end_.left) return remesh_and_transfer(comm_, mesh_, end_.left->plan, end_.left->solved);
+  if (end_.left) return remesh_and_transfer(comm_, mesh_, end_.left->plan, end_.left->solved, transfer_by_);
   if (first_mesh_) return first_mesh_();
   RemeshedSolution first{generate_mesh(comm_, mesh_), {}, {}, {}};
   require_room_for_metric(comm_, mesh_, adapt_, first.generated.result);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapt/loop/convergence.hpp"
@@ -75,6 +76,10 @@ class AdaptiveLoop {
   AdaptiveLoop(const Communicator& comm, const MeshInput& mesh, const AdaptOptions& adapt,
                CycleObserver& observer, LoopStart start = {});
 
+  /// From now on a function transfers the solutions, instead of the transfer of the options; none: the
+  /// latter.
+  void transfer_by(TransferFunction function) { transfer_by_ = std::move(function); }
+
   /// Generates the mesh and the initial state of the next cycle; returns false if the loop has ended. Throws
   /// what meshing and observer throw. *Collective.*
   bool begin_cycle();
@@ -102,6 +107,7 @@ class AdaptiveLoop {
   const AdaptOptions& adapt_;
   CycleObserver& observer_;
   FirstMesh first_mesh_;
+  TransferFunction transfer_by_;
   LoopEnd end_;
   int cycle_;
   StageTimes times_;

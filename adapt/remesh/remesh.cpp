@@ -59,7 +59,8 @@ std::vector<std::string> drift_warnings(const RemeshedSolution& remeshed) {
 }
 
 RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& input,
-                                     const AdaptationPlan& plan, const SolvedMesh& old) {
+                                     const AdaptationPlan& plan, const SolvedMesh& old,
+                                     const TransferFunction& by) {
   RemeshedSolution remeshed;
   MeshChange stretch;
   if (const auto* targets = std::get_if<TargetDemand>(&plan.anisotropy)) {
@@ -77,8 +78,9 @@ RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& 
   remeshed.generated = generate_mesh(comm, input, DemandedSplits(comm, plan.demands), plan.measured, stretch);
   remeshed.times.append(remeshed.generated.times);
   remeshed.times.begin("transfer");
-  Transferred transferred =
-      transfer(comm, old.mesh, old.solution, remeshed.generated.result.mesh, plan.transfer);
+  const Mesh& mesh = remeshed.generated.result.mesh;
+  Transferred transferred = by ? transfer_by(comm, old.mesh, old.solution, mesh, by)
+                               : transfer(comm, old.mesh, old.solution, mesh, plan.transfer);
   remeshed.start = std::move(transferred.field);
   remeshed.report = std::move(transferred.report);
   for (std::string& warning : drift_warnings(remeshed))

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "adapt/remesh/plan.hpp"
-#include "adapt/transfer/transfer.hpp"
+#include "adapt/transfer/transfer_by.hpp"
 
 namespace quadloop::adapt {
 
@@ -35,9 +35,10 @@ struct RemeshedSolution {
   std::vector<std::pair<std::string, double>> drifts() const;
 };
 
-/// Generates the mesh of the plan and transfers the solution. *Collective.*
+/// Generates the mesh of the plan and transfers the solution, by a function if one is given. *Collective.*
 RemeshedSolution remesh_and_transfer(const Communicator& comm, const MeshInput& input,
-                                     const AdaptationPlan& plan, const SolvedMesh& old);
+                                     const AdaptationPlan& plan, const SolvedMesh& old,
+                                     const TransferFunction& by = {});
 
 /// Returns a warning if a conservative transfer changed an integral by more than 1e-10 of its size. If the
 /// two meshes cover different regions, up to ten times the change of area is accepted.

@@ -23,7 +23,7 @@ std::size_t nearest_corner(const std::array<Point, 3>& corners, Point p) {
 
 void interpolate_on_nearest_side(const std::array<Point, 3>& corners,
                                  const std::array<std::span<const double>, 3>& at_corners, Point p,
-                                 std::span<double> values) {
+                                 std::span<double> values, Combine combine) {
   std::size_t side = 0;
   PlaceOnSegment best = place_on_segment(p, corners[0], corners[1]);
   for (std::size_t k = 1; k < 3; ++k) {
@@ -32,29 +32,39 @@ void interpolate_on_nearest_side(const std::array<Point, 3>& corners,
     best = other;
     side = k;
   }
-  interpolate_on_segment(at_corners[side], at_corners[(side + 1) % 3], best.parameter, values);
+  interpolate_on_segment(at_corners[side], at_corners[(side + 1) % 3], best.parameter, values, combine);
 }
 
 }  // namespace
 
+void combine_values(std::span<const std::span<const double>> rows, std::span<const double> weights,
+                    std::span<double> result) {
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    double sum = weights[0] * rows[0][n], low = rows[0][n], high = rows[0][n];
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      sum += weights[k] * rows[k][n];
+      low = std::min(low, rows[k][n]);
+      high = std::max(high, rows[k][n]);
+    }
+    result[n] = std::clamp(sum, low, high);
+  }
+}
+
 void interpolate_on_segment(std::span<const double> at_a, std::span<const double> at_b, double parameter,
-                            std::span<double> values) {
+                            std::span<double> values, Combine combine) {
   if (parameter <= 0) return copy(at_a, values);
   if (parameter >= 1) return copy(at_b, values);
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const auto [low, high] = std::minmax(at_a[k], at_b[k]);
-    values[k] = std::clamp((1 - parameter) * at_a[k] + parameter * at_b[k], low, high);
-  }
+  combine(std::array{at_a, at_b}, std::array{1 - parameter, parameter}, values);
 }
 
 void interpolate_in_triangle(const std::array<Point, 3>& corners,
                              const std::array<std::span<const double>, 3>& at_corners, Point p,
-                             std::span<double> values) {
+                             std::span<double> values, Combine combine) {
   const std::size_t i = nearest_corner(corners, p), j = (i + 1) % 3, k = (i + 2) % 3;
   if (p == corners[i]) return copy(at_corners[i], values);
   const Point first = corners[j] - corners[i], second = corners[k] - corners[i], off = p - corners[i];
   const double area = cross(first, second);
-  if (!(area > 0)) return interpolate_on_nearest_side(corners, at_corners, p, values);
+  if (!(area > 0)) return interpolate_on_nearest_side(corners, at_corners, p, values, combine);
   double s = std::clamp(cross(off, second) / area, 0.0, 1.0),
          t = std::clamp(cross(first, off) / area, 0.0, 1.0);
   if (s + t > 1) {
@@ -62,11 +72,8 @@ void interpolate_in_triangle(const std::array<Point, 3>& corners,
     s /= sum;
     t /= sum;
   }
-  for (std::size_t n = 0; n < values.size(); ++n) {
-    const double a = at_corners[i][n], b = at_corners[j][n], c = at_corners[k][n];
-    values[n] =
-        std::clamp(std::max(0.0, 1 - s - t) * a + s * b + t * c, std::min({a, b, c}), std::max({a, b, c}));
-  }
+  combine(std::array{at_corners[i], at_corners[j], at_corners[k]}, std::array{std::max(0.0, 1 - s - t), s, t},
+          values);
 }
 
 }  // namespace quadloop::adapt

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/locate_points.hpp"
 #include "adapt/transfer/locate/point_cells.hpp"
@@ -68,7 +67,7 @@ class Found {
   }
 
   /// Fills the row of the next point; returns false if the point is outside the old mesh.
-  bool next(std::span<double> row) {
+  bool next(std::span<double> row, Combine combine) {
     const std::size_t point = next_point_++;
     if (const std::int32_t node = at_node_[point]; node >= 0) {
       const auto values = nodes_.field.row(NodeId{node});
@@ -81,7 +80,7 @@ class Found {
     const auto& [a, b, c] = triangle.nodes;
     interpolate_in_triangle(piece_.corners(triangle),
                             {piece_.field.row(a), piece_.field.row(b), piece_.field.row(c)}, points_[point],
-                            row);
+                            row, combine);
     return true;
   }
 
@@ -105,7 +104,7 @@ PointValues::PointValues(const Communicator& comm, const Mesh& mesh, const Field
       shares_{shares},
       is_inner_{inner_nodes(comm, mesh)} {}
 
-PointValues::Answers PointValues::at(std::span<const Point> places) const {
+PointValues::Answers PointValues::at(std::span<const Point> places, Combine combine) const {
   const Exchange questions = to_partition(comm_, shares_, places);
   const std::vector<Point> points = questions.deliver(places);
   Found found(comm_, *this, points);
@@ -113,7 +112,7 @@ PointValues::Answers PointValues::at(std::span<const Point> places) const {
   std::vector<double> rows(points.size() * width);
   std::vector<char> is_inside;
   for (std::size_t i = 0; i < points.size(); ++i)
-    is_inside.push_back(found.next(std::span(rows).subspan(i * width, width)) ? 1 : 0);
+    is_inside.push_back(found.next(std::span(rows).subspan(i * width, width), combine) ? 1 : 0);
   return {questions.answer(rows, width), questions.answer(is_inside)};
 }
 

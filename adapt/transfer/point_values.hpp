@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "adapt/transfer/linear_values.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "mesher/base/parallel/communicator.hpp"
 #include "mesher/mesh/field.hpp"
@@ -26,7 +27,7 @@ class PointValues {
     std::vector<char> is_inside;
   };
   /// For this rank's places. O(cells) on each rank. *Collective.*
-  Answers at(std::span<const Point> places) const;
+  Answers at(std::span<const Point> places, Combine combine = combine_values) const;
 
   const Mesh& mesh() const { return mesh_; }
   const Field& field() const { return field_; }

@@ -1,5 +1,3 @@
-#include "adapt/transfer/transfer.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,14 +7,13 @@
 
 #include "adapt/transfer/column_places.hpp"
 #include "adapt/transfer/conservative.hpp"
-#include "adapt/transfer/linear_values.hpp"
+#include "adapt/transfer/linear_rows.hpp"
 #include "adapt/transfer/locate/baffle_places.hpp"
 #include "adapt/transfer/locate/cell_triangles.hpp"
 #include "adapt/transfer/locate/curve_partition.hpp"
 #include "adapt/transfer/locate/nearest_boundary.hpp"
-#include "adapt/transfer/locate/unchanged_nodes.hpp"
 #include "adapt/transfer/mesh_integrals.hpp"
-#include "adapt/transfer/point_values.hpp"
+#include "adapt/transfer/transfer_by.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/parallel/exchange.hpp"
 #include "mesher/base/parallel/shared_stage.hpp"
@@ -29,84 +26,6 @@
 namespace quadloop::adapt {
 
 namespace {
-
-/// A place on the old boundary for a row of the new mesh.
-struct PlacedRow {
-  std::int64_t row;
-  BoundaryPlace place;
-};
-
-std::span<const Point> owned_points(const Mesh& mesh) {
-  return std::span(mesh.points).first(mesh.owned_nodes);
-}
-
-/// Rows at owned nodes, and the lists of nodes without values: those outside the old mesh, and those that
-/// take values from a side of a baffle.
-struct NewRows {
-  std::vector<double> values;
-  std::vector<std::int32_t> outside;
-  std::vector<PlacedRow> at_baffles;
-};
-
-/// Values of the old mesh at the positions of a new mesh's owned nodes, the first of which is `first_node`.
-/// *Collective.*
-NewRows rows_at(const PointValues& old, const BafflePlaces& baffles, GlobalNodeId first_node,
-                std::span<const Point> places) {
-  const std::vector<std::int32_t> standing = unchanged_nodes(old.mesh(), old.is_inner(), places);
-  const std::size_t width = old.field().width();
-  NewRows rows{std::vector<double>(places.size() * width), {}, {}};
-  std::vector<std::int32_t> others;
-  for (std::int32_t node = 0; node < std::ssize(places); ++node) {
-    std::optional<BoundaryPlace> at_baffle = baffles.of_node(GlobalNodeId{first_node.value() + node});
-    if (!at_baffle) at_baffle = baffles.across(places[node]);
-    if (at_baffle) {
-      rows.at_baffles.push_back({node, *at_baffle});
-      continue;
-    }
-    if (standing[node] < 0) {
-      others.push_back(node);
-      continue;
-    }
-    const std::span<const double> row = old.field().row(NodeId{standing[node]});
-    for (std::size_t k = 0; k < width; ++k) rows.values[node * width + k] = row[k];  // a few values each
-  }
-  std::vector<Point> asked;
-  for (const std::int32_t node : others) asked.push_back(places[node]);
-  const PointValues::Answers answers = old.at(asked);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    std::copy_n(answers.values.begin() + i * width, width, rows.values.begin() + others[i] * width);
-    if (answers.is_inside[i] == 0) rows.outside.push_back(others[i]);
-  }
-  return rows;
-}
-
-/// Ranks that have the nearest edges send the values there. *Collective.*
-void take_from_boundary(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                        std::span<const Point> at, NewRows& rows) {
-  std::vector<PlacedRow> placed = rows.at_baffles;
-  if (comm.sum(std::ssize(rows.outside)) > 0) {
-    const NearestBoundary boundary(comm, old_mesh);
-    for (const std::int32_t node : rows.outside) placed.push_back({node, boundary.nearest(at[node])});
-  }
-  std::vector<BoundaryPlace> places;
-  std::vector<int> ranks;
-  for (const PlacedRow& one : placed) {
-    places.push_back(one.place);
-    ranks.push_back(one.place.rank);
-  }
-  const Exchange questions(comm, ranks);
-  const auto edges = boundary_edges_of(old_mesh);
-  const auto width = old_field.width();
-  std::vector<double> row(width), answers;
-  for (const BoundaryPlace& place : questions.deliver(places)) {
-    const auto& [from, to] = edges[place.edge];
-    interpolate_on_segment(old_field.row(from), old_field.row(to), place.parameter, row);
-    answers.insert(answers.end(), row.begin(), row.end());
-  }
-  answers = questions.answer(answers, width);
-  for (std::size_t i = 0; i < placed.size(); ++i)
-    std::copy_n(answers.begin() + (i * width), width, rows.values.begin() + (placed[i].row * width));
-}
 
 /// The new mesh with its nodes at these positions. *Collective.*
 Mesh moved_to(const Communicator& comm, const Mesh& mesh, const std::vector<Point>& places) {
@@ -186,13 +105,8 @@ Transferred transfer_in_block(const Communicator& comm, const Mesh& old_mesh, co
   Transferred transferred;
   TransferReport& report = transferred.report;
   const BafflePlaces baffles(comm, old_mesh, new_mesh);
-  NewRows rows;
-  if (old.width() > 0)
-    rows = rows_at(PointValues(comm, old_mesh, old, centre, shares), baffles,
-                   GlobalNodeId{new_mesh.first_node}, at);
-  report.outside = comm.sum(std::ssize(rows.outside));
-  if (report.outside > 0 || comm.sum(std::ssize(rows.at_baffles)) > 0)
-    take_from_boundary(comm, old_mesh, old, at, rows);
+  LinearRows rows = linear_rows(comm, {old_mesh, old, centre, shares, baffles}, new_mesh, at);
+  report.outside = rows.outside;
   transferred.field = {old.names, std::move(rows.values), old.constants};
   const bool conserves = kind == TransferKind::conservative && old.width() > 0;
   if (conserves || old.cells.width() > 0) {
@@ -237,9 +151,11 @@ void add_report(const TransferReport& block, TransferReport& all) {
   }
 }
 
-/// Each block as a mesh of its own. *Collective.*
+}  // namespace
+
 Transferred transfer_by_block(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
-                              const Mesh& new_mesh, TransferKind kind) {
+                              const Mesh& new_mesh, const TransferInBlock& in_block) {
+  if (!has_blocks(old_mesh) && !has_blocks(new_mesh)) return in_block(old_mesh, old_field, new_mesh);
   comm.together([&] {
     if (old_mesh.blocks.names.size() != new_mesh.blocks.names.size())
       throw InputError(fmt::format("the old mesh has {} blocks, but the new one has {}; keep the blocks",
@@ -253,20 +169,42 @@ Transferred transfer_by_block(const Communicator& comm, const Mesh& old_mesh, co
   const std::vector<BlockPart> old_parts = block_parts(comm, old_mesh), parts = block_parts(comm, new_mesh);
   for (std::size_t b = 0; b < parts.size(); ++b) {
     const Transferred of_block =
-        transfer_in_block(comm, old_parts[b].mesh, field_on(old_parts[b], old_field), parts[b].mesh, kind);
+        in_block(old_parts[b].mesh, field_on(old_parts[b], old_field), parts[b].mesh);
     put_rows(parts[b], of_block.field, filled, all.field);
     add_report(of_block.report, all.report);
   }
   return all;
 }
 
-}  // namespace
-
 Transferred transfer(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
                      const Mesh& new_mesh, TransferKind kind) {
   const progress::SharedStage stage(comm, "transfer");
-  const bool by_block = has_blocks(old_mesh) || has_blocks(new_mesh);
-  return (by_block ? transfer_by_block : transfer_in_block)(comm, old_mesh, old_field, new_mesh, kind);
+  return transfer_by_block(comm, old_mesh, old_field, new_mesh,
+                           [&](const Mesh& old_part, const Field& field, const Mesh& new_part) {
+                             return transfer_in_block(comm, old_part, field, new_part, kind);
+                           });
+}
+
+Transferred transfer_by(const Communicator& comm, const Mesh& old_mesh, const Field& old_field,
+                        const Mesh& new_mesh, const TransferFunction& function) {
+  const progress::SharedStage stage(comm, "transfer");
+  Transferred transferred;
+  transferred.field = function(old_mesh, old_field, new_mesh);
+  const Field& field = transferred.field;
+  comm.together([&] {
+    if (field.names != old_field.names || field.cells.names != old_field.cells.names)
+      throw InputError("the transferred solution has other variables than the old one");
+    if (field.values.size() != field.width() * new_mesh.owned_nodes ||
+        field.cells.values.size() != field.cells.width() * new_mesh.cell_count())
+      throw InputError("the transferred solution does not have a row for each owned node and each cell");
+  });
+  transferred.field.constants = old_field.constants;
+  report_drift(
+      comm, new_mesh, field,
+      integrals_of(comm, old_mesh, centre_of_nodes(comm, old_mesh), with_ghosts(comm, old_mesh, old_field)),
+      transferred.report);
+  transferred.report.conserved_from = transferred.report.drift.size();
+  return transferred;
 }
 
 }  // namespace quadloop::adapt

@@ -20,7 +20,7 @@ next stage of a call.
 import atexit
 
 from . import _core
-from ._adaptation import AdaptationCycle, adapt
+from ._adaptation import AdaptationCycle, TransferMap, adapt
 from ._cases import Case, Outline, curve, keys, polygon, spline
 from ._common import Progress, QuadloopWarning, log
 from ._core import Cancelled, InputError, OutputError, SolverError, TooFar
@@ -29,7 +29,7 @@ from ._flow import Flow, Functional, solve
 from ._meshes import LayerReport, Mesh, Quality, from_arrays, from_meshio, mesh, read, smooth
 
 __all__ = ["AdaptationCycle", "Cancelled", "Case", "Evaluation", "Flow", "Functional", "InputError", "LayerReport", "Mesh", "Morphed", "Outline",
-           "OutputError", "Progress", "QuadloopWarning", "Quality", "Run", "SolverError", "TooFar", "adapt", "curve", "from_arrays", "from_meshio",
+           "OutputError", "Progress", "QuadloopWarning", "Quality", "Run", "SolverError", "TooFar", "TransferMap", "adapt", "curve", "from_arrays", "from_meshio",
            "keys", "mesh", "polygon", "read", "smooth", "solve", "spline"]
 
 _core.log_to(log)

@@ -6,9 +6,11 @@ import json
 import os
 from collections.abc import Iterator
 
+import numpy as np
+
 from . import _core
 from ._cases import Case
-from ._common import reporter, require, warn
+from ._common import numbers_of, reporter, require, warn
 from ._core import InputError
 from ._meshes import Mesh, rows_of, solution_of
 
@@ -49,7 +51,44 @@ class AdaptationCycle:
         return self.record.get("drift", {})
 
 
-def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, progress=None, **keys_of_adapt) -> Iterator[AdaptationCycle]:
+class TransferMap:
+    """Where a new mesh comes from: for each of its owned nodes the nodes of the old mesh from which the linear transfer
+    interpolates. Nodes and cells are given by their numbers over all ranks, of the old mesh. Making it, and its
+    functions, are collective on several ranks.
+
+    nodes    (n, 3) int64: up to three old nodes, then -1
+    weights  (n, 3) float64: their weights, which sum up to 1; 0 where there is no node
+    same     (n,) int64: the old node at the same position, whose values the transfer keeps; -1 for a new node
+    cells    (c,) int64: the old cell with the same nodes, for each triangle, then each quad; -1 for a new cell
+    """
+
+    def __init__(self, old: Mesh, new: Mesh):
+        core = _core.TransferMap(old._core, new._core)
+        self._core, self._old = core, old
+        self.nodes, self.weights, self.same, self.cells = core.nodes, core.weights, core.same, core.same_cells
+
+    def _mapped(self, values, function):
+        def table():
+            array = np.asarray(values, dtype=float)
+            if array.ndim not in (1, 2) or len(array) not in (self._old.owned, len(self._old.points)):
+                raise InputError(f"values have a row for each of the {self._old.owned} owned nodes of the old mesh, not the shape {array.shape}")
+            return array[:self._old.owned]
+        array = self._old._together(table)
+        rows = function(np.ascontiguousarray(array.reshape(self._old.owned, -1)))
+        return rows, array.shape[1:]
+
+    def rows(self, values) -> np.ndarray:
+        """The rows of `values`, those of the old mesh's owned nodes on each rank, at `nodes`: shape (n, 3) or (n, 3, k); 0 at -1."""
+        rows, shape = self._mapped(values, self._core.rows)
+        return rows.reshape(-1, 3, *shape)
+
+    def interpolate(self, values) -> np.ndarray:
+        """The linear interpolant of `values` at the new mesh's owned nodes: the weighted sums of rows(values)."""
+        rows, shape = self._mapped(values, self._core.interpolate)
+        return rows.reshape(-1, *shape)
+
+
+def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, progress=None, transfer=None, **keys_of_adapt) -> Iterator[AdaptationCycle]:
     """Meshes, solves and adapts, cycle by cycle. Meshes and solutions have the same bits on any number of ranks.
 
     solve     solve(mesh, start) -> {variable: values at the owned nodes or in the cells}; `start` is the solution transferred
@@ -57,6 +96,8 @@ def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, 
               one, or a program (SU2, OpenFOAM, any command), which needs a folder
     folder    each cycle writes the files of `quadloop adapt` there; resume=True continues after the last complete cycle
     progress  progress(Progress) is called at each stage, as in mesh()
+    transfer  transfer(old_mesh, old_solution, new_mesh, map) -> the same variables on the new mesh, instead of the transfer of
+              the case; `map` is their TransferMap. Like `solve` it is called on all ranks
     keys      keys of the table [adapt], e.g. variable="u", cycles=6, max_nodes=50_000
 
     The call checks case and keys; the cycles run as the result is iterated. An exception in `solve` on one rank is raised there and, as
@@ -70,7 +111,7 @@ def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, 
         raise InputError("resume=True needs the folder of the run" if resume else "folder is empty; use None to write no files")
     if keys_of_adapt:
         case = case.changed(adapt=keys_of_adapt)
-    run = _core.Adaptation(case._core(comm), "" if folder is None else os.fspath(folder), resume, solve is None, reporter(progress))
+    run = _core.Adaptation(case._core(comm), "" if folder is None else os.fspath(folder), resume, solve is None, reporter(progress), _transfer_of(transfer))
     return _cycles(run, solve)
 
 
@@ -85,6 +126,29 @@ def _cycles(run, solve) -> Iterator[AdaptationCycle]:
             yield AdaptationCycle(run.cycle, mesh_of_cycle, solution_of(run.solution()), of_cycle, messages)
     finally:
         run.close()
+
+
+def _transfer_of(function):
+    """The function for the module over the library, with tables."""
+    if function is None:
+        return None
+    if not callable(function):
+        raise TypeError(f"transfer is a function of meshes and a solution, not {type(function).__name__}")
+
+    def by(old, tables, new):
+        old_mesh, new_mesh, names = Mesh(old), Mesh(new), (list(tables[0]), list(tables[2]))
+        between = TransferMap(old_mesh, new_mesh)
+
+        def rows():
+            made = function(old_mesh, solution_of(tables), new_mesh, between)
+            if not isinstance(made, dict) or set(made) != {*names[0], *names[1]}:
+                raise InputError(f"transfer() returns the variables {', '.join(names[0] + names[1])}, not {made if not isinstance(made, dict) else ', '.join(made)!r}")
+            result = rows_of(new_mesh, {name: made[name] for name in names[0] + names[1]})
+            if (result[0], result[2]) != names:
+                raise InputError("transfer() returned values in cells for a variable at nodes, or the reverse")
+            return result
+        return new_mesh._together(rows)
+    return by
 
 
 def _solved(run, mesh: Mesh, solve):

@@ -84,6 +84,11 @@ class Mesh:
     owned = property(lambda self: self._core.owned)
 
     @property
+    def cell_ids(self) -> np.ndarray:
+        """The number of each cell over all ranks, triangles, then quads. On several ranks: collective."""
+        return self._core.cell_ids()
+
+    @property
     def layers(self) -> dict:
         """The layers of each boundary and line that has some, as LayerReport."""
         return {row["boundary"]: LayerReport(**row) for row in self._core.layers()}

@@ -66,6 +66,9 @@ class Cases(unittest.TestCase):
         hidden = np.ma.masked_array([[0, 0], [1, 0], [1, 1]], mask=[[0, 0], [0, 1], [0, 0]])
         with self.assertRaisesRegex(ql.InputError, "outline 'edge': contains masked values, the first in row 1"):
             ql.Case(outlines={"edge": hidden})
+        outside = {"body": [[5, 0], [6, 0], [5, 1]], "outer": [[0, 0], [1, 0], [1, 1]]}
+        with self.assertWarnsRegex(ql.QuadloopWarning, "not connected; the first is inside boundary 'body'.*inside boundary 'outer'"):
+            ql.Case(outlines=outside)
         with self.assertRaisesRegex(ql.InputError, "no value of a case"):
             ql.Case(outlines={"edge": SQUARE}, spacing={"max": object()})
         with self.assertRaisesRegex(ql.InputError, "none.toml"):

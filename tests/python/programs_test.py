@@ -70,8 +70,10 @@ def digest(path):
 
 
 def main():
-    airfoil, adaptation, progress, component = programs(sys.argv[1])
+    airfoil, adaptation, between, progress, component = programs(sys.argv[1])
     use_component(component)
+    counts = [[int(number) for number in line.split()] for line in run(between)]
+    assert counts[0][1] == counts[0][2] and all(0 < kept < nodes for _, nodes, kept in counts[1:]), counts
     *stages, reason = run(progress)
     assert "refinement: 0%" in stages and stages[-1] == "smoothing: 0%", stages
     assert reason == "cancelled in stage 'smoothing': the progress callback returned false", reason

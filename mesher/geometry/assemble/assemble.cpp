@@ -69,10 +69,14 @@ void warn_of_regions(const Outline& outline, const std::vector<LoopNesting>& nes
     if (nestings[l].depth % 2 == 0) enclosing.push_back(l);
   }
   if (enclosing.size() < 2) return;
-  const OutlineLoop& second = outline.loops[enclosing[1]];
+  const auto place_of = [&](std::size_t loop) {
+    const Point at = outline.loops[loop].points.front();
+    return fmt::format("boundary '{}', at ({}, {})", name_of(outline, loop), at.x, at.y);
+  };
   warnings.push_back(fmt::format(
-      "the domain has {} regions that are not connected; the second is inside boundary '{}', at ({}, {})",
-      enclosing.size(), name_of(outline, enclosing[1]), second.points.front().x, second.points.front().y));
+      "the domain has {} regions that are not connected; the first is inside {}, the second inside {}; "
+      "a body must lie within the outer boundary",
+      enclosing.size(), place_of(enclosing[0]), place_of(enclosing[1])));
 }
 
 /// Rejects a loop within a loop within the far field, which encloses a domain separate from that of the far
