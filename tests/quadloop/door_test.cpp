@@ -232,6 +232,8 @@ std::vector<Point> oval(double up) {
   return points;
 }
 
+MorphGeometry body(const std::vector<Point>& points) { return MorphGeometry({{"body", points}}); }
+
 Case flow_around_oval() {
   std::ostringstream points;
   points.precision(17);
@@ -260,15 +262,14 @@ TEST_F(Door, GivesDerivativesOfTheFlowByTheOutline) {
   const Mesh mesh = make_mesh(world(), around).solved.mesh;
   const auto corners = oval(0);
   const auto moved_flow = [&](double up, const Field& start) {
-    return solver(world(), *Morph(world(), mesh, {{"body", corners}}, {{"body", oval(up)}}).mesh(), start,
-                  -1);
+    return solver(world(), *Morph(world(), mesh, body(corners), body(oval(up))).mesh(), start, -1);
   };
   const SolvedFlow flow = moved_flow(0, {});
   EXPECT_GT(flow.steps.value_or(0), 5);
   EXPECT_TRUE(flow.warnings.empty()) << flow.warnings.front();
   const double step = 2e-6;
   const SolvedFlow above = moved_flow(step, flow.solution), below = moved_flow(-step, flow.solution);
-  const Morph morph(world(), mesh, {{"body", corners}}, {{"body", corners}});
+  const Morph morph(world(), mesh, body(corners), body(corners));
   ASSERT_EQ(flow.goals.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k) {
     const GoalValue& goal = flow.goals[k];
