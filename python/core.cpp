@@ -200,7 +200,8 @@ py::bytes picture_of(const CoreMesh& self, const std::string& format, const std:
     PlotOptions options;
     options.field = field;
     options.size = size;
-    bytes = picture(*self.comm, *self.mesh, std::move(solution), options, io::plot_format_of("picture." + format));
+    bytes = picture(*self.comm, *self.mesh, std::move(solution), options,
+                    io::plot_format_of("picture." + format));
   }
   return py::bytes(bytes);
 }
