@@ -33,7 +33,7 @@ install(FILES "${PROJECT_BINARY_DIR}/quadloopConfig.cmake" "${PROJECT_BINARY_DIR
               "${CMAKE_CURRENT_LIST_DIR}/Dependencies.cmake" DESTINATION "${package_folder}" COMPONENT dev)
 # What the README links, where its links find it.
 install(FILES LICENSE README.md CONTRIBUTING.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
-install(DIRECTORY docs cases examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY docs cases examples packaging DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program PATTERN __pycache__ EXCLUDE)
 
 # `cpack` in the build folder: Debian packages of the program, of the library, and of the Python package.
 set(CPACK_GENERATOR DEB)
