@@ -98,7 +98,7 @@ def check_folders(program, folder, ranks):
     made = folder / "of_folders"
     adapt(program, case, made, ranks, ["--cycles", "1"])
     before = states(made)
-    expect_refusal(program, 1, ["not empty", "--resume"], "adapt", case, "-o", made, ranks=ranks)
+    expect_refusal(program, 1, ["not empty", "resume the run in it"], "adapt", case, "-o", made, ranks=ranks)
     require(states(made) == before, "a refusal has touched the folder")
     a_file = folder / "a_file"
     a_file.write_text("")
