@@ -210,8 +210,11 @@ void run_mesh(const CommandContext& context, const MeshArguments& arguments) {
   log::detail("meshing " + std::to_string(input.geometry.size()) + " segments");
   times.end();
   const MeasuredFlow measured = saved ? saved->measured : MeasuredFlow{};
-  if (arguments.dry_run)
-    return report_estimate(context, prepared, MeshTrial(input, measured).estimate(demanded));
+  if (arguments.dry_run) {
+    const MeshEstimate estimate = MeshTrial(input, measured).estimate(demanded);
+    if (arguments.max_cells) require_within(estimate, input.geometry, input.mesh, demanded);
+    return report_estimate(context, prepared, estimate);
+  }
   const GeneratedMesh generated = generate_mesh(comm, input, demanded, measured);
   times.append(generated.times);
   times.begin("write");

@@ -24,7 +24,10 @@ def reporter(progress):
         return None
     if not callable(progress):
         raise TypeError(f"progress is a function of a Progress, not {type(progress).__name__}")
-    return lambda stage, share, cycle: progress(Progress(stage, share, cycle))
+    def report(stage, share, cycle):
+        answer = progress(Progress(stage, share, cycle))
+        return answer is None or bool(answer)  # numpy's False cancels, too
+    return report
 
 
 LOGGER = logging.getLogger("quadloop")

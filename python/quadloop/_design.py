@@ -125,7 +125,7 @@ class Run:
         def arrays():
             unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
             if unknown or not outlines:
-                raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no closed polygon of the case; these are {', '.join(self.outlines) or 'none'}")
+                raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no outline that can move; closed polygons can, not splines or curves: {', '.join(self.outlines) or 'none in this case'}")
             new = {name: given.points if isinstance(given, Outline) else polygon(given).points for name, given in outlines.items()}
             for name, points in new.items():
                 if len(points) != len(self.outlines[name]):
@@ -154,6 +154,7 @@ class Run:
         On several ranks collective, with the same values on all. Raises InputError for outlines that cannot be meshed; SolverError.
         """
         goals = [gradient] if isinstance(gradient, str) else list(gradient)
+        self.mesh._together(lambda: _quality(min_quality))
         new = {**self.outlines, **(self._points(outlines or {}) if outlines or not self.outlines else {})}
         moved, reason = self._moved(new, _quality(min_quality))
         if moved is None:

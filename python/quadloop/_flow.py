@@ -58,9 +58,11 @@ def solve(case: Case, mesh: Mesh, start: Mapping | None = None, **keys_of_solver
     drag_by_y; Morphed.pull_back() takes them as columns of an array. The bits are the same on any number of ranks; collective.
     Raises SolverError, with the place, if the state becomes unphysical.
     """
+    require(case, Case, "case")
+    require(mesh, Mesh, "mesh")
     if keys_of_solver:
-        case = require(case, Case, "case").changed(solver=keys_of_solver)
-    require(mesh, Mesh, "mesh")._core.agree(case.toml, "the case is another one")
+        case = mesh._together(lambda: case.changed(solver=keys_of_solver))
+    mesh._core.agree(case.toml, "the case is another one")
     tables, results = _core.solve(require(case, Case, "case")._core(None), mesh._core, mesh._together(lambda: rows_of(mesh, start)))
     warn(results["warnings"], mesh._core.rank)
     functionals = {name: Functional(**entry) for name, entry in results.pop("functionals").items()}

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _core
-from ._common import QuadloopWarning, numbers_of
+from ._common import QuadloopWarning, numbers_of, require
 from ._core import InputError
 from ._meshes import Mesh, read
 
@@ -67,8 +67,7 @@ class USMesh:
 
     def setExternalMeshIndices(self, ind):
         """The nodes of the 3D mesh, from 0, that the solver of this rank stores, in its order. A node may be on several ranks."""
-        indices = np.asarray(ind, dtype=np.int64).ravel()
-        self._solver = _Nodes(self.comm, self._plane, indices)
+        self._solver = _Nodes(self.comm, self._plane, self._plane._together(lambda: _whole_numbers(ind)))
 
     def getSolverGrid(self) -> np.ndarray:
         """The coordinates of these nodes, flat: 3 numbers for each."""
@@ -137,7 +136,7 @@ class USMesh:
     def warpDerivFwd(self, dXs, solverVec: bool = True) -> np.ndarray:
         """Velocities of the nodes of the solver (or of getWarpGrid()), flat, for velocities of the surface, shape (N, 3). Collective."""
         surface = self._require_surface()
-        given = self._plane._together(lambda: numbers_of(np.asarray(dXs, dtype=float).reshape(-1, 3), surface.start.shape, "dXs"))
+        given = self._plane._together(lambda: numbers_of(np.reshape(dXs, (-1, 3)) if np.ndim(dXs) == 1 else dXs, surface.start.shape, "dXs"))
         of_points = self._boundary.mean(self.comm, surface.nodes, given[:, self._in_plane])
         owned = self._warped().push_forward([rows for _, rows, _ in self._boundary.lines(of_points)])
         rows = self._require_solver().of_owners(owned) if solverVec else np.repeat(owned, 2, axis=0)
@@ -146,7 +145,7 @@ class USMesh:
         return result.ravel()
 
     def verifyWarpDeriv(self, dXv=None, solverVec: bool = True, dofStart: int = 0, dofEnd: int = 10, h: float = 1e-6, randomSeed: int = 314) -> float:
-        """Compares the derivative with respect to the coordinates dofStart to dofEnd of the first rank's surface with central differences.
+        """Compares the derivative with respect to the coordinates dofStart to dofEnd of the first rank that has nodes of the surface with central differences.
 
         Returns the largest deviation of a scalar product with dXv, relative to the largest product. Collective.
         """
@@ -157,19 +156,22 @@ class USMesh:
         self.warpDeriv(weights, solverVec)
         gradient = self.getdXs().ravel()
         grid = self.getSolverGrid if solverVec else self.getWarpGrid
-        last = self.comm.bcast(min(dofEnd, start.size) if self.comm.rank == 0 else 0, root=0)
+        sizes = self.comm.allgather(start.size)
+        if not any(sizes):
+            raise InputError("the surface has no nodes on any rank")
+        first = next(rank for rank, count in enumerate(sizes) if count > 0)
         pairs = []
-        for dof in range(dofStart, last):
+        for dof in range(dofStart, min(dofEnd, sizes[first])):
             ends = []
             for sign in (1, -1):
                 changed = start.copy()
-                if self.comm.rank == 0:
+                if self.comm.rank == first:
                     changed.ravel()[dof] += sign * h
                 surface.coordinates = changed
                 self.warpMesh()
                 ends.append(grid())
             difference = sum(self.comm.allgather(float(weights @ (ends[0] - ends[1])))) / (2 * h)
-            pairs.append((self.comm.bcast(float(gradient[dof]) if self.comm.rank == 0 else 0.0, root=0), difference))
+            pairs.append((self.comm.bcast(float(gradient[dof]) if self.comm.rank == first else 0.0, root=first), difference))
         surface.coordinates = start
         self.warpMesh()
         largest = max((abs(value) for value, _ in pairs), default=0.0)
@@ -201,6 +203,13 @@ class USMesh:
         rows[:, self._in_plane] = in_plane
         rows[:, 3 - sum(self._in_plane)] = self._heights[levels]
         return rows
+
+
+def _whole_numbers(given) -> np.ndarray:
+    numbers = np.asarray(given)
+    if numbers.size > 0 and numbers.dtype.kind not in "iu":
+        raise InputError(f"numbers of nodes are whole numbers, not {numbers.dtype}")
+    return numbers.astype(np.int64).ravel()
 
 
 class _Surface:
@@ -357,7 +366,11 @@ def _checked(given: Mapping) -> dict:
         warnings.warn(f"options of IDWarp without effect here: {', '.join(idle)}", QuadloopWarning, stacklevel=3)
     options = {**_DEFAULTS, **{name: value for name, value in given.items() if name not in idle}}
     if (options["mesh"] is None) == (options["gridFile"] is None):
-        raise InputError("give the plane mesh as the option 'mesh' (a quadloop.Mesh) or as 'gridFile' (its file)")
+        raise InputError("give the plane mesh either as the option 'mesh' (a quadloop.Mesh) or as 'gridFile' (its file)")
+    if options["mesh"] is not None:
+        require(options["mesh"], Mesh, "the option 'mesh'")
+    if isinstance(options["specifiedSurfaces"], str):
+        options["specifiedSurfaces"] = [options["specifiedSurfaces"]]
     if options["axis"] not in ("y", "z"):
         raise InputError(f"axis is 'y' or 'z', not {options['axis']!r}")
     return options

@@ -110,6 +110,7 @@ class Estimate(ProgramTest):
             arguments = ["mesh", str(CASES / "naca4412_layers/case.toml"), "--type", kind, "-o", kind, "--set", f"output.formats={json.dumps(formats)}"]
             told = [self.run_program(*arguments, "--dry-run", "--json", ranks=ranks) for ranks in (1, 3)]
             self.assertEqual([run.returncode for run in told], [0, 0], told)
+            self.refused(1, ["--max-cells"], *arguments, "--dry-run", "--max-cells", "100")
             self.assertEqual(list(self.folder.iterdir()), [])
             one, three = (json.loads(run.stdout) for run in told)
             self.assertEqual(one["file_bytes"], three["file_bytes"])

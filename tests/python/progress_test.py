@@ -50,7 +50,7 @@ def test_false_on_one_rank_cancels_on_all():
 
     def at_smoothing(progress):
         seen.append(progress.stage)
-        return progress.stage != "smoothing"
+        return np.bool_(progress.stage != "smoothing")
     message = raised(ql.Cancelled, lambda: ql.mesh(CASE, comm=comm, progress=at_smoothing if comm.rank == LAST else None))
     assert "'smoothing'" in message, message
     assert comm.rank != LAST or seen[-1] == "smoothing"
