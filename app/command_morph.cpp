@@ -22,6 +22,7 @@
 #include "io/text/text_output.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/timer.hpp"
+#include "mesher/geometry/assemble/assemble.hpp"
 #include "mesher/mesh/scatter_blocks.hpp"
 #include "quadloop/quadloop.hpp"
 
