@@ -44,6 +44,8 @@ def lost_bytes(meshes):
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run([sys.executable, "-W", "ignore", "-c", PROGRAM, str(meshes)], env=environment, cwd=folder, capture_output=True,
                              text=True)
+    if "LeakSanitizer has encountered a fatal error" in run.stderr:
+        raise unittest.SkipTest("this system does not let LeakSanitizer stop the threads of a process")
     if run.returncode != 0:
         raise AssertionError(run.stderr)
     found = re.search(r"SUMMARY: LeakSanitizer: (\d+) byte", run.stderr)
