@@ -40,10 +40,6 @@ DoubleArray mapped(const CoreMap& self, const DoubleArray& values, bool sums) {
   std::vector<double> rows;
   {
     const py::gil_scoped_release released;
-    self.comm->together([&] {
-      if (of_old.size() != static_cast<std::size_t>(self.old_nodes) * width)
-        throw InputError("the values are not those of the old mesh's owned nodes");
-    });
     rows = sums ? self.map->interpolate(of_old, width) : self.map->rows(of_old, width);
   }
   return table_of(rows, width);
@@ -100,7 +96,7 @@ class CoreAdaptation {
   py::tuple solution() const { return python_field(run().solved()->solution); }
   py::tuple finish_cycle(const py::tuple& values) {
     SolvedFlow flow;
-    flow.solution = field_on_all_ranks(mesh(), values);
+    flow.solution = field_of(run().solved()->mesh, python_field_from(values));
     return finished([&] { return run().finish_cycle(std::move(flow)); });
   }
   /// With the solver of the case.

@@ -2,13 +2,11 @@
 // which adds names, defaults and conversions. Collective calls are those of the library.
 #include "python/core.hpp"
 
-#include <mpi.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/mpi_singleton.hpp"
 #include "mesher/mesh/cells/cell_owners.hpp"
 #include "mesher/mesh/scatter_mesh.hpp"
 #include "python/arrays.hpp"
@@ -31,21 +28,6 @@ CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_
   return {comm, std::move(mesh), std::move(solved), std::move(layers), of};
 }
 
-Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given) {
-  Field field;
-  std::optional<std::string> fault;
-  try {
-    field = field_of(*mesh.mesh, python_field_from(given));
-  } catch (const InputError& error) {
-    fault = error.what();
-  }
-  const py::gil_scoped_release released;
-  mesh.comm->together([&] {
-    if (fault) throw InputError(*fault);
-  });
-  return field;
-}
-
 bool StageReports::report(const Progress& progress) {
   return call([&] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -56,44 +38,6 @@ bool StageReports::report(const Progress& progress) {
 }
 
 namespace {
-
-/// The communicators that were passed, by their Fortran handle. MPI is initialised with the first one if
-/// nobody has done it, and then finalised by finish().
-class Communicators {
- public:
-  /// `handle` of mpi4py's communicator; none: this process alone.
-  std::shared_ptr<const Communicator> of(std::optional<MPI_Fint> handle) {
-    initialise();
-    std::shared_ptr<const Communicator>& known = known_[handle];
-    if (!known) known = std::make_shared<const Communicator>(handle ? MPI_Comm_f2c(*handle) : MPI_COMM_SELF);
-    return known;
-  }
-  void finish() {
-    int finalised = 0;
-    MPI_Finalized(&finalised);
-    if (finalised == 0) known_.clear();
-    if (finalised == 0 && initialised_here_) MPI_Finalize();
-  }
-
- private:
-  void initialise() {
-    int initialised = 0;
-    MPI_Initialized(&initialised);
-    if (initialised != 0) return;
-    const app::MpiSingleton settings;
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-    initialised_here_ = true;
-  }
-
-  std::map<std::optional<MPI_Fint>, std::shared_ptr<const Communicator>> known_;
-  bool initialised_here_ = false;
-};
-
-Communicators& communicators() {
-  static Communicators all;
-  return all;
-}
 
 py::array points_of(const py::object& self) {
   const Mesh& mesh = *self.cast<const CoreMesh&>().mesh;
@@ -193,7 +137,7 @@ py::dict quality_of_mesh(const CoreMesh& self) {
 /// A picture of the whole mesh on the root, no bytes on other ranks. *Collective.*
 py::bytes picture_of(const CoreMesh& self, const std::string& format, const std::string& field,
                      const py::tuple& values, double size) {
-  Field solution = field_on_all_ranks(self, values);
+  Field solution = field_of(*self.mesh, python_field_from(values));
   std::string bytes;
   {
     const py::gil_scoped_release released;
@@ -208,7 +152,7 @@ py::bytes picture_of(const CoreMesh& self, const std::string& format, const std:
 
 void plot_mesh(const CoreMesh& self, const std::string& path, const std::string& field,
                const py::tuple& values, double size) {
-  Field solution = field_on_all_ranks(self, values);
+  Field solution = field_of(*self.mesh, python_field_from(values));
   const py::gil_scoped_release released;
   PlotOptions options;
   options.field = field;
@@ -218,7 +162,7 @@ void plot_mesh(const CoreMesh& self, const std::string& path, const std::string&
 
 std::vector<std::string> extrude_mesh(const CoreMesh& self, const std::vector<double>& heights,
                                       const std::string& path, const py::tuple& values, bool along_y) {
-  const Field solution = field_on_all_ranks(self, values);
+  const Field solution = field_of(*self.mesh, python_field_from(values));
   const py::gil_scoped_release released;
   return extrude(*self.comm, *self.mesh, heights, path, solution,
                  along_y ? ExtrusionAxis::y : ExtrusionAxis::z);
@@ -226,14 +170,14 @@ std::vector<std::string> extrude_mesh(const CoreMesh& self, const std::vector<do
 
 /// The whole mesh on the root, an empty one elsewhere. *Collective.*
 CoreMesh gathered(const CoreMesh& self) {
-  const std::shared_ptr<const Communicator> alone = communicators().of(std::nullopt);
+  const std::shared_ptr<const Communicator> alone = communicator_of(std::nullopt);
   const py::gil_scoped_release released;
   return {
       alone, std::make_shared<const Mesh>(gather_whole(*self.comm, *self.mesh)), nullptr, self.layers, {}};
 }
 
 std::vector<std::string> write_mesh(const CoreMesh& self, const std::string& path, const py::tuple& values) {
-  const Field field = field_on_all_ranks(self, values);
+  const Field field = field_of(*self.mesh, python_field_from(values));
   const py::gil_scoped_release released;
   return write(*self.comm, *self.mesh, path, field);
 }
@@ -248,7 +192,7 @@ py::tuple make_core_mesh(const CoreCase& self, const py::object& progress) {
 }
 
 py::tuple read_core_mesh(const std::string& path, std::optional<MPI_Fint> handle) {
-  const std::shared_ptr<const Communicator> comm = communicators().of(handle);
+  const std::shared_ptr<const Communicator> comm = communicator_of(handle);
   std::optional<MeshFile> file;
   {
     const py::gil_scoped_release released;
@@ -268,7 +212,7 @@ CoreMesh mesh_from_arrays(const DoubleArray& points, const IntArray& triangles, 
   mesh->quads = rows_from<4>(quads, mesh->owned_nodes, "quads");
   for (const auto& [name, rows] : edges)
     mesh->boundaries.push_back({name, {}, rows_from<2>(rows, mesh->owned_nodes, name.c_str())});
-  return {communicators().of(std::nullopt), std::move(mesh), nullptr, {}, {}};
+  return {communicator_of(std::nullopt), std::move(mesh), nullptr, {}, {}};
 }
 
 /// A smoothed copy of a mesh of a case. *Collective.*
@@ -327,23 +271,6 @@ class CoreMorph {
   CoreMesh before_;
   std::unique_ptr<Morph> morph_;
 };
-
-/// Raises an error on all ranks if the text of any of them is not empty: that of the lowest such rank.
-void raise_together(const CoreMesh& self, const std::string& text, bool is_input) {
-  self.comm->together([&] {
-    if (!text.empty() && is_input) throw InputError(text);
-    if (!text.empty()) throw SolverError(text);
-  });
-}
-
-/// Raises InputError on all ranks if the texts differ. *Collective.*
-void agree(const Communicator& comm, const std::string& text, const std::string& what) {
-  const std::vector<std::string> of_root = broadcast_words(comm, {text});
-  comm.together([&] {
-    if (of_root.front() != text)
-      throw InputError("rank " + std::to_string(comm.rank()) + ": " + what + " than on rank 0");
-  });
-}
 
 /// Log lines go to a function of Python, with their level. An error of the function does not reach the
 /// library.
@@ -415,24 +342,7 @@ void add_mesh(py::module_& module) {
       .def_property_readonly("global_ids", &global_ids)
       .def("cell_ids", &cell_ids)
       .def_property_readonly("owned", [](const CoreMesh& self) { return self.mesh->owned_nodes; })
-      .def_property_readonly("rank", [](const CoreMesh& self) { return self.comm->rank(); })
-      .def_property_readonly("ranks", [](const CoreMesh& self) { return self.comm->size(); })
-      .def(
-          "maximum", [](const CoreMesh& self, double value) { return self.comm->maximum(value); }, Released())
-      .def(
-          "sum",
-          [](const CoreMesh& self, double value) {
-            const std::array<double, 1> values{value};
-            return reproducible_sum(*self.comm, values);
-          },
-          Released())
-      .def("raise_together", &raise_together, Released())
-      .def(
-          "agree",
-          [](const CoreMesh& self, const std::string& text, const std::string& what) {
-            agree(*self.comm, text, what);
-          },
-          Released())
+      .def_property_readonly("comm", [](const CoreMesh& self) { return CoreCommunicator{self.comm}; })
       .def("layers", &layers_of)
       .def("quality", &quality_of_mesh)
       .def(
@@ -448,27 +358,21 @@ void add_mesh(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   add_errors(module);
+  add_communicator(module);
   add_mesh(module);
   py::class_<CoreCase>(module, "Case")
       .def(py::init([](const std::string& name, const std::optional<std::string>& text,
                        const std::vector<std::string>& assignments, std::optional<MPI_Fint> handle) {
-        CoreCase made{communicators().of(handle), {}};
+        CoreCase made{communicator_of(handle), {}};
         const py::gil_scoped_release released;
         made.of.emplace(*made.comm, text ? CaseSource(name, *text) : CaseSource(name), assignments);
         return made;
       }))
       .def_property_readonly("title", [](const CoreCase& self) { return self.of->title(); })
-      .def_property_readonly("rank", [](const CoreCase& self) { return self.comm->rank(); })
       .def_property_readonly("cycles", [](const CoreCase& self) { return self.of->cycles(); })
       .def_property_readonly("warnings", [](const CoreCase& self) { return self.of->warnings(); })
       .def("mesh", &make_core_mesh)
-      .def("smoothed", &smoothed_mesh)
-      .def(
-          "agree",
-          [](const CoreCase& self, const std::string& text, const std::string& what) {
-            agree(*self.comm, text, what);
-          },
-          Released());
+      .def("smoothed", &smoothed_mesh);
   add_adaptation(module);
   py::class_<CoreMorph>(module, "Morph")
       .def(py::init<const CoreMesh&, const PythonLines&, const PythonLines&, double>())
@@ -484,7 +388,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("log_to", &log_to);
   module.def("finish", [] {
     log::send_to({});
-    communicators().finish();
+    finish_communicators();
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mpi.h>
 #include <pybind11/pybind11.h>
 
 #include <memory>
@@ -14,6 +15,19 @@
 namespace quadloop::python {
 
 using Released = py::call_guard<py::gil_scoped_release>;
+
+/// A communicator that Python may hold.
+struct CoreCommunicator {
+  std::shared_ptr<const Communicator> comm;
+};
+
+/// `handle` of mpi4py's communicator; none: this process alone. Initialises MPI if nobody has done it.
+std::shared_ptr<const Communicator> communicator_of(std::optional<MPI_Fint> handle);
+/// Finalises MPI if communicator_of() initialised it.
+void finish_communicators();
+
+/// Adds the class Communicator to the module.
+void add_communicator(py::module_& module);
 
 /// A case on a communicator.
 struct CoreCase {
@@ -32,10 +46,6 @@ struct CoreMesh {
 
 CoreMesh core_mesh(const std::shared_ptr<const Communicator>& comm, std::shared_ptr<const SolvedMesh> solved,
                    LayerReport layers, const Case& of);
-
-/// A field of a mesh from that of Python on each rank. Throws an error of one rank on all ranks.
-/// *Collective.*
-Field field_on_all_ranks(const CoreMesh& mesh, const py::tuple& given);
 
 /// The map from a mesh to another one.
 struct CoreMap {

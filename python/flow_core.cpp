@@ -29,7 +29,7 @@ py::dict functionals_of(const SolvedFlow& flow) {
 
 /// The solution as tables, the results as a dictionary. *Collective.*
 py::tuple solve(const CoreCase& of, const CoreMesh& mesh, const py::tuple& start) {
-  const Field state = field_on_all_ranks(mesh, start);
+  const Field state = field_of(*mesh.mesh, python_field_from(start));
   SolvedFlow flow;
   {
     const py::gil_scoped_release released;

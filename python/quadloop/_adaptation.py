@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._cases import Case
-from ._common import numbers_of, reporter, require, warn
+from ._common import collective, communicator_of, reporter, require, users_function, warn
 from ._core import InputError
 from ._meshes import Mesh, rows_of, solution_of
 
@@ -63,28 +63,29 @@ class TransferMap:
     """
 
     def __init__(self, old: Mesh, new: Mesh):
+        with collective(require(old, Mesh, "old")._core.comm, "TransferMap()"):
+            require(new, Mesh, "new")
         core = _core.TransferMap(old._core, new._core)
         self._core, self._old = core, old
         self.nodes, self.weights, self.same, self.cells = core.nodes, core.weights, core.same, core.same_cells
 
-    def _mapped(self, values, function):
-        def table():
+    def _mapped(self, values, name: str):
+        with collective(self._old._core.comm, f"TransferMap.{name}()") as call:
             array = np.asarray(values, dtype=float)
             if array.ndim not in (1, 2) or len(array) not in (self._old.owned, len(self._old.points)):
                 raise InputError(f"values have a row for each of the {self._old.owned} owned nodes of the old mesh, not the shape {array.shape}")
-            return array[:self._old.owned]
-        array = self._old._together(table)
-        rows = function(np.ascontiguousarray(array.reshape(self._old.owned, -1)))
-        return rows, array.shape[1:]
+            call.same(number_of_columns=array.shape[1:])
+        table = np.ascontiguousarray(array[:self._old.owned].reshape(self._old.owned, -1))
+        return getattr(self._core, name)(table), array.shape[1:]
 
     def rows(self, values) -> np.ndarray:
         """The rows of `values`, those of the old mesh's owned nodes on each rank, at `nodes`: shape (n, 3) or (n, 3, k); 0 at -1."""
-        rows, shape = self._mapped(values, self._core.rows)
+        rows, shape = self._mapped(values, "rows")
         return rows.reshape(-1, 3, *shape)
 
     def interpolate(self, values) -> np.ndarray:
         """The linear interpolant of `values` at the new mesh's owned nodes: the weighted sums of rows(values)."""
-        rows, shape = self._mapped(values, self._core.interpolate)
+        rows, shape = self._mapped(values, "interpolate")
         return rows.reshape(-1, *shape)
 
 
@@ -104,28 +105,38 @@ def adapt(case: Case, solve=None, comm=None, folder=None, resume: bool = False, 
     SolverError, on all others, unless these wait for that rank in a call of their own. `python3 -m mpi4py program.py` ends all ranks then.
     Ctrl-C takes effect at the next stage. The files of a cycle under way are removed then, as after an exception in `solve`.
     """
-    require(case, Case, "case")
-    if solve is not None and not callable(solve):
-        raise TypeError(f"solve is a function of a mesh and its initial state, not {type(solve).__name__}")
-    if folder == "" or (resume and folder is None):
-        raise InputError("resume=True needs the folder of the run" if resume else "folder is empty; use None to write no files")
-    if keys_of_adapt:
-        case = case.changed(adapt=keys_of_adapt)
-    run = _core.Adaptation(case._core(comm), "" if folder is None else os.fspath(folder), resume, solve is None, reporter(progress), _transfer_of(transfer))
-    return _cycles(run, solve)
+    ranks = communicator_of(comm)
+    with collective(ranks, "adapt()") as call:
+        if solve is not None and not callable(solve):
+            raise TypeError(f"solve is a function of a mesh and its initial state, not {type(solve).__name__}")
+        if folder == "" or (resume and folder is None):
+            raise InputError("resume=True needs the folder of the run" if resume else "folder is empty; use None to write no files")
+        if keys_of_adapt:
+            case = require(case, Case, "case").changed(adapt=keys_of_adapt)
+        options = "" if folder is None else os.fspath(folder), bool(resume), solve is None
+        report, transferred = reporter(progress), _transfer_of(transfer)
+        require(case, Case, "case")._meet(call, comm)
+        call.same(folder=options[0], resume=options[1], solver_of_the_case=options[2], transfer_of_the_case=transfer is None)
+    return _cycles(_core.Adaptation(case._core(comm), *options, report, transferred), solve, ranks)
 
 
-def _cycles(run, solve) -> Iterator[AdaptationCycle]:
+def _cycles(run, solve, ranks: _core.Communicator) -> Iterator[AdaptationCycle]:
     try:
-        while run.begin_cycle():
+        while _has_cycle(run, ranks):
             mesh_of_cycle = Mesh(run.mesh())
             record, messages = run.solve_cycle() if solve is None else run.finish_cycle(_solved(run, mesh_of_cycle, solve))
-            warn(messages, mesh_of_cycle._core.rank)
+            warn(messages, ranks.rank)
             mesh_of_cycle.warnings = messages
             of_cycle = {key: value for key, value in json.loads(record).items() if not key.endswith("_digest")}
             yield AdaptationCycle(run.cycle, mesh_of_cycle, solution_of(run.solution()), of_cycle, messages)
     finally:
         run.close()
+
+
+def _has_cycle(run, ranks: _core.Communicator) -> bool:
+    with collective(ranks, "a cycle of adapt()"):
+        pass
+    return run.begin_cycle()
 
 
 def _transfer_of(function):
@@ -139,21 +150,22 @@ def _transfer_of(function):
         old_mesh, new_mesh, names = Mesh(old), Mesh(new), (list(tables[0]), list(tables[2]))
         between = TransferMap(old_mesh, new_mesh)
 
-        def rows():
+        with users_function(new.comm, "transfer()") as call:
             made = function(old_mesh, solution_of(tables), new_mesh, between)
             if not isinstance(made, dict) or set(made) != {*names[0], *names[1]}:
                 raise InputError(f"transfer() returns the variables {', '.join(names[0] + names[1])}, not {made if not isinstance(made, dict) else ', '.join(made)!r}")
             result = rows_of(new_mesh, {name: made[name] for name in names[0] + names[1]})
             if (result[0], result[2]) != names:
                 raise InputError("transfer() returned values in cells for a variable at nodes, or the reverse")
-            return result
-        return new_mesh._together(rows)
+            call.same(variables=names)
+        return result
     return by
 
 
 def _solved(run, mesh: Mesh, solve):
     """The solution of the user's function, the same variables on all ranks."""
     start = solution_of(run.initial_state()) or None
-    rows = mesh._together(lambda: rows_of(mesh, solve(mesh, start)))
-    mesh._core.agree(repr((rows[0], rows[2])), "solve() returned other variables, or values at nodes and in cells")
+    with users_function(mesh._core.comm, "solve()") as call:
+        rows = rows_of(mesh, solve(mesh, start))
+        call.same(variables=(rows[0], rows[2]))
     return rows

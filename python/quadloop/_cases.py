@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from . import _core
-from ._common import handle_of, numbers_of, require, warn
+from ._common import collective, handle_of, numbers_of, require, warn
 from ._core import InputError
 
 
@@ -151,7 +151,12 @@ class Case:
         tables = {**self._tables, "shape": shapes} if shapes else self._tables
         return "".join(f"{key} = {_toml(value)}\n" for key, value in tables.items())
 
+    def _meet(self, call: collective, comm):
+        """The case must be the same on all ranks, and be prepared for a communicator on all or on none of them."""
+        call.same(case=(self._file, self.toml), first_use_of_the_case=handle_of(comm) not in self._cores)
+
     def _core(self, comm):
+        """The case of the library, for a communicator. The first time collective."""
         handle = handle_of(comm)
         if handle not in self._cores:
             if self._file is None:
@@ -159,8 +164,7 @@ class Case:
             else:
                 core = _core.Case(self._file, None, _assignments(self._tables), handle)
             if not self._cores:
-                warn([message for message in core.warnings if message not in self._told], core.rank, 5)
-            core.agree(self.toml, "the case is another one")
+                warn([message for message in core.warnings if message not in self._told], level=5)
             self._cores[handle] = core
         return self._cores[handle]
 

@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+import traceback
 import warnings
 
 import numpy as np
 
-from ._core import InputError
+from . import _core
+from ._core import InputError, SolverError
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,7 +27,11 @@ def reporter(progress):
     if not callable(progress):
         raise TypeError(f"progress is a function of a Progress, not {type(progress).__name__}")
     def report(stage, share, cycle):
-        answer = progress(Progress(stage, share, cycle))
+        collective.in_progress += 1
+        try:
+            answer = progress(Progress(stage, share, cycle))
+        finally:
+            collective.in_progress -= 1
         return answer is None or bool(answer)  # numpy's False cancels, too
     return report
 
@@ -56,6 +62,64 @@ def handle_of(comm):
     if not hasattr(comm, "py2f") or not comm:
         raise InputError(f"comm is a communicator of mpi4py or None, not {comm!r}")
     return comm.py2f()
+
+
+class collective:
+    """Checks of a rank's arguments before a collective call of the library.
+
+        with collective(comm, "Mesh.write()") as call:
+            path = os.fspath(path)
+            call.same(path=path)
+
+    At the end of the block the ranks of the `_core.Communicator` meet. An exception in the block on one rank is raised there and, as InputError or
+    SolverError, on all others; so is a difference of the values passed to same(), or of the call. After the block all ranks call the library.
+    """
+    in_progress = 0  # functions of the user for progress that run now: on other ranks the library works
+
+    def __init__(self, comm: _core.Communicator, call: str, waits: bool = False):
+        self._comm, self._call, self._waits, self._same = comm, call, waits, []
+        if comm.size > 1 and collective.in_progress:
+            raise InputError(f"{call} is collective and cannot be called in a function for progress")
+
+    def __enter__(self) -> "collective":
+        return self
+
+    def same(self, **values):
+        """Values that must be the same on all ranks, by what they are."""
+        self._same += [(name.replace("_", " "), repr(value)) for name, value in values.items()]
+
+    def __exit__(self, kind, error, trace) -> bool:
+        text, failure = "", _core.Failure.none
+        if getattr(error, "_of_ranks", False):
+            text, failure = str(error), _core.Failure.input if isinstance(error, InputError) else _core.Failure.of_other_rank
+        elif error is not None:
+            is_input = isinstance(error, InputError)
+            text, failure = f"rank {self._comm.rank}: {'' if is_input else kind.__name__ + ': '}{error}", _core.Failure.input if is_input else _core.Failure.other
+        try:
+            self._comm.meet(self._call, self._same, self._waits, failure, text)
+        except (InputError, SolverError) as raised:
+            if error is None:
+                raised._of_ranks = True  # type: ignore[union-attr]
+                raise
+        return False
+
+
+class users_function(collective):
+    """The same for a function of the user that runs in a collective call, on all ranks. Ranks that return or fail wait for the others, whose
+    collective calls raise an error meanwhile."""
+
+    def __init__(self, comm: _core.Communicator, name: str):
+        super().__init__(comm, f"the end of {name}", waits=True)
+
+    def __exit__(self, kind, error, trace) -> bool:
+        if error is not None and self._comm.size > 1 and not getattr(error, "_of_ranks", False):
+            traceback.print_exception(kind, error, trace)  # at once, as other ranks may wait for this one in calls of their own
+        return super().__exit__(kind, error, trace)
+
+
+def communicator_of(comm) -> _core.Communicator:
+    """The communicator of the module over the library for one of mpi4py; None: this process alone."""
+    return _core.Communicator(handle_of(comm))
 
 
 def require(given, kind, what: str):

@@ -9,7 +9,7 @@ import numpy as np
 from . import _core
 from ._adaptation import adapt
 from ._cases import Case, Outline, polygon
-from ._common import numbers_of, require, warn
+from ._common import collective, communicator_of, numbers_of, require, warn
 from ._core import InputError, TooFar
 from ._flow import Flow, solve
 from ._meshes import Mesh, mesh
@@ -40,15 +40,18 @@ class Morphed:
 
         The derivative of the node positions is exact. Raises InputError if the mesh was smoothed. On several ranks: collective.
         """
-        unknown = set(velocities) - set(self.outlines)
-        if unknown:
-            raise InputError(f"'{unknown.pop()}' is no boundary that moves; these are {', '.join(self.outlines)}")
-        return self._core.push_forward([numbers_of(velocities.get(name, np.zeros_like(points)), points.shape, f"velocities of '{name}'")
-                                        for name, points in self.outlines.items()])
+        with collective(self.mesh._core.comm, "Morphed.push_forward()") as call:
+            unknown = set(require(velocities, Mapping, "velocities")) - set(self.outlines)
+            if unknown:
+                raise InputError(f"'{unknown.pop()}' is no boundary that moves; these are {', '.join(self.outlines)}")
+            rows = [numbers_of(velocities.get(name, np.zeros_like(points)), points.shape, f"velocities of '{name}'") for name, points in self.outlines.items()]
+            call.same(velocities=[of_line.tobytes() for of_line in rows])
+        return self._core.push_forward(rows)
 
     def pull_back(self, gradient) -> dict:
         """The transpose: from dJ/dX at the owned nodes, shape (owned, 2), to boundary -> dJ/d(points), shape (n, 2). On several ranks: collective."""
-        rows = self.mesh._together(lambda: numbers_of(gradient, (self.mesh.owned, 2), "gradient at the owned nodes"))
+        with collective(self.mesh._core.comm, "Morphed.pull_back()"):
+            rows = numbers_of(gradient, (self.mesh.owned, 2), "gradient at the owned nodes")
         return dict(zip(self.outlines, self._core.pull_back(rows)))
 
 
@@ -97,8 +100,11 @@ class Run:
     """
 
     def __init__(self, case: Case, comm=None, adapted: bool = False):
+        with collective(communicator_of(comm), "Run()") as call:
+            require(case, Case, "case")
+            call.same(adapted=bool(adapted))
         self._comm, self._adapted = comm, adapted
-        self._begin(require(case, Case, "case"), {})
+        self._begin(case, {})
 
     def _begin(self, case: Case, keys_of_solver: Mapping):
         """Makes the mesh of a case, adapted to the flow with these keys."""
@@ -118,23 +124,26 @@ class Run:
         Raises TooFar if cells would become inverted, or the quality of the worst one would fall below `min_quality` (0 to 1).
         On several ranks: collective.
         """
-        return self._morph(self._points(outlines), _quality(min_quality))
+        with self._collective("Run.morph()") as call:
+            new, least = self._points(call, outlines), _quality(min_quality)
+            call.same(min_quality=least)
+        return self._morph(new, least)
 
-    def _points(self, outlines: Mapping) -> dict:
-        """New outlines as arrays; errors, and differences between ranks, are raised on all ranks."""
-        def arrays():
-            unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
-            if unknown or not outlines:
-                raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no outline that can move; closed polygons can, not splines or curves: {', '.join(self.outlines) or 'none in this case'}")
-            new = {name: given.points if isinstance(given, Outline) else polygon(given).points for name, given in outlines.items()}
-            for name, points in new.items():
-                if len(points) != len(self.outlines[name]):
-                    raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
-                if _area(points) * _area(self.outlines[name]) < 0:
-                    raise InputError(f"outline '{name}': its points run in the other direction than the old ones; reverse them")
-            return new
-        new = self.mesh._together(arrays)
-        self.mesh._core.agree(repr([(name, points.tobytes().hex()) for name, points in new.items()]), "the outlines are others")
+    def _collective(self, call: str) -> collective:
+        return collective(self.mesh._core.comm, call)
+
+    def _points(self, call: collective, outlines: Mapping) -> dict:
+        """New outlines as arrays, the same on all ranks."""
+        unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
+        if unknown or not outlines:
+            raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no outline that can move; closed polygons can, not splines or curves: {', '.join(self.outlines) or 'none in this case'}")
+        new = {name: given.points if isinstance(given, Outline) else polygon(given).points for name, given in outlines.items()}
+        for name, points in new.items():
+            if len(points) != len(self.outlines[name]):
+                raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")
+            if _area(points) * _area(self.outlines[name]) < 0:
+                raise InputError(f"outline '{name}': its points run in the other direction than the old ones; reverse them")
+        call.same(outlines={name: points.tobytes() for name, points in new.items()})
         return new
 
     def _morph(self, new: dict, min_quality: float = 0.0) -> Morphed:
@@ -153,12 +162,13 @@ class Run:
         its outline; if cells had to be smoothed, they are those of the smoothed mesh.
         On several ranks collective, with the same values on all. Raises InputError for outlines that cannot be meshed; SolverError.
         """
-        goals = [gradient] if isinstance(gradient, str) else list(gradient)
-        self.mesh._together(lambda: _quality(min_quality))
-        new = {**self.outlines, **(self._points(outlines or {}) if outlines or not self.outlines else {})}
-        moved, reason = self._moved(new, _quality(min_quality))
+        with self._collective("Run.evaluate()") as call:
+            goals, least = [gradient] if isinstance(gradient, str) else list(gradient), _quality(min_quality)
+            new = {**self.outlines, **(self._points(call, outlines or {}) if outlines or not self.outlines else {})}
+            call.same(gradient=goals, min_quality=least, keys_of_the_solver=keys_of_solver)
+        moved, reason = self._moved(new, least)
         if moved is None:
-            warn([f"a new mesh was generated: {reason}"], self.mesh._core.rank)
+            warn([f"a new mesh was generated: {reason}"], self.mesh._core.comm.rank)
             self._begin(self.case.changed(outlines={name: polygon(points) for name, points in new.items()}), keys_of_solver)
             moved = self._morph(new)
         adjoint = {"goal": goals, "goal_adjoint": "write"} if goals else {}
@@ -188,8 +198,10 @@ class Run:
         Returns (largest deviation of a node velocity from the difference, deviation of the scalar products), relative to the
         largest velocity and product. `step` is relative to the extent of the outlines.
         """
-        if not 0 < step < 0.01:
-            raise InputError(f"step is above 0 and below 0.01, not {step}")
+        with self._collective("Run.verify()") as call:
+            if not 0 < step < 0.01:
+                raise InputError(f"step is above 0 and below 0.01, not {step}")
+            call.same(step=float(step), seed=seed)
         random = np.random.default_rng(seed)
         here = self.morph(outlines)
         ways = {name: random.uniform(-1, 1, points.shape) for name, points in here.outlines.items()}
@@ -199,9 +211,9 @@ class Run:
         difference = (ahead.points - behind.points)[:here.mesh.owned] / (2 * length)
         gradient = random.uniform(-1, 1, velocity.shape)
         back = here.pull_back(gradient)
-        comm_sum = self.mesh._core.sum
-        product = comm_sum(float((gradient * velocity).sum()))
+        comm = self.mesh._core.comm
+        product = comm.sum(float((gradient * velocity).sum()))
         transposed = sum(float((back[name] * ways[name]).sum()) for name in ways)
-        largest = self.mesh._core.maximum(float(np.abs(velocity).max(initial=0)))
-        deviation = self.mesh._core.maximum(float(np.abs(velocity - difference).max(initial=0)))
+        largest = comm.maximum(float(np.abs(velocity).max(initial=0)))
+        deviation = comm.maximum(float(np.abs(velocity - difference).max(initial=0)))
         return deviation / largest, abs(product - transposed) / abs(product)

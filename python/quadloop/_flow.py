@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from . import _core
 from ._cases import Case
-from ._common import require, warn
+from ._common import collective, require, warn
 from ._meshes import Mesh, rows_of, solution_of
 
 
@@ -58,12 +58,14 @@ def solve(case: Case, mesh: Mesh, start: Mapping | None = None, **keys_of_solver
     drag_by_y; Morphed.pull_back() takes them as columns of an array. The bits are the same on any number of ranks; collective.
     Raises SolverError, with the place, if the state becomes unphysical.
     """
-    require(case, Case, "case")
-    require(mesh, Mesh, "mesh")
-    if keys_of_solver:
-        case = mesh._together(lambda: case.changed(solver=keys_of_solver))
-    mesh._core.agree(case.toml, "the case is another one")
-    tables, results = _core.solve(require(case, Case, "case")._core(None), mesh._core, mesh._together(lambda: rows_of(mesh, start)))
-    warn(results["warnings"], mesh._core.rank)
+    with collective(require(mesh, Mesh, "mesh")._core.comm, "solve()") as call:
+        require(case, Case, "case")
+        if keys_of_solver:
+            case = case.changed(solver=keys_of_solver)
+        case._meet(call, None)
+        rows = rows_of(mesh, start)
+        call.same(variables_of_start=(rows[0], rows[2]))
+    tables, results = _core.solve(case._core(None), mesh._core, rows)
+    warn(results["warnings"], mesh._core.comm.rank)
     functionals = {name: Functional(**entry) for name, entry in results.pop("functionals").items()}
     return Flow(solution=solution_of(tables), functionals=functionals, **results)

@@ -3,15 +3,14 @@ from __future__ import annotations
 
 import dataclasses
 import os
-import traceback
 from collections.abc import Mapping
 
 import numpy as np
 
 from . import _core
 from ._cases import Case, points_of
-from ._common import handle_of, numbers_of, reporter, require, warn
-from ._core import InputError, SolverError
+from ._common import collective, communicator_of, handle_of, numbers_of, reporter, require, warn
+from ._core import InputError
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,6 +85,7 @@ class Mesh:
     @property
     def cell_ids(self) -> np.ndarray:
         """The number of each cell over all ranks, triangles, then quads. On several ranks: collective."""
+        self._meet("Mesh.cell_ids")
         return self._core.cell_ids()
 
     @property
@@ -96,6 +96,7 @@ class Mesh:
     @property
     def quality(self) -> Quality:
         """On several ranks: collective."""
+        self._meet("Mesh.quality")
         return Quality(**self._core.quality())
 
     @property
@@ -105,10 +106,12 @@ class Mesh:
 
     def check(self) -> list:
         """One line for each fault of the mesh, with its place; empty for a valid mesh. On several ranks: collective."""
+        self._meet("Mesh.check()")
         return self._core.check()
 
     def gathered(self) -> "Mesh":
         """The whole mesh on rank 0, an empty one on the others. On several ranks: collective."""
+        self._meet("Mesh.gathered()")
         return Mesh(self._core.gathered(), self.warnings)
 
     def write(self, path, solution: Mapping | None = None):
@@ -116,24 +119,17 @@ class Mesh:
 
         solution  variable -> a value for each owned node, or for each cell (triangles, then quads)
         """
-        warn(self._core.write(os.fspath(path), self._together(lambda: rows_of(self, solution))), self._core.rank)
+        with self._collective("Mesh.write()") as call:
+            path, rows = os.fspath(path), rows_of(self, solution)
+            call.same(path=path)
+        warn(self._core.write(path, rows), self._core.comm.rank)
 
-    def _together(self, work):
-        """Runs work on each rank. Its error on one rank is raised there and, as SolverError or InputError, on all others. Collective."""
-        result, failure = None, None
-        try:
-            result = work()
-        except BaseException as error:  # raised below, when all ranks know
-            failure = error
-            if self._core.ranks > 1:
-                traceback.print_exc()  # at once, as other ranks may wait for this one in calls of their own
-        try:
-            self._core.raise_together("" if failure is None else f"{type(failure).__name__}: {failure}", isinstance(failure, InputError))
-        except (SolverError, InputError):
-            if failure is not None:
-                raise failure
-            raise
-        return result
+    def _collective(self, call: str) -> collective:
+        return collective(self._core.comm, call)
+
+    def _meet(self, call: str):
+        with self._collective(call):
+            pass
 
     def extrude(self, path, heights, solution: Mapping | None = None, axis: str = "z"):
         """Writes the 3D mesh of prisms and hexahedra between levels at these heights; the suffix selects the format. On several ranks: collective.
@@ -144,10 +140,12 @@ class Mesh:
 
         Formats: .cgns, .vtu, .su2, .msh, .b8.ugrid, .fluent.msh, polyMesh (a folder). With N levels, node n of the mesh is the nodes n N to n N + N - 1.
         """
-        if axis not in ("y", "z"):
-            raise InputError(f"axis is 'y' or 'z', not {axis!r}")
-        rows = self._together(lambda: rows_of(self, solution))
-        warn(self._core.extrude(numbers_of(heights, (-1,), "heights").tolist(), os.fspath(path), rows, axis == "y"), self._core.rank)
+        with self._collective("Mesh.extrude()") as call:
+            if axis not in ("y", "z"):
+                raise InputError(f"axis is 'y' or 'z', not {axis!r}")
+            levels, path, rows = numbers_of(heights, (-1,), "heights").tolist(), os.fspath(path), rows_of(self, solution)
+            call.same(path=path, heights=levels, axis=axis)
+        warn(self._core.extrude(levels, path, rows, axis == "y"), self._core.comm.rank)
 
     def picture(self, format: str = "png", field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
         """The file of a picture of the mesh, or of a variable of the solution, `size` pixels wide or high. Empty on all ranks but the first.
@@ -155,11 +153,20 @@ class Mesh:
         format    "png", "svg" or "pdf"
         solution  as for write(); "mach" is computed from a flow that lacks it
         """
-        if format not in ("png", "svg", "pdf"):
-            raise InputError(f"format is 'png', 'svg' or 'pdf', not {format!r}")
-        if not 50 <= size <= 20000:
-            raise InputError(f"size is a number of pixels from 50 to 20000, not {size}")
-        return self._core.picture(format, field, self._together(lambda: rows_of(self, solution if field else None)), size)
+        with self._collective("Mesh.picture()") as call:
+            if format not in ("png", "svg", "pdf"):
+                raise InputError(f"format is 'png', 'svg' or 'pdf', not {format!r}")
+            rows = self._pictured(call, field, solution, size)
+            call.same(format=format)
+        return self._core.picture(format, field, rows, size)
+
+    def _pictured(self, call: collective, field: str, solution, size) -> _core._Tables:
+        """The tables of the solution of which `field` is shown."""
+        require(field, str, "field")
+        if not isinstance(size, (int, float, np.number)) or not 50 <= size <= 20000:
+            raise InputError(f"size is a number of pixels from 50 to 20000, not {size!r}")
+        call.same(field=field, size=float(size))
+        return rows_of(self, solution if field else None)
 
     def png(self, field: str = "", solution: Mapping | None = None, size: float = 800) -> bytes:
         """picture() as PNG."""
@@ -167,15 +174,16 @@ class Mesh:
 
     def plot(self, path, field: str = "", solution: Mapping | None = None, size: float = 800):
         """Writes picture() to a file: .png, .svg or .pdf. On several ranks: collective."""
-        path = os.fspath(path)
-        rows = self._together(lambda: rows_of(self, solution if field else None))
+        with self._collective("Mesh.plot()") as call:
+            path, rows = os.fspath(path), self._pictured(call, field, solution, size)
+            call.same(path=path)
         self._core.plot(path, field, rows, size)
 
     def _repr_png_(self):
-        return self.png() if self._core.ranks == 1 else None
+        return self.png() if self._core.comm.size == 1 else None
 
     def _repr_html_(self):
-        if self._core.ranks > 1:
+        if self._core.comm.size > 1:
             return None
         rows = [(name.replace("_", " "), f"{value:.4g}" if isinstance(value, float) else f"{value:,}")
                 for name, value in dataclasses.asdict(self.quality).items()]
@@ -183,7 +191,7 @@ class Mesh:
         return "<table>" + "".join(f"<tr><td>{name}</td><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def __repr__(self):
-        return f"<quadloop.Mesh: {self.owned} nodes, {len(self.triangles)} triangles, {len(self.quads)} quads on rank {self._core.rank} of {self._core.ranks}>"
+        return f"<quadloop.Mesh: {self.owned} nodes, {len(self.triangles)} triangles, {len(self.quads)} quads on rank {self._core.comm.rank} of {self._core.comm.size}>"
 
     def to_meshio(self, solution: Mapping | None = None):
         """A meshio.Mesh with the names of boundaries and blocks as cell sets. For meshes on one rank."""
@@ -245,15 +253,21 @@ def mesh(case: Case, comm=None, progress=None) -> Mesh:
     progress  progress(Progress) is called at each stage, on several ranks on each that has one; if it returns False on one
               of them, all raise Cancelled. Its exception, or Ctrl-C, is raised on its rank, and Cancelled on the others.
     """
-    core, messages = require(case, Case, "case")._core(comm).mesh(reporter(progress))
-    warn(messages, core.rank)
+    with collective(communicator_of(comm), "mesh()") as call:
+        report = reporter(progress)
+        require(case, Case, "case")._meet(call, comm)
+    core, messages = case._core(comm).mesh(report)
+    warn(messages, core.comm.rank)
     return Mesh(core, messages)
 
 
 def read(path, comm=None) -> tuple:
     """A mesh from a file and its solution, a dictionary of arrays: (Mesh, solution). The suffix selects the format: .mesh, .cgns, .vtu, .su2, .msh."""
-    core, field, messages = _core.read(os.fspath(path), handle_of(comm))
-    warn(messages, core.rank)
+    with collective(communicator_of(comm), "read()") as call:
+        path = os.fspath(path)
+        call.same(path=path)
+    core, field, messages = _core.read(path, handle_of(comm))
+    warn(messages, core.comm.rank)
     return Mesh(core, messages), solution_of(field)
 
 
@@ -286,4 +300,7 @@ def from_meshio(given) -> Mesh:
 
 def smooth(case: Case, given: Mesh, comm=None, progress=None) -> Mesh:
     """A smoothed copy of a mesh of the case; boundary nodes slide along its geometry, layers stay. `progress` as in mesh(). On several ranks: collective."""
-    return Mesh(case._core(comm).smoothed(given._core, reporter(progress)))
+    with collective(communicator_of(comm), "smooth()") as call:
+        report, before = reporter(progress), require(given, Mesh, "given")._core
+        require(case, Case, "case")._meet(call, comm)
+    return Mesh(case._core(comm).smoothed(before, report))

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _core
-from ._common import QuadloopWarning, numbers_of, require
+from ._common import QuadloopWarning, collective, communicator_of, numbers_of, require
 from ._core import InputError
 from ._meshes import Mesh, read
 
@@ -43,22 +43,24 @@ class USMesh:
         debug     has no effect
         """
         self.comm = _world() if comm is None else comm
-        self._options = _checked(options or {})
+        self._ranks = communicator_of(None if isinstance(self.comm, _Alone) else self.comm)
+        with self._collective("USMesh()") as call:
+            self._options, heights = _checked(options or {}, self._ranks.size)
+            call.same(options={name: value for name, value in self._options.items() if name != "mesh"}, mesh_from_a_file=self._options["mesh"] is None)
         self._plane: Mesh = self._options["mesh"] or read(self._options["gridFile"], None if isinstance(self.comm, _Alone) else self.comm)[0]
-        if self._plane._core.ranks != self.comm.size:
-            raise InputError(f"the mesh is on {self._plane._core.ranks} ranks, but comm has {self.comm.size}")
-        heights = numbers_of(self._options["heights"], (-1,), "heights")
-        if len(heights) != 2 or heights[0] >= heights[1]:
-            raise InputError("heights are two numbers, the first below the second")
         along_y = self._options["axis"] == "y"
         self._heights = heights[::-1] if along_y else heights  # of the nodes 2 n and 2 n + 1
         self._in_plane = [0, 2] if along_y else [0, 1]
         self._boundary = _Boundary(self.comm, self._plane)
+        self._owned = self.comm.allgather(self._plane.owned)  # nodes of the plane mesh, by rank
         self._solver: _Nodes | None = None
         self._surface: _Surface | None = None
         self._moved: Mesh = self._plane
         self._morph = None
         self._dxs = np.zeros((0, 3))
+
+    def _collective(self, call: str) -> collective:
+        return collective(self._ranks, call)
 
     def getOption(self, name: str):
         return self._options[name]
@@ -67,11 +69,14 @@ class USMesh:
 
     def setExternalMeshIndices(self, ind):
         """The nodes of the 3D mesh, from 0, that the solver of this rank stores, in its order. A node may be on several ranks."""
-        self._solver = _Nodes(self.comm, self._plane, self._plane._together(lambda: _whole_numbers(ind)))
+        with self._collective("USMesh.setExternalMeshIndices()"):
+            indices = _node_numbers(ind, 2 * sum(self._owned))
+        self._solver = _Nodes(self.comm, self._owned, indices)
 
     def getSolverGrid(self) -> np.ndarray:
-        """The coordinates of these nodes, flat: 3 numbers for each."""
-        nodes = self._require_solver()
+        """The coordinates of these nodes, flat: 3 numbers for each. Collective."""
+        with self._collective("USMesh.getSolverGrid()"):
+            nodes = self._require_solver()
         return self._raised(nodes.of_owners(self._moved.points[:self._moved.owned]), nodes.levels).ravel()
 
     def getWarpGrid(self) -> np.ndarray:
@@ -90,10 +95,10 @@ class USMesh:
 
         The faces are those of the mesh; conn, faceSizes and cgnsBlockID are not used. Raises InputError for a point that is no node. Collective.
         """
-        def found():
+        with self._collective("USMesh.setSurfaceDefinition()"):
             points = numbers_of(np.asarray(pts, dtype=float).reshape(-1, 3), (-1, 3), "points of the surface")
-            return _Surface(points, self._boundary.nearest(points[:, self._in_plane]))
-        self._surface = self._plane._together(found)
+            surface = _Surface(points, self._boundary.nearest(points[:, self._in_plane]))
+        self._surface = surface
 
     def getSurfaceCoordinates(self) -> np.ndarray:
         """The coordinates of the nodes of this rank's surface, shape (N, 3), as they were set last."""
@@ -106,7 +111,8 @@ class USMesh:
 
     def warpMesh(self):
         """Moves the mesh from its first shape to the surface as it was set. Raises TooFar if cells would become inverted. Collective."""
-        surface = self._require_surface()
+        with self._collective("USMesh.warpMesh()"):
+            surface = self._require_surface()
         moves = (surface.coordinates - surface.start)[:, self._in_plane]
         points = self._boundary.points + self._boundary.mean(self.comm, surface.nodes, moves)
         self._morph = _core.Morph(self._plane._core, self._boundary.lines(), self._boundary.lines(points), 0.0)
@@ -119,10 +125,11 @@ class USMesh:
 
         Raises InputError if cells had to be smoothed, as nodes have no derivative then.
         """
-        surface, given = self._require_surface(), np.asarray(dXv, dtype=float)
-        nodes = self._require_solver() if solverVec else None
-        rows = 2 * self._plane.owned if nodes is None else len(nodes.levels)
-        in_plane = self._plane._together(lambda: numbers_of(given.reshape(-1, 3), (rows, 3), "dXv")[:, self._in_plane])
+        with self._collective("USMesh.warpDeriv()") as call:
+            surface, nodes = self._require_surface(), self._require_solver() if solverVec else None
+            rows = 2 * self._plane.owned if nodes is None else len(nodes.levels)
+            in_plane = numbers_of(np.asarray(dXv, dtype=float).reshape(-1, 3), (rows, 3), "dXv")[:, self._in_plane]
+            call.same(solverVec=bool(solverVec))
         owned = in_plane.reshape(-1, 2, 2).sum(axis=1) if nodes is None else nodes.sums(in_plane)
         of_points = self._boundary.joined(self._warped().pull_back(owned))
         copies = self._boundary.copies(self.comm, surface.nodes)
@@ -135,11 +142,14 @@ class USMesh:
 
     def warpDerivFwd(self, dXs, solverVec: bool = True) -> np.ndarray:
         """Velocities of the nodes of the solver (or of getWarpGrid()), flat, for velocities of the surface, shape (N, 3). Collective."""
-        surface = self._require_surface()
-        given = self._plane._together(lambda: numbers_of(np.reshape(dXs, (-1, 3)) if np.ndim(dXs) == 1 else dXs, surface.start.shape, "dXs"))
+        with self._collective("USMesh.warpDerivFwd()") as call:
+            surface = self._require_surface()
+            given = numbers_of(np.reshape(dXs, (-1, 3)) if np.ndim(dXs) == 1 else dXs, surface.start.shape, "dXs")
+            solver = self._require_solver() if solverVec else None
+            call.same(solverVec=bool(solverVec))
         of_points = self._boundary.mean(self.comm, surface.nodes, given[:, self._in_plane])
         owned = self._warped().push_forward([rows for _, rows, _ in self._boundary.lines(of_points)])
-        rows = self._require_solver().of_owners(owned) if solverVec else np.repeat(owned, 2, axis=0)
+        rows = np.repeat(owned, 2, axis=0) if solver is None else solver.of_owners(owned)
         result = np.zeros((len(rows), 3))
         result[:, self._in_plane] = rows
         return result.ravel()
@@ -149,9 +159,11 @@ class USMesh:
 
         Returns the largest deviation of a scalar product with dXv, relative to the largest product. Collective.
         """
-        start, surface = self.getSurfaceCoordinates(), self._require_surface()
-        size = 3 * (len(self._require_solver().levels) if solverVec else 2 * self._plane.owned)
-        weights = np.random.default_rng(randomSeed + self.comm.rank).random(size) if dXv is None else np.asarray(dXv, dtype=float).ravel()
+        with self._collective("USMesh.verifyWarpDeriv()") as call:
+            start, surface = self.getSurfaceCoordinates(), self._require_surface()
+            size = 3 * (len(self._require_solver().levels) if solverVec else 2 * self._plane.owned)
+            weights = np.random.default_rng(randomSeed + self.comm.rank).random(size) if dXv is None else np.asarray(dXv, dtype=float).ravel()
+            call.same(dofStart=dofStart, dofEnd=dofEnd, h=h)
         self.warpMesh()
         self.warpDeriv(weights, solverVec)
         gradient = self.getdXs().ravel()
@@ -205,11 +217,14 @@ class USMesh:
         return rows
 
 
-def _whole_numbers(given) -> np.ndarray:
-    numbers = np.asarray(given)
+def _node_numbers(given, nodes: int) -> np.ndarray:
+    numbers = np.asarray(given).ravel()
     if numbers.size > 0 and numbers.dtype.kind not in "iu":
         raise InputError(f"numbers of nodes are whole numbers, not {numbers.dtype}")
-    return numbers.astype(np.int64).ravel()
+    wrong = numbers[(numbers < 0) | (numbers >= nodes)]
+    if len(wrong):
+        raise InputError(f"{wrong[0]} is no node of the mesh, whose nodes are 0 to {nodes - 1}")
+    return numbers.astype(np.int64)
 
 
 class _Surface:
@@ -309,12 +324,10 @@ def _lines_of(ways: dict) -> list:
 class _Nodes:
     """Nodes of the 3D mesh that a rank wants, whose plane nodes are on other ranks."""
 
-    def __init__(self, comm, mesh: Mesh, indices: np.ndarray):
-        self._comm, self._owned = comm, mesh.owned
-        counts = comm.allgather(mesh.owned)
+    def __init__(self, comm, counts: list, indices: np.ndarray):
+        """`counts`: owned nodes of the plane mesh, by rank."""
+        self._comm, self._owned = comm, counts[comm.rank]
         ends = np.cumsum(counts)
-        wrong = indices[(indices < 0) | (indices >= 2 * ends[-1])]
-        mesh._core.raise_together(f"{wrong[0]} is no node of the mesh, whose nodes are 0 to {2 * ends[-1] - 1}" if len(wrong) else "", True)
         self.levels = indices % 2
         owners = np.searchsorted(ends, indices // 2, side="right")
         self._rows = [np.flatnonzero(owners == rank) for rank in range(comm.size)]
@@ -357,7 +370,8 @@ def _world():
     return MPI.COMM_WORLD
 
 
-def _checked(given: Mapping) -> dict:
+def _checked(given: Mapping, ranks: int) -> tuple:
+    """The options, and the two heights."""
     unknown = set(given) - set(_DEFAULTS) - _WITHOUT_EFFECT
     if unknown:
         raise InputError(f"'{unknown.pop()}' is no option; these are {', '.join(_DEFAULTS)}")
@@ -368,9 +382,14 @@ def _checked(given: Mapping) -> dict:
     if (options["mesh"] is None) == (options["gridFile"] is None):
         raise InputError("give the plane mesh either as the option 'mesh' (a quadloop.Mesh) or as 'gridFile' (its file)")
     if options["mesh"] is not None:
-        require(options["mesh"], Mesh, "the option 'mesh'")
+        of_mesh = require(options["mesh"], Mesh, "the option 'mesh'")._core.comm.size
+        if of_mesh != ranks:
+            raise InputError(f"the mesh is on {of_mesh} ranks, but comm has {ranks}")
     if isinstance(options["specifiedSurfaces"], str):
         options["specifiedSurfaces"] = [options["specifiedSurfaces"]]
     if options["axis"] not in ("y", "z"):
         raise InputError(f"axis is 'y' or 'z', not {options['axis']!r}")
-    return options
+    heights = numbers_of(options["heights"], (-1,), "heights")
+    if len(heights) != 2 or heights[0] >= heights[1]:
+        raise InputError("heights are two numbers, the first below the second")
+    return options, heights

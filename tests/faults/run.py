@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "cases"))
@@ -27,6 +27,7 @@ from run_adapt_refusals import SOLVER  # noqa: E402
 
 QUADLOOP, MPIRUN, DISK = (str(Path(program).resolve()) for program in sys.argv[1:4])
 SEEDS = int(sys.argv[4]) if len(sys.argv) > 4 else 1
+TRIES = 4  # to send a signal before the end of a run
 SECONDS = 120  # until a run counts as one that hangs
 LOOK_EVERY = 30  # seconds between two looks at whether its ranks live
 
@@ -96,6 +97,9 @@ class Fault:
     solver: str = ""  # of SOLVER, what it does wrong
     number: signal.Signals | None = None  # sent at a random moment
     ranks: int = 1
+
+
+NO_FAULT = Fault("none", [], 0)
 
 
 def disk(call, first):
@@ -174,7 +178,7 @@ class Trial:
         return -signal.SIGKILL, process.communicate()[1]
 
     def run_under_fault(self, seconds):
-        """`seconds`: how long a run without a fault takes."""
+        """`seconds`: how long a run without a signal takes."""
         process = self.start(self.fault)
         if self.fault.number is not None:
             time.sleep(self.moment(seconds))
@@ -185,8 +189,7 @@ class Trial:
 
     def moment(self, seconds):
         """Late more often than early, when files are written."""
-        slow = 3 if "QUADLOOP_DISK_DELAY" in self.fault.environment else 1
-        return seconds * slow * (1 - self.draw.random() ** 2)
+        return seconds * (1 - self.draw.random() ** 2)
 
     def victims(self, process):
         if self.fault.ranks == 1:
@@ -301,19 +304,31 @@ class Runs:
             (self.inputs / name).write_text(text)
         for arguments in (["mesh", "case.toml", "-o", "m"], ["solve", "case.toml", "m.mesh", "-o", "s.mesh"]):
             subprocess.run([QUADLOOP, *arguments, "--quiet"], cwd=self.inputs, check=True, capture_output=True)
-        self.wanted, self.seconds = {}, {}
+        self.wanted = {}
         for name in COMMANDS:
-            trial = self.trial(name, Fault("none", [], 0))
-            begin = time.monotonic()
+            trial = self.trial(name, NO_FAULT)
             status, said = trial.ended(trial.start(trial.fault))
-            self.seconds[name] = time.monotonic() - begin
             if status != 0:
                 sys.exit(f"{name} fails without a fault: {said}")
             self.wanted[name] = trial.left()
+        self.seconds = {}
 
     def trial(self, name, fault):
         self.trials += 1
         return Trial(name, fault, self.inputs, self.folder / f"trial_{self.trials}", self.draw)
+
+    def seconds_of(self, name, fault):
+        """How long the command takes on as many ranks and with a disk as slow as under the fault, without its signal."""
+        if fault.number is None:
+            return None
+        key = name, fault.ranks, *fault.environment.items()
+        if key not in self.seconds:
+            trial = self.trial(name, replace(fault, number=None))
+            begin = time.monotonic()
+            trial.ended(trial.start(trial.fault))
+            self.seconds[key] = time.monotonic() - begin
+            shutil.rmtree(trial.folder)
+        return self.seconds[key]
 
     def older_files(self, name, trial):
         """Files of an earlier run, where the command replaces them: other ones of the same names."""
@@ -328,22 +343,33 @@ class Runs:
         return files_in(older)
 
     def faults(self, name, fault):
-        """What is wrong with one command under one fault."""
+        """What is wrong with one command under one fault. A signal that came after the end of the run is sent again, after half of the time."""
+        seconds = self.seconds_of(name, fault)
+        self.signals += fault.number is not None
+        for _ in range(TRIES):
+            status = yield from self.faults_of_trial(name, fault, seconds)
+            if fault.number is None:
+                return
+            if status != 0:
+                self.interrupted += 1
+                return
+            seconds /= 2
+
+    def faults_of_trial(self, name, fault, seconds):
+        """What is wrong with one run; returns its exit status."""
         trial = self.trial(name, fault)
         judge = Judge(trial, self.wanted[name], self.older_files(name, trial))
-        status, said = trial.run_under_fault(self.seconds[name])
-        if fault.number is not None:
-            self.signals += 1
-            self.interrupted += status != 0
+        status, said = trial.run_under_fault(seconds)
         yield from judge.faults_of_run(status, said)
         yield from judge.faults_of_files(killed=fault.number == signal.SIGKILL or fault.ranks > 1)
         (trial.folder / "fault").unlink(missing_ok=True)
-        yield from judge.faults_of_repeat(*trial.ended(trial.start(Fault("none", [], 0))))
+        yield from judge.faults_of_repeat(*trial.ended(trial.start(NO_FAULT)))
         shutil.rmtree(trial.folder)
+        return status
 
     def faults_of_two(self, name):
         """Two runs of a command at once: one succeeds, and its files stand; the other one does too, or says why not."""
-        trial = self.trial(name, Fault("none", [], 0))
+        trial = self.trial(name, NO_FAULT)
         judge = Judge(trial, self.wanted[name], {})
         ends = [trial.ended(process) for process in [trial.start(trial.fault) for _ in range(2)]]
         if sorted(status for status, _ in ends) not in ([0, 0], [0, 1]) or any(status and "another run is using" not in said for status, said in ends):

@@ -62,7 +62,7 @@ class Flows(unittest.TestCase):
         with self.assertRaisesRegex(ql.InputError, "values"):
             ql.solve(CASE, mesh, {"density": np.zeros(3)})
         if comm.size > 1:
-            with self.assertRaisesRegex(ql.InputError, "another one"):
+            with self.assertRaisesRegex(ql.InputError, "'case' on rank 1 differs from that on rank 0"):
                 ql.solve(CASE, mesh, alpha=2.0 + comm.rank)
 
 
@@ -154,7 +154,7 @@ class Designs(unittest.TestCase):
         with self.assertRaisesRegex(ql.InputError, "min_quality"):
             run.evaluate(min_quality=2)
         if comm.size > 1:
-            with self.assertRaisesRegex(ql.InputError, "outlines are others"):
+            with self.assertRaisesRegex(ql.InputError, "'outlines' on rank 1 differs from that on rank 0"):
                 run.evaluate({"foil": cambered(0.01 * comm.rank)})
         with self.assertRaisesRegex(ql.InputError, "adapt"):
             ql.Run(CASE, comm, adapted=True)

@@ -1,4 +1,6 @@
-"""Three ranks: parts of the mesh, errors on one rank, wrong solutions on one rank."""
+"""Three ranks: parts of the mesh, errors and wrong arguments on one rank, calls that differ between ranks. None may wait for ever."""
+import os
+
 import numpy as np
 from mpi4py import MPI
 
@@ -50,9 +52,9 @@ def test_what_differs_between_ranks_is_refused_on_all():
     for given in (None, 3, {"v": 1}, {"u": "x"}, {"my u": np.zeros(3)}):
         raised((ql.InputError, ql.SolverError), lambda: next(ql.adapt(CASE, lambda mesh, start: values(mesh, start, given), comm=comm)))
     renamed = lambda mesh, start: {"u": np.zeros(mesh.owned), **({"v": np.zeros(mesh.owned)} if comm.rank == 2 else {})}
-    assert "rank 2: solve() returned other variables" in raised(ql.InputError, lambda: next(ql.adapt(CASE, renamed, comm=comm)))
+    assert "the end of solve(): 'variables' is (['u', 'v'], []) on rank 2, but (['u'], []) on rank 0" in raised(ql.InputError, lambda: next(ql.adapt(CASE, renamed, comm=comm)))
     other = CASE.changed(spacing={"max": 0.05 + 0.01 * comm.rank})
-    assert "another one than on rank 0" in raised(ql.InputError, lambda: ql.mesh(other, comm=comm))
+    assert "mesh(): 'case' on rank 1 differs from that on rank 0" in raised(ql.InputError, lambda: ql.mesh(other, comm=comm))
 
 
 def test_an_exit_on_one_rank_ends_all():
@@ -61,6 +63,89 @@ def test_an_exit_on_one_rank_ends_all():
             raise KeyboardInterrupt
         return {"u": np.zeros(mesh.owned)}
     raised(KeyboardInterrupt if comm.rank == 0 else ql.SolverError, lambda: next(ql.adapt(CASE, solve, comm=comm)))
+
+
+def test_an_error_while_other_ranks_are_in_a_collective_call():
+    calls = (lambda mesh: mesh.quality, lambda mesh: mesh.check(), lambda mesh: mesh.write(os.devnull + ".mesh"), lambda mesh: ql.TransferMap(mesh, mesh))
+    for call in calls:
+        def solve(mesh, start):
+            if comm.rank == 1:
+                raise KeyError("lost")
+            for _ in range(2 if comm.rank == 0 else 1):  # a program that goes on after the error
+                assert "rank 1: KeyError: 'lost'" in raised(ql.SolverError, lambda: call(mesh))
+            return {"u": np.zeros(mesh.owned)}
+        message = raised(KeyError if comm.rank == 1 else ql.SolverError, lambda: next(ql.adapt(CASE, solve, comm=comm)))
+        assert message == ("'lost'" if comm.rank == 1 else "rank 1: KeyError: 'lost'"), message
+
+
+def test_an_error_in_a_transfer_while_other_ranks_interpolate():
+    def transfer(old, solution, new, between):
+        if comm.rank == 2:
+            raise KeyError("lost")
+        return {"u": between.interpolate(solution["u"])}
+    cycles = ql.adapt(CASE, lambda mesh, start: {"u": np.tanh(30 * (mesh.points[:, 0] - 0.4))}, comm=comm, transfer=transfer)
+    message = raised(KeyError if comm.rank == 2 else ql.SolverError, lambda: list(cycles))
+    assert message == ("'lost'" if comm.rank == 2 else "rank 2: KeyError: 'lost'"), message
+
+
+def test_a_rank_that_returns_early_waits_for_the_others():
+    def solve(mesh, start):
+        if comm.rank > 0:
+            return {"u": np.zeros(mesh.owned)}
+        assert "the end of solve() on rank 1, but Mesh.quality on rank 0" in raised(ql.InputError, lambda: mesh.quality)
+        return {"u": np.zeros(mesh.owned)}
+    assert next(ql.adapt(CASE, solve, comm=comm)).number == 0
+
+
+def test_wrong_arguments_on_one_rank_are_refused_on_all():
+    made, run = ql.mesh(CASE, comm=comm), ql.Run(CASE, comm=comm)
+    between, square = ql.TransferMap(made, made), CASE._outlines["edge"][0].points
+    solve = lambda mesh, start: {"u": np.zeros(mesh.owned)}
+    wrong = comm.rank == 1
+    pick = lambda bad, good: bad if wrong else good
+    calls = {
+        "mesh: case": lambda: ql.mesh(pick("case", CASE), comm=comm),
+        "mesh: progress": lambda: ql.mesh(CASE, comm=comm, progress=pick(3, None)),
+        "read: path": lambda: ql.read(pick("one.mesh", "other.mesh"), comm=comm),
+        "smooth: mesh": lambda: ql.smooth(CASE, pick(None, made), comm=comm),
+        "write: path": lambda: made.write(pick(7, "a.mesh")),
+        "write: suffix": lambda: made.write(pick("a.doc", "a.mesh")),
+        "write: solution": lambda: made.write("a.mesh", pick({"u": [1, 2]}, None)),
+        "plot: size": lambda: made.plot("a.png", size=pick(3, 800)),
+        "plot: field": lambda: made.plot("a.png", field=pick(4, "")),
+        "picture: format": lambda: made.picture(pick("gif", "png")),
+        "extrude: heights": lambda: made.extrude("a.vtu", pick([0, 2], [0, 1])),
+        "extrude: axis": lambda: made.extrude("a.vtu", [0, 1], axis=pick("x", "z")),
+        "adapt: solve": lambda: ql.adapt(CASE, pick(5, solve), comm=comm),
+        "adapt: no solve": lambda: ql.adapt(CASE, pick(None, solve), comm=comm),
+        "adapt: transfer": lambda: ql.adapt(CASE, solve, comm=comm, transfer=pick(len, None)),
+        "adapt: folder": lambda: ql.adapt(CASE, solve, comm=comm, folder=pick("run", None)),
+        "adapt: resume": lambda: ql.adapt(CASE, solve, comm=comm, folder="run", resume=pick(True, False)),
+        "adapt: keys": lambda: ql.adapt(CASE, solve, comm=comm, cycles=pick(-1, 2)),
+        "solve: keys": lambda: ql.solve(CASE, made, mach=pick(0.4, 0.3)),
+        "map: mesh": lambda: ql.TransferMap(made, pick(None, made)),
+        "map: values": lambda: between.rows(np.zeros(pick(3, made.owned))),
+        "morph: outlines": lambda: run.morph(pick({}, {"edge": square})),
+        "morph: quality": lambda: run.morph({"edge": square}, min_quality=pick(2, 0)),
+        "verify: step": lambda: run.verify({"edge": square}, step=pick(1, 1e-6)),
+        "evaluate: gradient": lambda: run.evaluate(gradient=pick("lift", "drag")),
+        "another call": lambda: pick(made.check, made.gathered)(),
+    }
+    for name, call in calls.items():
+        try:
+            raised((ql.InputError, ql.SolverError) if comm.rank != 1 else (ql.InputError, TypeError), call)
+        except BaseException as error:
+            raise AssertionError(f"{name}: {error!r}") from error
+    assert not os.path.exists("a.mesh")
+
+
+def test_no_collective_call_in_a_function_for_progress():
+    made = ql.mesh(CASE, comm=comm)
+
+    def progress(stage):
+        made.check()
+    wants = (ql.InputError, "cannot be called") if comm.rank == 2 else (ql.Cancelled, "cannot be called")
+    assert wants[1] in raised(wants[0], lambda: ql.mesh(CASE, comm=comm, progress=progress if comm.rank == 2 else None))
 
 
 def test_the_loop_goes_on_after_errors():
