@@ -91,21 +91,6 @@ Arrival arrival_of(const Place& place, Failure failure) {
   return {hash(place.call), hash(arguments), failure, place.waits ? 1 : 0};
 }
 
-/// The words of one rank, on every rank. *Collective.*
-std::vector<std::string> words_of(const Communicator& comm, const std::vector<std::string>& words, int rank) {
-  std::vector<char> joined;
-  for (const std::string& word : words)
-    joined.insert(joined.end(), word.c_str(), word.c_str() + word.size() + 1);
-  comm.broadcast(joined, rank);
-  std::vector<std::string> result;
-  for (auto begin = joined.begin(); begin != joined.end();) {
-    const auto end = std::find(begin, joined.end(), '\0');
-    result.emplace_back(begin, end);
-    begin = end + 1;
-  }
-  return result;
-}
-
 /// Two places as words, call first, that are not the same.
 std::string difference_of(const std::vector<std::string>& of_root, const std::vector<std::string>& of_other,
                           int other) {
@@ -144,7 +129,7 @@ std::optional<std::pair<Failure, std::string>> error_of(const Communicator& comm
                                                         const std::string& text) {
   if (const std::optional<int> rank = failed_rank(arrivals))
     return std::pair(arrivals[static_cast<std::size_t>(*rank)].failure,
-                     words_of(comm, {text}, *rank).front());
+                     broadcast_words(comm, {text}, *rank).front());
   const Arrival& root = arrivals.front();
   const auto other = std::find_if(arrivals.begin(), arrivals.end(), [&](const Arrival& at) {
     return at.call != root.call || at.arguments != root.arguments;
@@ -153,8 +138,8 @@ std::optional<std::pair<Failure, std::string>> error_of(const Communicator& comm
   std::vector<std::string> words{place.call};
   for (const auto& [name, value] : place.arguments) words.insert(words.end(), {name, value});
   const auto rank = static_cast<int>(other - arrivals.begin());
-  const std::vector<std::string> of_root = words_of(comm, words, 0);
-  return std::pair(Failure::input, difference_of(of_root, words_of(comm, words, rank), rank));
+  const std::vector<std::string> of_root = broadcast_words(comm, words);
+  return std::pair(Failure::input, difference_of(of_root, broadcast_words(comm, words, rank), rank));
 }
 
 /// Raises a signal that came while this rank waited for the others, and Cancelled on them: afterwards they

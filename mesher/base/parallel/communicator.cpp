@@ -46,6 +46,22 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
   return offsets;
 }
 
+/// Receives one count, if there is one.
+void receive_count(MPI_Comm comm, int tag, std::vector<Communicator::Count>& counts) {
+  int is_there = 0;
+  MPI_Status status;
+  MPI_Iprobe(MPI_ANY_SOURCE, tag, comm, &is_there, &status);
+  if (is_there == 0) return;
+  Communicator::Count& count = counts.emplace_back(Communicator::Count{status.MPI_SOURCE, 0});
+  MPI_Recv(&count.count, 1, MPI_INT64_T, count.rank, tag, comm, MPI_STATUS_IGNORE);
+}
+
+bool has_ended(std::span<MPI_Request> requests) {
+  int all = 0;
+  MPI_Testall(size32(requests), requests.data(), &all, MPI_STATUSES_IGNORE);
+  return all != 0;
+}
+
 /// Throws the same type of error on every rank.
 [[noreturn]] void rethrow(ExitStatus status, const std::string& message) {
   switch (status) {
@@ -121,10 +137,44 @@ void Communicator::broadcast_bytes(std::vector<std::byte>& bytes, int from) cons
   });
 }
 
-std::vector<std::int64_t> Communicator::exchange_counts(const std::vector<std::int64_t>& to_rank) const {
-  std::vector<std::int64_t> from_rank(to_rank.size());
+std::vector<Communicator::Count> Communicator::exchange_counts(std::span<const Count> to, int many) const {
+  if (size_ >= many) return counts_by_consensus(to);
+  const auto size = static_cast<std::size_t>(size_);
+  std::vector<std::int64_t> to_rank(size, 0), from_rank(size, 0);
+  for (const Count& message : to) to_rank[static_cast<std::size_t>(message.rank)] = message.count;
   MPI_Alltoall(to_rank.data(), 1, MPI_INT64_T, from_rank.data(), 1, MPI_INT64_T, comm_);
-  return from_rank;
+  std::vector<Count> from;
+  for (int rank = 0; rank < size_; ++rank) {
+    if (const std::int64_t count = from_rank[static_cast<std::size_t>(rank)]; count != 0)
+      from.push_back({rank, count});
+  }
+  return from;
+}
+
+std::vector<Communicator::Count> Communicator::counts_by_consensus(std::span<const Count> to) const {
+  // A rank may begin the next exchange while others still wait in this one, but not the one after that.
+  const int tag = exchanges_++ % 2 == 0 ? 4 : 5;
+  std::vector<Count> from;
+  std::vector<MPI_Request> sent;
+  for (const Count& message : to) {
+    if (message.rank == rank_)
+      from.push_back(message);
+    else
+      MPI_Issend(&message.count, 1, MPI_INT64_T, message.rank, tag, comm_, &sent.emplace_back());
+  }
+  // A rank whose messages have all been received enters the barrier; behind it no message is under way.
+  MPI_Request barrier = MPI_REQUEST_NULL;
+  for (bool is_waiting = false, done = false; !done;) {
+    receive_count(comm_, tag, from);
+    if (is_waiting) {
+      done = has_ended(std::span(&barrier, 1));
+    } else if (has_ended(sent)) {
+      MPI_Ibarrier(comm_, &barrier);
+      is_waiting = true;
+    }
+  }
+  std::sort(from.begin(), from.end(), [](const Count& a, const Count& b) { return a.rank < b.rank; });
+  return from;
 }
 
 void Communicator::exchange_messages(std::span<const Outgoing> out, std::span<const Incoming> in,
@@ -186,10 +236,11 @@ void Communicator::together(const std::function<void()>& local) const {
   rethrow(static_cast<ExitStatus>(agreed.front()), std::string(agreed.begin() + 1, agreed.end()));
 }
 
-std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words) {
+std::vector<std::string> broadcast_words(const Communicator& comm, const std::vector<std::string>& words,
+                                         int from) {
   std::vector<char> text;
   for (const std::string& word : words) text.insert(text.end(), word.c_str(), word.c_str() + word.size() + 1);
-  comm.broadcast(text);
+  comm.broadcast(text, from);
   std::vector<std::string> shared;
   for (auto at = text.begin(); at != text.end();) {
     const auto end = std::find(at, text.end(), '\0');

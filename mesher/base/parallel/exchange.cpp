@@ -9,13 +9,26 @@ namespace quadloop {
 
 namespace {
 
-/// Returns the range of each rank with a non-zero count.
-std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts) {
+using Counts = std::vector<Communicator::Count>;
+
+/// The number of items for each rank that gets some, ascending; `order` sorts the items unless it is empty.
+Counts counts_of(std::span<const int> ranks, std::span<const std::size_t> order) {
+  Counts counts;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    const int rank = ranks[order.empty() ? i : order[i]];
+    if (counts.empty() || counts.back().rank != rank) counts.push_back({rank, 0});
+    ++counts.back().count;
+  }
+  return counts;
+}
+
+/// Returns the range of each rank.
+std::vector<Exchange::Source> stretches(const Counts& counts) {
   std::vector<Exchange::Source> found;
   std::size_t begin = 0;
-  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-    const std::size_t end = begin + counts[rank];
-    if (end > begin) found.push_back({static_cast<int>(rank), begin, end});
+  for (const auto& [rank, count] : counts) {
+    const std::size_t end = begin + static_cast<std::size_t>(count);
+    found.push_back({rank, begin, end});
     begin = end;
   }
   return found;
@@ -24,18 +37,17 @@ std::vector<Exchange::Source> stretches(const std::vector<std::int64_t>& counts)
 }  // namespace
 
 Exchange::Exchange(const Communicator& comm, std::span<const int> ranks) : comm_{&comm} {
-  std::vector<std::int64_t> counts(comm.size(), 0);
-  for (const int rank : ranks) {
+  for (const int rank : ranks)
     QUADLOOP_REQUIRE(0 <= rank && rank < comm.size(), "items are for one of the ranks", rank, comm.size());
-    ++counts[rank];
+  if (!std::is_sorted(ranks.begin(), ranks.end())) {
+    order_.resize(ranks.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
   }
+  const Counts counts = counts_of(ranks, order_);
   targets_ = stretches(counts);
   sources_ = stretches(comm.exchange_counts(counts));
-  if (std::is_sorted(ranks.begin(), ranks.end())) return;
-  order_.resize(ranks.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](std::size_t a, std::size_t b) { return ranks[a] < ranks[b]; });
 }
 
 std::size_t Exchange::arrivals_before(int rank) const {

@@ -70,6 +70,28 @@ TEST(Communicator, TheLowestRanksErrorIsThrownOnAll) {
   }
 }
 
+TEST(Communicator, CountsGoFromAnyRankToAny) {
+  // Rank a sends to rank b in round r if this is not 0. Ranks are late in turns, so that rounds overlap.
+  const auto count = [](int a, int b, int r) { return (a * 7 + b * 5 + r * 3) % 4 * (r % 8); };
+  const int size = world().size(), own = world().rank();
+  for (int round = 0; round < 64; ++round) {
+    if (round % size == own) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::vector<Communicator::Count> to;
+    std::vector<std::pair<int, std::int64_t>> expected, found;
+    for (int other = size - 1; other >= 0; --other) {
+      if (count(own, other, round) != 0) to.push_back({other, count(own, other, round)});
+    }
+    for (int other = 0; other < size; ++other) {
+      if (count(other, own, round) != 0) expected.emplace_back(other, count(other, own, round));
+    }
+    for (const int many : {1, Communicator::many_ranks}) {
+      found.clear();
+      for (const auto& [rank, number] : world().exchange_counts(to, many)) found.emplace_back(rank, number);
+      EXPECT_EQ(found, expected) << round << ' ' << many;
+    }
+  }
+}
+
 TEST(Communicator, MessagesGoInPiecesOfAnySize) {
   std::vector<std::vector<std::byte>> out(world().size()), in(world().size());
   std::vector<Communicator::Outgoing> outgoing;
