@@ -43,9 +43,8 @@ KeysOfLevels with_ancestors(KeysOfLevels keys) {
 
 }  // namespace
 
-/// Gathers the requested keys, level by level, the same on all ranks.
-DemandedSplits::KeysOfLevels DemandedSplits::gather_asked(const Communicator& comm,
-                                                          std::span<const SplitDemand> demands) {
+/// The requested keys of one rank, sorted.
+DemandedSplits::KeysOfLevels DemandedSplits::keys_of(std::span<const SplitDemand> demands) {
   KeysOfLevels asked;
   for (const SplitDemand& demand : demands) {
     for (std::uint32_t levels = demand.levels; levels != 0; levels &= levels - 1) {
@@ -57,11 +56,32 @@ DemandedSplits::KeysOfLevels DemandedSplits::gather_asked(const Communicator& co
       if (keys.empty() || keys.back() != key) keys.push_back(key);
     }
   }
-  for (auto& keys : asked) {
-    make_unique(keys);
-    keys = comm.all_gather_values(std::span<const std::uint64_t>(keys));
-    make_unique(keys);
+  for (auto& keys : asked) make_unique(keys);
+  return asked;
+}
+
+/// The requested keys of all ranks. Each rank sends its roots and masks: little more than a byte for each
+/// key.
+DemandedSplits::KeysOfLevels DemandedSplits::gather_asked(const Communicator& comm,
+                                                          std::span<const SplitDemand> demands) {
+  DemandedSplits own;
+  own.assign(keys_of(demands));
+  struct Sizes {
+    std::size_t roots, masks;
+  };
+  const std::vector<Sizes> sizes = comm.all_gather(Sizes{own.roots_.size(), own.masks_.size()});
+  KeysOfLevels asked;
+  if (std::ranges::all_of(sizes, [](const Sizes& of_rank) { return of_rank.masks == 0; })) return asked;
+  const std::vector<Key> roots = comm.all_gather_values(std::span<const Key>(own.roots_));
+  const std::vector<std::uint8_t> masks = comm.all_gather_values(std::span<const std::uint8_t>(own.masks_));
+  std::span<const Key> roots_left(roots);
+  std::span<const std::uint8_t> masks_left(masks);
+  for (const Sizes& of_rank : sizes) {
+    append_asked(roots_left.first(of_rank.roots), masks_left.first(of_rank.masks), asked);
+    roots_left = roots_left.subspan(of_rank.roots);
+    masks_left = masks_left.subspan(of_rank.masks);
   }
+  for (auto& keys : asked) make_unique(keys);
   return asked;
 }
 
@@ -73,7 +93,7 @@ DemandedSplits::DemandedSplits(const Communicator& comm, std::span<const SplitDe
                                const DemandedSplits& before)
     : for_layers_{true} {
   KeysOfLevels asked = gather_asked(comm, demands);
-  before.append_asked(asked);
+  append_asked(before.roots_, before.masks_, asked);
   for (auto& keys : asked) make_unique(keys);
   assign(asked);
 }
@@ -107,13 +127,14 @@ void DemandedSplits::raise_finest() {
   }
 }
 
-void DemandedSplits::append_asked(KeysOfLevels& asked) const {
-  std::vector<Key> keys = roots_, below;
+void DemandedSplits::append_asked(std::span<const Key> roots, std::span<const std::uint8_t> masks,
+                                  KeysOfLevels& asked) {
+  std::vector<Key> keys(roots.begin(), roots.end()), below;
   std::size_t number = 0;
   for (std::size_t level = 0; !keys.empty(); ++level) {
     below.clear();
     for (const Key key : keys) {
-      const std::uint8_t mask = masks_[number++];
+      const std::uint8_t mask = masks[number++];
       if ((mask & asked_bit) != 0) asked[level].push_back(key);
       for (Key child = 0; child < 4; ++child) {
         if ((mask >> child & 1) != 0) below.push_back(key << 2 | child);

@@ -52,9 +52,11 @@ class DemandedSplits {
   /// Key of a quadrant on the Morton curve over all trees, for its level.
   using Key = std::uint64_t;
   using KeysOfLevels = std::array<std::vector<Key>, Quadrant::unit_level>;
+  static KeysOfLevels keys_of(std::span<const SplitDemand> demands);
   static KeysOfLevels gather_asked(const Communicator& comm, std::span<const SplitDemand> demands);
   void assign(const KeysOfLevels& asked);
-  void append_asked(KeysOfLevels& asked) const;
+  static void append_asked(std::span<const Key> roots, std::span<const std::uint8_t> masks,
+                           KeysOfLevels& asked);
   void append_level(std::span<const Key> all, std::span<const Key> asked, std::span<const Key> above,
                     std::int32_t first_above);
   void raise_finest();
