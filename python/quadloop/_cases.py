@@ -65,7 +65,7 @@ def _toml(value) -> str:
     raise InputError(f"{value!r} is no value of a case: use numbers, texts, True, False, lists and dictionaries")
 
 
-def _outlines(given) -> dict:
+def outlines_of(given) -> dict:
     """Boundary -> the list of its Outlines."""
     result = {}
     for name, parts in require(given if given is not None else {}, Mapping, "outlines").items():
@@ -109,7 +109,7 @@ class Case:
     """
 
     def __init__(self, outlines: Mapping | None = None, **tables):
-        self._set(None, tables, _outlines(outlines))
+        self._set(None, tables, outlines_of(outlines))
 
     def _set(self, file, tables: Mapping, outlines: Mapping, told=()):
         self._file, self._tables, self._outlines = file, dict(tables), dict(outlines)
@@ -125,11 +125,14 @@ class Case:
         return case
 
     def changed(self, outlines: Mapping | None = None, **tables) -> "Case":
-        """The same case with other values of some keys, or other points of some outlines. Lists such as `wake` are replaced."""
+        """The same case with other values of some keys, or other points of some of its outlines. Lists such as `wake` are replaced."""
         if outlines and self._file is not None:
             raise InputError(f"{self._file}: outlines of a case file cannot be changed; name another file, geometry={{'file': ...}}")
+        changed = outlines_of(outlines)
+        if unknown := [name for name in changed if name not in self._outlines]:
+            raise InputError(f"the case has no outline '{unknown[0]}'; it has {', '.join(self._outlines) or 'none'}")
         case = Case.__new__(Case)
-        case._set(self._file, _merged(self._tables, tables), {**self._outlines, **_outlines(outlines)}, self.warnings)
+        case._set(self._file, _merged(self._tables, tables), {**self._outlines, **changed}, self.warnings)
         return case
 
     def __reduce__(self):

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _core
 from ._adaptation import adapt
-from ._cases import Case, Outline, polygon
+from ._cases import Case, outlines_of, polygon
 from ._common import collective, communicator_of, numbers_of, require, warn
 from ._core import InputError, TooFar
 from ._flow import Flow, solve
@@ -137,7 +137,10 @@ class Run:
         unknown = set(require(outlines, Mapping, "outlines")) - set(self.outlines)
         if unknown or not outlines:
             raise InputError(f"{repr(unknown.pop()) if unknown else 'nothing'} is no outline that can move; closed polygons can, not splines or curves: {', '.join(self.outlines) or 'none in this case'}")
-        new = {name: given.points if isinstance(given, Outline) else polygon(given).points for name, given in outlines.items()}
+        given = outlines_of(outlines)
+        if several := [name for name, parts in given.items() if len(parts) > 1]:
+            raise InputError(f"outline '{several[0]}': needs one polygon, not {len(given[several[0]])}")
+        new = {name: parts[0].points for name, parts in given.items()}
         for name, points in new.items():
             if len(points) != len(self.outlines[name]):
                 raise InputError(f"outline '{name}': {len(points)} points, but the mesh needs as many points as before, {len(self.outlines[name])}")

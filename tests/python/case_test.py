@@ -93,6 +93,8 @@ class Cases(unittest.TestCase):
         self.assertEqual(pickle.loads(pickle.dumps(case)).toml, before)
         larger = case.changed(outlines={"edge": points})
         self.assertGreater(ql.mesh(larger).nodes, 3 * ql.mesh(case).nodes)
+        with self.assertRaisesRegex(ql.InputError, "the case has no outline 'egde'; it has edge"):
+            case.changed(outlines={"egde": points})
 
     def test_warnings_of_the_case(self):
         with self.assertWarnsRegex(ql.QuadloopWarning, "."):

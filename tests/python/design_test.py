@@ -66,7 +66,7 @@ class Design(unittest.TestCase):
         with self.assertRaises(ql.TooFar) as caught:
             self.runs[0].morph({"body": OVAL}, min_quality=0.999)
         self.assertEqual(caught.exception.share, 0)
-        with self.assertRaisesRegex(ql.InputError, "not finite"):
+        with self.assertRaisesRegex(ql.InputError, "outline '[a-z]+': contains values that are not finite"):
             self.runs[0].morph({"body": OVAL * np.nan})
         with self.assertRaisesRegex(ql.InputError, "shape"):
             self.runs[0].morph({"body": OVAL}).pull_back(np.zeros((3, 2)))
