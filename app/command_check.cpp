@@ -147,8 +147,8 @@ void add_check_command(CommandLine& line, CommandContext& context) {
   Command command = line.add_command("check", "check the validity and quality of a mesh");
   command
       .add_option("input", arguments->input,
-                  "the mesh: 2D (" + io::suffixes_for({io::Content::mesh}) + ") or 3D (" +
-                      io::suffixes_for({io::Content::mesh3d}) + ", a folder)")
+                  "the mesh: 2D (" + io::read_suffixes_for({io::Content::mesh}) + ") or 3D (" +
+                      io::read_suffixes_for({io::Content::mesh3d}) + ", a folder)")
       .required()
       .value_name("IN");
   command

@@ -215,8 +215,8 @@ void add_convert_command(CommandLine& line, CommandContext& context) {
   Command command = line.add_command("convert", "write a mesh unchanged in another format");
   command
       .add_option("input", arguments->input,
-                  "the mesh: 2D (" + io::suffixes_for({Content::mesh}) + ") or 3D (" +
-                      io::suffixes_for({Content::mesh3d}) + "), with its solution if it has one")
+                  "the mesh: 2D (" + io::read_suffixes_for({Content::mesh}) + ") or 3D (" +
+                      io::read_suffixes_for({Content::mesh3d}) + "), with its solution if it has one")
       .required()
       .value_name("IN");
   command

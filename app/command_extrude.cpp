@@ -204,7 +204,8 @@ void run_extrude(const CommandContext& context, const ExtrudeArguments& argument
 }
 
 void add_options(Command& command, ExtrudeArguments& arguments) {
-  command.add_option("input", arguments.input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
+  command
+      .add_option("input", arguments.input, "the mesh (" + io::read_suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command

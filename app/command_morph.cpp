@@ -267,7 +267,8 @@ void add_derivative_options(Command& command, MorphArguments& arguments) {
 void add_morph_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<MorphArguments>();
   Command command = line.add_command("morph", "move the nodes of a mesh to a changed geometry");
-  command.add_option("input", arguments->input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
+  command
+      .add_option("input", arguments->input, "the mesh (" + io::read_suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command

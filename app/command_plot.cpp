@@ -204,9 +204,9 @@ void add_plot_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<PlotArguments>();
   Command command = line.add_command("plot", "plot a mesh, a field, the flow along walls, or a history");
   command
-      .add_option(
-          "input", arguments->input,
-          "the mesh (" + io::suffixes_for({io::Content::mesh}) + "); or a table .walls.csv or .history.csv")
+      .add_option("input", arguments->input,
+                  "the mesh (" + io::read_suffixes_for({io::Content::mesh}) +
+                      "); or a table .walls.csv or .history.csv")
       .required()
       .value_name("IN");
   command.add_option("-o,--output", arguments->output, "the picture: .png, .svg or .pdf")

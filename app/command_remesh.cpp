@@ -263,7 +263,7 @@ void run_remesh(const CommandContext& context, const RemeshArguments& arguments)
 std::string solution_help() {
   std::string with_mesh, alone;
   for (const io::FileFormat& format : io::file_formats()) {
-    if (!format.holds(io::Content::solution)) continue;
+    if (!format.holds(io::Content::solution) || !format.is_read()) continue;
     if (format.holds(io::Content::mesh)) {
       with_mesh += "." + format.name + ", ";
     } else {

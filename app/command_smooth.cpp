@@ -226,7 +226,8 @@ void run_smooth(const CommandContext& context, const SmoothArguments& arguments)
 void add_smooth_command(CommandLine& line, CommandContext& context) {
   auto arguments = std::make_shared<SmoothArguments>();
   Command command = line.add_command("smooth", "improve the cell shapes of a mesh by moving its nodes");
-  command.add_option("input", arguments->input, "the mesh (" + io::suffixes_for({io::Content::mesh}) + ")")
+  command
+      .add_option("input", arguments->input, "the mesh (" + io::read_suffixes_for({io::Content::mesh}) + ")")
       .required()
       .value_name("IN");
   command

@@ -220,7 +220,7 @@ void add_solve_command(CommandLine& line, CommandContext& context) {
   command
       .add_option(
           "input", arguments->input,
-          "the mesh (" + io::suffixes_for({io::Content::mesh}) + "); a flow in it is the initial state")
+          "the mesh (" + io::read_suffixes_for({io::Content::mesh}) + "); a flow in it is the initial state")
       .required()
       .value_name("IN");
   command

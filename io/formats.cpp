@@ -25,6 +25,7 @@
 #include "io/ugrid/ugrid_plane_file.hpp"
 #include "io/vtu/pvtu_file.hpp"
 #include "io/vtu/pvtu_text.hpp"
+#include "io/vtu/vtkhdf_file.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/suffix.hpp"
@@ -135,7 +136,7 @@ FileFormat cgns_row() {
           .has_zones = true};
 }
 
-/// A single file, and the list of pieces.
+/// A single file; the list of pieces; HDF5, which is only written.
 std::vector<FileFormat> vtk_rows() {
   using enum Content;
   return {{.name = "vtu",
@@ -153,6 +154,13 @@ std::vector<FileFormat> vtk_rows() {
            .read = read_pvtu,
            .write = write_pvtu,
            .file_beside = pvtu_piece_path,
+           .stores_lines = true},
+          {.name = "vtkhdf",
+           .program = "VTK",
+           .places = {mesh, solution, blocks, block_names, layers, pairs, nodes, mesh3d},
+           .bytes_of_cell = {69, 50},
+           .write = write_vtkhdf,
+           .variable_names = vtkhdf_variable_names,
            .stores_lines = true}};
 }
 
@@ -226,6 +234,16 @@ std::vector<FileFormat> rows_of_solutions() {
            .write_solution = write_su2_dat}};
 }
 
+/// Returns the suffixes of formats in a sentence.
+std::string suffixes_in_text(const std::vector<std::string>& names, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " " + last + " " : ", ";
+    text += format_named(names[i])->suffix();
+  }
+  return text;
+}
+
 }  // namespace
 
 const std::vector<FileFormat>& file_formats() {
@@ -243,6 +261,8 @@ const std::vector<FileFormat>& file_formats() {
   }();
   return formats;
 }
+
+bool FileFormat::is_read() const { return read != nullptr || read_solution != nullptr; }
 
 bool FileFormat::holds(Content content) const { return std::ranges::count(places, content) > 0; }
 
@@ -342,14 +362,18 @@ std::vector<std::string> formats_for(std::initializer_list<Content> contents) {
   return names;
 }
 
+std::vector<std::string> read_formats_for(std::initializer_list<Content> contents) {
+  std::vector<std::string> names = formats_for(contents);
+  std::erase_if(names, [](const std::string& name) { return !format_named(name)->is_read(); });
+  return names;
+}
+
 std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last) {
-  const std::vector<std::string> names = formats_for(contents);
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " " + last + " " : ", ";
-    text += format_named(names[i])->suffix();
-  }
-  return text;
+  return suffixes_in_text(formats_for(contents), last);
+}
+
+std::string read_suffixes_for(std::initializer_list<Content> contents, const std::string& last) {
+  return suffixes_in_text(read_formats_for(contents), last);
 }
 
 }  // namespace quadloop::io

@@ -41,7 +41,7 @@ struct FileFormat {
   /// What the user should do if a mesh has no solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 
-  /// On the calling rank only; null: no mesh is read. Throws InputError.
+  /// On the calling rank only; null: no mesh is read from this format. Throws InputError.
   MeshOfFile (*read)(const std::string& path) = nullptr;
   /// Writes a mesh of a supported dimension. Throws OutputError. *Collective.*
   void (*write)(OutputSet& outputs, const MeshStream& mesh, const std::string& path) = nullptr;
@@ -70,6 +70,7 @@ struct FileFormat {
   bool is_folder = false;
 
   bool holds(Content content) const;
+  bool is_read() const;                                                 ///< or only written
   std::string suffix() const { return (is_folder ? "" : ".") + name; }  ///< for use in sentences
 };
 
@@ -114,7 +115,11 @@ std::vector<std::string> written_formats();
 /// Returns the names of all formats that support all of these, in the order of the table.
 std::vector<std::string> formats_for(std::initializer_list<Content> contents);
 
-/// Returns the same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
+/// Returns those of them that are also read.
+std::vector<std::string> read_formats_for(std::initializer_list<Content> contents);
+
+/// Return the same as suffixes in a sentence: ".mesh, .cgns or .vtu" for last = "or".
 std::string suffixes_for(std::initializer_list<Content> contents, const std::string& last = "or");
+std::string read_suffixes_for(std::initializer_list<Content> contents, const std::string& last = "or");
 
 }  // namespace quadloop::io

@@ -258,20 +258,22 @@ std::vector<std::string> losses_of(const MeshContent& content, const FileFormat&
 }  // namespace
 
 void require_readable_suffix(const std::string& path) {
-  if (mesh_format(path) != nullptr || is_part_index(path)) return;
+  const FileFormat* const format = format_of(path);
+  const bool is_read = format != nullptr && format->is_read();
+  if ((is_read && format->holds(Content::mesh)) || is_part_index(path)) return;
   require_kind_of_suffix(path);
   std::error_code no_such_file;
   if (const std::string ours = path + "." + native_format().name; std::filesystem::exists(ours, no_such_file))
     throw InputError(path + ": is no mesh file; do you mean '" + ours + "'?");
-  if (const FileFormat* format = format_of(path); format != nullptr && format->holds(Content::mesh3d))
+  if (is_read && format->holds(Content::mesh3d))
     throw InputError(path + ": contains a 3D mesh, but a 2D mesh is required; give a " +
-                     suffixes_for({Content::mesh}) + " file");
+                     read_suffixes_for({Content::mesh}) + " file");
   if (std::filesystem::is_directory(path, no_such_file))
     throw InputError(path +
                      ": is a folder, not a mesh; name a mesh in it, such as cycle_00/mesh.mesh in the "
                      "folder of an adaptive run");
   throw InputError(path + ": no mesh is read from the format '" + suffix_of(path) + "'; give a " +
-                   suffixes_for({Content::mesh}) + " file");
+                   read_suffixes_for({Content::mesh}) + " file");
 }
 
 MeshOfFile read_mesh_file(const std::string& path) {

@@ -63,9 +63,9 @@ LoadedSolution read_solution(const std::string& path) {
 
 void require_solution_suffix(const std::string& path) {
   const FileFormat* format = format_of(path);
-  if (format != nullptr && format->holds(Content::solution)) return;
+  if (format != nullptr && format->holds(Content::solution) && format->is_read()) return;
   throw InputError(path + ": no solution is read from the format '" + suffix_of(path) + "'; give a " +
-                   suffixes_for({Content::solution}) + " file");
+                   read_suffixes_for({Content::solution}) + " file");
 }
 
 void require_same_mesh(const LoadedSolution& solution, const Mesh& whole) {

@@ -32,8 +32,7 @@ Hdf5Handle creation_of_datasets(H5D_layout_t layout) {
 }  // namespace
 
 CgnsNodes::CgnsNodes(const StagedFile& staged, State state, int size_bytes)
-    : shown_{staged.path}, size_bytes_{size_bytes} {
-  file_ = open(staged, state);
+    : file_{staged, state, Hdf5Output::LinkOrder::of_creation}, size_bytes_{size_bytes} {
   name_type_ = text_type(name_size);
   type_type_ = text_type(type_size);
   const hsize_t one = 1;
@@ -45,19 +44,7 @@ CgnsNodes::CgnsNodes(const StagedFile& staged, State state, int size_bytes)
                              H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);  // order of the children
   small_data_ = creation_of_datasets(H5D_COMPACT);
   large_data_ = creation_of_datasets(H5D_CONTIGUOUS);
-  reserved_data_ = creation_of_reserved_space();
   if (state == State::created) put_root();
-}
-
-Hdf5Handle CgnsNodes::open(const StagedFile& staged, State state) const {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-  const char* const name = staged.temporary.c_str();
-  if (state == State::existing) return checked(H5Fopen(name, H5F_ACC_RDWR, access.id()), H5Fclose);
-  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);
-  H5Pset_link_creation_order(creation.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-  return checked(H5Fcreate(name, H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
 }
 
 /// As ADF's root, by which libcgns knows its files; texts with the terminating 0.
@@ -75,19 +62,6 @@ void CgnsNodes::put_root() const {
     const Hdf5Handle data = dataset(root, name, H5T_STD_I8LE, std::span(&length, 1));
     check(H5Dwrite(data.id(), H5T_NATIVE_CHAR, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0);
   }
-}
-
-/// After a failure the file is not touched: HDF5 may crash on a file that it could not write.
-void CgnsNodes::check(bool good) const {
-  if (good) return;
-  file_.abandon();
-  if (quiet_.reason() != 0) refuse_output(shown_, quiet_.reason());
-  throw OutputError(shown_ + ": cannot be written; is the disk full?");
-}
-
-Hdf5Handle CgnsNodes::checked(hid_t id, Hdf5Handle::Release release) const {
-  check(id >= 0);
-  return {id, release};
 }
 
 CgnsNodes::Node CgnsNodes::at(const std::string& path) const {
@@ -149,12 +123,7 @@ CgnsNodes::Node CgnsNodes::reserve(const Node& parent, const std::string& name, 
                                    hid_t file_type, std::int64_t count) {
   Node node = group(parent, name, "DataArray_t", type);
   const hsize_t size = count;
-  const Hdf5Handle space = checked(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Hdf5Handle data = checked(
-      H5Dcreate2(node.id(), data_name, file_type, space.id(), H5P_DEFAULT, reserved_data_.id(), H5P_DEFAULT),
-      H5Dclose);
-  const auto place = static_cast<std::int64_t>(H5Dget_offset(data.id()));
-  check(place >= 0 || count == 0);
+  const std::int64_t place = file_.reserve(node.id(), data_name, file_type, std::span(&size, 1));
   std::string path(H5Iget_name(node.id(), nullptr, 0), '\0');
   H5Iget_name(node.id(), path.data(), path.size() + 1);
   places_[path] = place;
@@ -169,8 +138,6 @@ CgnsNodes::Node CgnsNodes::add_section(const Node& zone, const std::string& name
   add_array_of_sizes(section, elements_name, (range[1] - range[0] + 1) * nodes_of_each);
   return section;
 }
-
-void CgnsNodes::close() { check(file_.close() >= 0); }
 
 CgnsNodes::Node CgnsNodes::group(const Node& parent, const std::string& name, const char* label,
                                  const char* type) const {

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "io/files/hdf5_handle.hpp"
+#include "io/files/hdf5_output.hpp"
 #include "io/files/output_file.hpp"
 
 namespace quadloop::io {
@@ -21,8 +21,8 @@ class CgnsNodes {
  public:
   using Node = Hdf5Handle;
 
-  /// Whether the file exists, or is created with a root only.
-  enum class State { existing, created };
+  /// A file is created with a root only.
+  using State = Hdf5Output::State;
 
   /// `size_bytes`: of the numbers of nodes and elements in the file, 4 or 8.
   CgnsNodes(const StagedFile& staged, State state, int size_bytes = 4);
@@ -52,17 +52,16 @@ class CgnsNodes {
   /// Offsets of these lists in the file, by their paths.
   const std::map<std::string, std::int64_t>& places() const { return places_; }
 
-  void close();
+  void close() { file_.close(); }
 
  private:
-  void check(bool good) const;
-  Hdf5Handle checked(hid_t id, Hdf5Handle::Release release) const;
+  void check(bool good) const { file_.check(good); }
+  Hdf5Handle checked(hid_t id, Hdf5Handle::Release release) const { return file_.checked(id, release); }
   Node group(const Node& parent, const std::string& name, const char* label, const char* type) const;
   void put_text_attribute(const Node& node, const char* name, const Hdf5Handle& type,
                           const std::string& text) const;
   Hdf5Handle dataset(const Node& node, const char* name, hid_t file_type,
                      std::span<const hsize_t> size) const;
-  Hdf5Handle open(const StagedFile& staged, State state) const;
   void put_root() const;
   Node reserve(const Node& parent, const std::string& name, const char* type, hid_t file_type,
                std::int64_t count);
@@ -76,11 +75,9 @@ class CgnsNodes {
   void put_data(const Node& node, hid_t file_type, hid_t memory_type, std::span<const hsize_t> size,
                 const void* data) const;
 
-  QuietHdf5 quiet_;  // first, so that it outlives what the handles release
-  std::string shown_;
-  mutable Hdf5Handle file_;  ///< abandoned after a failed write
+  Hdf5Output file_;  // first, so that it outlives the handles
   int size_bytes_;
-  Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_, reserved_data_;
+  Hdf5Handle name_type_, type_type_, scalar_, single_, groups_, small_data_, large_data_;
   std::map<std::string, std::int64_t> places_;
 };
 

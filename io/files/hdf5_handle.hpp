@@ -1,7 +1,7 @@
 #pragma once
 
-// For io/ only: the only header that includes the HDF5 library. Ids are used only in the sources of the tree
-// file and of cgns_nodes; libcgns has its own.
+// For io/ only: the only header that includes the HDF5 library. Ids are used only in hdf5_output and in the
+// sources of the tree file, cgns_nodes and vtkhdf_output; libcgns has its own.
 #include <hdf5.h>
 
 #include <charconv>
@@ -95,6 +95,7 @@ template <class T>
 hid_t memory_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
   if constexpr (std::is_same_v<T, std::int8_t>) return H5T_NATIVE_INT8;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
   if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_NATIVE_UINT32;
@@ -105,6 +106,7 @@ template <class T>
 hid_t file_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
   if constexpr (std::is_same_v<T, std::int8_t>) return H5T_STD_I8LE;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
   if constexpr (std::is_same_v<T, std::int16_t>) return H5T_STD_I16LE;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
   if constexpr (std::is_same_v<T, std::uint32_t>) return H5T_STD_U32LE;

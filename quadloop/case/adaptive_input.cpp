@@ -21,16 +21,14 @@ namespace {
 /// Checks for errors that would stop the loop after the initial mesh.
 void require_solver_files(const CaseArguments& arguments, const adapt::CommandSolver& solver) {
   const io::CaseTable table = *io::read_case(arguments.source, arguments.assignments).table("solver");
-  const auto is_for = [](const std::string& path, io::Content content) {
-    const io::FileFormat* format = io::format_of(path);
-    return format != nullptr && format->holds(content);
-  };
-  if (!is_for(solver.mesh, io::Content::mesh))
+  const io::FileFormat *const mesh = io::format_of(solver.mesh), *const solution =
+                                                                     io::format_of(solver.solution);
+  if (mesh == nullptr || !mesh->holds(io::Content::mesh))
     table.refuse("mesh", "is '" + solver.mesh + "', but meshes are written as " +
                              io::suffixes_for({io::Content::mesh}) + "; end the name in one of these");
-  if (!is_for(solver.solution, io::Content::solution))
+  if (solution == nullptr || !solution->holds(io::Content::solution) || !solution->is_read())
     table.refuse("solution", "is '" + solver.solution + "', but solutions are read from " +
-                                 io::suffixes_for({io::Content::solution}, "and") +
+                                 io::read_suffixes_for({io::Content::solution}, "and") +
                                  "; end the name in one of these");
   if (solver.solution == solver.mesh ||
       std::filesystem::path(solver.solution).stem() == adapt::CyclePaths::mesh_stem)

@@ -105,7 +105,7 @@ class Estimate(ProgramTest):
             self.done("mesh", self.case(outline, FEW.format(**{**usual, key: fits})), "-o", "out", "--max-cells", "30000", "--quiet")
 
     def test_a_dry_run_tells_the_sizes_of_files_and_writes_none(self):
-        formats = ["mesh", "qmesh", "cgns", "vtu", "su2", "msh", "msh41", "fluent.msh", "ugrid", "medit", "polyMesh"]
+        formats = ["mesh", "qmesh", "cgns", "vtu", "vtkhdf", "su2", "msh", "msh41", "fluent.msh", "ugrid", "medit", "polyMesh"]
         for kind in ("hybrid", "delaunay"):
             arguments = ["mesh", str(CASES / "naca4412_layers/case.toml"), "--type", kind, "-o", kind, "--set", f"output.formats={json.dumps(formats)}"]
             told = [self.run_program(*arguments, "--dry-run", "--json", ranks=ranks) for ranks in (1, 3)]

@@ -25,7 +25,7 @@ max = 0.5
 [smooth]
 sweeps = 0
 [output]
-formats = ["mesh", "qmesh", "cgns", "vtu", "su2", "msh"]
+formats = ["mesh", "qmesh", "cgns", "vtu", "vtkhdf", "su2", "msh"]
 [boundary.box]
 bc = "farfield"
 [solver]
@@ -35,7 +35,7 @@ initial = "vortex"
 [adapt]
 cycles = 1
 """
-SUFFIXES = [".mesh", ".qmesh", ".cgns", ".vtu", ".su2", ".msh", ".tree.h5"]
+SUFFIXES = [".mesh", ".qmesh", ".cgns", ".vtu", ".vtkhdf", ".su2", ".msh", ".tree.h5"]
 NO_SPACE = "cannot be written: No space left on device; free some space or name an output elsewhere"
 LONG = "x" * 250
 SECONDS = 60

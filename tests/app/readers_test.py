@@ -59,6 +59,7 @@ def with_values(mesh):
 IN_BOTH = {
     "vtu": {"vtk": "vtk", "meshio": "meshio"},
     "pvtu": {"vtk": "vtk"},
+    "vtkhdf": {"vtk_hdf": "vtk"},
     "cgns": {"vtk_cgns": "vtk", "cgnscheck": "cgnscheck"},
     "su2": {"meshio": "meshio"},
     "msh": {"gmsh": "gmsh", "meshio": "meshio"},
@@ -97,6 +98,19 @@ class Readers(ProgramTest):
         if grid.GetFieldData().GetArray("boundary_names") is not None:  # a list of pieces has none
             found["names"] = set(bytes(vtk_to_numpy(grid.GetFieldData().GetArray("boundary_names"))).decode().split("\0")[:-1])
         return found
+
+    def vtk_hdf(self, name):
+        from vtkmodules.vtkIOHDF import vtkHDFReader
+        from vtk.util.numpy_support import vtk_to_numpy
+        reader = vtkHDFReader()
+        reader.SetFileName(str(self.folder / name))
+        self.assertTrue(reader.CanReadFile(str(self.folder / name)))
+        reader.Update()
+        grid = reader.GetOutputDataObject(0)
+        cells, names = grid.GetCellData(), grid.GetFieldData().GetAbstractArray("boundary_names")
+        arrays = lambda data: {data.GetArrayName(i) for i in range(data.GetNumberOfArrays())} - {"boundary"}
+        return {"nodes": grid.GetNumberOfPoints(), "cells": int((vtk_to_numpy(cells.GetArray("boundary")) == 0).sum()),
+                "values": arrays(grid.GetPointData()) | arrays(cells), "names": {names.GetValue(i) for i in range(names.GetNumberOfValues())}}
 
     def vtk_cgns(self, name):
         from vtkmodules.vtkIOCGNSReader import vtkCGNSReader

@@ -40,7 +40,7 @@ file = "box.geom"
 min = 0.125
 max = 0.25
 [output]
-formats = ["mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "msh", "polyMesh"]
+formats = ["mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf", "su2", "msh", "polyMesh"]
 [boundary.box]
 bc = "farfield"
 [boundary.hole]

@@ -17,23 +17,31 @@ using Names = std::vector<std::string>;
 
 TEST(Formats, AreListedByWhatTheyHold) {
   EXPECT_EQ(formats_for({}),
-            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41", "b8.ugrid",
-                   "lb8.ugrid", "ugrid", "medit", "polyMesh", "csv", "dat"}));
-  EXPECT_EQ(formats_for({Content::mesh3d}), (Names{"cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh", "msh41",
-                                                   "b8.ugrid", "lb8.ugrid", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::mesh}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh",
-                                                 "msh", "msh41", "ugrid", "medit", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::mesh, Content::solution}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
+            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf", "su2", "fluent.msh", "msh", "msh41",
+                   "b8.ugrid", "lb8.ugrid", "ugrid", "medit", "polyMesh", "csv", "dat"}));
+  EXPECT_EQ(formats_for({Content::mesh3d}), (Names{"cgns", "vtu", "pvtu", "vtkhdf", "su2", "fluent.msh",
+                                                   "msh", "msh41", "b8.ugrid", "lb8.ugrid", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh}),
+            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf", "su2", "fluent.msh", "msh", "msh41",
+                   "ugrid", "medit", "polyMesh"}));
+  EXPECT_EQ(formats_for({Content::mesh, Content::solution}),
+            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf"}));
+  EXPECT_EQ(read_formats_for({Content::mesh, Content::solution}),
+            (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
   EXPECT_EQ(formats_for({Content::constants}), (Names{"mesh", "qmesh"}));
   EXPECT_EQ(formats_for({Content::blocks, Content::conditions}),
             (Names{"qmesh", "cgns", "fluent.msh", "b8.ugrid", "lb8.ugrid", "ugrid", "polyMesh"}));
-  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu"}));
+  EXPECT_EQ(formats_for({Content::layers}), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf"}));
 }
 
 TEST(Formats, StandInASentenceBySuffix) {
   EXPECT_EQ(suffixes_for({Content::mesh}),
+            ".mesh, .qmesh, .cgns, .vtu, .pvtu, .vtkhdf, .su2, .fluent.msh, .msh, .msh41, .ugrid, .medit or "
+            "polyMesh");
+  EXPECT_EQ(read_suffixes_for({Content::mesh}),
             ".mesh, .qmesh, .cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .ugrid, .medit or polyMesh");
-  EXPECT_EQ(suffixes_for({Content::solution}, "and"), ".mesh, .qmesh, .cgns, .vtu, .pvtu, .csv and .dat");
+  EXPECT_EQ(read_suffixes_for({Content::solution}, "and"),
+            ".mesh, .qmesh, .cgns, .vtu, .pvtu, .csv and .dat");
   EXPECT_EQ(suffixes_for({Content::conditions}),
             ".qmesh, .cgns, .fluent.msh, .b8.ugrid, .lb8.ugrid, .ugrid or polyMesh");
 }
@@ -82,6 +90,7 @@ TEST(Formats, EachReadsWhatItWrites) {
   const Field solution = test::sample_solution(mesh);
   Names read;
   for (const FileFormat& format : file_formats()) {
+    if (!format.is_read()) continue;
     SCOPED_TRACE(format.name);
     const std::string path = folder.file("a." + format.name);
     OutputSet outputs(alone);
@@ -102,12 +111,14 @@ TEST(Formats, EachReadsWhatItWrites) {
       EXPECT_EQ(format.read_solution(path).solution.values, solution.values);
     }
   }
-  EXPECT_EQ(read, written_formats());
+  Names written = written_formats();
+  std::erase(written, "vtkhdf");
+  EXPECT_EQ(read, written);
 }
 
 TEST(Formats, OfPlaneMeshesAreWritten) {
-  EXPECT_EQ(written_formats(), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "su2", "fluent.msh", "msh",
-                                      "msh41", "ugrid", "medit", "polyMesh", "csv", "dat"}));
+  EXPECT_EQ(written_formats(), (Names{"mesh", "qmesh", "cgns", "vtu", "pvtu", "vtkhdf", "su2", "fluent.msh",
+                                      "msh", "msh41", "ugrid", "medit", "polyMesh", "csv", "dat"}));
 }
 
 /// What a file is counts more than what its name says.
@@ -142,6 +153,9 @@ TEST(Formats, OtherFilesAreNamedForWhatTheyAre) {
       EXPECT_EQ(refusal(name, nodes).find(": is a file of nodes of Triangle"), 0U) << nodes;
   }
   EXPECT_EQ(refusal("med.mesh", "\x89HDF\r\n heap INFOS_GENERALES").find(": is a mesh of Salome (MED)"), 0U);
+  for (const char* name : {"a.vtkhdf", "b.h5"})
+    EXPECT_EQ(refusal(name, "\x89HDF\r\n VTKHDF").find(": is a VTKHDF file, which is written but not read"),
+              0U);
   EXPECT_EQ(refusal("own.mesh", "3 \n1 0\n2 1\n3 0\n1\n"), "");
   EXPECT_EQ(refusal("a.cas", "(0 \"Fluent\")"), ": is a mesh of Fluent; give it a name that ends in .msh");
   std::string stl(84 + 2 * 50, ' ');
@@ -163,7 +177,7 @@ TEST(Formats, OfMeshesAreReadAndWritten) {
   for (const FileFormat& format : file_formats()) {
     const bool is_of_meshes = format.holds(Content::mesh) || format.holds(Content::mesh3d);
     EXPECT_EQ(format.write != nullptr, is_of_meshes) << format.name;
-    EXPECT_EQ(format.read != nullptr, is_of_meshes) << format.name;
+    EXPECT_EQ(format.read != nullptr, is_of_meshes && format.name != "vtkhdf") << format.name;
   }
 }
 

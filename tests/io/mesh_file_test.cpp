@@ -118,8 +118,8 @@ TEST(MeshFile, EveryPairOfFormatsKeepsTheMesh) {
   for (const Kind kind : {Kind::hybrid, Kind::triangles}) {
     for (const bool solved : {false, true}) {
       const LoadedMesh loaded = sample(kind, solved);
-      for (const std::string& first : formats_for({Content::mesh})) {
-        for (const std::string& second : formats_for({Content::mesh})) {
+      for (const std::string& first : read_formats_for({Content::mesh})) {
+        for (const std::string& second : read_formats_for({Content::mesh})) {
           SCOPED_TRACE(first + " to " + second + (solved ? ", solved" : ""));
           convert_and_compare(loaded, first, second);
         }
@@ -143,7 +143,7 @@ TEST(MeshFile, TheFormatIsThatOfTheSuffixUnlessItIsNamed) {
 /// One block with a name, then two: kept, or a line says that they are not.
 TEST(MeshFile, NamesOfBlocksAreKeptOrReported) {
   int with_names = 0, without = 0;
-  for (const std::string& format : formats_for({Content::mesh})) {
+  for (const std::string& format : read_formats_for({Content::mesh})) {
     for (const bool two : {false, true}) {
       SCOPED_TRACE(format + (two ? ", two" : ", one"));
       if (two && !format_named(format)->holds(Content::blocks)) continue;
@@ -175,7 +175,7 @@ TEST(MeshFile, NamesOfBlocksAreKeptOrReported) {
 /// Every condition through every format: it comes back, or a line names it and its boundary.
 TEST(MeshFile, ConditionsAreKeptOrReported) {
   int kept = 0, reported = 0;
-  for (const std::string& format : formats_for({Content::mesh})) {
+  for (const std::string& format : read_formats_for({Content::mesh})) {
     for (const auto& [word, condition] : BoundaryCondition::words) {
       SCOPED_TRACE(format + ", " + word);
       const test::TemporaryFolder folder;
@@ -201,7 +201,7 @@ TEST(MeshFile, ConditionsAreKeptOrReported) {
 
 /// The same for a boundary between two blocks, which a format may omit.
 TEST(MeshFile, ConditionsBetweenBlocksAreKeptOrReported) {
-  for (const std::string& format : formats_for({Content::mesh, Content::blocks, Content::conditions})) {
+  for (const std::string& format : read_formats_for({Content::mesh, Content::blocks, Content::conditions})) {
     for (const char* word : {"none", "interface", "wall", "viscous_wall"}) {
       SCOPED_TRACE(format + ", " + word);
       const test::TemporaryFolder folder;

@@ -127,6 +127,10 @@ FileKind hdf5_kind(const std::string& path, std::string_view begins) {
   const bool has_med_groups = begins.find("ENS_MAA") != std::string_view::npos ||
                               begins.find("INFOS_GENERALES") != std::string_view::npos;
   if (has_med_groups || name.ends_with(".med")) return {"a mesh of Salome (MED)", {}, save_as};
+  if (begins.find("VTKHDF") != std::string_view::npos || name.ends_with(".vtkhdf"))
+    return {"a VTKHDF file, which is written but not read",
+            {},
+            "give the mesh as .mesh, .cgns or .vtu; save one of another program as .vtu"};
   return {"an HDF5 file", {".cgns", ".h5"}, save_as};
 }
 

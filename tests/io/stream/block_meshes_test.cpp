@@ -137,7 +137,7 @@ TEST(BlockMeshes, FilesWithZonesAreReadAsOneMesh) {
   const LoadedMesh whole = three_blocks(9);
   const Share share(whole);
   int with_zones = 0;
-  for (const std::string& format : formats_for({Content::mesh, Content::blocks})) {
+  for (const std::string& format : read_formats_for({Content::mesh, Content::blocks})) {
     if (!format_named(format)->has_zones) continue;
     SCOPED_TRACE(format);
     ++with_zones;

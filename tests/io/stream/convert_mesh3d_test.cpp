@@ -83,8 +83,8 @@ TEST(ConvertMesh3d, EveryPairOfFormatsKeepsTheMesh) {
   const test::TemporaryFolder folder;
   if (!test::world().is_root()) return;
   const FileMesh mesh = sample();
-  for (const std::string& first : formats_for({Content::mesh3d})) {
-    for (const std::string& second : formats_for({Content::mesh3d})) {
+  for (const std::string& first : read_formats_for({Content::mesh3d})) {
+    for (const std::string& second : read_formats_for({Content::mesh3d})) {
       SCOPED_TRACE(first + " to " + second);
       const FileMesh between = through_file(mesh, folder.file("a." + first));
       const FileMesh back = through_file(between, folder.file("b." + second));

@@ -57,7 +57,7 @@ Names names_in(const std::string& format, const Names& names) {
 }
 
 Names formats_with_blocks() {
-  Names names = formats_for({Content::mesh3d});
+  Names names = read_formats_for({Content::mesh3d});
   std::erase_if(names, [](const std::string& name) { return !format_named(name)->holds(Content::blocks); });
   return names;
 }

@@ -93,7 +93,7 @@ TEST(Mesh3dFile, EachReadsWhatItWrites) {
   Field solution = test::sample_solution(whole);
   solution.cells.names = {"pressure", "x_velocity", "y_velocity"};
   for (int i = 0; i < 3 * 15; ++i) solution.cells.values.push_back(1.0 / (i + 3));
-  for (const std::string& name : formats_for({Content::mesh3d})) {
+  for (const std::string& name : read_formats_for({Content::mesh3d})) {
     for (const ExtrusionAxis axis : {ExtrusionAxis::y, ExtrusionAxis::z}) {
       SCOPED_TRACE(name);
       const FileFormat& format = *format_named(name);
@@ -121,7 +121,7 @@ TEST(Mesh3dFile, PlaneMeshesAreNone) {
   const Communicator alone(MPI_COMM_SELF);
   const Mesh mesh = test::sample_mesh(3);
   int formats = 0;
-  for (const std::string& name : formats_for({Content::mesh3d, Content::mesh})) {
+  for (const std::string& name : read_formats_for({Content::mesh3d, Content::mesh})) {
     if (!world().is_root()) break;
     if (format_named(name)->is_folder) continue;  // that of a plane mesh is one cell thick
     const std::string path = folder.file("a." + name);
@@ -135,8 +135,9 @@ TEST(Mesh3dFile, PlaneMeshesAreNone) {
 }
 
 TEST(Mesh3dFile, NamesOfFormatsStandInSentences) {
-  EXPECT_EQ(suffixes_for({Content::mesh3d}),
-            ".cgns, .vtu, .pvtu, .su2, .fluent.msh, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
+  EXPECT_EQ(
+      suffixes_for({Content::mesh3d}),
+      ".cgns, .vtu, .pvtu, .vtkhdf, .su2, .fluent.msh, .msh, .msh41, .b8.ugrid, .lb8.ugrid or polyMesh");
   EXPECT_EQ(format_of("a/constant/polyMesh/")->name, "polyMesh");
   EXPECT_EQ(format_of("a/b.polyMesh")->name, "polyMesh");
   EXPECT_EQ(format_of("a.lb8.ugrid")->name, "lb8.ugrid");

@@ -1,3 +1,9 @@
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "io/model/node_text.hpp"
 #include "io/model/pair_text.hpp"
 #include "io/model/strip_text.hpp"
@@ -5,11 +11,12 @@
 #include "io/stream/stream_blocks.hpp"
 #include "io/stream/stream_cell_values.hpp"
 #include "io/stream/vtk_cell.hpp"
-#include "io/text/text_output.hpp"
+#include "io/vtu/vtk_output.hpp"
+#include "io/vtu/vtkhdf_file.hpp"
+#include "io/vtu/vtkhdf_output.hpp"
 #include "io/vtu/vtu_appended.hpp"
 #include "io/vtu/vtu_file.hpp"
 #include "io/vtu/vtu_layers.hpp"
-#include "io/vtu/vtu_text.hpp"
 #include "mesher/mesh/layers/layer_nodes.hpp"
 
 namespace quadloop::io {
@@ -49,29 +56,30 @@ class RunsInOrder {
   std::int64_t first_ = 0, entries_ = 0;  ///< elements, and nodes, before the current run
 };
 
-class VtuWriter {
+/// Writes a mesh as an unstructured grid of VTK.
+class VtkWriter {
  public:
-  VtuWriter(const MeshStream& stream, OutputSet& outputs, const std::string& path)
+  VtkWriter(const MeshStream& stream, VtkOutput& file)
       : stream_{stream},
         cells_{stream},
         blocks_{stream},
         layered_{stream.is_plane() && has_layers(stream.extruded()->plane) ? &stream.extruded()->plane
                                                                            : nullptr},
-        file_{outputs, path} {
+        file_{file} {
     list_runs();
   }
 
   /// Nodal values come before cell data in a plane mesh, after them in a 3D mesh.
   void write() {
+    add_fields();
     add_points();
     add_cells();
     if (stream_.is_plane()) add_node_values();
     if (layered_ != nullptr) add_layer_heights();
     add_flags();
-    for (std::size_t k = 0; k < cells_.names().size(); ++k)
-      file_.add<double>("CellData", cells_.names()[k], 1, elements_, [this, k] { put_cell_variable(k); });
+    add_cell_values();
     if (!stream_.is_plane()) add_node_values();
-    file_.write(head());
+    file_.write(stream_.counts().nodes, elements_);
   }
 
  private:
@@ -93,48 +101,39 @@ class VtuWriter {
     }
   }
 
-  std::string head() const {
-    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n" +
-           vtu_text_array("boundary_names", stream_.patch_names()) +
-           (blocks_.are_named() ? vtu_text_array("block_names", blocks_.names()) : "") +
-           (layered_ != nullptr ? layer_arrays() : "") + comment_array() +
-           vtu_name_arrays(stream_.patch_names(), stream_.is_plane() ? 1 : 2) +
-           "</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(stream_.counts().nodes) +
-           "\" NumberOfCells=\"" + std::to_string(elements_) + "\">\n";
+  void add_fields() {
+    file_.name_boundaries(stream_.patch_names(), stream_.is_plane() ? 1 : 2);
+    if (blocks_.are_named()) file_.add_field("block_names", blocks_.names());
+    if (layered_ != nullptr) add_layers();
+    if (std::vector<std::string> comments = comments_of_plane(); !comments.empty())
+      file_.add_field(vtu_strips, std::move(comments));
   }
 
   /// Count and thickness of each boundary's layers.
-  std::string layer_arrays() const {
-    const auto& boundaries = stream_.boundaries()->present();
-    const auto tag = [&](const char* type, const char* name) {
-      return std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" NumberOfTuples=\"" +
-             std::to_string(boundaries.size()) + "\" format=\"ascii\">\n";
-    };
-    TextRows counts(std::ssize(boundaries), 1), thicknesses(std::ssize(boundaries), 1);
-    for (const BoundaryEdges* boundary : boundaries) {
-      counts.put(boundary->layers.count, '\n');
-      thicknesses.put(boundary->layers.thickness, '\n');
+  void add_layers() {
+    std::vector<std::int32_t> counts;
+    std::vector<double> thicknesses;
+    for (const BoundaryEdges* boundary : stream_.boundaries()->present()) {
+      counts.push_back(boundary->layers.count);
+      thicknesses.push_back(boundary->layers.thickness);
     }
-    const std::vector<char> first = counts.take(), second = thicknesses.take();
-    return tag("Int32", vtu_layer_counts) + std::string(first.begin(), first.end()) + "</DataArray>\n" +
-           tag("Float64", vtu_layer_thicknesses) + std::string(second.begin(), second.end()) +
-           "</DataArray>\n";
+    file_.add_field(vtu_layer_counts, std::move(counts));
+    file_.add_field(vtu_layer_thicknesses, std::move(thicknesses));
   }
 
   /// Strips, pairs and named nodes of a plane mesh.
-  std::string comment_array() const {
-    if (!stream_.is_plane()) return {};
+  std::vector<std::string> comments_of_plane() const {
     std::vector<std::string> comments;
+    if (!stream_.is_plane()) return comments;
     const Mesh& mesh = stream_.extruded()->plane;
     for (const StripLayers& strip : mesh.strips) comments.push_back(comments_of(strip));
     for (const PeriodicPair& pair : mesh.pairs) comments.push_back(comment_of(pair));
     for (const NamedNode& node : mesh.named_nodes) comments.push_back(comment_of(node));
-    return comments.empty() ? std::string() : vtu_text_array(vtu_strips, comments);
+    return comments;
   }
 
   void add_points() {
-    file_.add<double>("Points", "Points", 3, stream_.counts().nodes, [this] {
+    file_.add<double>(VtkSection::points, vtk_points, 3, stream_.counts().nodes, [this] {
       file_.put_rows(stream_.point_rows(), [&](std::int64_t i) {
         const Point3 p = stream_.point(i);
         return std::array{p.x, p.y, p.z};
@@ -143,19 +142,23 @@ class VtuWriter {
   }
 
   void add_cells() {
-    file_.add<std::int64_t>("Cells", "connectivity", 1, entries_, [this] { put_connectivity(); });
-    file_.add<std::int64_t>("Cells", "offsets", 1, elements_, [this] {
+    file_.add<std::int64_t>(VtkSection::cells, vtk_connectivity, 1, entries_, [this] { put_connectivity(); });
+    const std::int64_t first = file_.has_first_offset() ? 1 : 0;
+    file_.add<std::int64_t>(VtkSection::cells, vtk_offsets, 1, elements_ + first, [this, first] {
       RunsInOrder runs(runs_);
-      file_.put_shared_rows(elements_, [&](std::int64_t i) { return std::array{runs.entries_to(i)}; });
+      file_.put_shared_rows(elements_ + first, [&](std::int64_t i) {
+        return std::array{i < first ? std::int64_t{0} : runs.entries_to(i - first)};
+      });
     });
-    file_.add<std::uint8_t>("Cells", "types", 1, elements_, [this] { put_of_runs(&Run::type); });
+    file_.add<std::uint8_t>(VtkSection::cells, vtk_types, 1, elements_, [this] { put_of_runs(&Run::type); });
   }
 
   /// Adds boundary and block numbers.
   void add_flags() {
-    file_.add<std::int32_t>("CellData", "boundary", 1, elements_, [this] { put_of_runs(&Run::patch); });
+    file_.add<std::int32_t>(VtkSection::cell_data, "boundary", 1, elements_,
+                            [this] { put_of_runs(&Run::patch); });
     if (blocks_.are_named())
-      file_.add<std::int32_t>("CellData", "block", 1, elements_, [this] { put_blocks(); });
+      file_.add<std::int32_t>(VtkSection::cell_data, "block", 1, elements_, [this] { put_blocks(); });
   }
 
   /// Block numbers of cells, from 1; 0 for boundary elements, which come last.
@@ -201,14 +204,21 @@ class VtuWriter {
   }
 
   void add_node_values() {
-    for (std::size_t k = 0; k < stream_.variables().size(); ++k)
-      add_of_nodes(stream_.variables()[k], [this, k](std::int64_t i) { return stream_.value(i, k); });
+    const std::vector<std::string> names = file_.names_of(stream_.variables());
+    for (std::size_t k = 0; k < names.size(); ++k)
+      add_of_nodes(names[k], [this, k](std::int64_t i) { return stream_.value(i, k); });
+  }
+
+  void add_cell_values() {
+    const std::vector<std::string> names = file_.names_of(cells_.names());
+    for (std::size_t k = 0; k < names.size(); ++k)
+      file_.add<double>(VtkSection::cell_data, names[k], 1, elements_, [this, k] { put_cell_variable(k); });
   }
 
   /// Adds an array with a value for each point.
   template <class Value>
   void add_of_nodes(const std::string& name, Value value) {
-    file_.add<double>("PointData", name, 1, stream_.counts().nodes, [this, value] {
+    file_.add<double>(VtkSection::point_data, name, 1, stream_.counts().nodes, [this, value] {
       file_.put_rows(stream_.point_rows(), [&](std::int64_t i) { return std::array<double, 1>{value(i)}; });
     });
   }
@@ -246,7 +256,7 @@ class VtuWriter {
   const StreamCellValues cells_;
   const StreamBlocks blocks_;
   const Mesh* layered_;  ///< plane mesh, if it has layers
-  VtuAppended file_;
+  VtkOutput& file_;
   std::vector<Run> runs_;
   std::int64_t elements_ = 0, entries_ = 0;
   LayerPlaces places_;
@@ -256,7 +266,13 @@ class VtuWriter {
 }  // namespace
 
 void write_vtu(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
-  VtuWriter(mesh, outputs, path).write();
+  VtuAppended file(outputs, path);
+  VtkWriter(mesh, file).write();
+}
+
+void write_vtkhdf(OutputSet& outputs, const MeshStream& mesh, const std::string& path) {
+  VtkHdfOutput file(outputs, path);
+  VtkWriter(mesh, file).write();
 }
 
 }  // namespace quadloop::io
