@@ -35,7 +35,7 @@ void say(const Outcome& outcome) {
   print(outcome.record);
   progress::clear();
   for (const std::string& warning : outcome.warnings) print_line("warning", warning);
-  print_line("error", outcome.message);
+  print_line(outcome.status == ExitStatus::stopped ? "stopped" : "error", outcome.message);
   std::fflush(stderr);
 }
 

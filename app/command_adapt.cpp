@@ -11,6 +11,7 @@
 #include "app/command.hpp"
 #include "app/command_line.hpp"
 #include "app/report/extent_report.hpp"
+#include "io/files/interruption.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
 #include "quadloop/case/adaptive_input.hpp"
@@ -77,11 +78,17 @@ std::string why_ended(const adapt::LoopEnd& end) {
 
 std::string closing_line(const std::string& folder, const adapt::LoopEnd& end) {
   const int first = end.first, last = end.last;
+  if (first > last && end.stopped) return {};
   if (first > last)
     return fmt::format("  all cycles exist already: {}/{} to {}\n", folder, adapt::cycle_name(0),
                        adapt::cycle_name(last));
   if (first == last) return fmt::format("  wrote {}/{}\n", folder, adapt::cycle_name(last));
   return fmt::format("  wrote {}/{} to {}\n", folder, adapt::cycle_name(first), adapt::cycle_name(last));
+}
+
+std::string stop_message(const std::string& folder, const adapt::LoopEnd& end) {
+  const std::string when = end.last < 0 ? "before the first cycle" : "after " + adapt::cycle_name(end.last);
+  return fmt::format("{}: ended {} by SIGUSR1; continue with --resume", folder, when);
 }
 
 std::string extents_text(const std::vector<FileExtent>& extents) {
@@ -102,6 +109,7 @@ const std::string& outline_file(const AdaptArguments& arguments) {
 
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
+  const io::StopRequest stop;
   std::optional<AdaptiveInput> input;
   std::optional<FormerMesh> former;
   if (!arguments.from.empty()) former = find_former_mesh(comm, arguments.from);
@@ -125,14 +133,17 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
     if (comm.is_root()) keep(record, folder, cycles, context.record);
     context.warn(of_cycle);
   };
+  report.stop_requested = [&stop] { return stop.has_come(); };
   context.record.statistics.add("folder", folder);
   context.record.statistics.add("cycles", cycles);
   std::optional<adapt::DesignStart> start;
   if (former) start = read_start(comm, *former, input->morph_to, outline_file(arguments), adaptive.settings);
   const adapt::LoopEnd end = adapt::run_in_folder(comm, adaptive, folder, arguments.resume, report, start);
   if (comm.is_root()) context.record.statistics.add("nothing_to_change", end.nothing_to_change);
+  if (comm.is_root()) context.record.statistics.add("stopped", end.stopped);
   if (comm.is_root() && !adaptive.adapt.until.empty()) context.record.statistics.add("settled", end.settled);
-  if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end);
+  if (context.shows_table()) std::cout << why_ended(end) << closing_line(folder, end) << std::flush;
+  if (end.stopped) throw Stopped(stop_message(folder, end));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ AdaptiveLoop::AdaptiveLoop(const Communicator& comm, const MeshInput& mesh, cons
       adapt_{adapt},
       observer_{observer},
       first_mesh_{std::move(start.mesh)},
-      end_{start.first, start.first - 1, false, false, std::move(start.before)},
+      end_{.first = start.first, .last = start.first - 1, .left = std::move(start.before)},
       cycle_{start.first - 1} {}
 
 RemeshedSolution AdaptiveLoop::next_mesh() const {
@@ -67,6 +67,8 @@ bool AdaptiveLoop::begin_cycle() {
   end_.nothing_to_change = end_.left && !end_.left->plan.changes_mesh();
   end_.settled = end_.left && end_.left->settled;
   if (end_.nothing_to_change || end_.settled) return false;
+  end_.stopped = stop_requested_ && comm_.any(stop_requested_());
+  if (end_.stopped) return false;
   cycle_ = end_.last + 1;
   times_ = {};
   observer_.begin(cycle_);

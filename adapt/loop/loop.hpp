@@ -55,6 +55,7 @@ struct LoopEnd {
   int first = 0, last = 0;         ///< first > last: none
   bool nothing_to_change = false;  ///< no cell is flagged in the last one, before adapt.cycles
   bool settled = false;            ///< converged by adapt.until, before adapt.cycles
+  bool stopped = false;            ///< on request (stop_when()), with cycles left to run
   std::shared_ptr<CycleEnd> left;  ///< result of the last cycle, if one was run
 };
 
@@ -68,8 +69,9 @@ struct LoopStart {
 /// Meshes and adapts in memory, cycle by cycle: cycles `first` to adapt.cycles, each on the mesh that the
 /// previous one planned, starting from its transferred solution. The caller solves between begin_cycle() and
 /// finish_cycle(). The loop ends early if no cell is flagged, as the next cycle would solve on the same mesh,
-/// or if forces and error estimate have settled. Meshes and solutions are bitwise independent of the number
-/// of ranks, and of whether the cycle before comes from memory or from native files.
+/// if forces and error estimate have settled, or on request between two cycles. Meshes and solutions are
+/// bitwise independent of the number of ranks, and of whether the cycle before comes from memory or from
+/// native files.
 class AdaptiveLoop {
  public:
   /// All arguments but the last must outlive the object.
@@ -79,6 +81,9 @@ class AdaptiveLoop {
   /// From now on a function transfers the solutions, instead of the transfer of the options; none: the
   /// latter.
   void transfer_by(TransferFunction function) { transfer_by_ = std::move(function); }
+
+  /// From now on the loop ends before the next cycle if the function returns true on any rank.
+  void stop_when(std::function<bool()> is_requested) { stop_requested_ = std::move(is_requested); }
 
   /// Generates the mesh and the initial state of the next cycle; returns false if the loop has ended. Throws
   /// what meshing and observer throw. *Collective.*
@@ -108,6 +113,7 @@ class AdaptiveLoop {
   CycleObserver& observer_;
   FirstMesh first_mesh_;
   TransferFunction transfer_by_;
+  std::function<bool()> stop_requested_;
   LoopEnd end_;
   int cycle_;
   StageTimes times_;

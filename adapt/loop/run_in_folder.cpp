@@ -135,6 +135,7 @@ FolderRun::FolderRun(const Communicator& comm, const AdaptiveCase& adaptive, con
   LoopStart of_loop = start_of(resume, report, start);
   files_.emplace(comm, folders_, file_options(adaptive), report.cycle);
   loop_.emplace(comm, adaptive.mesh, adapt_, *files_, std::move(of_loop));
+  loop_->stop_when(report.stop_requested);
 }
 
 LoopStart FolderRun::start_of(bool resume, const RunReport& report, const std::optional<DesignStart>& start) {

@@ -40,6 +40,7 @@ struct RunReport {
   /// After each cycle: its results, with warnings of what was dropped or not reached.
   std::function<void(const CycleRecord&, const std::vector<std::string>& warnings)> cycle;
   std::function<void(const std::string&)> warning;  ///< before the first cycle
+  std::function<bool()> stop_requested = {};  ///< asked before each cycle; true on any rank ends the run
 };
 
 /// The cycles 0 to adapt.cycles of a case in a folder, with the files of CycleFiles. With `resume` they

@@ -27,6 +27,7 @@ constexpr std::array crashes{SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 std::atomic<void*> newest_entry = nullptr;
 std::atomic<int> waits = 0;
 std::atomic<int> waiting_signal = 0;
+std::atomic<bool> stop_requested = false;
 pid_t owner_process = 0;
 pthread_t owner_thread = {};
 std::array<struct sigaction, NSIG> former_actions = {};
@@ -115,6 +116,24 @@ Temporary::~Temporary() {
 Temporary::Temporary(Temporary&& other) noexcept : entry_{std::exchange(other.entry_, nullptr)} {}
 
 const std::string& Temporary::path() const { return entry_->path; }
+
+struct StopRequest::Former {
+  struct sigaction action = {};
+};
+
+StopRequest::StopRequest() : former_{std::make_unique<Former>()} {
+  stop_requested = false;
+  ::sigaction(SIGUSR1, nullptr, &former_->action);
+  if (former_->action.sa_handler == SIG_IGN) return;
+  struct sigaction action = {};
+  action.sa_handler = [](int) { stop_requested = true; };
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGUSR1, &action, nullptr);
+}
+
+StopRequest::~StopRequest() { ::sigaction(SIGUSR1, &former_->action, nullptr); }
+
+bool StopRequest::has_come() const { return stop_requested; }
 
 SignalsWait::SignalsWait() { ++waits; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace quadloop::io {
@@ -25,6 +26,23 @@ class Temporary {
   struct Entry;
   friend void remove_registered_temporaries();
   Entry* entry_ = nullptr;
+};
+
+/// While an object exists, SIGUSR1 does not end the process: it requests that the run ends at its next
+/// checkpoint. If the signal is ignored, it remains ignored.
+class StopRequest {
+ public:
+  StopRequest();
+  ~StopRequest();
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+
+  /// Whether this process has received the signal.
+  bool has_come() const;
+
+ private:
+  struct Former;
+  std::unique_ptr<Former> former_;
 };
 
 /// While an object exists, signals that would end the process are delayed.

@@ -14,7 +14,8 @@ enum class ExitStatus : int {
   wrong_usage = 2,
   solver_failed = 3,
   output_failed = 4,
-  fault = 70
+  fault = 70,
+  stopped = 75
 };
 
 /// An error reported to the user as one line: location, what is wrong, what to do. Throw one of the derived
@@ -50,6 +51,12 @@ class SolverError : public Error {
 class OutputError : public Error {
  public:
   explicit OutputError(const std::string& message) : Error(ExitStatus::output_failed, message) {}
+};
+
+/// The run ended early, as requested by a signal; it can be continued (exit status 75).
+class Stopped : public Error {
+ public:
+  explicit Stopped(const std::string& message) : Error(ExitStatus::stopped, message) {}
 };
 
 /// Internal error (exit status 70).

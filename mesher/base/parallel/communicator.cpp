@@ -70,6 +70,7 @@ bool has_ended(std::span<MPI_Request> requests) {
     case ExitStatus::solver_failed: throw SolverError(message);
     case ExitStatus::output_failed: throw OutputError(message);
     case ExitStatus::fault: throw Fault(message);
+    case ExitStatus::stopped: throw Stopped(message);
     default: throw Error(status, message);
   }
 }

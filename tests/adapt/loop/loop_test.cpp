@@ -97,6 +97,44 @@ TEST(Loop, EndsWhereNothingIsToBeChanged) {
   EXPECT_NE(notes.told[1].find("is constant"), std::string::npos) << notes.told[1];
 }
 
+/// One rank asks for it, in the middle of a cycle: this one is finished on all ranks, and the rest is as
+/// ever.
+TEST(Loop, EndsBetweenTwoCyclesOnRequest) {
+  Notes notes, of_rest;
+  bool requested = false;
+  AdaptOptions options = options_of(2);
+  AdaptiveLoop loop(world(), square_in_eighths, options, notes);
+  loop.stop_when([&] { return requested; });
+  const flow::FlowSolver solver = [&](const Communicator& comm, const Mesh& mesh, const Field& start,
+                                      int cycle) {
+    requested = cycle == 1 && comm.rank() == comm.size() - 1;
+    return solve_shock(comm, mesh, start, cycle);
+  };
+  const LoopEnd end = run_to_end(world(), loop, solver);
+  EXPECT_TRUE(end.stopped);
+  EXPECT_EQ(end.last, 1);
+  const LoopEnd rest = run_loop(world(), square_in_eighths, options, solve_shock, of_rest, {2, end.left, {}});
+  const LoopEnd whole = run_loop(world(), square_in_eighths, options, solve_shock, of_rest);
+  EXPECT_FALSE(whole.stopped);
+  EXPECT_EQ(all_nodes(world(), whole.left->solved.mesh), all_nodes(world(), rest.left->solved.mesh));
+}
+
+/// A run that has come to its end was not stopped.
+TEST(Loop, IsNotStoppedAfterItsLastCycle) {
+  Notes notes;
+  AdaptOptions options = options_of(0);
+  AdaptiveLoop loop(world(), square_in_eighths, options, notes);
+  bool requested = false;
+  loop.stop_when([&] { return requested; });
+  const LoopEnd end =
+      run_to_end(world(), loop, [&](const auto& comm, const auto& mesh, const auto& start, int cycle) {
+        requested = true;
+        return solve_shock(comm, mesh, start, cycle);
+      });
+  EXPECT_FALSE(end.stopped);
+  EXPECT_EQ(end.last, 0);
+}
+
 TEST(Loop, HandsOnWhatTheSolverThrows) {
   const flow::FlowSolver failing = [](const Communicator&, const Mesh&, const Field&,
                                       int) -> flow::SolvedFlow { throw SolverError("no flow today"); };
