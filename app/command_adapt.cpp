@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,12 +9,17 @@
 #include <utility>
 
 #include "adapt/loop/run_in_folder.hpp"
+#include "adapt/solvers/cycle_paths.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/estimate_report.hpp"
 #include "app/report/extent_report.hpp"
+#include "generate/mesh_trial.hpp"
 #include "io/files/interruption.hpp"
+#include "io/formats.hpp"
 #include "mesher/base/error.hpp"
 #include "mesher/base/log.hpp"
+#include "mesher/build/mesh_estimate.hpp"
 #include "quadloop/case/adaptive_input.hpp"
 #include "quadloop/case/case_input.hpp"
 #include "quadloop/case/design_start.hpp"
@@ -25,7 +31,7 @@ namespace {
 struct AdaptArguments {
   std::string case_path, folder, from, geometry;
   std::optional<int> cycles;
-  bool resume = false;
+  bool resume = false, dry_run = false;
   std::vector<std::string> assignments;
   std::optional<double> max_cells;
 };
@@ -107,6 +113,47 @@ const std::string& outline_file(const AdaptArguments& arguments) {
   return arguments.geometry.empty() ? arguments.case_path : arguments.geometry;
 }
 
+/// Returns the files of a cycle with the mesh.
+std::vector<std::string> cycle_mesh_files(const std::vector<std::string>& formats) {
+  const adapt::CyclePaths paths{"cycle_NN"};
+  std::vector<std::string> files;
+  for (const std::string& format : adapt::cycle_formats(formats)) files.push_back(paths.mesh(format));
+  files = io::with_files_beside(files);
+  files.push_back(paths.tree());
+  return files;
+}
+
+/// Reports the estimated cells, memory and file sizes of a run, whose cycles have at most adapt.max_nodes
+/// nodes. Nothing is generated.
+void report_estimate(const CommandContext& context, const AdaptArguments& arguments,
+                     const AdaptiveInput& input) {
+  constexpr int variables = 4;          // of a flow
+  constexpr double of_flow_node = 2e3;  // bytes of the built-in solver
+  const adapt::AdaptiveCase& adaptive = input.adaptive;
+  const MeshType type = adaptive.mesh.mesh.type;
+  const DemandedSplits none(context.comm, {});
+  const MeshEstimate first = MeshTrial(adaptive.mesh).estimate(none);
+  if (arguments.max_cells) require_within(first, adaptive.mesh.geometry, adaptive.mesh.mesh, none);
+  const auto& most = adaptive.adapt.max_nodes;
+  MeshEstimate largest = most ? grown_to(first, type, static_cast<double>(*most)) : first;
+  if (!adapt::is_external(adaptive.solver)) largest.bytes += of_flow_node * nodes_of(largest, type);
+  Statistics statistics;
+  statistics.add_raw("cells of cycle_00", text_of_cells(first.cells), json_of(std::round(first.cells)),
+                     "first_cells_estimated");
+  add_run_estimate(statistics, largest, context.comm.size());
+  const FileSizes sizes(cycle_mesh_files(adaptive.formats), type, largest, variables);
+  sizes.add_to(statistics);
+  const int cycles = adaptive.adapt.cycles + 1;
+  add_file_sum(statistics, "files of a cycle", sizes.sum(), "bytes_of_cycle");
+  add_file_sum(statistics, fmt::format("of {} cycles", cycles), cycles * sizes.sum(), "bytes_of_run");
+  context.record.statistics = statistics.record();
+  if (!most)
+    context.warn(
+        {"adapt.max_nodes is not set: the sizes of later meshes are not known, and are taken as "
+         "those of the first one"});
+  if (context.shows_table()) std::cout << statistics.table(24) << "  nothing was written\n";
+}
+
 void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   const Communicator& comm = context.comm;
   const io::StopRequest stop;
@@ -122,6 +169,7 @@ void run_adapt(const CommandContext& context, const AdaptArguments& arguments) {
   if (arguments.cycles) adaptive.adapt.cycles = *arguments.cycles;
   adaptive.mesh.mesh.limit = mesh_limit(comm, arguments.max_cells);
   if (comm.is_root() && !input->note.empty()) log::information(input->note);
+  if (arguments.dry_run) return report_estimate(context, arguments, *input);
   std::string extents = extents_text(input->extents);
   const std::string folder = folder_of(arguments);
   context.warn(former ? former->warnings : Warnings{});
@@ -166,6 +214,9 @@ void add_adapt_command(CommandLine& line, CommandContext& context) {
       .between(0, 10000);
   command.add_flag("--resume", arguments->resume, "continue after the last complete cycle in the folder");
   command.add_max_cells_option(arguments->max_cells);
+  command.add_flag("--dry-run", arguments->dry_run,
+                   "report the estimated cells, memory of a rank and file sizes for adapt.max_nodes; "
+                   "generate and write nothing");
   command.add_set_option(arguments->assignments, "solver.mach=0.7");
   command.set_work([&context, arguments] { run_adapt(context, *arguments); });
 }

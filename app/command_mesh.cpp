@@ -10,6 +10,7 @@
 #include "adapt/remesh/remesh.hpp"
 #include "app/command.hpp"
 #include "app/command_line.hpp"
+#include "app/report/estimate_report.hpp"
 #include "app/report/extent_report.hpp"
 #include "app/report/part_report.hpp"
 #include "app/report/summary.hpp"
@@ -152,44 +153,16 @@ Warnings first_mesh_warnings(const MeshInput& input) {
       setting)};
 }
 
-/// Returns the estimated size of a file of the mesh; empty if it is unknown.
-std::optional<double> bytes_of_file(const std::string& path, MeshType type, const MeshEstimate& estimate) {
-  constexpr double of_leaf = 33;  // in a tree file
-  if (path.ends_with(io::tree_suffix)) return of_leaf * estimate.leaves;
-  const io::FileFormat* const format = io::format_of(path);
-  if (format == nullptr || format->bytes_of_cell.quad == 0) return {};
-  const auto [of_quad, of_triangle] = format->bytes_of_cell;
-  return (has_triangles_alone(type) ? of_triangle : of_quad) * estimate.cells;
-}
-
-/// Formats the size of files as "12.3 MB".
-std::string text_of_size(double bytes) {
-  constexpr double megabyte = 1e6, gigabyte = 1e9;
-  return bytes < gigabyte ? fmt::format("{:.1f} MB", bytes / megabyte)
-                          : fmt::format("{:.1f} GB", bytes / gigabyte);
-}
-
 /// Reports the estimated cells, memory and file sizes of a mesh, which is not generated.
 void report_estimate(const CommandContext& context, const Prepared& prepared, const MeshEstimate& estimate) {
   const MeshInput& input = *prepared.input.mesh;
-  const int ranks = context.comm.size();
   Statistics statistics;
-  add_estimate(statistics, estimate, ranks);
-  statistics.add_raw("of all ranks", text_of_bytes(total_bytes(estimate, ranks)),
-                     json_of(std::round(total_bytes(estimate, ranks) / (1 << 20))), "total_memory_mib");
-  JsonObject sizes;
-  double all = 0;
-  for (const std::string& file : prepared.files) {
-    const std::optional<double> bytes = bytes_of_file(file, input.mesh.type, estimate);
-    if (!bytes) continue;
-    statistics.add_lines(fmt::format("  {:<24}{:>14}\n", file, text_of_size(*bytes)));
-    sizes.add(file, std::llround(*bytes));
-    all += *bytes;
-  }
-  statistics.add_raw("all files", text_of_size(all), json_of(std::round(all)), "bytes_of_files");
+  add_run_estimate(statistics, estimate, context.comm.size());
+  const FileSizes sizes(prepared.files, input.mesh.type, estimate);
+  sizes.add_to(statistics);
+  add_file_sum(statistics, "all files", sizes.sum(), "bytes_of_files");
   if (context.comm.is_root()) add_extents(statistics, prepared.input.extents);
   context.record.statistics = statistics.record();
-  context.record.statistics.add("file_bytes", sizes);
   if (context.shows_table()) std::cout << statistics.table(24) << "  nothing was written\n";
 }
 

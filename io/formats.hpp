@@ -38,6 +38,7 @@ struct FileFormat {
   struct BytesOfCell {
     double quad = 0, triangle = 0;
   } bytes_of_cell = {};
+  double bytes_of_value = 0;  ///< approximate size of a value of a solution
   /// What the user should do if a mesh has no solution.
   std::string without_values = "let the solver append its variables, a row of values for each node";
 

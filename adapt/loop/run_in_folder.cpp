@@ -30,18 +30,9 @@ CycleRecord record_of_case(const AdaptiveCase& adaptive) {
   return record;
 }
 
-/// Returns the default formats, then the others of the case.
-std::vector<std::string> all_formats(const std::vector<std::string>& of_case) {
-  std::vector<std::string> formats = io::default_formats();
-  for (const std::string& format : of_case) {
-    if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
-  }
-  return formats;
-}
-
 /// Returns the file options; `adaptive` must outlive them.
 CycleFileOptions file_options(const AdaptiveCase& adaptive) {
-  CycleFileOptions options{all_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
+  CycleFileOptions options{cycle_formats(adaptive.formats), {}, 1.4, adaptive.fields, [&adaptive] {
                              return record_of_case(adaptive);
                            }};
   options.partitions = adaptive.partitions;
@@ -161,6 +152,14 @@ LoopStart FolderRun::start_of(bool resume, const RunReport& report, const std::o
 void FolderRun::discard_unfinished() { folders_.discard(loop_->cycle()); }
 
 flow::FlowSolver FolderRun::solver() const { return solver_in(folders_, adaptive_); }
+
+std::vector<std::string> cycle_formats(const std::vector<std::string>& of_case) {
+  std::vector<std::string> formats = io::default_formats();
+  for (const std::string& format : of_case) {
+    if (std::ranges::find(formats, format) == formats.end()) formats.push_back(format);
+  }
+  return formats;
+}
 
 bool is_external(const ChosenSolver& solver) { return !std::holds_alternative<flow::EulerOptions>(solver); }
 

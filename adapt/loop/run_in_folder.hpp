@@ -72,6 +72,9 @@ class FolderRun {
   std::optional<AdaptiveLoop> loop_;
 };
 
+/// Returns the formats of each cycle's mesh: the default ones, then the others of the case.
+std::vector<std::string> cycle_formats(const std::vector<std::string>& of_case);
+
 /// Whether the solver is another program, which reads and writes files.
 bool is_external(const ChosenSolver& solver);
 

@@ -124,6 +124,58 @@ class Estimate(ProgramTest):
             for path in self.folder.iterdir():
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
 
+    def test_a_dry_run_of_the_loop_tells_what_max_nodes_allows(self):
+        """The last cycle of a run that reaches max_nodes has as many cells, in files of such sizes."""
+        self.write("box.geom", geom(("box", square(1))))
+        for kind in ("hybrid", "delaunay"):
+            self.write("loop.toml", f"""[geometry]
+file = "box.geom"
+[spacing]
+min = 0.1
+max = 0.1
+[mesh]
+type = "{kind}"
+[output]
+formats = ["mesh", "qmesh", "cgns", "vtu", "vtkhdf"]
+[boundary.box]
+bc = "farfield"
+[adapt]
+cycles = 3
+threshold = "nodes"
+max_nodes = 4000
+min = 0.005
+[solver]
+mach = 0.3
+iterations = 2
+initial = "vortex"
+""")
+            arguments = ["adapt", "loop.toml", "-o", kind]
+            told = [json.loads(self.done(*arguments, "--dry-run", "--json", ranks=ranks)[0]) for ranks in (1, 3)]
+            self.assertFalse((self.folder / kind).exists())
+            self.assertEqual(told[0]["file_bytes"], told[1]["file_bytes"])
+            self.assertLess(told[1]["estimated_memory_mib"], told[0]["estimated_memory_mib"])
+            self.assertLess(told[0]["total_memory_mib"], told[1]["total_memory_mib"])
+            self.assertLess(told[0]["first_cells_estimated"], told[0]["cells_estimated"] / 4)
+            self.done(*arguments, "--quiet")
+            cycle = self.folder / kind / "cycle_03"
+            record = json.loads((cycle / "record.json").read_text())
+            cells = record["triangles"] + record["quads"]
+            self.assertLess(max(cells, told[0]["cells_estimated"]) / min(cells, told[0]["cells_estimated"]), FACTOR)
+            self.assertEqual(len(told[0]["file_bytes"]), 6)
+            for name, bytes_told in told[0]["file_bytes"].items():
+                written = (cycle / Path(name).name).stat().st_size
+                self.assertLess(max(written, bytes_told), 1.7 * min(written, bytes_told), name)
+            self.assertAlmostEqual(told[0]["bytes_of_cycle"], sum(told[0]["file_bytes"].values()), delta=10)
+            self.assertAlmostEqual(told[0]["bytes_of_run"], 4 * told[0]["bytes_of_cycle"], delta=10)
+            self.refused(1, ["--max-cells"], *arguments, "--dry-run", "--max-cells", "10")
+
+    def test_a_dry_run_of_the_loop_without_a_cap_says_so(self):
+        self.write("box.geom", geom(("box", square(1))))
+        self.write("loop.toml", '[geometry]\nfile = "box.geom"\n[boundary.box]\nbc = "farfield"\n[adapt]\ncycles = 2\n[solver]\nmach = 0.3\n')
+        out, said = self.done("adapt", "loop.toml", "--dry-run")
+        self.assertIn("adapt.max_nodes is not set", said)
+        self.assertIn("nothing was written", out)
+
     def test_a_million_million_cells_are_refused(self):
         case = self.case(geom(("box", square(1))), "min = 1e-6\nmax = 2e-6")
         self.refused(1, ["e+12 cells", "are free", "spacing.max = 2e-06", "--max-cells"], "mesh", case, "-o", "out")
