@@ -6,16 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/base/stage_mark.hpp"
+
 namespace quadloop {
 
 using StageSeconds = std::vector<std::pair<std::string, double>>;
 
-/// Seconds that this rank spent in each named stage, in the order of the stages.
+/// Seconds that this rank spent in each named stage, in the order of the stages; profilers are told of them.
 class StageTimes {
  public:
   /// Ends the running stage, if any, and starts the named one.
   void begin(std::string stage) {
     end();
+    mark_stage_begin(stage);
     stages_.emplace_back(std::move(stage), 0.0);
     started_ = std::chrono::steady_clock::now();
     running_ = true;
@@ -25,6 +28,7 @@ class StageTimes {
     stages_.back().second =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
     running_ = false;
+    mark_stage_end(stages_.back().first);
   }
   /// Appends the stages of `other`.
   void append(const StageTimes& other) {
