@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_visible = 0.2;                            // cosine of a column's tilt
+constexpr double least_cosine_of_tilt = 0.6;                     // of a column: 53 degrees
 constexpr double least_ratio = 0.3, largest_ratio = 6;           // width of the front over that of the wall
 constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // same ratio
 constexpr int most_averagings = 40;
@@ -79,7 +79,7 @@ class ColumnsOnWall::Columns {
   void stand_and_turn() {
     for (const std::int32_t i : stations_) {
       const Point normal = line_[i].direction;
-      columns_.direction[i] = leans_[i] == 0 ? normal : visible(i, unit(normal + leans_[i] * along(i)));
+      columns_.direction[i] = leans_[i] == 0 ? normal : upright(i, unit(normal + leans_[i] * along(i)));
     }
     touched_.clear();
     set_lengths(stations_);
@@ -254,7 +254,7 @@ class ColumnsOnWall::Columns {
     std::vector<Point> turned;
     turned.reserve(stations.size());
     for (const std::int32_t i : stations)
-      turned.push_back(visible(i, unit(columns_.direction[i] + mean_of_neighbours(i))));
+      turned.push_back(upright(i, unit(columns_.direction[i] + mean_of_neighbours(i))));
     for (std::size_t k = 0; k < stations.size(); ++k) columns_.direction[stations[k]] = turned[k];
   }
 
@@ -266,15 +266,16 @@ class ColumnsOnWall::Columns {
     return unit((1 / line_.width(a)) * directions[a] + (1 / line_.width(i)) * directions[b]);
   }
 
-  /// Turns a direction towards the normal until it points away from the wall on both sides of its station.
-  Point visible(std::int32_t i, Point direction) const {
+  /// Turns a direction towards the bisector until its tilt is small enough on both sides of its station, or
+  /// nearly that of the bisector.
+  Point upright(std::int32_t i, Point direction) const {
     constexpr int most_turns = 32;
     const Station& station = line_[i];
-    const auto seen = [&](Point d) {
-      return dot(d, left_of(station.before)) >= least_visible &&
-             dot(d, left_of(station.after)) >= least_visible;
+    const auto stands = [&](Point d) {
+      return dot(d, left_of(station.before)) >= least_cosine_of_tilt &&
+             dot(d, left_of(station.after)) >= least_cosine_of_tilt;
     };
-    for (int turn = 0; turn < most_turns && !seen(direction); ++turn)
+    for (int turn = 0; turn < most_turns && !stands(direction); ++turn)
       direction = unit(direction + 0.25 * station.direction);
     return direction;
   }
