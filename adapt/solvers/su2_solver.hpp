@@ -35,8 +35,8 @@ Su2Solver su2_solver_of(const std::string& config, CommandSolver command,
 /// Returns SU2 as a solver. In each cycle's folder a copy of the configuration is written with new values of
 /// MESH_FILENAME, MESH_FORMAT, RESTART_SOL, SOLUTION_FILENAME, RESTART_FILENAME, READ_BINARY_RESTART,
 /// CONV_FILENAME. A run that diverges is repeated once with lower CFL numbers. With `finish` a second run
-/// follows; if it diverges, the cycle has the flow of the first one. The solution also has velocity, pressure
-/// and Mach number (with_primitive_variables()). Throws as command_solver() does.
+/// follows; if it diverges, the cycle has the flow of the first one. The solution also has the variables of
+/// with_primitive_variables(). Throws as command_solver() does.
 flow::FlowSolver su2_solver(Su2Solver solver, std::function<std::string(int cycle)> folder_of);
 
 }  // namespace quadloop::adapt

@@ -14,7 +14,7 @@ namespace {
 using Four = std::array<std::size_t, 4>;
 
 constexpr std::array<const char*, 4> conservative{"Density", "Momentum_x", "Momentum_y", "Energy"};
-constexpr std::array<const char*, 4> added{"x_velocity", "y_velocity", "pressure", "mach"};
+constexpr std::array<const char*, 5> added{"x_velocity", "y_velocity", "pressure", "mach", "total_pressure"};
 
 std::optional<Four> conservative_columns(const std::vector<std::string>& names) {
   Four columns{};
@@ -27,12 +27,14 @@ std::optional<Four> conservative_columns(const std::vector<std::string>& names) 
 }
 
 /// In the order of `added`.
-std::array<double, 4> primitive(std::span<const double> row, const Four& at, double gamma) {
+std::array<double, 5> primitive(std::span<const double> row, const Four& at, double gamma) {
   const double density = row[at[0]], u = row[at[1]] / density, v = row[at[2]] / density;
   const double pressure = (gamma - 1) * (row[at[3]] - 0.5 * density * (u * u + v * v));
   const double squared_speed_of_sound = gamma * pressure / density;
   const double mach = squared_speed_of_sound > 0 ? std::sqrt((u * u + v * v) / squared_speed_of_sound) : 0;
-  return {u, v, pressure, mach};
+  const double total_pressure =
+      pressure * std::pow(1 + (gamma - 1) / 2 * mach * mach, gamma / (gamma - 1));
+  return {u, v, pressure, mach, total_pressure};
 }
 
 std::span<const double> row_of(const Field& flow, std::size_t row) {
@@ -55,7 +57,7 @@ Field with_primitive_variables(Field flow, double gamma) {
   for (std::size_t i = 0; i < rows; ++i) {
     const std::span<const double> row = row_of(flow, i);
     more.values.insert(more.values.end(), row.begin(), row.end());
-    const std::array<double, 4> values = primitive(row, *columns, gamma);
+    const std::array<double, 5> values = primitive(row, *columns, gamma);
     for (const std::size_t k : missing) more.values.push_back(values[k]);
   }
   return more;

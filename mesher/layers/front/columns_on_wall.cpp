@@ -8,7 +8,7 @@ namespace quadloop {
 
 namespace {
 
-constexpr double least_cosine_of_tilt = 0.6;                     // of a column: 53 degrees
+constexpr double least_cosine_of_tilt = 0.55;                    // of a column: 57 degrees
 constexpr double least_ratio = 0.3, largest_ratio = 6;           // width of the front over that of the wall
 constexpr double convergent_ratio = 1.1, spreading_ratio = 1.5;  // same ratio
 constexpr int most_averagings = 40;

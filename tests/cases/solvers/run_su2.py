@@ -71,7 +71,7 @@ def check_cycles(made, restart, cycles):
         rows = (folder / "mesh.walls.csv").read_text().splitlines()
         require(rows[0] == "boundary,s,x,y,Cp,Mach" and abs(float(rows[len(rows) // 2].split(",")[4]) - pressure) < 1e-3, f"cycle {k}: {rows[:2]}")
         head = next(line for line in (folder / "mesh.mesh").read_text().splitlines() if line.startswith("#names"))
-        require(head.split()[1:] == ["Density", "Momentum_x", "Momentum_y", "Energy", "x_velocity", "y_velocity", "pressure", "mach"], head)
+        require(head.split()[1:] == ["Density", "Momentum_x", "Momentum_y", "Energy", "x_velocity", "y_velocity", "pressure", "mach", "total_pressure"], head)
 
 
 def check_refusals(program, folder):

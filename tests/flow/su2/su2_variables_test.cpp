@@ -16,12 +16,15 @@ const Field flow{{"Density", "Momentum_x", "Momentum_y", "Energy", "Nu_Tilde"}, 
 TEST(Su2Variables, FollowFromTheConservativeOnes) {
   const Field more = with_primitive_variables(flow, 1.4);
   EXPECT_EQ(more.names, (Names{"Density", "Momentum_x", "Momentum_y", "Energy", "Nu_Tilde", "x_velocity",
-                               "y_velocity", "pressure", "mach"}));
-  ASSERT_EQ(more.values.size(), 9);
+                               "y_velocity", "pressure", "mach", "total_pressure"}));
+  ASSERT_EQ(more.values.size(), 10);
   EXPECT_EQ(more.values[5], 3);
   EXPECT_EQ(more.values[6], -4);
   EXPECT_NEAR(more.values[7], 5, 1e-14);
   EXPECT_NEAR(more.values[8], 5 / std::sqrt(1.4 * 5 / 2), 1e-14);
+  // Brought to rest without losses: the energy of motion raises the enthalpy, and p / density^gamma stays.
+  const double at_rest = 1 + 12.5 / (1.4 / 0.4 * 5 / 2);
+  EXPECT_NEAR(more.values[9], 5 * std::pow(at_rest, 3.5), 1e-12);
 }
 
 TEST(Su2Variables, AreNotMadeTwice) {
@@ -29,7 +32,7 @@ TEST(Su2Variables, AreNotMadeTwice) {
   with_pressure.names[4] = "Pressure";
   EXPECT_EQ(with_primitive_variables(with_pressure, 1.4).names,
             (Names{"Density", "Momentum_x", "Momentum_y", "Energy", "Pressure", "x_velocity", "y_velocity",
-                   "mach"}));
+                   "mach", "total_pressure"}));
 }
 
 TEST(Su2Variables, GoAwayAgainBeforeARestart) {
@@ -47,7 +50,9 @@ TEST(Su2Variables, OfAnotherFlowAreLeftAlone) {
 
 TEST(Su2Variables, WithoutPressureThereIsNoMachNumber) {
   const Field still{{"Density", "Momentum_x", "Momentum_y", "Energy"}, {1, 1, 0, 0.5}, {}};
-  EXPECT_EQ(with_primitive_variables(still, 1.4).values.back(), 0);
+  const Field more = with_primitive_variables(still, 1.4);
+  EXPECT_EQ(more.values[7], 0);
+  EXPECT_EQ(more.values[8], 0) << "nor a total pressure";
 }
 
 }  // namespace

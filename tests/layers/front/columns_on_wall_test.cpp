@@ -27,8 +27,8 @@ struct Columned {
   double cosine(std::int32_t i, Point d) const {
     return std::min(dot(d, left_of(line[i].before)), dot(d, left_of(line[i].after)));
   }
-  /// Columns tilt by at most 53 degrees, at sharper corners as the bisector does.
-  double least_cosine(std::int32_t i) const { return std::min(0.6, cosine(i, line[i].direction) - 1e-3); }
+  /// Columns tilt by at most 57 degrees, at sharper corners as the bisector does.
+  double least_cosine(std::int32_t i) const { return std::min(0.55, cosine(i, line[i].direction) - 1e-3); }
   Geometry geometry;
   WallLine line;
   WallColumns columns;
