@@ -196,7 +196,7 @@ def check_resume(program, folder):
 def check_cases(program, folder):
     """Their configurations on their first meshes."""
     cases = ROOT / "cases"
-    for given in [*sorted(cases.glob("su2_*")), cases / "naca0012_rans", cases / "crm_hl_section"]:
+    for given in [*sorted(cases.glob("su2_*")), *sorted(cases.glob("*_rans")), cases / "crm_hl_section"]:
         command = json.dumps([sys.executable, str(STAND_IN), "su2.cfg"])
         adapt(program, given / "case.toml", folder / given.name, options=["--cycles", "0", "--set", f"solver.command={command}"])
 
