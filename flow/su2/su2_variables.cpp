@@ -32,8 +32,7 @@ std::array<double, 5> primitive(std::span<const double> row, const Four& at, dou
   const double pressure = (gamma - 1) * (row[at[3]] - 0.5 * density * (u * u + v * v));
   const double squared_speed_of_sound = gamma * pressure / density;
   const double mach = squared_speed_of_sound > 0 ? std::sqrt((u * u + v * v) / squared_speed_of_sound) : 0;
-  const double total_pressure =
-      pressure * std::pow(1 + (gamma - 1) / 2 * mach * mach, gamma / (gamma - 1));
+  const double total_pressure = pressure * std::pow(1 + (gamma - 1) / 2 * mach * mach, gamma / (gamma - 1));
   return {u, v, pressure, mach, total_pressure};
 }
 
